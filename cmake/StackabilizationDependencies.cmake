@@ -1,0 +1,20 @@
+# Every package the libraries need, found once. The installed package configuration finds the same ones.
+find_package(CGAL 5.5 REQUIRED)
+find_package(Eigen3 3.3 REQUIRED NO_MODULE)
+find_package(Boost 1.74 REQUIRED)
+find_package(TBB CONFIG REQUIRED)
+find_package(pugixml REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(minizip REQUIRED IMPORTED_TARGET minizip)
+
+if(STACKABILIZATION_BUILD_RENDERING)
+  find_package(VTK 9.1 REQUIRED COMPONENTS
+    ChartsCore CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources
+    IOExport IOImage RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore
+    RenderingFreeType RenderingOpenGL2 ViewsContext2D)
+  find_package(OpenGL REQUIRED COMPONENTS EGL)
+endif()
+if(STACKABILIZATION_BUILD_APPS)
+  find_package(CLI11 REQUIRED)
+  find_package(nlohmann_json 3.9 REQUIRED)
+endif()

@@ -1,0 +1,25 @@
+# stackabilization_library(NAME SOURCES ... PUBLIC ... PRIVATE ...)
+# One static library per room: target stackabilization_NAME, alias stackabilization::NAME.
+# Compile options stay private to this project: a consumer inherits include folders and C++20 only.
+function(stackabilization_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(target stackabilization_${name})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  add_library(stackabilization::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  stackabilization_options(${target})
+  set_property(GLOBAL APPEND PROPERTY STACKABILIZATION_LIBRARIES ${target})
+endfunction()
+
+# Warnings and sanitizers of this project's own targets.
+function(stackabilization_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+  if(STACKABILIZATION_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${STACKABILIZATION_SANITIZE} -fno-omit-frame-pointer -g)
+    target_link_options(${target} PUBLIC -fsanitize=${STACKABILIZATION_SANITIZE})
+  endif()
+endfunction()

@@ -1,0 +1,1 @@
+#include "stackabilization/envelope/separation.h"

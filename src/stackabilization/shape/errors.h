@@ -1,0 +1,33 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace stackabilization {
+
+/// Base of every error this library throws on purpose. `what()` is one sentence in the user's words.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The input file or shape cannot be used. The message names the file, the place and what was expected.
+/// Programs exit with status 3.
+class InputError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// An option or argument violates its documented precondition. Programs exit with status 2.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+/// A result cannot be written where it was asked for. Programs exit with status 2.
+class OutputError : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace stackabilization

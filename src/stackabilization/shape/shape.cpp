@@ -1,0 +1,144 @@
+#include "stackabilization/shape/shape.h"
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+#include "stackabilization/shape/errors.h"
+
+namespace stackabilization {
+
+Shape make_shape(Points vertices, Triangles triangles) {
+  Shape shape;
+  shape.triangle_part.assign(static_cast<std::size_t>(triangles.rows()), 0);
+  shape.vertices = std::move(vertices);
+  shape.triangles = std::move(triangles);
+  shape.part_names = {"part"};
+  validate(shape);
+  return shape;
+}
+
+namespace {
+
+void validate_parts(const Shape& shape) {
+  if (shape.triangle_part.size() != static_cast<std::size_t>(shape.triangle_count()))
+    throw InputError("the shape needs one part index per triangle");
+  std::set<std::string> names;
+  for (const std::string& name : shape.part_names) {
+    if (name.empty()) throw InputError("a part has an empty name");
+    if (!names.insert(name).second) throw InputError("the part name '" + name + "' occurs twice");
+  }
+  for (std::size_t t = 0; t < shape.triangle_part.size(); ++t)
+    if (shape.triangle_part[t] < 0 || shape.triangle_part[t] >= shape.part_count())
+      throw InputError("triangle " + std::to_string(t) + " belongs to a part that does not exist");
+}
+
+}  // namespace
+
+void validate(const Shape& shape) {
+  if (shape.triangle_count() == 0) throw InputError("the shape has no triangles");
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    for (int corner = 0; corner < 3; ++corner) {
+      const std::int32_t vertex = shape.triangles(t, corner);
+      if (vertex < 0 || vertex >= shape.vertex_count())
+        throw InputError("triangle " + std::to_string(t) + " refers to vertex " + std::to_string(vertex) + " of " +
+                         std::to_string(shape.vertex_count()));
+      if (!shape.vertices.row(vertex).allFinite())
+        throw InputError("vertex " + std::to_string(vertex) + " of triangle " + std::to_string(t) +
+                         " has a coordinate that is not a finite number");
+    }
+  validate_parts(shape);
+}
+
+namespace {
+
+/// The listed triangles with the vertices they use, renumbered in their old order; parts are left to the caller.
+Shape subset(const Shape& shape, const std::vector<Eigen::Index>& triangles) {
+  std::vector<std::int32_t> renumbered(static_cast<std::size_t>(shape.vertex_count()), -1);
+  for (const Eigen::Index t : triangles)
+    for (int corner = 0; corner < 3; ++corner) renumbered[static_cast<std::size_t>(shape.triangles(t, corner))] = 0;
+  std::int32_t used = 0;
+  for (std::int32_t& vertex : renumbered)
+    if (vertex == 0) vertex = used++;
+
+  Shape result;
+  result.unit = shape.unit;
+  result.vertices.resize(used, 3);
+  for (std::size_t v = 0; v < renumbered.size(); ++v)
+    if (renumbered[v] >= 0) result.vertices.row(renumbered[v]) = shape.vertices.row(static_cast<Eigen::Index>(v));
+  result.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    for (int corner = 0; corner < 3; ++corner)
+      result.triangles(static_cast<Eigen::Index>(i), corner) =
+          renumbered[static_cast<std::size_t>(shape.triangles(triangles[i], corner))];
+  return result;
+}
+
+}  // namespace
+
+Shape extract_part(const Shape& shape, Eigen::Index part) {
+  if (part < 0 || part >= shape.part_count()) throw UsageError("there is no part " + std::to_string(part));
+  std::vector<Eigen::Index> members;
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    if (shape.triangle_part[static_cast<std::size_t>(t)] == part) members.push_back(t);
+  Shape result = subset(shape, members);
+  result.part_names = {shape.part_names[static_cast<std::size_t>(part)]};
+  result.triangle_part.assign(members.size(), 0);
+  return result;
+}
+
+Shape concatenate(const Shape& a, const Shape& b) {
+  if (a.vertex_count() + b.vertex_count() > std::numeric_limits<std::int32_t>::max())
+    throw UsageError("the joined shape would have more vertices than can be indexed");
+  Shape result = a;
+  result.vertices.conservativeResize(a.vertex_count() + b.vertex_count(), 3);
+  result.vertices.bottomRows(b.vertex_count()) = b.vertices;
+  result.triangles.conservativeResize(a.triangle_count() + b.triangle_count(), 3);
+  result.triangles.bottomRows(b.triangle_count()) =
+      b.triangles.array() + static_cast<std::int32_t>(a.vertex_count());
+  std::set<std::string> taken(a.part_names.begin(), a.part_names.end());
+  for (const std::string& name : b.part_names) {
+    std::string unique = name;
+    for (int copy = 2; !taken.insert(unique).second; ++copy) unique = name + "_" + std::to_string(copy);
+    result.part_names.push_back(unique);
+  }
+  for (const std::int32_t part : b.triangle_part)
+    result.triangle_part.push_back(part + static_cast<std::int32_t>(a.part_count()));
+  return result;
+}
+
+Shape transformed(const Shape& shape, const Eigen::Matrix3d& linear, const Eigen::Vector3d& translation) {
+  if (!linear.allFinite() || !translation.allFinite()) throw UsageError("a transform needs finite numbers");
+  Shape result = shape;
+  for (Eigen::Index v = 0; v < shape.vertex_count(); ++v)
+    result.vertices.row(v) = (linear * shape.vertices.row(v).transpose() + translation).transpose();
+  return result;
+}
+
+double metres_per_unit(Unit unit) {
+  switch (unit) {
+    case Unit::micrometre: return 0.000001;
+    case Unit::millimetre: return 0.001;
+    case Unit::centimetre: return 0.01;
+    case Unit::inch: return 0.0254;
+    case Unit::foot: return 0.3048;
+    case Unit::metre:
+    case Unit::unknown: break;
+  }
+  return 1;
+}
+
+std::string unit_symbol(Unit unit) {
+  switch (unit) {
+    case Unit::micrometre: return "um";
+    case Unit::millimetre: return "mm";
+    case Unit::centimetre: return "cm";
+    case Unit::inch: return "in";
+    case Unit::foot: return "ft";
+    case Unit::metre: return "m";
+    case Unit::unknown: break;
+  }
+  return "";
+}
+
+}  // namespace stackabilization

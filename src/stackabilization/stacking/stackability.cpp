@@ -1,0 +1,1 @@
+#include "stackabilization/stacking/stackability.h"

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "stackabilization/envelope/separation.h"
+#include "stackabilization/shape/boxes.h"
+#include "stackabilization/shape/shape.h"
+
+namespace stackabilization {
+
+/// How V(M) and V(M, r) are measured.
+enum class BoxModel {
+  oriented,  ///< V(M) minimal oriented box, V(M, r) = h times the minimal-area rectangle: independent of the pose
+  frame,     ///< V(M) the file's axis-aligned box, V(M, r) axis-aligned after the minimal rotation of z to r
+};
+
+struct StackabilityOptions {
+  Semantics semantics = Semantics::solid;
+  BoxModel boxes = BoxModel::oriented;
+};
+
+/// Everything that Eq. 2 and 3 need, for one direction.
+struct Stackability {
+  Eigen::Vector3d direction;    ///< r as given
+  double f_max = 0;             ///< minimal stacking translation, model units
+  double extent = 0;            ///< h(M, r), model units, > 0
+  double box_volume = 0;        ///< V(M)
+  double stack_box_volume = 0;  ///< V(M, r)
+  double value = 0;             ///< S(M, r) = 1 - (f_max / h) V(M, r) / V(M), Eq. 3; may be negative
+};
+
+/// A shape prepared for measurements in many directions: separation tree, hull and V(M), built once. Queries are const,
+/// deterministic and safe to run from any number of threads.
+class StackabilitySolver {
+ public:
+  /// Throws InputError when the shape has no volume to speak of (V(M) = 0: flat, straight or a point), since S is then
+  /// undefined, or when `validate(shape)` fails.
+  explicit StackabilitySolver(const Shape& shape, const StackabilityOptions& options = {});
+  StackabilitySolver(StackabilitySolver&&) noexcept;
+  StackabilitySolver& operator=(StackabilitySolver&&) noexcept;
+  ~StackabilitySolver();
+
+  const Shape& shape() const;
+  const SeparationTree& tree() const;
+  const HullSupport& hull() const;
+  const StackabilityOptions& options() const;
+  double box_volume() const;  ///< V(M)
+
+  /// Exact f_max with witness.
+  Separation separation(const Direction& direction) const;
+  /// S and its terms, f_max within 1e-12 of the extent.
+  Stackability measure(const Direction& direction) const;
+  /// As `measure`, but gives up and returns nothing as soon as S is certainly below `threshold`.
+  std::optional<Stackability> measure_if_above(const Direction& direction, double threshold) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<const Data> data_;
+};
+
+/// S(M, r) for one use.
+Stackability stackability(const Shape& shape, const Direction& direction, const StackabilityOptions& options = {});
+
+}  // namespace stackabilization

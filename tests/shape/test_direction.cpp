@@ -1,0 +1,38 @@
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "stackabilization/shape/direction.h"
+#include "stackabilization/shape/errors.h"
+#include "support/catch.h"
+
+using namespace stackabilization;
+
+TEST_CASE("a direction refuses what is not a direction") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(Direction(0, 0, 0), UsageError);
+  CHECK_THROWS_AS(Direction(nan, 0, 1), UsageError);
+  CHECK_THROWS_AS(Direction(1e300, 0, 0), UsageError);
+  CHECK_THROWS_AS(Direction(1e-300, 0, 0), UsageError);
+}
+
+TEST_CASE("the frame of a direction is the minimal rotation of z") {
+  for (const Eigen::Vector3d r : {Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(0.3, -0.2, 1), Eigen::Vector3d(1, 2, -3),
+                                  Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1e-9, 2e-9, -1)}) {
+    const Frame frame = frame_of(Direction(r));
+    Eigen::Matrix3d rotation;
+    rotation << frame.u, frame.v, frame.w;
+    CHECK((rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm() < 1e-14);
+    CHECK(rotation.determinant() == Approx(1));
+    const Eigen::Matrix3d expected =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), r.normalized()).toRotationMatrix();
+    CHECK((rotation - expected).norm() < 1e-6);
+  }
+}
+
+TEST_CASE("the frame of -z is the half turn about x") {
+  const Frame frame = frame_of(Direction(0, 0, -5));
+  CHECK(frame.u == Eigen::Vector3d(1, 0, 0));
+  CHECK(frame.v == Eigen::Vector3d(0, -1, 0));
+  CHECK(frame.w == Eigen::Vector3d(0, 0, -1));
+}
