@@ -1,17 +1,12 @@
 #include "stackabilization/shape/rational.h"
 
-#include <gmpxx.h>
-
 #include <cmath>
 #include <limits>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/rational_number.h"
 
 namespace stackabilization {
-
-struct Rational::Number {
-  mpq_class value;
-};
 
 namespace {
 
@@ -24,6 +19,8 @@ mpz_class parse_integer(const std::string& text) {
 }  // namespace
 
 Rational::Rational() : number_(std::make_unique<Number>()) {}
+
+Rational::Rational(Number number) : number_(std::make_unique<Number>(std::move(number))) {}
 
 Rational::Rational(double value) : Rational() {
   if (!std::isfinite(value)) throw UsageError("a rational number needs a finite value");

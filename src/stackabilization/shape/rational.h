@@ -25,6 +25,11 @@ class Rational {
   /// Nearest double, ties to even.
   double to_double() const;
 
+  /// The number behind it, for code that computes with GMP: see shape/rational_number.h.
+  struct Number;
+  explicit Rational(Number number);
+  const Number& number() const { return *number_; }
+
   friend Rational operator+(const Rational& a, const Rational& b);
   friend Rational operator-(const Rational& a, const Rational& b);
   friend Rational operator*(const Rational& a, const Rational& b);
@@ -34,7 +39,6 @@ class Rational {
   friend bool operator==(const Rational& a, const Rational& b);
 
  private:
-  struct Number;
   std::unique_ptr<Number> number_;
 };
 

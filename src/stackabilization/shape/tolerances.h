@@ -11,6 +11,9 @@ inline constexpr double relative = 1e-9;
 /// Default width of the contact band { f >= f_max - eps }, as a fraction of the extent h along the direction.
 inline constexpr double contact_band = 1e-3;
 
+/// Width at which a certified enclosure of a separation stops tightening, as a fraction of the largest coordinate.
+inline constexpr double enclosure_width = 1e-13;
+
 /// Angular step, in radians, at which a local direction search stops: moving by it changes S by about 1e-8 at most.
 inline constexpr double direction_step = 1e-8;
 

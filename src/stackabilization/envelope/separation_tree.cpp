@@ -1,0 +1,160 @@
+#include "stackabilization/envelope/separation_tree.h"
+
+#include <tbb/parallel_invoke.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "stackabilization/envelope/shear.h"
+
+namespace stackabilization {
+namespace {
+
+constexpr std::int32_t leaf_size = 4;
+/// A slab over many triangles is no tighter than the box; larger nodes keep none.
+constexpr std::int32_t largest_slab = 1024;
+constexpr std::int32_t smallest_task = 8192;
+
+/// Builds the tree top down by median splits, in parallel, into nodes whose places depend on the counts alone, so that
+/// the result is the same for any number of threads.
+class TreeBuilder {
+ public:
+  explicit TreeBuilder(SeparationTree::Data& data) : triangles_(data.triangles), nodes_(data.nodes) {
+    nodes_.resize(node_count(static_cast<std::int32_t>(triangles_.size())));
+    build(0, 1, 0, static_cast<std::int32_t>(triangles_.size()));
+  }
+
+ private:
+  static std::size_t node_count(std::int32_t triangles) {
+    return triangles <= leaf_size ? 1 : 1 + node_count(triangles / 2) + node_count(triangles - triangles / 2);
+  }
+
+  /// Node `self` over [first, last); its descendants occupy nodes_ from `free` on.
+  void build(std::size_t self, std::size_t free, std::int32_t first, std::int32_t last) {
+    TreeNode& node = nodes_[self];
+    fit_box(node, first, last);
+    fit_slab(node, first, last);
+    const std::int32_t count = last - first;
+    if (count <= leaf_size) {
+      node.first = first;
+      node.count = count;
+      return;
+    }
+    const std::int32_t middle = first + count / 2;
+    split(node, first, middle, last);
+    node.first = static_cast<std::int32_t>(free);
+    node.count = 0;
+    const std::size_t left_descendants = free + 2;
+    const std::size_t right_descendants = left_descendants + node_count(count / 2) - 1;
+    const auto left = [=, this] { build(free, left_descendants, first, middle); };
+    const auto right = [=, this] { build(free + 1, right_descendants, middle, last); };
+    if (count < smallest_task) {
+      left();
+      right();
+    } else {
+      tbb::parallel_invoke(left, right);
+    }
+  }
+
+  void fit_box(TreeNode& node, std::int32_t first, std::int32_t last) const {
+    node.low.fill(std::numeric_limits<double>::infinity());
+    node.high.fill(-std::numeric_limits<double>::infinity());
+    for (std::int32_t t = first; t < last; ++t)
+      for (const auto& corner : triangles_[t].corners)
+        for (int axis = 0; axis < 3; ++axis) {
+          node.low[axis] = std::min(node.low[axis], corner[axis]);
+          node.high[axis] = std::max(node.high[axis], corner[axis]);
+        }
+  }
+
+  /// Slab across the direction that the triangles face most: the dominant eigenvector of sum n n^T over area normals.
+  void fit_slab(TreeNode& node, std::int32_t first, std::int32_t last) const {
+    node.normal.fill(0);
+    node.slab_low = node.slab_high = 0;
+    if (last - first > largest_slab) return;
+    Eigen::Matrix3d facing = Eigen::Matrix3d::Zero();
+    for (std::int32_t t = first; t < last; ++t) {
+      const Eigen::Vector3d normal = area_normal(triangles_[t]);
+      const double length = normal.norm();
+      if (length > 0) facing += normal * (normal / length).transpose();
+    }
+    const Eigen::Vector3d axis = dominant_axis(facing);
+    if (!axis.allFinite() || axis.isZero(0)) return;
+    double low = std::numeric_limits<double>::infinity(), high = -low, magnitude = 0;
+    for (std::int32_t t = first; t < last; ++t)
+      for (const auto& corner : triangles_[t].corners) {
+        const double offset = axis[0] * corner[0] + axis[1] * corner[1] + axis[2] * corner[2];
+        low = std::min(low, offset);
+        high = std::max(high, offset);
+        for (const double coordinate : corner) magnitude = std::max(magnitude, std::abs(coordinate));
+      }
+    const double rounding = 8 * detail::unit_roundoff * magnitude;
+    node.normal = {axis[0], axis[1], axis[2]};
+    node.slab_low = low - rounding;
+    node.slab_high = high + rounding;
+  }
+
+  static Eigen::Vector3d area_normal(const TreeTriangle& triangle) {
+    const Eigen::Map<const Eigen::Vector3d> a(triangle.corners[0].data()), b(triangle.corners[1].data()),
+        c(triangle.corners[2].data());
+    return (b - a).cross(c - a);
+  }
+
+  /// Dominant eigenvector by squaring the matrix: good enough for a bound, whose validity does not depend on it.
+  static Eigen::Vector3d dominant_axis(Eigen::Matrix3d matrix) {
+    for (int step = 0; step < 6; ++step) {
+      const double scale = matrix.cwiseAbs().maxCoeff();
+      if (!(scale > 0) || !std::isfinite(scale)) return Eigen::Vector3d::Zero();
+      matrix /= scale;
+      matrix = (matrix * matrix).eval();
+    }
+    Eigen::Index column = 0;
+    matrix.diagonal().maxCoeff(&column);
+    return matrix.col(column).normalized();
+  }
+
+  void split(const TreeNode& node, std::int32_t first, std::int32_t middle, std::int32_t last) {
+    int axis = 0;
+    for (int other = 1; other < 3; ++other)
+      if (node.high[other] - node.low[other] > node.high[axis] - node.low[axis]) axis = other;
+    const auto centre = [axis](const TreeTriangle& t) {
+      return t.corners[0][axis] + t.corners[1][axis] + t.corners[2][axis];
+    };
+    std::nth_element(triangles_.begin() + first, triangles_.begin() + middle, triangles_.begin() + last,
+                     [&](const TreeTriangle& a, const TreeTriangle& b) {
+                       const double ca = centre(a), cb = centre(b);
+                       return ca != cb ? ca < cb : a.index < b.index;
+                     });
+  }
+
+  std::vector<TreeTriangle>& triangles_;
+  std::vector<TreeNode>& nodes_;
+};
+
+}  // namespace
+
+SeparationTree::SeparationTree(const Shape& shape) {
+  validate(shape);
+  auto data = std::make_unique<Data>();
+  data->triangles.resize(static_cast<std::size_t>(shape.triangle_count()));
+  for (std::size_t t = 0; t < data->triangles.size(); ++t) {
+    TreeTriangle& triangle = data->triangles[t];
+    triangle.index = static_cast<std::int32_t>(t);
+    for (int c = 0; c < 3; ++c)
+      for (int axis = 0; axis < 3; ++axis) {
+        const double coordinate = shape.vertices(shape.triangles(triangle.index, c), axis);
+        triangle.corners[c][axis] = coordinate;
+        data->magnitude = std::max(data->magnitude, std::abs(coordinate));
+      }
+  }
+  TreeBuilder builder(*data);
+  data_ = std::move(data);
+}
+
+SeparationTree::SeparationTree(SeparationTree&&) noexcept = default;
+SeparationTree& SeparationTree::operator=(SeparationTree&&) noexcept = default;
+SeparationTree::~SeparationTree() = default;
+
+}  // namespace stackabilization

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "stackabilization/envelope/separation.h"
+
+namespace stackabilization {
+
+/// Corners of one triangle, exactly as in the shape, and where it came from.
+struct TreeTriangle {
+  std::array<std::array<double, 3>, 3> corners;
+  std::int32_t index;
+};
+
+/// Axis-aligned box plus one slab  slab_low <= normal . p <= slab_high  holding all points of the node. `normal` is
+/// zero where no slab is kept. Leaves have count > 0.
+struct TreeNode {
+  std::array<double, 3> low, high;
+  std::array<double, 3> normal;
+  double slab_low, slab_high;
+  std::int32_t first;  ///< leaf: first triangle; inner: left child, the right one follows it
+  std::int32_t count;  ///< leaf: number of triangles; inner: 0
+};
+
+struct SeparationTree::Data {
+  std::vector<TreeTriangle> triangles;  ///< in tree order
+  std::vector<TreeNode> nodes;          ///< nodes[0] is the root
+  double magnitude = 0;                 ///< largest absolute coordinate
+};
+
+}  // namespace stackabilization
