@@ -9,7 +9,8 @@
 
 namespace stackabilization {
 
-/// Shape of a contact region (section 4.2 of the paper): `ring` has an interior hole, `line` is elongated, else `dot`.
+/// Shape of a contact region (section 4.2 of the paper): `ring` has an interior hole, `line` is elongated,
+/// else `dot`.
 enum class ContactType { dot, line, ring };
 
 /// One convex piece of a contact region: the points over which f >= f_max - eps for one pair of triangles.
@@ -26,9 +27,10 @@ struct ContactRegion {
   std::int32_t upper_part = -1;  ///< part of the copy below that is touched
   std::int32_t lower_part = -1;  ///< part of the copy above that touches it
   double area = 0;               ///< area of the union of the polygons seen along r, model units squared
-  Eigen::Vector3d upper_centre;  ///< area centroid on the upper envelope (mean of the points where the area is zero)
+  Eigen::Vector3d
+      upper_centre;  ///< area centroid on the upper envelope (mean of the points where the area is zero)
   Eigen::Vector3d lower_centre;
-  Eigen::Vector3d long_axis;     ///< unit vector orthogonal to r: primary direction of a line region
+  Eigen::Vector3d long_axis;  ///< unit vector orthogonal to r: primary direction of a line region
   std::vector<ContactPolygon> polygons;
 };
 
@@ -38,11 +40,12 @@ struct ContactOptions {
   double line_aspect = 4;                 ///< a region at least this many times longer than wide is a line
 };
 
-/// The contact regions { q : f(q) >= f_max - eps } of a shape stacked on itself along `direction`, as polygons lifted
-/// to both surfaces, grouped into connected regions per pair of parts, largest area first (ties by position).
-/// Constructions in double precision, within tolerance::relative of the diagonal. `separation` must be the answer for
-/// the same shape, direction and semantics.
-std::vector<ContactRegion> contact_regions(const Shape& shape, const SeparationTree& tree, const Direction& direction,
-                                           const Separation& separation, const ContactOptions& options = {});
+/// The contact regions { q : f(q) >= f_max - eps } of a shape stacked on itself along `direction`, as
+/// polygons lifted to both surfaces, grouped into connected regions per pair of parts, largest area first
+/// (ties by position). Constructions in double precision, within tolerance::relative of the diagonal.
+/// `separation` must be the answer for the same shape, direction and semantics.
+std::vector<ContactRegion> contact_regions(const Shape& shape, const SeparationTree& tree,
+                                           const Direction& direction, const Separation& separation,
+                                           const ContactOptions& options = {});
 
 }  // namespace stackabilization

@@ -28,7 +28,8 @@ mpz_class scaled_integer(double value, int exponent) {
   return significand << static_cast<mp_bitcnt_t>(own - 53 - exponent);
 }
 
-/// Two triangles seen along r in integers: x = p_i |r_k| - H r_i and likewise y, heights H, all scaled by powers of two.
+/// Two triangles seen along r in integers: x = p_i |r_k| - H r_i and likewise y, heights H, all scaled by
+/// powers of two.
 struct IntegerTriangle {
   std::array<mpz_class, 3> x, y, h;
 };
@@ -64,7 +65,8 @@ class ExactPair {
     int point_exponent = std::numeric_limits<int>::max(), r_exponent = point_exponent;
     for (const TreeTriangle* triangle : {&upper, &lower})
       for (const auto& corner : triangle->corners)
-        for (const double coordinate : corner) point_exponent = std::min(point_exponent, lowest_exponent(coordinate));
+        for (const double coordinate : corner)
+          point_exponent = std::min(point_exponent, lowest_exponent(coordinate));
     for (int axis = 0; axis < 3; ++axis) r_exponent = std::min(r_exponent, lowest_exponent(shear.r[axis]));
     if (point_exponent == std::numeric_limits<int>::max()) point_exponent = 0;
     point_exponent_ = point_exponent;
@@ -88,7 +90,8 @@ class ExactPair {
 
   /// Precondition for this and `points`: `maximise` returned true.
   Rational value() const {
-    mpq_class value = best_value_;
+    mpq_class value(best_numerator_, best_denominator_);
+    value.canonicalize();
     if (point_exponent_ >= 0) {
       value <<= static_cast<mp_bitcnt_t>(point_exponent_);
     } else {
@@ -98,7 +101,9 @@ class ExactPair {
     return Rational(Rational::Number{value});
   }
 
-  ExactPoints points() const { return {point(best_->upper, upper_source_), point(best_->lower, lower_source_)}; }
+  ExactPoints points() const {
+    return {point(best_->upper, upper_source_), point(best_->lower, lower_source_)};
+  }
 
  private:
   using IntegerSides = std::array<std::array<mpz_class, 3>, 3>;
@@ -138,17 +143,23 @@ class ExactPair {
   }
 
   static mpz_class height_numerator(const Weights& weights, const IntegerTriangle& triangle) {
-    return weights.corner[0] * triangle.h[0] + weights.corner[1] * triangle.h[1] + weights.corner[2] * triangle.h[2];
+    return weights.corner[0] * triangle.h[0] + weights.corner[1] * triangle.h[1] +
+           weights.corner[2] * triangle.h[2];
   }
 
+  /// Fractions are compared by cross multiplication: reducing each to lowest terms would cost more than all
+  /// else.
   void take(Weights upper, Weights lower) {
-    mpq_class value(height_numerator(upper, upper_), upper.denominator);
-    value.canonicalize();
-    mpq_class below(height_numerator(lower, lower_), lower.denominator);
-    below.canonicalize();
-    value -= below;
-    if (best_ && value <= best_value_) return;
-    best_value_ = value;
+    mpz_class numerator = height_numerator(upper, upper_) * lower.denominator;
+    numerator -= height_numerator(lower, lower_) * upper.denominator;
+    mpz_class denominator = upper.denominator * lower.denominator;
+    if (sgn(denominator) < 0) {
+      numerator = -numerator;
+      denominator = -denominator;
+    }
+    if (best_ && numerator * best_denominator_ <= best_numerator_ * denominator) return;
+    best_numerator_ = std::move(numerator);
+    best_denominator_ = std::move(denominator);
     best_ = Candidate{std::move(upper), std::move(lower)};
   }
 
@@ -159,9 +170,11 @@ class ExactPair {
   void take_corners_inside() {
     for (int v = 0; v < 3; ++v) {
       if (sgn(lower_area_) != 0 && inside(of_lower_edges_, v))
-        take(at_corner(v), {{of_lower_edges_[0][v], of_lower_edges_[1][v], of_lower_edges_[2][v]}, lower_area_});
+        take(at_corner(v),
+             {{of_lower_edges_[0][v], of_lower_edges_[1][v], of_lower_edges_[2][v]}, lower_area_});
       if (sgn(upper_area_) != 0 && inside(of_upper_edges_, v))
-        take({{of_upper_edges_[0][v], of_upper_edges_[1][v], of_upper_edges_[2][v]}, upper_area_}, at_corner(v));
+        take({{of_upper_edges_[0][v], of_upper_edges_[1][v], of_upper_edges_[2][v]}, upper_area_},
+             at_corner(v));
     }
   }
 
@@ -188,8 +201,10 @@ class ExactPair {
       for (Weights& weights : locate(lower_, v, upper_, a, b)) take(std::move(weights), at_corner(v));
   }
 
-  /// Points of segment p q over corner v of `from`: none, one, or both ends if the segment projects to a point.
-  static std::vector<Weights> locate(const IntegerTriangle& from, int v, const IntegerTriangle& base, int p, int q) {
+  /// Points of segment p q over corner v of `from`: none, one, or both ends if the segment projects to a
+  /// point.
+  static std::vector<Weights> locate(const IntegerTriangle& from, int v, const IntegerTriangle& base, int p,
+                                     int q) {
     const auto& along = base.x[p] != base.x[q] ? base.x : base.y;
     const auto& coordinate = base.x[p] != base.x[q] ? from.x : from.y;
     if (along[p] == along[q]) {
@@ -224,13 +239,13 @@ class ExactPair {
   IntegerSides of_upper_edges_, of_lower_edges_;
   mpz_class upper_area_, lower_area_;
   std::optional<Candidate> best_;
-  mpq_class best_value_;
+  mpz_class best_numerator_, best_denominator_;  ///< height difference in scaled integers; denominator > 0
 };
 
 }  // namespace
 
-std::optional<Rational> exact_maximum(const TreeTriangle& upper, const TreeTriangle& lower, const Shear& shear,
-                                      Semantics semantics) {
+std::optional<Rational> exact_maximum(const TreeTriangle& upper, const TreeTriangle& lower,
+                                      const Shear& shear, Semantics semantics) {
   ExactPair pair(upper, lower, shear);
   if (!pair.maximise(semantics)) return std::nullopt;
   return pair.value();

@@ -14,14 +14,17 @@ namespace stackabilization {
 
 /// What counts as a collision between two shapes.
 enum class Semantics {
-  solid,   ///< interiors meet: columns of zero width do not count, so sliding along walls parallel to r is free
-  closed,  ///< any common point: two walls in the same plane block each other; right for zero-thickness sheets
+  solid,   ///< interiors meet: columns of zero width do not count, so sliding along walls parallel to r is
+           ///< free
+  closed,  ///< any common point: two walls in the same plane block each other; right for zero-thickness
+           ///< sheets
 };
 
-/// Where a separation is attained: `lower_point` lies on triangle `lower_triangle` of the upper copy, `upper_point` on
-/// triangle `upper_triangle` of the lower copy, straight above each other along r before the lift. The exact value
-/// is the maximum of (a - b).r / r.r over the points a, b of these two triangles on a common line along r, which
-/// anyone can recompute in rational arithmetic; the points are the exact ones rounded to double.
+/// Where a separation is attained: `lower_point` lies on triangle `lower_triangle` of the upper copy,
+/// `upper_point` on triangle `upper_triangle` of the lower copy, straight above each other along r before the
+/// lift. The exact value is the maximum of (a - b).r / r.r over the points a, b of these two triangles on a
+/// common line along r, which anyone can recompute in rational arithmetic; the points are the exact ones
+/// rounded to double.
 struct Witness {
   std::int32_t upper_triangle = -1;  ///< triangle of the copy below, on its upper envelope
   std::int32_t lower_triangle = -1;  ///< triangle of the copy above, on its lower envelope
@@ -31,16 +34,16 @@ struct Witness {
 
 /// Result of an exact separation query.
 struct Separation {
-  /// False when the projections along r have no common interior (solid) or no common point (closed): the shapes pass
-  /// each other at any height, and the other fields are meaningless.
+  /// False when the projections along r have no common interior (solid) or no common point (closed): the
+  /// shapes pass each other at any height, and the other fields are meaningless.
   bool blocked = false;
   Rational value;     ///< in units of r: the translation is value * r
   double length = 0;  ///< value * |r|, model units, within 2 ulp
   Witness witness;
 };
 
-/// A certified enclosure of a separation, in units of r: lower <= sep <= upper. Empty (lower = upper = -inf) when not
-/// blocked.
+/// A certified enclosure of a separation, in units of r: lower <= sep <= upper. Empty (lower = upper = -inf)
+/// when not blocked.
 struct Enclosure {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = -std::numeric_limits<double>::infinity();
@@ -53,8 +56,8 @@ struct SeparationOptions {
   std::optional<double> abandon_above;
 };
 
-/// Bounding-volume tree of a shape's triangles, built once and queried for any number of directions, by any number of
-/// threads at the same time. It keeps its own copy of the coordinates. O(m log m) to build.
+/// Bounding-volume tree of a shape's triangles, built once and queried for any number of directions, by any
+/// number of threads at the same time. It keeps its own copy of the coordinates. O(m log m) to build.
 class SeparationTree {
  public:
   /// Precondition: `validate(shape)` passes (InputError otherwise).
@@ -70,21 +73,23 @@ class SeparationTree {
   std::unique_ptr<const Data> data_;
 };
 
-/// sep(A, B, r): the least t such that B + t' r is clear of A for all t' >= t. Exact: a rational number with a witness,
-/// for any triangle soups, in both semantics. May be negative (B can move down) when A and B are different.
+/// sep(A, B, r): the least t such that B + t' r is clear of A for all t' >= t. Exact: a rational number with
+/// a witness, for any triangle soups, in both semantics. May be negative (B can move down) when A and B are
+/// different.
 ///
-/// Branch and bound over pairs of triangles; interval filters decide almost everything, rational arithmetic the rest.
-/// Deterministic. Source: Eq. 1 of the paper, read as a maximum over pairs of points on common lines along r.
+/// Branch and bound over pairs of triangles; interval filters decide almost everything, rational arithmetic
+/// the rest. Deterministic. Source: Eq. 1 of the paper, read as a maximum over pairs of points on common
+/// lines along r.
 Separation separation(const SeparationTree& below, const SeparationTree& above, const Direction& direction,
                       const SeparationOptions& options = {});
 
-/// Same quantity as a certified enclosure, relative width about 1e-12 of the extent along r: what searches over
-/// directions use. Never slower than `separation`.
-Enclosure separation_enclosure(const SeparationTree& below, const SeparationTree& above, const Direction& direction,
-                               const SeparationOptions& options = {});
+/// Same quantity as a certified enclosure, relative width about 1e-12 of the extent along r: what searches
+/// over directions use. Never slower than `separation`.
+Enclosure separation_enclosure(const SeparationTree& below, const SeparationTree& above,
+                               const Direction& direction, const SeparationOptions& options = {});
 
-/// f_max(M, r) = sep(M, M, r), the minimal stacking translation, for one use. `blocked` is always true in closed
-/// semantics; in solid semantics it is false only when the projection of M along r has no area.
+/// f_max(M, r) = sep(M, M, r), the minimal stacking translation, for one use. `blocked` is always true in
+/// closed semantics; in solid semantics it is false only when the projection of M along r has no area.
 Separation minimal_stacking_translation(const Shape& shape, const Direction& direction,
                                         const SeparationOptions& options = {});
 

@@ -8,27 +8,33 @@
 #include <limits>
 
 #include "stackabilization/envelope/shear.h"
+#include "stackabilization/envelope/triangle_pieces.h"
 
 namespace stackabilization {
 namespace {
 
-constexpr std::int32_t leaf_size = 4;
+using namespace detail;
+
 /// A slab over many triangles is no tighter than the box; larger nodes keep none.
 constexpr std::int32_t largest_slab = 1024;
 constexpr std::int32_t smallest_task = 8192;
 
-/// Builds the tree top down by median splits, in parallel, into nodes whose places depend on the counts alone, so that
-/// the result is the same for any number of threads.
+/// Builds the tree top down by median splits, in parallel, into nodes whose places depend on the counts
+/// alone, so that the result is the same for any number of threads.
 class TreeBuilder {
  public:
-  explicit TreeBuilder(SeparationTree::Data& data) : triangles_(data.triangles), nodes_(data.nodes) {
-    nodes_.resize(node_count(static_cast<std::int32_t>(triangles_.size())));
-    build(0, 1, 0, static_cast<std::int32_t>(triangles_.size()));
+  TreeBuilder(std::vector<Piece>& pieces, const std::vector<TreeTriangle>& triangles,
+              SeparationTree::Data& data)
+      : pieces_(pieces), triangles_(triangles), nodes_(data.nodes) {
+    nodes_.resize(node_count(static_cast<std::int32_t>(pieces_.size())));
+    build(0, 1, 0, static_cast<std::int32_t>(pieces_.size()));
+    data.triangles.reserve(pieces_.size());
+    for (const Piece& piece : pieces_) data.triangles.push_back(triangles_[piece.triangle]);
   }
 
  private:
-  static std::size_t node_count(std::int32_t triangles) {
-    return triangles <= leaf_size ? 1 : 1 + node_count(triangles / 2) + node_count(triangles - triangles / 2);
+  static std::size_t node_count(std::int32_t pieces) {
+    return pieces <= leaf_size ? 1 : 1 + node_count(pieces / 2) + node_count(pieces - pieces / 2);
   }
 
   /// Node `self` over [first, last); its descendants occupy nodes_ from `free` on.
@@ -62,21 +68,21 @@ class TreeBuilder {
     node.low.fill(std::numeric_limits<double>::infinity());
     node.high.fill(-std::numeric_limits<double>::infinity());
     for (std::int32_t t = first; t < last; ++t)
-      for (const auto& corner : triangles_[t].corners)
-        for (int axis = 0; axis < 3; ++axis) {
-          node.low[axis] = std::min(node.low[axis], corner[axis]);
-          node.high[axis] = std::max(node.high[axis], corner[axis]);
-        }
+      for (int axis = 0; axis < 3; ++axis) {
+        node.low[axis] = std::min(node.low[axis], pieces_[t].low[axis]);
+        node.high[axis] = std::max(node.high[axis], pieces_[t].high[axis]);
+      }
   }
 
-  /// Slab across the direction that the triangles face most: the dominant eigenvector of sum n n^T over area normals.
+  /// Slab across the direction that the triangles face most: the dominant eigenvector of sum n n^T over area
+  /// normals.
   void fit_slab(TreeNode& node, std::int32_t first, std::int32_t last) const {
     node.normal.fill(0);
     node.slab_low = node.slab_high = 0;
     if (last - first > largest_slab) return;
     Eigen::Matrix3d facing = Eigen::Matrix3d::Zero();
     for (std::int32_t t = first; t < last; ++t) {
-      const Eigen::Vector3d normal = area_normal(triangles_[t]);
+      const Eigen::Vector3d normal = area_normal(triangles_[pieces_[t].triangle]);
       const double length = normal.norm();
       if (length > 0) facing += normal * (normal / length).transpose();
     }
@@ -84,13 +90,14 @@ class TreeBuilder {
     if (!axis.allFinite() || axis.isZero(0)) return;
     double low = std::numeric_limits<double>::infinity(), high = -low, magnitude = 0;
     for (std::int32_t t = first; t < last; ++t)
-      for (const auto& corner : triangles_[t].corners) {
-        const double offset = axis[0] * corner[0] + axis[1] * corner[1] + axis[2] * corner[2];
+      for (int p = 0; p < pieces_[t].point_count; ++p) {
+        const auto& point = pieces_[t].points[p];
+        const double offset = axis[0] * point[0] + axis[1] * point[1] + axis[2] * point[2];
         low = std::min(low, offset);
         high = std::max(high, offset);
-        for (const double coordinate : corner) magnitude = std::max(magnitude, std::abs(coordinate));
+        for (const double coordinate : point) magnitude = std::max(magnitude, std::abs(coordinate));
       }
-    const double rounding = 8 * detail::unit_roundoff * magnitude;
+    const double rounding = 16 * unit_roundoff * magnitude;
     node.normal = {axis[0], axis[1], axis[2]};
     node.slab_low = low - rounding;
     node.slab_high = high + rounding;
@@ -102,7 +109,8 @@ class TreeBuilder {
     return (b - a).cross(c - a);
   }
 
-  /// Dominant eigenvector by squaring the matrix: good enough for a bound, whose validity does not depend on it.
+  /// Dominant eigenvector by squaring the matrix: good enough for a bound, whose validity does not depend on
+  /// it.
   static Eigen::Vector3d dominant_axis(Eigen::Matrix3d matrix) {
     for (int step = 0; step < 6; ++step) {
       const double scale = matrix.cwiseAbs().maxCoeff();
@@ -119,17 +127,15 @@ class TreeBuilder {
     int axis = 0;
     for (int other = 1; other < 3; ++other)
       if (node.high[other] - node.low[other] > node.high[axis] - node.low[axis]) axis = other;
-    const auto centre = [axis](const TreeTriangle& t) {
-      return t.corners[0][axis] + t.corners[1][axis] + t.corners[2][axis];
-    };
-    std::nth_element(triangles_.begin() + first, triangles_.begin() + middle, triangles_.begin() + last,
-                     [&](const TreeTriangle& a, const TreeTriangle& b) {
-                       const double ca = centre(a), cb = centre(b);
-                       return ca != cb ? ca < cb : a.index < b.index;
+    std::nth_element(pieces_.begin() + first, pieces_.begin() + middle, pieces_.begin() + last,
+                     [axis](const Piece& a, const Piece& b) {
+                       const double ca = a.low[axis] + a.high[axis], cb = b.low[axis] + b.high[axis];
+                       return ca != cb ? ca < cb : a.triangle < b.triangle;
                      });
   }
 
-  std::vector<TreeTriangle>& triangles_;
+  std::vector<Piece>& pieces_;
+  const std::vector<TreeTriangle>& triangles_;
   std::vector<TreeNode>& nodes_;
 };
 
@@ -138,9 +144,9 @@ class TreeBuilder {
 SeparationTree::SeparationTree(const Shape& shape) {
   validate(shape);
   auto data = std::make_unique<Data>();
-  data->triangles.resize(static_cast<std::size_t>(shape.triangle_count()));
-  for (std::size_t t = 0; t < data->triangles.size(); ++t) {
-    TreeTriangle& triangle = data->triangles[t];
+  std::vector<TreeTriangle> triangles(static_cast<std::size_t>(shape.triangle_count()));
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    TreeTriangle& triangle = triangles[t];
     triangle.index = static_cast<std::int32_t>(t);
     for (int c = 0; c < 3; ++c)
       for (int axis = 0; axis < 3; ++axis) {
@@ -149,7 +155,8 @@ SeparationTree::SeparationTree(const Shape& shape) {
         data->magnitude = std::max(data->magnitude, std::abs(coordinate));
       }
   }
-  TreeBuilder builder(*data);
+  std::vector<Piece> pieces = cut_into_pieces(triangles);
+  TreeBuilder(pieces, triangles, *data);
   data_ = std::move(data);
 }
 

@@ -14,8 +14,8 @@ struct TreeTriangle {
   std::int32_t index;
 };
 
-/// Axis-aligned box plus one slab  slab_low <= normal . p <= slab_high  holding all points of the node. `normal` is
-/// zero where no slab is kept. Leaves have count > 0.
+/// Axis-aligned box plus one slab  slab_low <= normal . p <= slab_high  holding all points of the node.
+/// `normal` is zero where no slab is kept. Leaves have count > 0.
 struct TreeNode {
   std::array<double, 3> low, high;
   std::array<double, 3> normal;
@@ -23,6 +23,9 @@ struct TreeNode {
   std::int32_t first;  ///< leaf: first triangle; inner: left child, the right one follows it
   std::int32_t count;  ///< leaf: number of triangles; inner: 0
 };
+
+/// Most triangles in a leaf.
+inline constexpr int leaf_size = 2;
 
 struct SeparationTree::Data {
   std::vector<TreeTriangle> triangles;  ///< in tree order

@@ -11,8 +11,8 @@ namespace stackabilization::detail {
 /// Half a unit in the last place of 1: the relative error of one rounded operation.
 inline constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
-/// An unevaluated sum high + low of two doubles with |low| <= ulp(high) / 2: lexicographic order is numeric order.
-/// The difference of two doubles is exactly representable, which lets equal heights tie exactly.
+/// An unevaluated sum high + low of two doubles with |low| <= ulp(high) / 2: lexicographic order is numeric
+/// order. The difference of two doubles is exactly representable, which lets equal heights tie exactly.
 struct DoubleDouble {
   double high = 0, low = 0;
 
@@ -29,13 +29,14 @@ inline DoubleDouble exact_difference(double a, double b) {
   return {high, (a - virtual_a) + (virtual_b - b)};
 }
 
-/// A linear projection along r onto two of the file's axes. Instead of rotating the shape (which rounds), the axis k on
-/// which |r| is largest serves as height: H(p) = sign(r_k) p_k is exact in the input, points on a common line along r have
-/// equal (x, y) = (p_i - H r_i / |r_k|, p_j - H r_j / |r_k|), and a vertical distance dH is dH / |r_k| in units of r.
+/// A linear projection along r onto two of the file's axes. Instead of rotating the shape (which rounds), the
+/// axis k on which |r| is largest serves as height: H(p) = sign(r_k) p_k is exact in the input, points on a
+/// common line along r have equal (x, y) = (p_i - H r_i / |r_k|, p_j - H r_j / |r_k|), and a vertical
+/// distance dH is dH / |r_k| in units of r.
 struct Shear {
   int i, j, k;
-  double sign;      ///< of r_k
-  double sx, sy;    ///< r_i / |r_k|, r_j / |r_k|, rounded; |sx|, |sy| <= 1
+  double sign;    ///< of r_k
+  double sx, sy;  ///< r_i / |r_k|, r_j / |r_k|, rounded; |sx|, |sy| <= 1
   Eigen::Vector3d r;
 
   explicit Shear(const Direction& direction) : r(direction.vector()) {
@@ -51,7 +52,8 @@ struct Shear {
   double x(const double* p) const { return p[i] - height(p) * sx; }
   double y(const double* p) const { return p[j] - height(p) * sy; }
 
-  /// Bounds on |computed - exact| of x and y for points with |coordinates| <= magnitude; zero where no rounding occurs.
+  /// Bounds on |computed - exact| of x and y for points with |coordinates| <= magnitude; zero where no
+  /// rounding occurs.
   double x_error(double magnitude) const { return sx == 0 ? 0 : 6 * unit_roundoff * magnitude; }
   double y_error(double magnitude) const { return sy == 0 ? 0 : 6 * unit_roundoff * magnitude; }
 };

@@ -23,7 +23,8 @@ inline double product_bound(double p, double q) {
   return product > 0 || p == 0 || q == 0 ? product : std::numeric_limits<double>::min();
 }
 
-/// Twice the signed area of the projected points p, q, s: (q - p) x (s - p), with a bound on all rounding since the input.
+/// Twice the signed area of the projected points p, q, s: (q - p) x (s - p), with a bound on all rounding
+/// since the input.
 inline Approximate orientation(double px, double py, double qx, double qy, double sx, double sy,
                                const Projection& projection) {
   const double ax = qx - px, ay = qy - py, bx = sx - px, by = sy - py;
@@ -73,7 +74,8 @@ struct Overlap {
 /// Collects bounds on a maximum from the vertices of the common region.
 class MaximumBounds {
  public:
-  explicit MaximumBounds(double low_limit, double high_limit) : low_limit_(low_limit), high_limit_(high_limit) {}
+  explicit MaximumBounds(double low_limit, double high_limit)
+      : low_limit_(low_limit), high_limit_(high_limit) {}
 
   void take(double value, double error, bool certain) {
     double low = value - error, high = value + error;
@@ -91,10 +93,10 @@ class MaximumBounds {
   double low_ = -infinity, high_ = -infinity;
 };
 
-/// Corners of `point` inside `base`: height of the corner minus height of the plane of `base` (times `sign`), as a
-/// barycentric combination of corner height differences.
-void take_corners(const ProjectedTriangle& point, const ProjectedTriangle& base, const Sides& sides, double sign,
-                  MaximumBounds& bounds) {
+/// Corners of `point` inside `base`: height of the corner minus height of the plane of `base` (times `sign`),
+/// as a barycentric combination of corner height differences.
+void take_corners(const ProjectedTriangle& point, const ProjectedTriangle& base, const Sides& sides,
+                  double sign, MaximumBounds& bounds) {
   for (int v = 0; v < 3; ++v) {
     bool possible = true, certain = true;
     double weighted = 0, weighted_error = 0, weight = 0, weight_error = 0;
@@ -111,9 +113,10 @@ void take_corners(const ProjectedTriangle& point, const ProjectedTriangle& base,
     if (!possible) continue;
     const double safe_weight = weight - weight_error;
     const double value = weighted / weight;
-    const double error = safe_weight > 0 ? 1.5 * (weighted_error + std::abs(value) * weight_error) / safe_weight +
-                                               4 * unit_roundoff * std::abs(value)
-                                         : infinity;
+    const double error = safe_weight > 0
+                             ? 1.5 * (weighted_error + std::abs(value) * weight_error) / safe_weight +
+                                   4 * unit_roundoff * std::abs(value)
+                             : infinity;
     bounds.take(sign * value, error, certain);
   }
 }
@@ -178,8 +181,8 @@ ProjectedTriangle::ProjectedTriangle(const TreeTriangle& triangle, const Project
   area_error = signed_area.error;
 }
 
-PairBounds bound_pair(const ProjectedTriangle& upper, const ProjectedTriangle& lower, const Projection& projection,
-                      const DoubleDouble& floor) {
+PairBounds bound_pair(const ProjectedTriangle& upper, const ProjectedTriangle& lower,
+                      const Projection& projection, const DoubleDouble& floor) {
   PairBounds result;
   if (upper.x_low > lower.x_high || lower.x_low > upper.x_high || upper.y_low > lower.y_high ||
       lower.y_low > upper.y_high)
@@ -187,11 +190,13 @@ PairBounds bound_pair(const ProjectedTriangle& upper, const ProjectedTriangle& l
   const DoubleDouble highest = exact_difference(upper.h_high, lower.h_low);
   if (highest <= floor) return result;
   if (upper.possibly_edge_on() || lower.possibly_edge_on()) {
-    const bool degenerate = (upper.area == 0 && upper.area_error == 0) || (lower.area == 0 && lower.area_error == 0);
+    const bool degenerate =
+        (upper.area == 0 && upper.area_error == 0) || (lower.area == 0 && lower.area_error == 0);
     if (!(degenerate && projection.semantics == Semantics::solid)) result.high = highest;
     return result;
   }
-  const Sides of_upper_edges = sides(upper, lower, projection), of_lower_edges = sides(lower, upper, projection);
+  const Sides of_upper_edges = sides(upper, lower, projection),
+              of_lower_edges = sides(lower, upper, projection);
   Overlap overlap;
   overlap.take(of_upper_edges, projection.semantics);
   overlap.take(of_lower_edges, projection.semantics);

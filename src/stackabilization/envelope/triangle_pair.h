@@ -14,7 +14,10 @@ struct Projection {
   Semantics semantics;
 
   Projection(const Direction& direction, double magnitude, Semantics s)
-      : shear(direction), x_error(shear.x_error(magnitude)), y_error(shear.y_error(magnitude)), semantics(s) {}
+      : shear(direction),
+        x_error(shear.x_error(magnitude)),
+        y_error(shear.y_error(magnitude)),
+        semantics(s) {}
 };
 
 /// A triangle seen along a direction: projected corners in double, heights exact.
@@ -29,16 +32,17 @@ struct ProjectedTriangle {
   bool possibly_edge_on() const { return !(area > area_error) && !(area < -area_error); }
 };
 
-/// Certified bounds on the largest height difference (upper minus lower) over common columns of two triangles.
-/// `low` is -inf unless the triangles certainly have common columns; `high` is -inf if they certainly have none.
+/// Certified bounds on the largest height difference (upper minus lower) over common columns of two
+/// triangles. `low` is -inf unless the triangles certainly have common columns; `high` is -inf if they
+/// certainly have none.
 struct PairBounds {
   DoubleDouble low{-std::numeric_limits<double>::infinity(), 0};
   DoubleDouble high{-std::numeric_limits<double>::infinity(), 0};
 };
 
-/// Bounds for one pair. Cost: one or two comparisons for most pairs; pairs that cannot exceed `floor` return at once
-/// with a high of -inf.
-PairBounds bound_pair(const ProjectedTriangle& upper, const ProjectedTriangle& lower, const Projection& projection,
-                      const DoubleDouble& floor);
+/// Bounds for one pair. Cost: one or two comparisons for most pairs; pairs that cannot exceed `floor` return
+/// at once with a high of -inf.
+PairBounds bound_pair(const ProjectedTriangle& upper, const ProjectedTriangle& lower,
+                      const Projection& projection, const DoubleDouble& floor);
 
 }  // namespace stackabilization::detail

@@ -12,7 +12,7 @@ inline constexpr double relative = 1e-9;
 inline constexpr double contact_band = 1e-3;
 
 /// Width at which a certified enclosure of a separation stops tightening, as a fraction of the largest coordinate.
-inline constexpr double enclosure_width = 1e-13;
+inline constexpr double enclosure_width = 1e-12;
 
 /// Angular step, in radians, at which a local direction search stops: moving by it changes S by about 1e-8 at most.
 inline constexpr double direction_step = 1e-8;
