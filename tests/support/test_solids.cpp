@@ -156,6 +156,73 @@ TEST_CASE("closed forms of f_max agree where two of them apply") {
   CHECK(l_shape_f_max(4, 1, Direction(2, 0, 2)) == 0.5);
 }
 
+/// Largest u - l over a grid of lines along z, slightly off all symmetries of the solids: a lower bound of
+/// f_max.
+double sampled_f_max(const Shape& shape, int resolution) {
+  const Eigen::RowVector3d low = shape.vertices.colwise().minCoeff(),
+                           size = shape.vertices.colwise().maxCoeff() - low;
+  double f_max = 0;
+  for (int i = 0; i < resolution * resolution; ++i) {
+    const Eigen::Vector2d q(low.x() + size.x() * (i % resolution + 0.503) / resolution,
+                            low.y() + size.y() * (i / resolution + 0.491) / resolution);
+    double lower = 1e300, upper = -1e300;
+    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+      Eigen::Matrix3d corners;
+      for (int k = 0; k < 3; ++k) corners.col(k) << shape.corner(t, k).head<2>(), 1;
+      const Eigen::Vector3d weights = corners.inverse() * Eigen::Vector3d(q.x(), q.y(), 1);
+      if (!weights.allFinite() || weights.minCoeff() < 0) continue;
+      const double z = weights.dot(
+          Eigen::Vector3d(shape.corner(t, 0).z(), shape.corner(t, 1).z(), shape.corner(t, 2).z()));
+      lower = std::min(lower, z);
+      upper = std::max(upper, z);
+    }
+    f_max = std::max(f_max, upper - lower);
+  }
+  return f_max;
+}
+
+TEST_CASE("lines along z never see more than the closed form of f_max, and nearly as much") {
+  const FrustumShell tight{.outer_bottom = 2,
+                           .outer_top = 4,
+                           .inner_bottom = 1.5,
+                           .inner_top = 3.75,
+                           .height = 8,
+                           .floor = 1,
+                           .segments = 16};
+  const FrustumShell steep{.outer_bottom = 3,
+                           .outer_top = 3.5,
+                           .inner_bottom = 2.75,
+                           .inner_top = 3,
+                           .height = 8,
+                           .floor = 0.5,
+                           .segments = 16};
+  const Stairs steps{.count = 5, .tread = 1, .rise = 0.75, .width = 2, .thickness = 0.25};
+  const std::array<Eigen::Vector3d, 4> corners = {{{0, 0, 0}, {3, 1, 0}, {1, 4, 1}, {1, 1, 3}}};
+  const std::vector<std::pair<Shape, double>> cases = {
+      {box({1, 2, 3}), box_f_max({1, 2, 3}, Direction(0, 0, 1))},
+      {boxes_sharing_wall(), 1},
+      {tetrahedron(corners), tetrahedron_f_max(corners, Direction(0, 0, 1))},
+      {frustum_shell(tight), frustum_shell_f_max(tight)},
+      {frustum_shell(steep), frustum_shell_f_max(steep)},
+      {stairs(steps), 3.75},
+      {stair_plate(steps), stair_plate_f_max(steps)},
+      {l_shape(4, 1), l_shape_f_max(4, 1, Direction(0, 0, 1))},
+      {u_shape(4, 1), 4},
+      {hook({}), 6},
+      {wine_glass(8), 13},
+      {torus({}), 2},
+      {sphere(2, 2), 4},
+      {table({}), 6},
+      {gridfinity_bin({}), gridfinity_bin_f_max({})},
+      {gridfinity_bin({.units = 2, .seat = 0}), gridfinity_bin_f_max({.units = 2, .seat = 0})}};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    INFO("case " << i);
+    const double sampled = sampled_f_max(cases[i].first, 120);
+    CHECK(sampled <= cases[i].second * (1 + 1e-12));
+    CHECK(sampled >= cases[i].second * 0.97);
+  }
+}
+
 TEST_CASE("variants keep the solid") {
   for (const Case& solid : all_solids()) {
     INFO(solid.name);
