@@ -72,12 +72,12 @@ std::vector<std::pair<std::string, Points>> families() {
           {"stair", stair},
           {"pyramid", point_sets::frustum(4, 1, 0, 1.3)},
           {"prism with 5 sides", point_sets::frustum(5, 1, 1, 0.7)},
-          {"cylinder", point_sets::frustum(48, 1, 1, 3)},
-          {"cup", point_sets::frustum(32, 0.8, 1, 1.2)},
+          {"cylinder", point_sets::frustum(20, 1, 1, 3)},
+          {"cup", point_sets::frustum(18, 0.8, 1, 1.2)},
           {"8 points", point_sets::in_ball(8, 1)},
           {"40 points", point_sets::in_ball(40, 2)},
-          {"300 points", point_sets::in_ball(300, 3)},
-          {"sphere of 150 points", point_sets::on_sphere(150, 4)}};
+          {"200 points", point_sets::in_ball(200, 3)},
+          {"sphere of 60 points", point_sets::on_sphere(60, 4)}};
 }
 
 }  // namespace

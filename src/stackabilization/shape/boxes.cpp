@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stackabilization/shape/errors.h"
@@ -65,11 +66,12 @@ double HullSupport::extent(const Direction& direction) const {
 Eigen::Matrix2Xd HullSupport::projection(const Frame& frame) const {
   const Eigen::VectorXd facing = normal_columns_ * frame.w;
   std::vector<int> rows;
-  for (Eigen::Index e = 0; e < edges_.rows(); ++e)
-    if ((facing[edge_faces_(e, 0)] > 0) != (facing[edge_faces_(e, 1)] > 0)) {
-      rows.push_back(edges_(e, 0));
-      rows.push_back(edges_(e, 1));
-    }
+  std::vector<char> listed(points_.rows(), 0);
+  for (Eigen::Index e = 0; e < edges_.rows(); ++e) {
+    if ((facing[edge_faces_(e, 0)] > 0) == (facing[edge_faces_(e, 1)] > 0)) continue;
+    for (int end = 0; end < 2; ++end)
+      if (!std::exchange(listed[edges_(e, end)], 1)) rows.push_back(edges_(e, end));
+  }
   Eigen::Matrix2Xd projected;
   if (rows.empty()) {  // a flat set seen edge on, a straight one or a point
     projected.resize(2, points_.rows());

@@ -122,6 +122,8 @@ class FaceMerger {
   Eigen::Vector3d grow_face(int seed, int face);
   void collect_borders();
   std::array<int, 2> ends(const Border& border) const;
+  std::vector<int> list_faces(HullFaces& faces) const;
+  void list_edges(const std::vector<int>& rank, HullFaces& faces) const;
 
   const TriangulatedHull& hull_;
   double resolution_;
@@ -139,7 +141,7 @@ void FaceMerger::find_neighbours() {
       sides.push_back({low, high, t, k});
     }
   std::sort(sides.begin(), sides.end());
-  neighbours_.resize(static_cast<std::size_t>(triangle_count()));
+  neighbours_.resize(hull_.triangles.rows());
   for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
     const auto &a = sides[i], &b = sides[i + 1];
     neighbours_[a[2]][a[3]] = b[2];
@@ -148,7 +150,7 @@ void FaceMerger::find_neighbours() {
 }
 
 void FaceMerger::grow_faces() {
-  std::vector<double> areas(static_cast<std::size_t>(triangle_count()));
+  std::vector<double> areas(hull_.triangles.rows());
   for (int t = 0; t < triangle_count(); ++t) areas[t] = area_vector(t).norm();
   std::vector<int> seeds(areas.size());
   std::iota(seeds.begin(), seeds.end(), 0);
@@ -187,7 +189,7 @@ void FaceMerger::collect_borders() {
   for (int t = 0; t < triangle_count(); ++t)
     for (int k = 0; k < 3; ++k) {
       const int here = face_of_[t];
-      const int there = face_of_[static_cast<std::size_t>(neighbours_[t][k])];
+      const int there = face_of_[neighbours_[t][k]];
       if (here >= there) continue;
       Border& border = borders_[{here, there}];
       border.push_back(hull_.triangles(t, k));
@@ -208,43 +210,47 @@ std::array<int, 2> FaceMerger::ends(const Border& border) const {
 }
 
 HullFaces FaceMerger::result() const {
+  HullFaces faces;
+  list_edges(list_faces(faces), faces);
+  return faces;
+}
+
+/// Fills in normals and areas, largest first; returns the place of each grown face among them.
+std::vector<int> FaceMerger::list_faces(HullFaces& faces) const {
   std::vector<int> order(area_vectors_.size()), rank(area_vectors_.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
-    return area_vectors_[a].norm() > area_vectors_[b].norm();
-  });
-  HullFaces faces;
-  faces.normals.resize(order.size(), 3);
-  faces.areas.resize(order.size());
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return area_vectors_[a].norm() > area_vectors_[b].norm(); });
+  faces.normals.resize(static_cast<Eigen::Index>(order.size()), 3);
+  faces.areas.resize(static_cast<Eigen::Index>(order.size()));
   for (std::size_t i = 0; i < order.size(); ++i) {
-    const Eigen::Vector3d& area = area_vectors_[order[i]];
     rank[order[i]] = static_cast<int>(i);
-    faces.areas(i) = area.norm();
-    faces.normals.row(i) = area.normalized().transpose();
+    faces.areas(i) = area_vectors_[order[i]].norm();
+    faces.normals.row(i) = area_vectors_[order[i]].normalized().transpose();
   }
+  return rank;
+}
 
-  std::vector<int> row(static_cast<std::size_t>(hull_.points.rows()), -1);
-  std::vector<std::array<int, 4>> edges;
+/// Fills in the edges and the points at their ends.
+void FaceMerger::list_edges(const std::vector<int>& rank, HullFaces& faces) const {
+  std::vector<int> row(hull_.points.rows(), -1);
+  faces.edges.resize(static_cast<Eigen::Index>(borders_.size()), 2);
+  faces.edge_faces.resize(static_cast<Eigen::Index>(borders_.size()), 2);
+  Eigen::Index e = 0;
   for (const auto& [pair, border] : borders_) {
     const auto [a, b] = ends(border);
-    edges.push_back({a, b, rank[pair[0]], rank[pair[1]]});
+    faces.edges.row(e) << a, b;
+    faces.edge_faces.row(e++) << rank[pair[0]], rank[pair[1]];
     row[a] = row[b] = 0;
   }
   std::vector<int> kept;
-  for (std::size_t i = 0; i < row.size(); ++i)
+  for (int i = 0; i < static_cast<int>(row.size()); ++i)
     if (row[i] == 0) {
       row[i] = static_cast<int>(kept.size());
-      kept.push_back(static_cast<int>(i));
+      kept.push_back(i);
     }
   faces.points = hull_.points(kept, Eigen::all);
-  faces.edges.resize(edges.size(), 2);
-  faces.edge_faces.resize(edges.size(), 2);
-  for (std::size_t e = 0; e < edges.size(); ++e) {
-    faces.edges.row(e) << row[static_cast<std::size_t>(edges[e][0])],
-        row[static_cast<std::size_t>(edges[e][1])];
-    faces.edge_faces.row(e) << edges[e][2], edges[e][3];
-  }
-  return faces;
+  faces.edges = faces.edges.unaryExpr([&](int i) { return row[i]; }).eval();
 }
 
 }  // namespace
