@@ -8,6 +8,10 @@ namespace stackabilization::tolerance {
 /// bounding-box diagonal. It sits six decades above rounding for coordinates up to 1e4 diagonals from the origin.
 inline constexpr double relative = 1e-9;
 
+/// Rounding allowance of constructions in double precision, as a fraction of the largest coordinate: two hull triangles
+/// whose corners lie within it of one plane are one face, and points closer than it are one corner of a polygon.
+inline constexpr double rounding = 1e-13;
+
 /// Default width of the contact band { f >= f_max - eps }, as a fraction of the extent h along the direction.
 inline constexpr double contact_band = 1e-3;
 

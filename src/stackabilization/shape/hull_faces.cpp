@@ -1,0 +1,271 @@
+#include "stackabilization/shape/hull_faces.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <vector>
+
+#include "stackabilization/shape/convex_hull.h"
+#include "stackabilization/shape/planar.h"
+
+namespace stackabilization {
+
+namespace {
+
+bool lexicographically_less(const Points& points, Eigen::Index a, Eigen::Index b) {
+  for (int k = 0; k < 3; ++k)
+    if (points(a, k) != points(b, k)) return points(a, k) < points(b, k);
+  return false;
+}
+
+/// The listed rows in lexicographic order, each point once, negative zeros made positive.
+Points sorted_rows(const Points& points, std::vector<Eigen::Index> rows) {
+  std::sort(rows.begin(), rows.end(), [&](auto a, auto b) { return lexicographically_less(points, a, b); });
+  rows.erase(std::unique(rows.begin(), rows.end(),
+                         [&](auto a, auto b) { return points.row(a) == points.row(b); }),
+             rows.end());
+  Points result(rows.size(), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    result.row(i) = points.row(rows[i]).array() + 0.0;
+  return result;
+}
+
+/// Affine dimension of the points up to a resolution, with a line and a plane through most of them.
+struct Spread {
+  int dimension = 0;
+  Eigen::Vector3d origin, axis, normal;  ///< axis from dimension 1 on, normal from dimension 2 on; unit
+};
+
+Spread spread_of(const Points& points, double resolution) {
+  Spread spread;
+  spread.origin = points.row(0).transpose();
+  const Points offsets = points.rowwise() - points.row(0);
+  Eigen::Index farthest = 0;
+  if (offsets.rowwise().norm().maxCoeff(&farthest) <= resolution) return spread;
+  spread.axis = offsets.row(farthest).transpose().normalized();
+  spread.dimension = 1;
+  const Points across = offsets - (offsets * spread.axis) * spread.axis.transpose();
+  if (across.rowwise().norm().maxCoeff(&farthest) <= resolution) return spread;
+  spread.normal = spread.axis.cross(across.row(farthest).transpose()).normalized();
+  spread.dimension = (offsets * spread.normal).cwiseAbs().maxCoeff() <= resolution ? 2 : 3;
+  return spread;
+}
+
+HullFaces straight_hull(const Points& points, const Spread& spread) {
+  HullFaces hull;
+  const Eigen::VectorXd along = points * spread.axis;
+  Eigen::Index first = 0, last = 0;
+  along.minCoeff(&first);
+  along.maxCoeff(&last);
+  hull.points = sorted_rows(points, {first, last});
+  return hull;
+}
+
+HullFaces flat_hull(const Points& points, const Spread& spread, double resolution) {
+  Eigen::Matrix2Xd planar(2, points.rows());
+  const Points offsets = points.rowwise() - spread.origin.transpose();
+  planar.row(0) = (offsets * spread.axis).transpose();
+  planar.row(1) = (offsets * spread.normal.cross(spread.axis)).transpose();
+  const std::vector<int> polygon = convex_polygon(planar, resolution);
+
+  const auto size = static_cast<int>(polygon.size());
+  std::vector<int> order(polygon);
+  std::sort(order.begin(), order.end());
+  const auto row = [&](int corner) {
+    return static_cast<int>(std::lower_bound(order.begin(), order.end(), polygon[corner]) -
+                            order.begin());
+  };
+  HullFaces hull;
+  hull.points = points(order, Eigen::all);
+  hull.edges.resize(size, 2);
+  hull.edge_faces.resize(size, 2);
+  double doubled_area = 0;
+  for (int i = 0; i < size; ++i) {
+    const int next = (i + 1) % size;
+    hull.edges.row(i) << row(i), row(next);
+    hull.edge_faces.row(i) << 0, 1;
+    const auto a = planar.col(polygon[i]), b = planar.col(polygon[next]);
+    doubled_area += a.x() * b.y() - a.y() * b.x();
+  }
+  hull.normals.resize(2, 3);
+  hull.normals << spread.normal.transpose(), -spread.normal.transpose();
+  hull.areas = Eigen::Vector2d::Constant(doubled_area / 2);
+  return hull;
+}
+
+/// Joins coplanar triangles of a hull to faces, and their common borders to edges.
+class FaceMerger {
+ public:
+  FaceMerger(const TriangulatedHull& hull, double resolution) : hull_(hull), resolution_(resolution) {
+    find_neighbours();
+    grow_faces();
+    collect_borders();
+  }
+
+  HullFaces result() const;
+
+ private:
+  using Border = std::vector<int>;  ///< rows of the hull points on the common border of two faces
+
+  Eigen::Vector3d corner(int triangle, int k) const {
+    return hull_.points.row(hull_.triangles(triangle, k)).transpose();
+  }
+  Eigen::Vector3d area_vector(int t) const {
+    return (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)) / 2;
+  }
+  int triangle_count() const { return static_cast<int>(hull_.triangles.rows()); }
+
+  void find_neighbours();
+  void grow_faces();
+  Eigen::Vector3d grow_face(int seed, int face);
+  void collect_borders();
+  std::array<int, 2> ends(const Border& border) const;
+  std::vector<int> list_faces(HullFaces& faces) const;
+  void list_edges(const std::vector<int>& rank, HullFaces& faces) const;
+
+  const TriangulatedHull& hull_;
+  double resolution_;
+  std::vector<std::array<int, 3>> neighbours_;  ///< triangle across the side from corner k to k + 1
+  std::vector<int> face_of_;                    ///< per triangle
+  std::vector<Eigen::Vector3d> area_vectors_;   ///< per face
+  std::map<std::array<int, 2>, Border> borders_;
+};
+
+void FaceMerger::find_neighbours() {
+  std::vector<std::array<int, 4>> sides;  // smaller and larger vertex, triangle, corner
+  for (int t = 0; t < triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax({hull_.triangles(t, k), hull_.triangles(t, (k + 1) % 3)});
+      sides.push_back({low, high, t, k});
+    }
+  std::sort(sides.begin(), sides.end());
+  neighbours_.resize(hull_.triangles.rows());
+  for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
+    const auto &a = sides[i], &b = sides[i + 1];
+    neighbours_[a[2]][a[3]] = b[2];
+    neighbours_[b[2]][b[3]] = a[2];
+  }
+}
+
+void FaceMerger::grow_faces() {
+  std::vector<double> areas(hull_.triangles.rows());
+  for (int t = 0; t < triangle_count(); ++t) areas[t] = area_vector(t).norm();
+  std::vector<int> seeds(areas.size());
+  std::iota(seeds.begin(), seeds.end(), 0);
+  std::stable_sort(seeds.begin(), seeds.end(), [&](int a, int b) {
+    return areas[a] > areas[b];
+  });
+  face_of_.assign(areas.size(), -1);
+  for (const int seed : seeds)
+    if (face_of_[seed] < 0)
+      area_vectors_.push_back(grow_face(seed, static_cast<int>(area_vectors_.size())));
+}
+
+/// The plane is corrected with every triangle, so that a face of many small triangles is as flat as its whole extent.
+Eigen::Vector3d FaceMerger::grow_face(int seed, int face) {
+  const Eigen::Vector3d origin = corner(seed, 0);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  std::vector<int> waiting = {seed};
+  face_of_[seed] = face;
+  for (std::size_t next = 0; next < waiting.size(); ++next) {
+    sum += area_vector(waiting[next]);
+    const Eigen::Vector3d normal = sum.normalized();
+    for (const int neighbour : neighbours_[waiting[next]]) {
+      if (face_of_[neighbour] >= 0) continue;
+      double distance = 0;
+      for (int k = 0; k < 3; ++k)
+        distance = std::max(distance, std::abs(normal.dot(corner(neighbour, k) - origin)));
+      if (distance > resolution_) continue;
+      face_of_[neighbour] = face;
+      waiting.push_back(neighbour);
+    }
+  }
+  return sum;
+}
+
+void FaceMerger::collect_borders() {
+  for (int t = 0; t < triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int here = face_of_[t];
+      const int there = face_of_[neighbours_[t][k]];
+      if (here >= there) continue;
+      Border& border = borders_[{here, there}];
+      border.push_back(hull_.triangles(t, k));
+      border.push_back(hull_.triangles(t, (k + 1) % 3));
+    }
+}
+
+/// Two faces of a convex hull meet along one straight edge: its ends are the points farthest along it.
+std::array<int, 2> FaceMerger::ends(const Border& border) const {
+  const auto point = [&](int row) -> Eigen::Vector3d { return hull_.points.row(row).transpose(); };
+  const auto farthest_from = [&](int row) {
+    return *std::max_element(border.begin(), border.end(), [&](int a, int b) {
+      return (point(a) - point(row)).squaredNorm() < (point(b) - point(row)).squaredNorm();
+    });
+  };
+  const int first = farthest_from(border.front());
+  return {first, farthest_from(first)};
+}
+
+HullFaces FaceMerger::result() const {
+  HullFaces faces;
+  list_edges(list_faces(faces), faces);
+  return faces;
+}
+
+/// Fills in normals and areas, largest first; returns the place of each grown face among them.
+std::vector<int> FaceMerger::list_faces(HullFaces& faces) const {
+  std::vector<int> order(area_vectors_.size()), rank(area_vectors_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return area_vectors_[a].norm() > area_vectors_[b].norm(); });
+  faces.normals.resize(static_cast<Eigen::Index>(order.size()), 3);
+  faces.areas.resize(static_cast<Eigen::Index>(order.size()));
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    rank[order[i]] = static_cast<int>(i);
+    faces.areas(i) = area_vectors_[order[i]].norm();
+    faces.normals.row(i) = area_vectors_[order[i]].normalized().transpose();
+  }
+  return rank;
+}
+
+/// Fills in the edges and the points at their ends.
+void FaceMerger::list_edges(const std::vector<int>& rank, HullFaces& faces) const {
+  std::vector<int> row(hull_.points.rows(), -1);
+  faces.edges.resize(static_cast<Eigen::Index>(borders_.size()), 2);
+  faces.edge_faces.resize(static_cast<Eigen::Index>(borders_.size()), 2);
+  Eigen::Index e = 0;
+  for (const auto& [pair, border] : borders_) {
+    const auto [a, b] = ends(border);
+    faces.edges.row(e) << a, b;
+    faces.edge_faces.row(e++) << rank[pair[0]], rank[pair[1]];
+    row[a] = row[b] = 0;
+  }
+  std::vector<int> kept;
+  for (int i = 0; i < static_cast<int>(row.size()); ++i)
+    if (row[i] == 0) {
+      row[i] = static_cast<int>(kept.size());
+      kept.push_back(i);
+    }
+  faces.points = hull_.points(kept, Eigen::all);
+  faces.edges = faces.edges.unaryExpr([&](int i) { return row[i]; }).eval();
+}
+
+}  // namespace
+
+HullFaces hull_faces(const Points& points, double resolution) {
+  std::vector<Eigen::Index> rows(points.rows());
+  std::iota(rows.begin(), rows.end(), 0);
+  const Points distinct = sorted_rows(points, std::move(rows));
+  const Spread spread = spread_of(distinct, resolution);
+  if (spread.dimension == 1) return straight_hull(distinct, spread);
+  if (spread.dimension == 2) return flat_hull(distinct, spread, resolution);
+  if (spread.dimension == 3) return FaceMerger(triangulated_hull(distinct), resolution).result();
+  HullFaces single;
+  single.points = distinct.topRows(1);
+  return single;
+}
+
+}  // namespace stackabilization

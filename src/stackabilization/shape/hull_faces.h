@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "stackabilization/shape/shape.h"
+
+namespace stackabilization {
+
+/// Boundary of a convex hull as flat faces and straight edges; see HullSupport for the meaning of each field.
+struct HullFaces {
+  Points points, normals;
+  Eigen::VectorXd areas;
+  Eigen::Matrix<int, Eigen::Dynamic, 2> edges, edge_faces;
+};
+
+/// Hull of any non-empty set of finite points. Sets within `resolution` (model units) of a plane, line or point are
+/// flat, straight or single; hull triangles within it of one plane are one face.
+HullFaces hull_faces(const Points& points, double resolution);
+
+}  // namespace stackabilization
