@@ -12,8 +12,9 @@ inline constexpr double relative = 1e-9;
 /// whose corners lie within it of one plane are one face, and points closer than it are one corner of a polygon.
 inline constexpr double rounding = 1e-13;
 
-/// Default width of the contact band { f >= f_max - eps }, as a fraction of the extent h along the direction.
-inline constexpr double contact_band = 1e-3;
+/// Default width of the contact band { f >= f_max - eps }, as a fraction of the extent h along the direction: wide enough
+/// that the ring of a cup modelled with facets hangs together, narrow enough that second contacts stay out.
+inline constexpr double contact_band = 0.0125;
 
 /// Width at which a certified enclosure of a separation stops tightening, as a fraction of the largest coordinate.
 inline constexpr double enclosure_width = 1e-12;

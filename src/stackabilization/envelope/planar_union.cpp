@@ -1,0 +1,219 @@
+#include "stackabilization/envelope/planar_union.h"
+
+#include <algorithm>
+#include <boost/polygon/polygon.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "stackabilization/shape/planar.h"
+
+namespace stackabilization::detail {
+namespace {
+
+namespace bp = boost::polygon;
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+struct Bounds {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low;
+
+  void add(const Outline& outline) {
+    for (const Eigen::Vector2d& p : outline) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+};
+
+/// Distance between two convex outlines along the best separating axis among their sides: 0 when they overlap, never
+/// more than the true distance.
+double separating_distance(const Outline& a, const Outline& b) {
+  double best = 0;
+  const auto try_axis = [&](const Eigen::Vector2d& axis) {
+    const auto range = [&axis](const Outline& outline) {
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (const Eigen::Vector2d& p : outline) {
+        low = std::min(low, axis.dot(p));
+        high = std::max(high, axis.dot(p));
+      }
+      return std::pair(low, high);
+    };
+    const auto [a_low, a_high] = range(a);
+    const auto [b_low, b_high] = range(b);
+    best = std::max({best, b_low - a_high, a_low - b_high});
+  };
+  for (const Outline* outline : {&a, &b})
+    for (std::size_t p = 0; p < outline->size(); ++p) {
+      const Eigen::Vector2d side = (*outline)[(p + 1) % outline->size()] - (*outline)[p];
+      const double length = side.norm();
+      if (!(length > 0)) continue;
+      try_axis(Eigen::Vector2d(-side.y(), side.x()) / length);
+      try_axis(side / length);
+    }
+  try_axis(Eigen::Vector2d::UnitX());
+  try_axis(Eigen::Vector2d::UnitY());
+  return best;
+}
+
+/// Disjoint sets with path halving.
+class Components {
+ public:
+  explicit Components(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  std::size_t find(std::size_t item) {
+    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
+    return item;
+  }
+  void join(std::size_t a, std::size_t b) {
+    a = find(a);
+    b = find(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+using PolygonSet = bp::polygon_set_data<int>;
+
+/// Grid of 2^30 cells across the longer side of the bounds, centred.
+class Grid {
+ public:
+  explicit Grid(const Bounds& bounds) : centre_((bounds.low + bounds.high) / 2) {
+    const double longer = (bounds.high - bounds.low).maxCoeff();
+    scale_ = longer > 0 ? static_cast<double>(1 << 30) / longer : 1;
+  }
+
+  /// The outline swept by a square that reaches `margin` cells to every side.
+  bp::polygon_data<int> polygon(const Outline& outline, double margin) const {
+    Outline grown;
+    for (const Eigen::Vector2d& p : outline) grown.push_back((p - centre_) * scale_);
+    if (margin > 0) grown = swept(grown, margin);
+    std::vector<bp::point_data<int>> points;
+    for (const Eigen::Vector2d& p : grown)
+      points.emplace_back(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+    bp::polygon_data<int> result;
+    result.set(points.begin(), points.end());
+    return result;
+  }
+
+  double cell_area() const { return 1 / (scale_ * scale_); }
+
+ private:
+  /// Convex hull of the outline's corners moved by the corners of a square.
+  static Outline swept(const Outline& outline, double margin) {
+    Eigen::Matrix2Xd points(2, 4 * static_cast<Eigen::Index>(outline.size()));
+    Eigen::Index column = 0;
+    for (const Eigen::Vector2d& p : outline)
+      for (const double dx : {-margin, margin})
+        for (const double dy : {-margin, margin}) points.col(column++) = p + Eigen::Vector2d(dx, dy);
+    Outline hull;
+    for (const int corner : convex_polygon(points, 0)) hull.push_back(points.col(corner));
+    return hull;
+  }
+
+  Eigen::Vector2d centre_;
+  double scale_;
+};
+
+std::vector<bp::polygon_with_holes_data<int>> united(const std::vector<Outline>& outlines, const Grid& grid,
+                                                     double margin) {
+  PolygonSet set;
+  for (const Outline& outline : outlines) set.insert(grid.polygon(outline, margin));
+  std::vector<bp::polygon_with_holes_data<int>> result;
+  set.get(result);
+  return result;
+}
+
+}  // namespace
+
+double outline_area(const Outline& outline) {
+  double twice = 0;
+  for (std::size_t p = 2; p < outline.size(); ++p)
+    twice += cross(outline[p - 1] - outline[0], outline[p] - outline[0]);
+  return std::abs(twice) / 2;
+}
+
+Eigen::VectorXd outline_centroid(const Outline& outline) {
+  const auto count = static_cast<Eigen::Index>(outline.size());
+  Eigen::VectorXd weights = Eigen::VectorXd::Zero(count);
+  double total = 0;
+  for (Eigen::Index p = 2; p < count; ++p) {
+    const double area = std::abs(cross(outline[p - 1] - outline[0], outline[p] - outline[0]));
+    for (const Eigen::Index corner : {Eigen::Index{0}, p - 1, p}) weights[corner] += area / 3;
+    total += area;
+  }
+  if (!(total > 0)) return Eigen::VectorXd::Constant(count, 1.0 / static_cast<double>(count));
+  return weights / total;
+}
+
+std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outline>& outlines, double reach) {
+  std::vector<Bounds> bounds(outlines.size());
+  std::vector<std::size_t> order(outlines.size());
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t o = 0; o < outlines.size(); ++o) bounds[o].add(outlines[o]);
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return bounds[a].low.x() != bounds[b].low.x() ? bounds[a].low.x() < bounds[b].low.x() : a < b;
+  });
+  Components components(outlines.size());
+  std::vector<std::size_t> active;
+  for (const std::size_t o : order) {
+    std::erase_if(active, [&](std::size_t other) { return bounds[other].high.x() + reach < bounds[o].low.x(); });
+    for (const std::size_t other : active) {
+      if (bounds[other].high.y() + reach < bounds[o].low.y() || bounds[o].high.y() + reach < bounds[other].low.y())
+        continue;
+      if (components.find(o) == components.find(other)) continue;
+      if (separating_distance(outlines[o], outlines[other]) <= reach) components.join(o, other);
+    }
+    active.push_back(o);
+  }
+  std::vector<std::vector<std::size_t>> result;
+  std::vector<std::size_t> place(outlines.size());
+  for (std::size_t o = 0; o < outlines.size(); ++o) {
+    const std::size_t root = components.find(o);
+    if (root == o) {
+      place[o] = result.size();
+      result.emplace_back();
+    }
+    result[place[root]].push_back(o);
+  }
+  return result;
+}
+
+PlanarUnion unite(const std::vector<Outline>& outlines) {
+  Bounds bounds;
+  for (const Outline& outline : outlines) bounds.add(outline);
+  const Grid grid(bounds);
+  PlanarUnion result;
+  for (const auto& polygon : united(outlines, grid, 0)) result.area += static_cast<double>(bp::area(polygon)) * grid.cell_area();
+  // Neighbouring outlines were clipped apart in floating point: cracks of a cell or two are no holes, and must not open
+  // a ring either.
+  constexpr double cracks = 8;
+  for (const auto& polygon : united(outlines, grid, cracks))
+    for (auto hole = polygon.begin_holes(); hole != polygon.end_holes(); ++hole)
+      result.largest_hole = std::max<double>(result.largest_hole, bp::area(*hole) * grid.cell_area());
+  return result;
+}
+
+Elongation elongation_of(const std::vector<Outline>& outlines) {
+  Eigen::Index count = 0;
+  for (const Outline& outline : outlines) count += static_cast<Eigen::Index>(outline.size());
+  Eigen::Matrix2Xd points(2, count);
+  Eigen::Index column = 0;
+  for (const Outline& outline : outlines)
+    for (const Eigen::Vector2d& p : outline) points.col(column++) = p;
+  const std::vector<int> corners = convex_polygon(points, 0);
+  Eigen::Matrix2Xd polygon(2, static_cast<Eigen::Index>(corners.size()));
+  for (std::size_t c = 0; c < corners.size(); ++c) polygon.col(static_cast<Eigen::Index>(c)) = points.col(corners[c]);
+  const Rectangle rectangle = minimal_rectangle(polygon);
+  Elongation result{rectangle.size.x(), rectangle.size.y(), rectangle.axis};
+  if (result.length < result.width) {
+    std::swap(result.length, result.width);
+    result.axis = Eigen::Vector2d(-result.axis.y(), result.axis.x());
+  }
+  return result;
+}
+
+}  // namespace stackabilization::detail
