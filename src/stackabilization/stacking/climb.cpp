@@ -1,11 +1,11 @@
 #include "stackabilization/stacking/climb.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -15,138 +15,158 @@ namespace stackabilization {
 
 namespace {
 
-constexpr double golden_angle = 2.399963229728653;
-constexpr double golden_section = 0.6180339887498949;
-constexpr double full_turn = 2 * std::numbers::pi;
-constexpr int most_trials = 4000;     ///< a crest that winds on for ever ends here
-constexpr int polled = 8;             ///< directions on a circle
-constexpr int polled_on_crests = 12;  ///< where the best of a circle is wanted
-constexpr double fine_bearing = 1e-3; ///< tolerance of a bearing along a crest, radians
+constexpr int most_rounds = 120;         ///< trials per climb
+constexpr std::size_t most_planes = 12;  ///< of the latest trials
+constexpr double widest_chart = 0.1;     ///< tangent coordinates beyond this start a new chart
+
+/// One of the smooth functions whose least is S, near a point of the chart.
+struct Plane {
+  Eigen::Vector2d at, slope;
+  double value;
+
+  double operator()(const Eigen::Vector2d& p) const { return value + slope.dot(p - at); }
+};
+
+/// The least of some planes over the square |p - centre| <= radius.
+class Model {
+ public:
+  Model(const std::vector<Plane>& planes, const Eigen::Vector2d& centre, double radius)
+      : planes_(planes), centre_(centre), radius_(radius), best_(centre), best_value_(value(centre)) {}
+
+  /// Its maximum is at a corner of the square, where two planes meet on a side of it, or where three planes meet.
+  Eigen::Vector2d maximum() {
+    for (const double x : {-radius_, radius_})
+      for (const double y : {-radius_, radius_}) consider(centre_ + Eigen::Vector2d(x, y));
+    for (std::size_t i = 0; i < planes_.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        for (const int side : {0, 1})
+          for (const double offset : {-radius_, radius_}) consider_side(planes_[i], planes_[j], side, offset);
+        for (std::size_t k = 0; k < j; ++k) consider_corner(planes_[i], planes_[j], planes_[k]);
+      }
+    return best_;
+  }
+  double maximum_value() const { return best_value_; }
+
+ private:
+  double value(const Eigen::Vector2d& p) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Plane& plane : planes_) least = std::min(least, plane(p));
+    return least;
+  }
+  void consider(const Eigen::Vector2d& p) {
+    if (!((p - centre_).cwiseAbs().maxCoeff() <= radius_ * (1 + tolerance::relative))) return;
+    if (value(p) <= best_value_) return;
+    best_ = p;
+    best_value_ = value(p);
+  }
+  void consider_side(const Plane& a, const Plane& b, int side, double offset) {
+    Eigen::Vector2d p = centre_;
+    p[side] += offset;
+    const double slope = a.slope[1 - side] - b.slope[1 - side];
+    if (slope == 0) return;
+    p[1 - side] -= (a(p) - b(p)) / slope;
+    consider(p);
+  }
+  void consider_corner(const Plane& a, const Plane& b, const Plane& c) {
+    Eigen::Matrix2d slopes;
+    slopes << (a.slope - b.slope).transpose(), (a.slope - c.slope).transpose();
+    if (slopes.determinant() == 0) return;
+    consider(centre_ - slopes.inverse() * Eigen::Vector2d(a(centre_) - b(centre_), a(centre_) - c(centre_)));
+  }
+
+  const std::vector<Plane>& planes_;
+  Eigen::Vector2d centre_;
+  double radius_;
+  Eigen::Vector2d best_;
+  double best_value_;
+};
 
 class Climber {
  public:
-  Climber(const StackabilitySolver& solver, const DirectionRegion& region, const Climb& start)
-      : solver_(solver), region_(region), climb_(start) {
-    aim();
-  }
+  Climber(const StackabilitySolver& solver, const DirectionRegion& region, const Stackability& start)
+      : solver_(solver), region_(region), climb_{start} {}
 
   Climb run(const ClimbOptions& options) {
-    double step = options.first_step;
-    int failures = 0;
-    while (step > options.last_step && climb_.evaluated < most_trials) {
-      if (poll(step)) {
-        failures = 0;
-      } else if (++failures == 2) {
-        failures = 0;
-        if (!options.follow_crests || !poll_crests(step)) step /= options.follow_crests ? 4 : 2;
-      }
-    }
+    radius_ = options.first_step;
+    start_chart();
+    for (int round = 0; round < most_rounds && radius_ > options.last_step; ++round) improve();
     return climb_;
   }
 
  private:
-  /// Tangent frame at the current direction; a bearing is an angle in it.
-  void aim() { frame_ = frame_of(Direction(climb_.at.direction)); }
-
-  std::optional<Eigen::Vector3d> at(double bearing, double step) const {
-    const Eigen::Vector3d tangent = frame_.u * std::cos(bearing) + frame_.v * std::sin(bearing);
-    return region_.nearest(frame_.w * std::cos(step) + tangent * std::sin(step));
+  Eigen::Vector3d direction_at(const Eigen::Vector2d& p) const {
+    return (chart_.w + chart_.u * p.x() + chart_.v * p.y()).normalized();
   }
-
-  double better() const { return climb_.at.value + tolerance::stackability; }
-
-  /// Goes there if S is better there.
-  bool go(const std::optional<Eigen::Vector3d>& direction) {
-    if (!direction) return false;
+  Eigen::Vector2d chart_point(const Eigen::Vector3d& direction) const {
+    const Eigen::Vector3d local = chart_.to_local(direction);
+    return local.head<2>() / local.z();
+  }
+  Stackability measure(const Eigen::Vector3d& direction) {
     ++climb_.evaluated;
-    const auto found = solver_.measure_if_above(Direction(*direction), better());
-    if (!found) {
-      ++climb_.abandoned;
-      return false;
-    }
-    climb_.at = *found;
-    return true;
+    return solver_.measure(Direction(direction));
   }
 
-  bool go_on(double bearing, double step) {
-    if (!go(at(bearing, step))) return false;
-    while (step < full_turn / 16 && go(at(bearing, 2 * step))) step *= 2;
-    last_bearing_ = bearing;
-    aim();
-    return true;
+  void start_chart() {
+    chart_ = frame_of(Direction(climb_.at.direction));
+    planes_.clear();
+    add_plane(Eigen::Vector2d::Zero(), climb_.at.value);
   }
-
-  bool poll(double step);
-  bool poll_crests(double step);
-  bool search_bearing(double low, double high, double step);
-  double value(double bearing, double step);
+  void add_plane(const Eigen::Vector2d& p, double value);
+  std::vector<Plane> planes_here(const Eigen::Vector2d& centre) const;
+  void improve();
 
   const StackabilitySolver& solver_;
   const DirectionRegion& region_;
   Climb climb_;
-  Frame frame_;
-  double turn_ = 0, last_bearing_ = 0;
+  Frame chart_;
+  double radius_ = 0;
+  std::vector<Plane> planes_;
 };
 
-bool Climber::poll(double step) {
-  std::vector<double> bearings = {last_bearing_};
-  if (!climb_.circle_normal.isZero(0)) {
-    const Eigen::Vector3d along = climb_.circle_normal.cross(frame_.w);
-    const double bearing = std::atan2(along.dot(frame_.v), along.dot(frame_.u));
-    bearings.insert(bearings.end(), {bearing, bearing + full_turn / 2});
+void Climber::add_plane(const Eigen::Vector2d& p, double value) {
+  const double width = std::clamp(radius_ / 100, tolerance::direction_step / 10, 100 * tolerance::direction_step);
+  Plane plane{p, Eigen::Vector2d::Zero(), value};
+  for (int k = 0; k < 2; ++k)
+    plane.slope[k] = (measure(direction_at(p + width * Eigen::Vector2d::Unit(k))).value - value) / width;
+  if (planes_.size() == most_planes) planes_.erase(planes_.begin());
+  planes_.push_back(plane);
+}
+
+/// Planes of the trust region. One that S exceeds at the centre comes from where S is not concave: it is lifted.
+std::vector<Plane> Climber::planes_here(const Eigen::Vector2d& centre) const {
+  std::vector<Plane> here;
+  for (Plane plane : planes_) {
+    if ((plane.at - centre).norm() > 4 * radius_) continue;
+    plane.value += std::max(0.0, climb_.at.value - plane(centre));
+    here.push_back(plane);
   }
-  turn_ += golden_angle;
-  for (int k = 0; k < polled; ++k) bearings.push_back(turn_ + full_turn * k / polled);
-  return std::any_of(bearings.begin(), bearings.end(), [&](double bearing) { return go_on(bearing, step); });
+  return here;
 }
 
-double Climber::value(double bearing, double step) {
-  const auto direction = at(bearing, step);
-  if (!direction) return -std::numeric_limits<double>::infinity();
-  ++climb_.evaluated;
-  return solver_.measure(Direction(*direction)).value;
-}
-
-bool Climber::poll_crests(double step) {
-  std::array<double, polled_on_crests> values;
-  for (int k = 0; k < polled_on_crests; ++k) values[k] = value(full_turn * k / polled_on_crests, step);
-  std::vector<int> tops;
-  for (int k = 0; k < polled_on_crests; ++k)
-    if (values[k] >= values[(k + 1) % polled_on_crests] &&
-        values[k] >= values[(k + polled_on_crests - 1) % polled_on_crests])
-      tops.push_back(k);
-  std::stable_sort(tops.begin(), tops.end(), [&](int a, int b) { return values[a] > values[b]; });
-  for (std::size_t i = 0; i < std::min<std::size_t>(tops.size(), 2); ++i)
-    if (search_bearing(full_turn * (tops[i] - 1) / polled_on_crests, full_turn * (tops[i] + 1) / polled_on_crests, step))
-      return true;
-  return false;
-}
-
-bool Climber::search_bearing(double low, double high, double step) {
-  double left = high - (high - low) * golden_section, right = low + (high - low) * golden_section;
-  double at_left = value(left, step), at_right = value(right, step);
-  while (high - low > fine_bearing) {
-    if (std::max(at_left, at_right) > better()) return go_on(at_left > at_right ? left : right, step);
-    if (at_left > at_right) {
-      high = right;
-      right = left;
-      at_right = at_left;
-      left = high - (high - low) * golden_section;
-      at_left = value(left, step);
-    } else {
-      low = left;
-      left = right;
-      at_left = at_right;
-      right = low + (high - low) * golden_section;
-      at_right = value(right, step);
-    }
+void Climber::improve() {
+  const Eigen::Vector2d centre = chart_point(climb_.at.direction);
+  const std::vector<Plane> planes = planes_here(centre);
+  Model model(planes, centre, radius_);
+  const std::optional<Eigen::Vector3d> trial = region_.nearest(direction_at(model.maximum()));
+  const double expected = model.maximum_value() - climb_.at.value;
+  if (!trial || !(expected > tolerance::stackability)) {
+    radius_ /= 4;
+    return;
   }
-  return false;
+  const Stackability found = measure(*trial);
+  const double gain = found.value - climb_.at.value;
+  const Eigen::Vector2d p = chart_point(*trial);
+  if (gain > tolerance::stackability) climb_.at = found;
+  radius_ *= gain > expected / 2 ? 2 : gain > expected / 10 ? 1 : 0.5;
+  if (gain > 0 && p.norm() > widest_chart)
+    start_chart();
+  else
+    add_plane(p, found.value);
 }
 
 }  // namespace
 
-Climb climb(const StackabilitySolver& solver, const DirectionRegion& region, const Climb& start,
+Climb climb(const StackabilitySolver& solver, const DirectionRegion& region, const Stackability& start,
             const ClimbOptions& options) {
   return Climber(solver, region, start).run(options);
 }

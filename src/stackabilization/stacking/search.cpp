@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
+#include <vector>
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
@@ -20,15 +23,22 @@ namespace {
 /// number of threads.
 constexpr std::size_t batch_size = 256;
 
-/// A sample whose S is this much below the best is not near the best peak.
-constexpr double climbing_range = 0.2;
+/// A sample is worth a closer look when its S is at most this much below the best; halved with the spacing.
+constexpr double promising_range = 0.2;
 
-/// Starting points of short climbs per refined one.
-constexpr int starts_per_climb = 4;
+/// Times the spacing of samples is halved around the promising ones, and how many of these at most.
+constexpr int halvings = 3;
+constexpr std::size_t most_promising = 400;
 
 /// A direction to try, with the normal of the great circle it was taken from, or zero.
 struct Trial {
   Eigen::Vector3d direction, circle_normal;
+};
+
+/// A trial that was measured.
+struct Sample {
+  Stackability at;
+  Eigen::Vector3d circle_normal;
 };
 
 double line_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.cross(b).norm(); }
@@ -43,26 +53,22 @@ class DirectionSearch {
   }
 
   SearchResult run() {
-    sample();
-    std::vector<Climb> peaks = distinct(samples_, starts_per_climb * options_.climbs, options_.spacing);
-    peaks = climb_from(std::move(peaks), {options_.spacing / 2, options_.spacing / 64, false});
-    peaks = distinct(peaks, options_.climbs, options_.spacing / 4);
-    peaks = climb_from(std::move(peaks), {options_.spacing / 64, tolerance::direction_step, true});
-    peaks = distinct(peaks, options_.climbs, options_.spacing / 64);
+    measure(trials(), promising_range);
+    look_closer();
+    climb_from(distinct(samples_, options_.spacing / 4));
     report(1);
-
-    for (const Climb& peak : peaks) result_.optima.push_back({peak.at.direction, peak.at.value});
-    result_.best = peaks.front().at;
     result_.separation = solver_.separation(Direction(result_.best.direction));
     return result_;
   }
 
  private:
   std::vector<Trial> trials() const;
-  void sample();
-  void measure(const std::vector<Trial>& trials, std::size_t begin, double threshold);
-  std::vector<Climb> distinct(const std::vector<Climb>& climbs, int limit, double distance) const;
-  std::vector<Climb> climb_from(std::vector<Climb> starts, const ClimbOptions& climbing);
+  void measure(const std::vector<Trial>& trials, double range);
+  void look_closer();
+  std::vector<Trial> promising(std::size_t begin, double spacing, double range) const;
+  std::vector<Trial> around(const Sample& sample, double distance) const;
+  std::vector<Sample> distinct(const std::vector<Sample>& samples, double distance) const;
+  void climb_from(const std::vector<Sample>& starts);
   void report(double fraction) const {
     if (options_.progress) options_.progress(fraction);
   }
@@ -74,7 +80,8 @@ class DirectionSearch {
   const StackabilitySolver& solver_;
   const SearchOptions& options_;
   DirectionRegion region_;
-  std::vector<Climb> samples_;  ///< measured trials in their order
+  std::vector<Sample> samples_;  ///< measured trials in their order
+  double best_ = -std::numeric_limits<double>::infinity();
   SearchResult result_;
 };
 
@@ -95,60 +102,103 @@ std::vector<Trial> DirectionSearch::trials() const {
   return trials;
 }
 
-void DirectionSearch::sample() {
-  const std::vector<Trial> all = trials();
-  double best = -std::numeric_limits<double>::infinity();
-  for (std::size_t begin = 0; begin < all.size(); begin += batch_size) {
-    if (begin > 0 && ended()) return;
-    measure(all, begin, best - climbing_range);
-    for (const Climb& sample : samples_) best = std::max(best, sample.at.value);
-    report(0.5 * static_cast<double>(begin) / static_cast<double>(all.size()));
+/// Measures trials that may come within `range` of the best.
+void DirectionSearch::measure(const std::vector<Trial>& trials, double range) {
+  for (std::size_t begin = 0; begin < trials.size(); begin += batch_size) {
+    if (!samples_.empty() && ended()) return;
+    const std::size_t count = std::min(batch_size, trials.size() - begin);
+    std::vector<std::optional<Stackability>> measured(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      measured[i] = solver_.measure_if_above(Direction(trials[begin + i].direction), best_ - range);
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      ++result_.evaluated;
+      if (measured[i]) {
+        samples_.push_back({*measured[i], trials[begin + i].circle_normal});
+        best_ = std::max(best_, measured[i]->value);
+      } else {
+        ++result_.abandoned;
+      }
+    }
   }
 }
 
-void DirectionSearch::measure(const std::vector<Trial>& trials, std::size_t begin, double threshold) {
-  const std::size_t count = std::min(batch_size, trials.size() - begin);
-  std::vector<std::optional<Stackability>> measured(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-    measured[i] = solver_.measure_if_above(Direction(trials[begin + i].direction), threshold);
-  });
-  for (std::size_t i = 0; i < count; ++i) {
-    ++result_.evaluated;
-    if (measured[i])
-      samples_.push_back({*measured[i], trials[begin + i].circle_normal});
-    else
-      ++result_.abandoned;
+void DirectionSearch::look_closer() {
+  double spacing = options_.spacing, range = promising_range;
+  std::size_t begin = 0;
+  for (int level = 0; level < halvings; ++level) {
+    report(0.3 + 0.2 * level);
+    const std::vector<Trial> closer = promising(begin, spacing, range);
+    begin = samples_.size();
+    measure(closer, range / 2);
+    spacing /= 2;
+    range /= 2;
   }
+}
+
+/// Trials between the samples from `begin` on that are within `range` of the best.
+std::vector<Trial> DirectionSearch::promising(std::size_t begin, double spacing, double range) const {
+  std::vector<Sample> candidates(samples_.begin() + static_cast<std::ptrdiff_t>(begin), samples_.end());
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Sample& a, const Sample& b) { return a.at.value > b.at.value; });
+  candidates.resize(std::min(candidates.size(), most_promising));
+  std::vector<Trial> trials;
+  for (const Sample& sample : candidates) {
+    if (sample.at.value < best_ - range) break;
+    const std::vector<Trial> near = around(sample, spacing / 4);
+    trials.insert(trials.end(), near.begin(), near.end());
+  }
+  return trials;
+}
+
+/// Centres of the quarters of a sample's square, and two neighbours on its great circle.
+std::vector<Trial> DirectionSearch::around(const Sample& sample, double distance) const {
+  const Frame frame = frame_of(Direction(sample.at.direction));
+  const Eigen::Vector3d along = sample.circle_normal.cross(frame.w) * distance;
+  std::vector<Trial> trials;
+  if (!along.isZero(0))
+    for (const double sign : {-1.0, 1.0})
+      if (const auto direction = region_.nearest(frame.w + sign * along))
+        trials.push_back({*direction, sample.circle_normal});
+  if (options_.plane_normal) return trials;
+  for (const double x : {-distance, distance})
+    for (const double y : {-distance, distance})
+      if (const auto direction = region_.nearest(frame.to_world({x, y, 1})))
+        trials.push_back({*direction, Eigen::Vector3d::Zero()});
+  return trials;
 }
 
 /// The best ones that are farther than `distance` from every better one. Of those equally good the earliest leads.
-std::vector<Climb> DirectionSearch::distinct(const std::vector<Climb>& climbs, int limit, double distance) const {
-  std::vector<Climb> sorted = climbs;
-  const auto level = [](const Climb& climb) { return std::round(climb.at.value / tolerance::stackability); };
-  std::stable_sort(sorted.begin(), sorted.end(), [&](const Climb& a, const Climb& b) { return level(a) > level(b); });
-  std::vector<Climb> kept;
-  for (const Climb& climb : sorted) {
-    if (static_cast<int>(kept.size()) == limit) break;
-    if (std::none_of(kept.begin(), kept.end(), [&](const Climb& better) {
-          return line_distance(better.at.direction, climb.at.direction) <= distance;
+std::vector<Sample> DirectionSearch::distinct(const std::vector<Sample>& samples, double distance) const {
+  std::vector<Sample> sorted = samples;
+  const auto level = [](const Sample& sample) { return std::round(sample.at.value / tolerance::stackability); };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const Sample& a, const Sample& b) { return level(a) > level(b); });
+  std::vector<Sample> kept;
+  for (const Sample& sample : sorted) {
+    if (static_cast<int>(kept.size()) == options_.climbs) break;
+    if (std::none_of(kept.begin(), kept.end(), [&](const Sample& better) {
+          return line_distance(better.at.direction, sample.at.direction) <= distance;
         }))
-      kept.push_back(climb);
+      kept.push_back(sample);
   }
   return kept;
 }
 
-std::vector<Climb> DirectionSearch::climb_from(std::vector<Climb> starts, const ClimbOptions& climbing) {
-  if (ended()) return starts;
-  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
-    starts[i].evaluated = starts[i].abandoned = 0;
-    starts[i] = climb(solver_, region_, starts[i], climbing);
-  });
-  for (const Climb& end : starts) {
-    result_.evaluated += end.evaluated;
-    result_.abandoned += end.abandoned;
-  }
-  report(climbing.follow_crests ? 0.99 : 0.7);
-  return starts;
+void DirectionSearch::climb_from(const std::vector<Sample>& starts) {
+  const double step = options_.spacing / (1 << halvings);
+  std::vector<Sample> ends = starts;
+  std::vector<std::int64_t> evaluated(starts.size(), 0);
+  if (!ended())
+    tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+      const Climb end = climb(solver_, region_, starts[i].at, {step, tolerance::direction_step});
+      ends[i].at = end.at;
+      evaluated[i] = end.evaluated;
+    });
+  result_.evaluated = std::accumulate(evaluated.begin(), evaluated.end(), result_.evaluated);
+  ends = distinct(ends, step);
+  result_.best = ends.front().at;
+  for (const Sample& end : ends) result_.optima.push_back({end.at.direction, end.at.value});
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct SearchOptions {
   /// searched too. Those outside cone and plane are left out.
   std::vector<Eigen::Vector3d> candidates;
   double spacing = 0.04;  ///< radians between samples, in (0, 1]
-  int climbs = 12;        ///< best distinct directions that are refined to tolerance::direction_step, at least 1
+  int climbs = 12;        ///< distinct local maxima that are refined at most, at least 1
   std::function<void(double)> progress;  ///< called with the fraction done, in [0, 1], from the calling thread
   std::function<bool()> cancelled;       ///< asked from the calling thread; true ends the search early
 };
@@ -32,7 +32,8 @@ struct DirectionOptimum {
 struct SearchResult {
   Stackability best;
   Separation separation;                 ///< exact f_max with witness at the best direction
-  std::vector<DirectionOptimum> optima;  ///< distinct, best first; the first is the best direction
+  /// Distinct local maxima, best first; the first is the best direction. Those far below it are not listed.
+  std::vector<DirectionOptimum> optima;
   std::int64_t evaluated = 0;            ///< directions tried
   std::int64_t abandoned = 0;            ///< of these given up before S was known, because they could not win
   bool cancelled = false;                ///< ended early: the best of what was seen
