@@ -22,4 +22,7 @@ inline constexpr double enclosure_width = 1e-12;
 /// Angular step, in radians, at which a local direction search stops: moving by it changes S by about 1e-8 at most.
 inline constexpr double direction_step = 1e-8;
 
+/// Two directions whose S differ by less are equally good: below it lies rounding.
+inline constexpr double stackability = 1e-11;
+
 }  // namespace stackabilization::tolerance

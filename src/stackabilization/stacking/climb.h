@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "stackabilization/stacking/direction_region.h"
+#include "stackabilization/stacking/stackability.h"
+
+namespace stackabilization {
+
+/// How a local search moves: steps on the unit sphere, radians.
+struct ClimbOptions {
+  double first_step = 0;
+  double last_step = 0;
+};
+
+/// A direction with its S, and what it took to find it.
+struct Climb {
+  Stackability at;
+  std::int64_t evaluated = 0;  ///< directions tried
+};
+
+/// Climbs to a local maximum of S within the region. S is the least of many smooth functions, and its maxima are corners
+/// and crests of theirs: the functions met nearby are kept as planes (values and difference quotients, at the start and
+/// at every trial), and the maximum of the least of the planes within a trust region is the next trial (bundle method,
+/// Schramm and Zowe 1992). Only values of S are used. Deterministic.
+Climb climb(const StackabilitySolver& solver, const DirectionRegion& region, const Stackability& start,
+            const ClimbOptions& options);
+
+}  // namespace stackabilization

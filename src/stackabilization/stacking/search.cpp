@@ -1,0 +1,210 @@
+#include "stackabilization/stacking/search.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/stacking/candidates.h"
+#include "stackabilization/stacking/climb.h"
+
+namespace stackabilization {
+
+namespace {
+
+/// Directions measured between two updates of the threshold; fixed, so that what is abandoned does not depend on the
+/// number of threads.
+constexpr std::size_t batch_size = 256;
+
+/// A sample is worth a closer look when its S is at most this much below the best; halved with the spacing.
+constexpr double promising_range = 0.2;
+
+/// Times the spacing of samples is halved around the promising ones, and how many of these at most.
+constexpr int halvings = 3;
+constexpr std::size_t most_promising = 400;
+
+/// A direction to try, with the normal of the great circle it was taken from, or zero.
+struct Trial {
+  Eigen::Vector3d direction, circle_normal;
+};
+
+/// A trial that was measured.
+struct Sample {
+  Stackability at;
+  Eigen::Vector3d circle_normal;
+};
+
+double line_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.cross(b).norm(); }
+
+class DirectionSearch {
+ public:
+  DirectionSearch(const StackabilitySolver& solver, const SearchOptions& options)
+      : solver_(solver), options_(options), region_(options.cone, options.plane_normal) {
+    if (!(options.spacing > 0) || options.spacing > 1)
+      throw UsageError("the spacing of sampled directions must be above 0 and at most 1 radian");
+    if (options.climbs < 1) throw UsageError("a search needs at least one climb");
+  }
+
+  SearchResult run() {
+    measure(trials(), promising_range);
+    look_closer();
+    climb_from(distinct(samples_, options_.spacing / 4));
+    report(1);
+    result_.separation = solver_.separation(Direction(result_.best.direction));
+    return result_;
+  }
+
+ private:
+  std::vector<Trial> trials() const;
+  void measure(const std::vector<Trial>& trials, double range);
+  void look_closer();
+  std::vector<Trial> promising(std::size_t begin, double spacing, double range) const;
+  std::vector<Trial> around(const Sample& sample, double distance) const;
+  std::vector<Sample> distinct(const std::vector<Sample>& samples, double distance) const;
+  void climb_from(const std::vector<Sample>& starts);
+  void report(double fraction) const {
+    if (options_.progress) options_.progress(fraction);
+  }
+  bool ended() {
+    if (!result_.cancelled && options_.cancelled) result_.cancelled = options_.cancelled();
+    return result_.cancelled;
+  }
+
+  const StackabilitySolver& solver_;
+  const SearchOptions& options_;
+  DirectionRegion region_;
+  std::vector<Sample> samples_;  ///< measured trials in their order
+  double best_ = -std::numeric_limits<double>::infinity();
+  SearchResult result_;
+};
+
+std::vector<Trial> DirectionSearch::trials() const {
+  CandidateDirections candidates = candidate_directions(solver_);
+  candidates.main.insert(candidates.main.end(), options_.candidates.begin(), options_.candidates.end());
+  const Eigen::Vector3d none = options_.plane_normal.value_or(Eigen::Vector3d::Zero());
+  std::vector<Trial> trials;
+  for (const auto* directions : {&candidates.main, &candidates.others})
+    for (const Eigen::Vector3d& direction : *directions)
+      if (const auto member = region_.member(direction)) trials.push_back({*member, none});
+  for (const Eigen::Vector3d& direction : region_.samples(options_.spacing)) trials.push_back({direction, none});
+  if (!options_.plane_normal)
+    for (const Eigen::Vector3d& normal : candidates.main)
+      for (const Eigen::Vector3d& direction : half_circle(normal, options_.spacing / 2))
+        if (const auto member = region_.member(direction)) trials.push_back({*member, normal});
+  if (trials.empty()) throw UsageError("the cone and the plane of directions have no direction in common");
+  return trials;
+}
+
+/// Measures trials that may come within `range` of the best.
+void DirectionSearch::measure(const std::vector<Trial>& trials, double range) {
+  for (std::size_t begin = 0; begin < trials.size(); begin += batch_size) {
+    if (!samples_.empty() && ended()) return;
+    const std::size_t count = std::min(batch_size, trials.size() - begin);
+    std::vector<std::optional<Stackability>> measured(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      measured[i] = solver_.measure_if_above(Direction(trials[begin + i].direction), best_ - range);
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      ++result_.evaluated;
+      if (measured[i]) {
+        samples_.push_back({*measured[i], trials[begin + i].circle_normal});
+        best_ = std::max(best_, measured[i]->value);
+      } else {
+        ++result_.abandoned;
+      }
+    }
+  }
+}
+
+void DirectionSearch::look_closer() {
+  double spacing = options_.spacing, range = promising_range;
+  std::size_t begin = 0;
+  for (int level = 0; level < halvings; ++level) {
+    report(0.3 + 0.2 * level);
+    const std::vector<Trial> closer = promising(begin, spacing, range);
+    begin = samples_.size();
+    measure(closer, range / 2);
+    spacing /= 2;
+    range /= 2;
+  }
+}
+
+/// Trials between the samples from `begin` on that are within `range` of the best.
+std::vector<Trial> DirectionSearch::promising(std::size_t begin, double spacing, double range) const {
+  std::vector<Sample> candidates(samples_.begin() + static_cast<std::ptrdiff_t>(begin), samples_.end());
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Sample& a, const Sample& b) { return a.at.value > b.at.value; });
+  candidates.resize(std::min(candidates.size(), most_promising));
+  std::vector<Trial> trials;
+  for (const Sample& sample : candidates) {
+    if (sample.at.value < best_ - range) break;
+    const std::vector<Trial> near = around(sample, spacing / 4);
+    trials.insert(trials.end(), near.begin(), near.end());
+  }
+  return trials;
+}
+
+/// Centres of the quarters of a sample's square, and two neighbours on its great circle.
+std::vector<Trial> DirectionSearch::around(const Sample& sample, double distance) const {
+  const Frame frame = frame_of(Direction(sample.at.direction));
+  const Eigen::Vector3d along = sample.circle_normal.cross(frame.w) * distance;
+  std::vector<Trial> trials;
+  if (!along.isZero(0))
+    for (const double sign : {-1.0, 1.0})
+      if (const auto direction = region_.nearest(frame.w + sign * along))
+        trials.push_back({*direction, sample.circle_normal});
+  if (options_.plane_normal) return trials;
+  for (const double x : {-distance, distance})
+    for (const double y : {-distance, distance})
+      if (const auto direction = region_.nearest(frame.to_world({x, y, 1})))
+        trials.push_back({*direction, Eigen::Vector3d::Zero()});
+  return trials;
+}
+
+/// The best ones that are farther than `distance` from every better one. Of those equally good the earliest leads.
+std::vector<Sample> DirectionSearch::distinct(const std::vector<Sample>& samples, double distance) const {
+  std::vector<Sample> sorted = samples;
+  const auto level = [](const Sample& sample) { return std::round(sample.at.value / tolerance::stackability); };
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [&](const Sample& a, const Sample& b) { return level(a) > level(b); });
+  std::vector<Sample> kept;
+  for (const Sample& sample : sorted) {
+    if (static_cast<int>(kept.size()) == options_.climbs) break;
+    if (std::none_of(kept.begin(), kept.end(), [&](const Sample& better) {
+          return line_distance(better.at.direction, sample.at.direction) <= distance;
+        }))
+      kept.push_back(sample);
+  }
+  return kept;
+}
+
+void DirectionSearch::climb_from(const std::vector<Sample>& starts) {
+  const double step = options_.spacing / (1 << halvings);
+  std::vector<Sample> ends = starts;
+  std::vector<std::int64_t> evaluated(starts.size(), 0);
+  if (!ended())
+    tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+      const Climb end = climb(solver_, region_, starts[i].at, {step, tolerance::direction_step});
+      ends[i].at = end.at;
+      evaluated[i] = end.evaluated;
+    });
+  result_.evaluated = std::accumulate(evaluated.begin(), evaluated.end(), result_.evaluated);
+  ends = distinct(ends, step);
+  result_.best = ends.front().at;
+  for (const Sample& end : ends) result_.optima.push_back({end.at.direction, end.at.value});
+}
+
+}  // namespace
+
+SearchResult best_direction(const StackabilitySolver& solver, const SearchOptions& options) {
+  return DirectionSearch(solver, options).run();
+}
+
+}  // namespace stackabilization
