@@ -14,4 +14,10 @@ inline constexpr double contact_band = 1e-3;
 /// Angular step, in radians, at which a local direction search stops: moving by it changes S by about 1e-8 at most.
 inline constexpr double direction_step = 1e-8;
 
+/// Height, as a fraction of the extent, of the slab whose points `inspect` takes as what a shape stands on.
+inline constexpr double support_slab = 1e-2;
+
+/// `inspect` names an up axis only when every other axis fits less than this fraction as well.
+inline constexpr double clear_lead = 0.9;
+
 }  // namespace stackabilization::tolerance
