@@ -6,6 +6,8 @@ find_package(TBB CONFIG REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(minizip REQUIRED IMPORTED_TARGET minizip)
+# tinygltf is header-only and parses with nlohmann-json.
+find_package(nlohmann_json 3.9 REQUIRED)
 
 if(STACKABILIZATION_BUILD_RENDERING)
   find_package(VTK 9.1 REQUIRED COMPONENTS
@@ -16,5 +18,4 @@ if(STACKABILIZATION_BUILD_RENDERING)
 endif()
 if(STACKABILIZATION_BUILD_APPS)
   find_package(CLI11 REQUIRED)
-  find_package(nlohmann_json 3.9 REQUIRED)
 endif()

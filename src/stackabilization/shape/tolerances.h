@@ -24,5 +24,10 @@ inline constexpr double direction_step = 1e-8;
 
 /// Two directions whose S differ by less are equally good: below it lies rounding.
 inline constexpr double stackability = 1e-11;
+/// Height, as a fraction of the extent, of the slab whose points `inspect` takes as what a shape stands on.
+inline constexpr double support_slab = 1e-2;
+
+/// `inspect` names an up axis only when every other axis fits less than this fraction as well.
+inline constexpr double clear_lead = 0.9;
 
 }  // namespace stackabilization::tolerance
