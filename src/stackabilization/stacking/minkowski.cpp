@@ -6,8 +6,11 @@
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polyhedron_3.h>
+#include <CGAL/convex_decomposition_3.h>
+#include <CGAL/convex_hull_3.h>
 #include <CGAL/minkowski_sum_3.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <string>
@@ -51,7 +54,6 @@ std::vector<Component> components_of(const Shape& shape, const ClosedSurface& su
   return components;
 }
 
-/// The interior of a component.
 Nef solid_of(const Component& component) {
   namespace pmp = CGAL::Polygon_mesh_processing;
   if (!pmp::is_polygon_soup_a_polygon_mesh(component.triangles))
@@ -63,7 +65,32 @@ Nef solid_of(const Component& component) {
     throw InputError("the Minkowski sum needs solids without self-intersections");
   const Nef solid(mesh);
   const bool inside_out = solid.volumes_begin()->mark();
-  return inside_out ? solid.complement().interior() : solid.interior();
+  return inside_out ? solid.complement().closure() : solid;
+}
+
+/// Closed convex pieces whose union is the solid, as sets of corners.
+std::vector<std::vector<Point>> convex_pieces(Nef solid) {
+  CGAL::convex_decomposition_3(solid);
+  std::vector<std::vector<Point>> pieces;
+  for (auto volume = ++solid.volumes_begin(); volume != solid.volumes_end(); ++volume) {
+    if (!volume->mark()) continue;
+    Mesh piece;
+    solid.convert_inner_shell_to_polyhedron(volume->shells_begin(), piece);
+    pieces.emplace_back(piece.points_begin(), piece.points_end());
+  }
+  return pieces;
+}
+
+Nef hull_of(const std::vector<Point>& points) {
+  Mesh hull;
+  CGAL::convex_hull_3(points.begin(), points.end(), hull);
+  return Nef(hull);
+}
+
+std::vector<Point> mirrored(const std::vector<Point>& points) {
+  std::vector<Point> result;
+  for (const Point& p : points) result.push_back(CGAL::ORIGIN - (p - CGAL::ORIGIN));
+  return result;
 }
 
 void check_areas(const Shape& shape) {
@@ -108,6 +135,28 @@ Number beyond_reach(const Shape& shape, const Kernel::Vector_3& r) {
   return (high - low) / r.squared_length() + 1;
 }
 
+/// f_max in units of r: the farthest point on the line along r in the sum of any two open convex pieces.
+Number farthest_in_sum(const Shape& shape, const ClosedSurface& surface, const Direction& direction) {
+  Nef solid;
+  for (const Component& component : components_of(shape, surface)) solid = solid.join(solid_of(component));
+  std::vector<Nef> pieces, mirrored_pieces;
+  for (const std::vector<Point>& corners : convex_pieces(solid)) {
+    pieces.push_back(hull_of(corners));
+    mirrored_pieces.push_back(hull_of(mirrored(corners)));
+  }
+
+  const Eigen::Vector3d& d = direction.vector();
+  const Kernel::Vector_3 r(d.x(), d.y(), d.z());
+  const Point end = CGAL::ORIGIN + r * beyond_reach(shape, r);
+  Number farthest = 0;
+  for (Nef& piece : pieces)
+    for (Nef& mirror : mirrored_pieces) {
+      const Nef differences = CGAL::minkowski_sum_3(piece, mirror).interior();
+      farthest = std::max(farthest, farthest_along(differences, r, end));
+    }
+  return farthest;
+}
+
 }  // namespace
 
 Rational minkowski_translation(const Shape& solid, const Direction& direction) {
@@ -119,17 +168,11 @@ Rational minkowski_translation(const Shape& solid, const Direction& direction) {
   const ClosedSurface surface = closed_surface(solid);
   if (!surface.closed) throw InputError("the Minkowski sum needs a closed, consistently oriented solid");
   check_areas(solid);
-
-  Nef interior;
-  for (const Component& component : components_of(solid, surface))
-    interior = interior.join(solid_of(component));
-  Nef mirrored = interior;
-  mirrored.transform(Nef::Aff_transformation_3(CGAL::SCALING, -1));
-  const Nef differences = CGAL::minkowski_sum_3(interior, mirrored);
-
-  const Eigen::Vector3d& d = direction.vector();
-  const Kernel::Vector_3 r(d.x(), d.y(), d.z());
-  return from_exact(CGAL::exact(farthest_along(differences, r, CGAL::ORIGIN + r * beyond_reach(solid, r))));
+  try {
+    return from_exact(CGAL::exact(farthest_in_sum(solid, surface, direction)));
+  } catch (const CGAL::Failure_exception&) {
+    throw InputError("the Minkowski sum of this solid cannot be built from convex pieces");
+  }
 }
 
 }  // namespace stackabilization

@@ -14,9 +14,12 @@ inline constexpr Eigen::Index max_minkowski_triangles = 100;
 
 /// f_max(M, r) of a closed solid in `solid` semantics, in units of r, from the Minkowski sum of its interior
 /// with the mirrored one: int M and int M + t r meet exactly when t r lies in int M + (-int M), so f_max is
-/// the largest t in the closure of the points of that open set on the line along r. Exact (CGAL Nef polyhedra
-/// over rationals), shares nothing with the separation code; passages that the solid just fits into stay
-/// open.
+/// the supremum of those t. Exact (CGAL Nef polyhedra over rationals) and sharing nothing with the separation
+/// code.
+///
+/// The solid is cut into convex pieces and the open sums of all pairs of pieces are intersected with the line
+/// along r. They are not united: two interior points that differ by t r can be moved together off the cuts,
+/// so no t is lost, and a closed union would fill passages that the solid just fits into.
 ///
 /// Connected components may overlap and are taken as solids whichever way they are oriented; cavities count
 /// as filled, which does not change f_max. Throws UsageError above `max_minkowski_triangles`; InputError
