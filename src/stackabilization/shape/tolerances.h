@@ -19,6 +19,12 @@ inline constexpr double contact_band = 0.0125;
 /// Width at which a certified enclosure of a separation stops tightening, as a fraction of the largest coordinate.
 inline constexpr double enclosure_width = 1e-12;
 
+/// How far above and below an exact f_max a collision test must be free and colliding, as a fraction of the extent h.
+inline constexpr double collision_margin = 1e-9;
+
+/// Error of a sampled f_max, as a fraction of the extent h, from which on a reader deserves an explanation.
+inline constexpr double sampling_error = 1e-3;
+
 /// Angular step, in radians, at which a local direction search stops: moving by it changes S by about 1e-8 at most.
 inline constexpr double direction_step = 1e-8;
 

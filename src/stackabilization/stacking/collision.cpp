@@ -1,0 +1,394 @@
+#include "stackabilization/stacking/collision.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <tbb/parallel_for.h>
+
+#include <array>
+#include <atomic>
+#include <iterator>
+#include <vector>
+
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/stacking/closed_surface.h"
+#include "stackabilization/stacking/exact_number.h"
+
+namespace stackabilization {
+
+namespace {
+
+using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel;
+using TriangleIterator = std::vector<Filtered::Triangle_3>::const_iterator;
+using Tree =
+    CGAL::AABB_tree<CGAL::AABB_traits<Filtered, CGAL::AABB_triangle_primitive<Filtered, TriangleIterator>>>;
+
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+using Point = Exact::Point_3;
+using Vector = Exact::Vector_3;
+using Number = Exact::FT;
+using Corners = std::array<Point, 3>;
+
+/// A shape at its place: exact coordinates of all vertices.
+struct Placed {
+  const Shape& shape;
+  const ClosedSurface& surface;
+  std::vector<Point> points;
+
+  const Point& vertex(std::int32_t v) const { return points[static_cast<std::size_t>(v)]; }
+  Corners corners(std::int32_t t) const {
+    return {vertex(shape.triangles(t, 0)), vertex(shape.triangles(t, 1)), vertex(shape.triangles(t, 2))};
+  }
+};
+
+Vector normal_of(const Corners& t) {
+  return CGAL::cross_product(t[1] - t[0], t[2] - t[0]);
+}
+
+std::array<int, 3> sides(const Corners& plane, const Corners& points) {
+  std::array<int, 3> result;
+  for (std::size_t k = 0; k < 3; ++k) result[k] = CGAL::orientation(plane[0], plane[1], plane[2], points[k]);
+  return result;
+}
+
+bool on_both_sides(const std::array<int, 3>& side) {
+  return std::min({side[0], side[1], side[2]}) < 0 && std::max({side[0], side[1], side[2]}) > 0;
+}
+
+struct Interval {
+  Number low, high;
+};
+
+/// Where triangle t, with corners strictly on both sides of the plane of `plane`, crosses it: parameters
+/// along `line`.
+Interval crossing(const Corners& t, const Corners& plane, const Vector& line) {
+  const Vector normal = normal_of(plane);
+  std::array<Number, 3> distance, along;
+  for (std::size_t k = 0; k < 3; ++k) {
+    distance[k] = normal * (t[k] - plane[0]);
+    along[k] = line * (t[k] - CGAL::ORIGIN);
+  }
+  std::vector<Number> found;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    if (CGAL::is_zero(distance[k])) found.push_back(along[k]);
+    if (CGAL::sign(distance[k]) * CGAL::sign(distance[next]) < 0)
+      found.push_back((along[k] * distance[next] - along[next] * distance[k]) /
+                      (distance[next] - distance[k]));
+  }
+  return {std::min(found[0], found[1]), std::max(found[0], found[1])};
+}
+
+/// Do the relative interiors of two triangles in different planes share a segment?
+bool cross_properly(const Corners& a, const Corners& b) {
+  if (!on_both_sides(sides(a, b)) || !on_both_sides(sides(b, a))) return false;
+  const Vector line = CGAL::cross_product(normal_of(a), normal_of(b));
+  const Interval in_a = crossing(a, b, line), in_b = crossing(b, a, line);
+  return std::max(in_a.low, in_b.low) < std::min(in_a.high, in_b.high);
+}
+
+/// The two coordinate axes onto which a triangle projects without becoming flat, by its exact normal.
+class Projection {
+ public:
+  explicit Projection(const Corners& t) {
+    const Vector n = normal_of(t);
+    for (int k = 0; k < 3; ++k)
+      if (!CGAL::is_zero(n[k])) axis_ = k;
+  }
+
+  Exact::Point_2 operator()(const Point& p) const { return {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3]}; }
+
+ private:
+  int axis_ = 0;
+};
+
+using Polygon = std::vector<Exact::Point_2>;
+
+/// Does the line of some edge of `a` have all of `b` on its outer side or on itself?
+bool separated_by_edge(const Polygon& a, const Polygon& b) {
+  const CGAL::Orientation turn = CGAL::orientation(a[0], a[1], a[2]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    bool outside = true;
+    for (const Exact::Point_2& p : b)
+      if (CGAL::orientation(a[k], a[(k + 1) % 3], p) == turn) outside = false;
+    if (outside) return true;
+  }
+  return false;
+}
+
+Polygon project(const Corners& t, const Projection& projection) {
+  return {projection(t[0]), projection(t[1]), projection(t[2])};
+}
+
+/// Do two triangles in one plane share area?
+bool coplanar_overlap(const Corners& a, const Corners& b) {
+  const Projection projection(a);
+  const Polygon in_a = project(a, projection), in_b = project(b, projection);
+  return !separated_by_edge(in_a, in_b) && !separated_by_edge(in_b, in_a);
+}
+
+/// Does the segment from p to q, in the plane of t, run through the relative interior of t?
+bool runs_inside(const Corners& t, const Point& p, const Point& q) {
+  const Projection projection(t);
+  const Polygon triangle = project(t, projection);
+  const Polygon segment = {projection(p), projection(q)};
+  std::array<int, 3> side;
+  for (std::size_t k = 0; k < 3; ++k) side[k] = CGAL::orientation(segment[0], segment[1], triangle[k]);
+  return on_both_sides(side) && !separated_by_edge(triangle, segment);
+}
+
+/// Two neighbouring triangles of a solid meet in an edge that runs inside triangle t: does t enter the solid
+/// there? `solid_corners` is one of them, its edge from `corner` on lies in the plane of t.
+bool enters_at_edge(const Corners& t, const Corners& solid_corners, std::size_t corner,
+                    const Point& opposite) {
+  const Point &p = solid_corners[corner], &q = solid_corners[(corner + 1) % 3];
+  const int here = CGAL::orientation(t[0], t[1], t[2], solid_corners[(corner + 2) % 3]);
+  const int there = CGAL::orientation(t[0], t[1], t[2], opposite);
+  if (here * there > 0 || there == 0) return false;  // both faces on one side, or decided from the neighbour
+  if (!runs_inside(t, p, q)) return false;
+  if (here != 0) return true;
+  // The face here lies in the plane of t, facing the other way (else area is shared, which is tested before):
+  // the solid is on the side of t's normal, and t goes on into it when the surface turns to the other side.
+  return there < 0;
+}
+
+bool enters_at_edges(const Corners& t, const Placed& solid, std::int32_t solid_triangle) {
+  const Corners s = solid.corners(solid_triangle);
+  const std::array<int, 3> side = sides(t, s);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (side[k] == 0 && side[(k + 1) % 3] == 0 &&
+        enters_at_edge(t, s, k,
+                       solid.vertex(solid.surface.opposite[static_cast<std::size_t>(solid_triangle)][k])))
+      return true;
+  return false;
+}
+
+/// Is it certain, from these two touching triangles and their neighbours alone, that the interiors overlap?
+bool overlap_near(const Placed& a, std::int32_t in_a, const Placed& b, std::int32_t in_b) {
+  const Corners s = a.corners(in_a), t = b.corners(in_b);
+  if (sides(s, t) == std::array<int, 3>{0, 0, 0}) {
+    const bool same_way = CGAL::is_positive(normal_of(s) * normal_of(t));
+    if (same_way) return coplanar_overlap(s, t);
+  } else if (cross_properly(s, t)) {
+    return true;
+  }
+  return enters_at_edges(s, b, in_b) || enters_at_edges(t, a, in_a);
+}
+
+enum class Location { outside, inside, boundary, undecided };
+
+/// Crossing of the ray from p along a coordinate axis with triangle t: -1, 0, 1; or nothing when the ray
+/// meets the triangle's outline or p lies on the triangle.
+struct RayCrossing {
+  int winding = 0;
+  Location trouble = Location::outside;
+};
+
+RayCrossing ray_crossing(const Point& p, int axis, const Corners& t) {
+  const auto flat = [axis](const Point& q) { return Exact::Point_2(q[(axis + 1) % 3], q[(axis + 2) % 3]); };
+  const Exact::Point_2 a = flat(t[0]), b = flat(t[1]), c = flat(t[2]), q = flat(p);
+  const std::array<int, 3> side = {CGAL::orientation(a, b, q), CGAL::orientation(b, c, q),
+                                   CGAL::orientation(c, a, q)};
+  if (on_both_sides(side)) return {};
+  if (side[0] * side[1] * side[2] == 0) return {0, Location::undecided};
+  const int above_plane = CGAL::orientation(t[0], t[1], t[2], p);
+  if (above_plane == 0) return {0, Location::boundary};
+  // Seen against the ray the triangle turns counter-clockwise (side = 1): its normal goes along the ray, and
+  // the ray meets it when it starts behind it.
+  return above_plane * side[0] < 0 ? RayCrossing{side[0], Location::outside} : RayCrossing{};
+}
+
+bool ray_may_meet(const CGAL::Bbox_3& p, int axis, const CGAL::Bbox_3& box) {
+  for (int k = 0; k < 3; ++k)
+    if (p.min(k) > box.max(k) || (k != axis && p.max(k) < box.min(k))) return false;
+  return true;
+}
+
+Location locate_along(const Point& p, int axis, const Placed& solid) {
+  const CGAL::Bbox_3 at = p.bbox();
+  int winding = 0;
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(solid.shape.triangle_count()); ++t) {
+    const Corners corners = solid.corners(t);
+    if (!ray_may_meet(at, axis, corners[0].bbox() + corners[1].bbox() + corners[2].bbox())) continue;
+    const RayCrossing crossed = ray_crossing(p, axis, corners);
+    if (crossed.trouble != Location::outside) return crossed.trouble;
+    winding += crossed.winding;
+  }
+  return winding == 0 ? Location::outside : Location::inside;
+}
+
+/// Does some point of the relative interior of t, which the solid's surface does not cross, lie inside the
+/// solid?
+bool inside(const Corners& t, const Placed& solid) {
+  constexpr int attempts = 8;
+  for (int attempt = 0; attempt < attempts; ++attempt) {
+    // Weights without meaning, so that no axis-parallel ray meets an edge by design of the model.
+    const Number u = Number(271 + 13 * attempt) / 997, v = Number(389 - 17 * attempt) / 997;
+    const Point p = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Location location = locate_along(p, axis, solid);
+      if (location != Location::undecided) return location == Location::inside;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+struct CollisionTester::Data {
+  Shape below, above;
+  ClosedSurface below_surface, above_surface;
+  std::vector<Filtered::Triangle_3> below_triangles;  // those with area
+  std::vector<std::int32_t> below_rows, above_rows;   // rows of the triangles with area
+  Tree tree;
+
+  Data(const Shape& fixed, const Shape& lifted) : below(fixed), above(lifted) {
+    validate(below);
+    validate(above);
+    below_surface = closed_surface(below);
+    above_surface = closed_surface(above);
+    below_rows = rows_with_area(below, &below_triangles);
+    above_rows = rows_with_area(above, nullptr);
+    tree.insert(below_triangles.cbegin(), below_triangles.cend());
+    tree.build();
+  }
+
+  static std::vector<std::int32_t> rows_with_area(const Shape& shape,
+                                                  std::vector<Filtered::Triangle_3>* kept) {
+    std::vector<std::int32_t> rows;
+    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+      std::array<Filtered::Point_3, 3> p;
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d corner = shape.corner(t, k);
+        p[static_cast<std::size_t>(k)] = {corner.x(), corner.y(), corner.z()};
+      }
+      if (CGAL::collinear(p[0], p[1], p[2])) continue;
+      rows.push_back(static_cast<std::int32_t>(t));
+      if (kept) kept->emplace_back(p[0], p[1], p[2]);
+    }
+    return rows;
+  }
+
+  static Placed place(const Shape& shape, const ClosedSurface& surface, const Vector& translation) {
+    Placed placed{shape, surface, std::vector<Point>(static_cast<std::size_t>(shape.vertex_count()))};
+    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const Eigen::Vector3d p = shape.corner(t, k);
+        placed.points[static_cast<std::size_t>(shape.triangles(t, k))] =
+            Point(p.x(), p.y(), p.z()) + translation;
+      }
+    return placed;
+  }
+
+  /// Calls visit(triangle of below, triangle of above) for pairs that touch until one call returns true; any
+  /// order, in parallel. Tells whether one did.
+  template <class Visitor>
+  bool any_touching_pair(const Placed& fixed, const Placed& lifted, const Visitor& visit) const {
+    std::atomic<bool> found = false;
+    tbb::parallel_for(std::size_t{0}, above_rows.size(), [&](std::size_t k) {
+      if (found) return;
+      const std::int32_t in_above = above_rows[k];
+      const Corners t = lifted.corners(in_above);
+      std::vector<Tree::Primitive_id> candidates;
+      tree.all_intersected_primitives(t[0].bbox() + t[1].bbox() + t[2].bbox(),
+                                      std::back_inserter(candidates));
+      for (const Tree::Primitive_id candidate : candidates) {
+        const std::int32_t in_below =
+            below_rows[static_cast<std::size_t>(candidate - below_triangles.cbegin())];
+        const Corners s = fixed.corners(in_below);
+        if (!CGAL::do_intersect(Exact::Triangle_3(s[0], s[1], s[2]), Exact::Triangle_3(t[0], t[1], t[2])))
+          continue;
+        if (found || visit(in_below, in_above)) {
+          found = true;
+          return;
+        }
+      }
+    });
+    return found;
+  }
+};
+
+namespace {
+
+Vector translation_by(const Direction& direction, const Rational& lift) {
+  const Number t(to_exact<Exact::Exact_kernel::FT>(lift));
+  const Eigen::Vector3d& r = direction.vector();
+  return {t * r.x(), t * r.y(), t * r.z()};
+}
+
+/// Is some triangle among `candidates` inside the solid?
+bool any_inside(const Placed& shape, const std::vector<std::int32_t>& candidates, const Placed& solid) {
+  std::atomic<bool> found = false;
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t k) {
+    if (!found && inside(shape.corners(candidates[k]), solid)) found = true;
+  });
+  return found;
+}
+
+}  // namespace
+
+CollisionTester::CollisionTester(const Shape& below, const Shape& above)
+    : data_(std::make_unique<const Data>(below, above)) {}
+CollisionTester::CollisionTester(CollisionTester&&) noexcept = default;
+CollisionTester& CollisionTester::operator=(CollisionTester&&) noexcept = default;
+CollisionTester::~CollisionTester() = default;
+
+bool CollisionTester::solids() const {
+  return data_->below_surface.closed && data_->above_surface.closed;
+}
+
+const Shape& CollisionTester::below() const {
+  return data_->below;
+}
+
+const Shape& CollisionTester::above() const {
+  return data_->above;
+}
+
+bool CollisionTester::closed_contact(const Direction& direction, const Rational& lift) const {
+  const Placed fixed = Data::place(data_->below, data_->below_surface, CGAL::NULL_VECTOR);
+  const Placed lifted = Data::place(data_->above, data_->above_surface, translation_by(direction, lift));
+  return data_->any_touching_pair(fixed, lifted, [](std::int32_t, std::int32_t) { return true; });
+}
+
+bool CollisionTester::interiors_overlap(const Direction& direction, const Rational& lift) const {
+  if (!solids())
+    throw InputError("the interiors of an open or non-manifold shape cannot be tested for overlap");
+  const Placed fixed = Data::place(data_->below, data_->below_surface, CGAL::NULL_VECTOR);
+  const Placed lifted = Data::place(data_->above, data_->above_surface, translation_by(direction, lift));
+
+  std::vector<std::atomic<bool>> below_touched(static_cast<std::size_t>(data_->below.triangle_count()));
+  std::vector<std::atomic<bool>> above_touched(static_cast<std::size_t>(data_->above.triangle_count()));
+  const bool certain =
+      data_->any_touching_pair(fixed, lifted, [&](std::int32_t in_below, std::int32_t in_above) {
+        below_touched[static_cast<std::size_t>(in_below)] = true;
+        above_touched[static_cast<std::size_t>(in_above)] = true;
+        return overlap_near(fixed, in_below, lifted, in_above);
+      });
+  if (certain) return true;
+
+  // No triangle is crossed, so each lies entirely on one side of the other surface, and so do neighbours that
+  // do not touch it: what touches it and one triangle of every component are enough to look at.
+  const auto candidates = [](const ClosedSurface& surface, const std::vector<std::atomic<bool>>& touched) {
+    std::vector<std::int32_t> rows = surface.representatives;
+    for (std::size_t t = 0; t < touched.size(); ++t)
+      if (touched[t]) rows.push_back(static_cast<std::int32_t>(t));
+    return rows;
+  };
+  return any_inside(lifted, candidates(data_->above_surface, above_touched), fixed) ||
+         any_inside(fixed, candidates(data_->below_surface, below_touched), lifted);
+}
+
+bool closed_contact(const Shape& below, const Shape& above, const Direction& direction,
+                    const Rational& lift) {
+  return CollisionTester(below, above).closed_contact(direction, lift);
+}
+
+bool interiors_overlap(const Shape& below, const Shape& above, const Direction& direction,
+                       const Rational& lift) {
+  return CollisionTester(below, above).interiors_overlap(direction, lift);
+}
+
+}  // namespace stackabilization

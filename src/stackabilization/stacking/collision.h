@@ -1,0 +1,87 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "stackabilization/envelope/separation.h"
+#include "stackabilization/shape/direction.h"
+#include "stackabilization/shape/rational.h"
+#include "stackabilization/shape/shape.h"
+#include "stackabilization/shape/tolerances.h"
+
+namespace stackabilization {
+
+/// Collision tests between a fixed shape and a lifted one, exact for the coordinates as given and any
+/// rational lift: the lifted coordinates p + t r are never rounded. Triangle-triangle tests, sharing nothing
+/// with the separation code (CGAL AABB tree for the candidates, CGAL predicates over rationals for the
+/// decisions).
+///
+/// Triangles without area are passed over: only triangles with area touch or cross.
+///
+/// Built once per pair, queried for any number of directions and lifts, also by several threads at a time. A
+/// query runs in parallel and is deterministic.
+class CollisionTester {
+ public:
+  /// Throws InputError unless `validate` passes for both.
+  CollisionTester(const Shape& below, const Shape& above);
+  CollisionTester(CollisionTester&&) noexcept;
+  CollisionTester& operator=(CollisionTester&&) noexcept;
+  ~CollisionTester();
+
+  const Shape& below() const;
+  const Shape& above() const;
+
+  /// Are both shapes closed surfaces: is every edge run through once in each direction? (Edges by the shape's
+  /// indices, else by equal coordinates, else by equal coordinates within each part.)
+  bool solids() const;
+
+  /// Do `below` and `above` + lift * r have a point in common?
+  bool closed_contact(const Direction& direction, const Rational& lift) const;
+
+  /// Do the interiors of `below` and `above` + lift * r have a point in common: is the regularised
+  /// intersection not empty? The interior of a shape is where its winding number is not zero; the answer is
+  /// exact when both shapes have no winding numbers of both signs (outward oriented shapes; parts may
+  /// overlap). Throws InputError unless `solids()`.
+  bool interiors_overlap(const Direction& direction, const Rational& lift) const;
+
+ private:
+  struct Data;
+  std::unique_ptr<const Data> data_;
+};
+
+/// `CollisionTester::closed_contact` for one use.
+bool closed_contact(const Shape& below, const Shape& above, const Direction& direction, const Rational& lift);
+
+/// `CollisionTester::interiors_overlap` for one use.
+bool interiors_overlap(const Shape& below, const Shape& above, const Direction& direction,
+                       const Rational& lift);
+
+struct BisectionOptions {
+  Semantics semantics =
+      Semantics::solid;  ///< `solid` tests interiors (closed shapes only), `closed` any contact
+  int steps = 64;        ///< lifts tried on the way down from the top, in [1, 1000000]
+  double relative_width =
+      tolerance::relative;  ///< width of the bracket at which to stop, relative to the way
+};
+
+/// A free lift and a colliding one below it, in units of r: every lift tried above `free` was free as well.
+struct CollisionBracket {
+  double free = 0;
+  double colliding = 0;
+  int tests = 0;  ///< collision tests made
+};
+
+/// Looks for sep(below, above, r) with collision tests only, in the direction that a copy comes from: starts
+/// where `above` is entirely over `below`, walks down in equal steps to the first collision and bisects the
+/// last step. Nothing when no step collides.
+///
+/// Collision is not monotone in the lift (hooks, wine glasses), so plain bisection finds some change from
+/// colliding to free; this search finds the uppermost one wider than a step. Collisions over less than a step
+/// can be missed: the bracket's `colliding` is a certain lower bound of the separation, its `free` is not an
+/// upper bound. A check, not a decision. Throws UsageError for impossible options, InputError as the tests
+/// do.
+std::optional<CollisionBracket> translation_by_bisection(const CollisionTester& tester,
+                                                         const Direction& direction,
+                                                         const BisectionOptions& options = {});
+
+}  // namespace stackabilization
