@@ -1,0 +1,238 @@
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "stackabilization/rendering/depth_raster.h"
+#include "stackabilization/rendering/envelope_sheet.h"
+#include "stackabilization/rendering/pictures.h"
+#include "stackabilization/rendering/plot_parts.h"
+#include "stackabilization/rendering/scene.h"
+
+namespace stackabilization {
+namespace {
+
+using detail::Elements;
+using detail::length_text;
+using detail::number_text;
+
+constexpr int gap_samples = 400;
+const Colour upper_copy = mix(palette::input, palette::white, 0.45);
+
+/// What all panels of the sheet share.
+struct Subject {
+  const Shape& shape;
+  const Stackability& measured;
+  const std::vector<ContactRegion>& contacts;
+  Direction direction;
+  HeightField field;
+  Eigen::Vector3d up;  ///< unit vector along r
+  double text_size;
+
+  /// Far enough off the surface to be seen, too little to be noticed.
+  Eigen::Vector3d mark_lift() const { return 0.004 * measured.extent * up; }
+};
+
+Shape moved(const Shape& shape, const Eigen::Vector3d& shift) {
+  return transformed(shape, Eigen::Matrix3d::Identity(), shift);
+}
+
+Elements picture_of(const Scene& scene, const View& view, const Rectangle& place) {
+  return {PlacedImage{place, render(scene, view), Sampling::smooth}};
+}
+
+ViewOptions view_of(const Rectangle& place) {
+  ViewOptions options;
+  options.width = static_cast<int>(place.width);
+  options.height = static_cast<int>(place.height);
+  return options;
+}
+
+Scene contact_scene(const Subject& s) {
+  Scene scene;
+  scene.add({s.shape, {palette::input}});
+  scene.add(contact_marks(s.contacts, EnvelopeSide::upper, s.mark_lift()));
+  scene.add(contact_marks(s.contacts, EnvelopeSide::lower, -s.mark_lift()));
+  return scene;
+}
+
+/// The lower envelope belongs to the copy above, so it floats over the upper envelope of the copy below; thin lines
+/// join the places that will touch.
+Scene envelope_scene(const Subject& s) {
+  double top = -std::numeric_limits<double>::infinity(), bottom = -top;
+  const HeightField& field = s.field;
+  for (Eigen::Index i = 0; i < field.upper.rows(); ++i)
+    for (Eigen::Index j = 0; j < field.upper.cols(); ++j)
+      if (field.covered(static_cast<int>(i), static_cast<int>(j))) {
+        top = std::max(top, field.upper(i, j));
+        bottom = std::min(bottom, field.lower(i, j));
+      }
+  // Wide shapes need more distance, because the view from above lays them over each other.
+  const double breadth = std::max(field.window.columns, field.window.rows) * field.window.pixel_size;
+  const Eigen::Vector3d lift = (top - bottom + 0.1 * s.measured.extent + 0.25 * breadth) * s.up;
+  Scene scene;
+  scene.add({envelope_sheet(s.shape, field, EnvelopeSide::upper), {palette::upper}, 1, Finish::smooth});
+  scene.add({moved(envelope_sheet(s.shape, field, EnvelopeSide::lower), lift), {palette::lower}, 1, Finish::smooth});
+  scene.add(contact_marks(s.contacts, EnvelopeSide::upper, s.mark_lift()));
+  scene.add(contact_marks(s.contacts, EnvelopeSide::lower, lift + s.mark_lift()));
+  SceneLines links{{}, palette::faint, 1};
+  constexpr std::size_t most_links = 8;
+  for (std::size_t k = 0; k < std::min(most_links, s.contacts.size()); ++k) {
+    if (s.contacts[k].type == ContactType::ring) continue;  // the centre of a ring is not on the surface
+    Points link(2, 3);
+    link.row(0) = s.contacts[k].upper_centre.transpose();
+    link.row(1) = (s.contacts[k].lower_centre + lift).transpose();
+    links.polylines.push_back(std::move(link));
+  }
+  if (!links.polylines.empty()) scene.add(std::move(links));
+  return scene;
+}
+
+/// Two copies from the side, with h at the left of the lower one and f_max at the right, from rim to rim.
+Elements stacked_panel(const Subject& s, const Rectangle& place) {
+  Scene scene;
+  scene.add({s.shape, {palette::input}});
+  scene.add({moved(s.shape, s.measured.f_max * s.up), {upper_copy}});
+  const double side_room = 3.2 * s.text_size;
+  const Rectangle inner{place.x + side_room, place.y, place.width - 2 * side_room, place.height};
+  ViewOptions options = view_of(inner);
+  options.elevation_degrees = 8;
+  const View view = fit_view(scene, s.direction, options);
+  Elements elements = picture_of(scene, view, inner);
+
+  double left = inner.width, right = 0, low = std::numeric_limits<double>::infinity(), high = -low;
+  Eigen::Vector2d axis_low, axis_high;
+  Eigen::Vector3d corner_low = s.field.frame.to_local(s.shape.corner(0, 0)), corner_high = corner_low;
+  for (Eigen::Index t = 0; t < s.shape.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d corner = s.shape.corner(t, k), local = s.field.frame.to_local(corner);
+      corner_low = corner_low.cwiseMin(local);
+      corner_high = corner_high.cwiseMax(local);
+      left = std::min(left, view.project(corner).x());
+      right = std::max(right, view.project(corner).x());
+    }
+  low = corner_low.z();
+  high = corner_high.z();
+  Eigen::Vector3d foot = (corner_low + corner_high) / 2;
+  const auto level = [&](double height) {
+    foot.z() = height;
+    return inner.y + view.project(s.field.frame.to_world(foot)).y();
+  };
+  const Unit unit = s.shape.unit;
+  for (const Elements& dimension :
+       {detail::vertical_dimension({inner.x + left - 0.8 * s.text_size, level(low), level(high),
+                                    "h = " + length_text(s.measured.extent, unit), Anchor::left},
+                                   s.text_size),
+        detail::vertical_dimension({inner.x + right + 0.8 * s.text_size, level(high), level(high + s.measured.f_max),
+                                    "f_max = " + length_text(s.measured.f_max, unit), Anchor::right},
+                                   s.text_size)})
+    elements.insert(elements.end(), dimension.begin(), dimension.end());
+  return elements;
+}
+
+struct Caption {
+  std::string heading, words;
+};
+
+Elements caption(const Caption& text, const Rectangle& place, double text_size) {
+  Elements elements{
+      Text{{place.x, place.y + text_size}, text.heading, 1.05 * text_size, palette::ink, Anchor::left, true}};
+  const Elements words =
+      detail::paragraph({{place.x, place.y + 2.4 * text_size}, text.words, 0.85 * text_size, palette::faint},
+                        place.width);
+  elements.insert(elements.end(), words.begin(), words.end());
+  return elements;
+}
+
+std::string contact_summary(const std::vector<ContactRegion>& contacts) {
+  std::array<int, 3> count{};
+  for (const ContactRegion& region : contacts) ++count[static_cast<std::size_t>(region.type)];
+  std::string text;
+  constexpr std::array<const char*, 3> names{"dot", "line", "ring"};
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (count[k] == 0) continue;
+    if (!text.empty()) text += ", ";
+    text += std::to_string(count[k]) + " " + names[k] + (count[k] > 1 ? "s" : "");
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string volume_text(double value, Unit unit) {
+  return unit == Unit::unknown ? number_text(value) : length_text(value, unit) + "³";
+}
+
+/// The numbers, one row each: what it is, and its value.
+Elements number_table(const Subject& s, const Rectangle& place) {
+  const Stackability& m = s.measured;
+  const Unit unit = s.shape.unit;
+  const std::vector<std::array<std::string, 2>> rows{
+      {"stacking direction r", detail::vector_text(m.direction)},
+      {"height h along r", length_text(m.extent, unit)},
+      {"minimal lift f_max between two copies",
+       length_text(m.f_max, unit) + "  =  " + number_text(100 * m.f_max / m.extent, 3) + " % of h"},
+      {"box volume V(M)", volume_text(m.box_volume, unit)},
+      {"box volume along r, V(M,r)", volume_text(m.stack_box_volume, unit)},
+      {"contact regions", contact_summary(s.contacts)}};
+  const double line = 1.75 * s.text_size;
+  double y = place.y + 1.5 * s.text_size;
+  Elements elements{Text{{place.x, y}, "Stackability  S = " + number_text(m.value), 1.6 * s.text_size, palette::ink,
+                         Anchor::left, true}};
+  y += 1.5 * s.text_size;
+  elements.emplace_back(Text{{place.x, y},
+                             "S = 1 - (f_max / h) V(M,r) / V(M): the part of its box that each further copy saves",
+                             0.85 * s.text_size,
+                             palette::faint});
+  y += 0.7 * s.text_size;
+  for (const auto& [name, value] : rows) {
+    y += line;
+    elements.emplace_back(Text{{place.x, y}, name, s.text_size});
+    elements.emplace_back(Text{{place.x + 0.52 * place.width, y}, value, s.text_size, palette::ink, Anchor::left, true});
+    elements.emplace_back(Polyline{detail::segment(place.x, y + 0.45 * s.text_size, place.right(), y + 0.45 * s.text_size),
+                                   mix(palette::faint, palette::white, 0.7), 1});
+  }
+  return elements;
+}
+
+}  // namespace
+
+Drawing measure_picture(const Shape& shape, const Stackability& measured, const std::vector<ContactRegion>& contacts,
+                        const PictureOptions& options) {
+  const Direction direction(measured.direction);
+  const double size = options.width / 68.0, margin = 1.5 * size;
+  const Subject subject{shape,
+                        measured,
+                        contacts,
+                        direction,
+                        height_field_by_depth_buffer(shape, direction, window_around(shape, direction, gap_samples)),
+                        direction.unit(),
+                        size};
+  Drawing drawing{options.width, options.height, {}};
+  const std::string title = options.title.empty() ? "How one shape stacks" : options.title;
+  drawing.add(Text{{margin, 2.4 * size}, title, 1.6 * size, palette::ink, Anchor::left, true});
+
+  const double top = 3.6 * size, column = (options.width - 4 * margin) / 3, words = 5.2 * size;
+  const double upper_height = 0.6 * (options.height - top - 2 * words - margin);
+  const auto panel = [&](int k) { return Rectangle{margin + k * (column + margin), top, column, upper_height}; };
+  const auto below = [&](const Rectangle& place) {
+    return Rectangle{place.x, place.bottom() + 0.4 * size, place.width, words};
+  };
+  const Scene touching = contact_scene(subject), apart = envelope_scene(subject);
+  drawing.add(picture_of(touching, fit_view(touching, direction, view_of(panel(0))), panel(0)));
+  drawing.add(caption({"1  The shape", "Red: where two stacked copies touch or nearly touch."}, below(panel(0)), size));
+  drawing.add(picture_of(apart, fit_view(apart, direction, view_of(panel(1))), panel(1)));
+  drawing.add(caption({"2  Its envelopes, pulled apart",
+                       "Blue: all that is seen from above, u. Orange: all that is seen from below, l, of the next copy."},
+                      below(panel(1)), size));
+  drawing.add(stacked_panel(subject, panel(2)));
+  drawing.add(caption({"3  Two copies stacked", "The second copy comes to rest f_max higher than the first."},
+                      below(panel(2)), size));
+
+  const double row = top + upper_height + words + 0.5 * margin;
+  const Rectangle gap{margin, row, column, options.height - row - words};
+  drawing.add(detail::gap_panel(gap, subject.field, 0.85 * size));
+  drawing.add(caption({"4  The gap f = u - l, seen along r", "Its largest value (ring) is what keeps the copies apart."},
+                      below(gap), size));
+  drawing.add(number_table(subject, {2 * margin + column, row, 2 * column + margin, options.height - row - margin}));
+  return drawing;
+}
+
+}  // namespace stackabilization

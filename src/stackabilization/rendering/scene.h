@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "stackabilization/envelope/contacts.h"
+#include "stackabilization/rendering/colour.h"
+#include "stackabilization/rendering/image.h"
+#include "stackabilization/shape/direction.h"
+#include "stackabilization/shape/shape.h"
+
+namespace stackabilization {
+
+/// How the surface of a mesh is shown.
+enum class Finish {
+  shaded,  ///< lit, with creases and borders drawn as thin lines
+  smooth,  ///< lit, no lines
+  plain,   ///< one flat colour, no lines: marks such as contact regions
+};
+
+/// A shape in a scene, in its own model coordinates.
+struct SceneMesh {
+  Shape shape;
+  std::vector<Colour> colours;  ///< one for all, or one per part
+  double opacity = 1;           ///< in (0, 1]
+  Finish finish = Finish::shaded;
+};
+
+/// Polylines of one colour and width.
+struct SceneLines {
+  std::vector<Points> polylines;
+  Colour colour = palette::ink;
+  double width = 1.5;  ///< pixels of the final picture
+};
+
+/// What a 3D picture shows. Light, ground and framing are fixed; content and colours are the caller's.
+struct Scene {
+  std::vector<SceneMesh> meshes;
+  std::vector<SceneLines> lines;
+
+  void add(SceneMesh mesh) { meshes.push_back(std::move(mesh)); }
+  void add(SceneLines item) { lines.push_back(std::move(item)); }
+  void add(const Scene& other);
+};
+
+/// Orthographic view of a scene, for one picture size.
+struct View {
+  Eigen::Vector3d right, up, towards;  ///< orthonormal; `towards` points at the viewer
+  Eigen::Vector3d centre;              ///< shown in the middle of the picture
+  double pixels_per_unit = 1;
+  int width = 0, height = 0;  ///< pixels
+
+  /// Where a point appears, pixels, y down.
+  Eigen::Vector2d project(const Eigen::Vector3d& point) const;
+};
+
+/// Where the viewer stands, about a direction r that points up in the picture.
+struct ViewOptions {
+  double azimuth_degrees = 35;    ///< turned about r from the frame's -v axis towards +u
+  double elevation_degrees = 25;  ///< above the plane orthogonal to r; 0 is a side view
+  double margin = 0.04;           ///< free border, fraction of the smaller side
+  int width = 800, height = 600;  ///< pixels
+};
+
+/// The view that shows the whole scene as large as fits. Deterministic. Throws UsageError when the scene is empty.
+View fit_view(const Scene& scene, const Direction& up, const ViewOptions& options = {});
+
+/// The same eye for any content: rotation only, so that pictures side by side can share one scale.
+View turned_view(const Direction& up, const ViewOptions& options = {});
+
+/// Which side of a copy a contact region is shown on.
+enum class EnvelopeSide { upper, lower };
+
+/// Contact regions as red marks, moved by `shift` (model units) so that they do not sink into the surface. Pieces
+/// without area show as lines or dots of visible size.
+Scene contact_marks(const std::vector<ContactRegion>& regions, EnvelopeSide side, const Eigen::Vector3d& shift);
+
+/// Pixels of a scene, twice the size of the view (`factor` 2) for smooth edges when it is scaled down. Soft light with
+/// ambient occlusion on white ground; needs no display. Throws RenderError when there is no OpenGL context.
+Image render(const Scene& scene, const View& view, int factor = 2);
+
+}  // namespace stackabilization
