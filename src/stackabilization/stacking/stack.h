@@ -18,8 +18,8 @@ struct StackOptions {
   Semantics semantics = Semantics::solid;
   BoxModel boxes = BoxModel::oriented;
   double twist_degrees = 0;  ///< turn about r from each copy to the next, right-handed
-  std::optional<Eigen::Vector3d>
-      axis_point;  ///< a point of the twist axis; default: the box's centre, see box_axis
+  /// A point of the twist axis, model units; default: the centre of the box, see box_axis.
+  std::optional<Eigen::Vector3d> axis_point;
   /// Poses repeated with period K, or as many as copies for a free choice; empty means K = 1, the shape as it
   /// is. At most 1000 different ones. T^k for every copy: powers(T, n).
   std::vector<RigidTransform> poses;
@@ -45,9 +45,8 @@ struct StackConflict {
 
 struct StackResult {
   std::vector<StackedCopy> copies;
-  double height = 0;  ///< extent of the stack along r, model units
-  double increment =
-      0;  ///< height added per further copy in the long run (nesting increment), see stack_copies
+  double height = 0;        ///< extent of the stack along r, model units
+  double increment = 0;     ///< nesting increment: height per further copy in the long run, model units
   double box_volume = 0;    ///< V(M)
   double stack_volume = 0;  ///< V_stack, the box of the union of all copies
   double stackability = 0;  ///< S(M, n) = 1 - V_stack / (n V(M)), Eq. 4
@@ -67,10 +66,11 @@ Line box_axis(const Shape& shape, const Direction& direction, BoxModel boxes);
 ///
 /// Offsets are exact for the shapes poses[j] M and turn((k - j) twist) o poses[k] M with coordinates rounded
 /// to double; sep is computed once for each different pair, once in all for pure translation. With play, sep
-/// is taken against the dilated shape (see separation_with_play). The increment is exact to rounding for up
-/// to 64 poses without twist (the largest mean over all chains of contacts), and for one pose with twist over
-/// all chains of at most n copies; else it is the mean over the last period (over all copies if none is
-/// complete).
+/// is taken against the dilated shape (see separation_with_play).
+///
+/// The increment is that of the endlessly repeated poses. It is exact to rounding for up to 64 poses without
+/// twist (largest mean over closed chains of contacts) and, over contacts of copies less than n apart, for one
+/// pose with twist; else it is the mean over the last period of the stack, over the stack if it has but one.
 ///
 /// Throws UsageError on options outside their ranges or transforms that are not rigid, InputError when
 /// `validate(shape)` fails or V(M) = 0.

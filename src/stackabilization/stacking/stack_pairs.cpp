@@ -80,29 +80,24 @@ RigidTransform StackPairs::transform(int pose, int copy) const {
 }
 
 const Demand& StackPairs::demand(int below, int above, int lag) {
-  const auto count = static_cast<std::uint64_t>(poses_->size());
-  const auto turns = static_cast<std::uint64_t>(twisted() ? lag : 0);
-  const std::uint64_t key =
-      (turns * count + static_cast<std::uint64_t>(below)) * count + static_cast<std::uint64_t>(above);
-  const auto [entry, added] = demands_.try_emplace(key);
-  if (!added) return entry->second;
-
   const double turn = turn_degrees(lag);
-  const Pose &lower = (*poses_)[static_cast<std::size_t>(below)],
-             &upper = (*poses_)[static_cast<std::size_t>(above)];
+  const std::tuple key(turn, below, above);
+  if (const auto known = demands_.find(key); known != demands_.end()) return known->second;
+
+  const Pose& lower = (*poses_)[static_cast<std::size_t>(below)];
+  const Pose& upper = (*poses_)[static_cast<std::size_t>(above)];
   const SeparationTree& lower_tree = lower.dilated_tree ? *lower.dilated_tree : lower.tree;
-  const SeparationOptions options{.semantics = semantics_, .abandon_above = std::nullopt};
-  const Separation found =
-      turn == 0
-          ? separation(lower_tree, upper.tree, direction_, options)
-          : separation(lower_tree, SeparationTree(transformed(upper.shape, rotation_about(axis_, turn))),
-                       direction_, options);
+  std::optional<SeparationTree> turned;
+  if (turn != 0) turned.emplace(transformed(upper.shape, rotation_about(axis_, turn)));
+  const Separation found = separation(lower_tree, turned ? *turned : upper.tree, direction_,
+                                      {.semantics = semantics_, .abandon_above = std::nullopt});
+  Demand demand;
+  demand.blocked = found.blocked;
   if (found.blocked) {
-    Rational lift = found.value + Rational(clearance_);
-    const double approximate = lift.to_double();
-    entry->second = {true, std::move(lift), approximate};
+    demand.lift = found.value + Rational(clearance_);
+    demand.approximate = demand.lift.to_double();
   }
-  return entry->second;
+  return demands_.emplace(key, std::move(demand)).first->second;
 }
 
 }  // namespace stackabilization

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
-#include <unordered_map>
+#include <tuple>
 #include <vector>
 
 #include "stackabilization/envelope/separation.h"
@@ -60,7 +60,7 @@ class StackPairs {
   Line axis_;
   std::shared_ptr<const std::vector<Pose>> poses_;
   std::vector<int> sequence_;
-  std::unordered_map<std::uint64_t, Demand> demands_;
+  std::map<std::tuple<double, int, int>, Demand> demands_;  ///< by turn between the copies and their poses
 };
 
 }  // namespace stackabilization
