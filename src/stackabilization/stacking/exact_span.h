@@ -1,0 +1,18 @@
+#pragma once
+
+#include "stackabilization/shape/direction.h"
+#include "stackabilization/shape/rational.h"
+#include "stackabilization/shape/shape.h"
+
+namespace stackabilization {
+
+/// Exact span of a shape along r, in units of r, with nearest doubles.
+struct Span {
+  Rational bottom, top;
+  double approximate_bottom = 0, approximate_top = 0;
+};
+
+/// Least and largest p . r / r . r over the points of the triangles. Precondition: `validate(shape)` passes.
+Span exact_span(const Shape& shape, const Direction& direction);
+
+}  // namespace stackabilization

@@ -1,0 +1,48 @@
+#include "stackabilization/stacking/stack_boxes.h"
+
+#include "stackabilization/shape/errors.h"
+
+namespace stackabilization {
+
+StackBoxes::StackBoxes(const Shape& shape, const Direction& direction, BoxModel model)
+    : hull_(shape), direction_(direction), model_(model) {
+  shape_volume_ = model == BoxModel::oriented ? minimal_oriented_box(hull_).volume()
+                                              : axis_aligned_box(hull_.points()).volume();
+  if (!(shape_volume_ > 0))
+    throw InputError("the box of the shape has no volume, so its stackability is undefined");
+}
+
+double StackBoxes::stack_volume(const Points& points) const {
+  return model_ == BoxModel::oriented ? minimal_oriented_box(HullSupport(points)).volume()
+                                      : box_along(points).volume();
+}
+
+OrientedBox StackBoxes::box_along(const Points& points) const {
+  return model_ == BoxModel::oriented ? HullSupport(points).box_along(direction_)
+                                      : frame_box(points, direction_);
+}
+
+StackResult build_stack(StackPairs& pairs, const std::vector<int>& sequence, int copies,
+                        const StackBoxes& boxes) {
+  const double unit = boxes.direction().length();
+  const Placement placed = place(pairs, sequence, copies, Reach::all);
+  const Placement neighbours = place(pairs, sequence, copies, Reach::neighbour);
+
+  StackResult stack;
+  for (int k = 0; k < copies; ++k) {
+    const auto copy = static_cast<std::size_t>(k);
+    stack.copies.push_back({pairs.transform(sequence[copy % sequence.size()], k), placed.lifts[copy],
+                            placed.approximate[copy] * unit, placed.rests_on[copy]});
+  }
+  stack.height = placed_height(pairs, sequence, placed) * unit;
+  stack.increment = long_run_increment(pairs, sequence, placed) * unit;
+  stack.box_volume = boxes.shape_volume();
+  stack.stack_volume = boxes.stack_volume(stack_hull_points(pairs, sequence, placed, boxes.hull()));
+  stack.stackability = 1 - stack.stack_volume / (copies * stack.box_volume);
+  stack.conflicts = find_conflicts(pairs, sequence, neighbours);
+  for (StackConflict& conflict : stack.conflicts) conflict.overlap *= unit;
+  stack.conflict_height = stack.height - placed_height(pairs, sequence, neighbours) * unit;
+  return stack;
+}
+
+}  // namespace stackabilization
