@@ -10,10 +10,11 @@ pkg_check_modules(minizip REQUIRED IMPORTED_TARGET minizip)
 find_package(nlohmann_json 3.9 REQUIRED)
 
 if(STACKABILIZATION_BUILD_RENDERING)
-  find_package(VTK 9.1 REQUIRED COMPONENTS
+  set(STACKABILIZATION_VTK_COMPONENTS
     ChartsCore CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources
     IOExport IOImage RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore
     RenderingFreeType RenderingOpenGL2 ViewsContext2D)
+  find_package(VTK 9.1 REQUIRED COMPONENTS ${STACKABILIZATION_VTK_COMPONENTS})
   find_package(OpenGL REQUIRED COMPONENTS EGL)
 endif()
 if(STACKABILIZATION_BUILD_APPS)

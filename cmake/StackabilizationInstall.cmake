@@ -1,6 +1,27 @@
+# Two export sets: the libraries, and the pictures with their VTK dependency (component `rendering`).
 include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Stackabilization)
+
 get_property(libraries GLOBAL PROPERTY STACKABILIZATION_LIBRARIES)
+set(rendering_libraries ${libraries})
+list(FILTER rendering_libraries INCLUDE REGEX "^stackabilization_rendering$")
+list(FILTER libraries EXCLUDE REGEX "^stackabilization_rendering$")
+
 install(TARGETS ${libraries} EXPORT StackabilizationTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY src/stackabilization DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-install(EXPORT StackabilizationTargets NAMESPACE stackabilization::
-  DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Stackabilization)
+install(EXPORT StackabilizationTargets NAMESPACE stackabilization:: DESTINATION ${package_dir})
+set(header_filter FILES_MATCHING PATTERN "*.h")
+if(rendering_libraries)
+  install(TARGETS ${rendering_libraries} EXPORT StackabilizationRenderingTargets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  install(EXPORT StackabilizationRenderingTargets NAMESPACE stackabilization:: DESTINATION ${package_dir})
+else()
+  list(APPEND header_filter PATTERN "rendering" EXCLUDE)
+endif()
+install(DIRECTORY src/stackabilization DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${header_filter})
+
+configure_package_config_file(cmake/StackabilizationConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/StackabilizationConfig.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/StackabilizationConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/StackabilizationConfig.cmake
+  ${PROJECT_BINARY_DIR}/StackabilizationConfigVersion.cmake DESTINATION ${package_dir})

@@ -10,6 +10,12 @@ function(stackabilization_library name)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  # Header-only packages are compiled in: consumers of the installed library neither need nor see them. What CGAL's
+  # numbers stand on is still linked.
+  if("CGAL::CGAL" IN_LIST ARG_PRIVATE)
+    list(APPEND ARG_PRIVATE gmpxx mpfr gmp)
+  endif()
+  list(TRANSFORM ARG_PRIVATE REPLACE "^(CGAL::.*|nlohmann_json::nlohmann_json)$" "$<BUILD_INTERFACE:\\1>")
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   stackabilization_options(${target})
   set_property(GLOBAL APPEND PROPERTY STACKABILIZATION_LIBRARIES ${target})

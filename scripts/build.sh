@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Configures the preset `release` and builds it, or only the targets given as arguments, into build/release.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+# As many compilers as cores, but no more than memory holds: sources with CGAL's Nef polyhedra take up to 3 GB each.
+available_gb=$(awk '/^MemAvailable/ {print int($2 / 1048576)}' /proc/meminfo)
+jobs=$(nproc)
+((jobs * 3 > available_gb)) && jobs=$((available_gb / 3))
+((jobs < 1)) && jobs=1
+
+options=()
+if command -v ccache >/dev/null; then
+  options+=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+fi
+cmake --preset release "${options[@]}"
+targets=()
+(($# > 0)) && targets=(--target "$@")
+cmake --build --preset release --parallel "$jobs" "${targets[@]}"

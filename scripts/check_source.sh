@@ -1,0 +1,54 @@
+#!/usr/bin/env bash
+# House rules that a compiler does not check. Prints each line that breaks one and exits with 1 if there is any.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+broken=0
+
+# report WHAT LINES: LINES are "file:line:text", empty when the rule holds.
+report() {
+  [[ -z $2 ]] && return
+  printf '%s:\n%s\n' "$1" "$2"
+  broken=1
+}
+
+# source_lines PATTERN GREP_OPTIONS...: lines of src/ that match outside // comments.
+source_lines() {
+  local pattern=$1
+  shift
+  grep -rnE "$@" -- "$pattern" src | grep -vE "^[^:]+:[0-9]+:[[:space:]]*//" |
+    grep -E "^[^:]+:[0-9]+:([^/]|/[^/])*($pattern)" || true
+}
+
+report "Epsilon literal outside shape/tolerances.h" \
+  "$(source_lines '[0-9.][eE]-[0-9]' --include=*.h --include=*.cpp --exclude=tolerances.h | grep -v tolerance || true)"
+# rational_number.h is the one door to GMP, for sources that compute with it.
+report "Header that shows a third-party library other than Eigen" \
+  "$(source_lines '#include [<"](CGAL|boost|vtk|tbb|gmp|mpfr|pugixml|minizip|unzip|zip\.h|tiny_gltf|nlohmann|GL/|EGL/)' \
+    --include=*.h --exclude=rational_number.h)"
+report "Output from the library" \
+  "$(source_lines '(std::(cout|cerr|clog)|[^a-z_]f?printf *\(|[^a-z_]puts *\()' --include=*.h --include=*.cpp)"
+report "Header without include guard" "$(grep -rLx '#pragma once' --include=*.h src || true)"
+
+# Rooms may include only these rooms.
+declare -A allowed=(
+  [shape]='shape'
+  [envelope]='shape|envelope'
+  [stacking]='shape|envelope|stacking'
+  [rendering]='shape|envelope|stacking|rendering'
+)
+for room in src/stackabilization/*/; do
+  name=$(basename "$room")
+  if [[ -z ${allowed[$name]:-} ]]; then
+    report "Room without a rule in scripts/check_source.sh" "$room"
+    continue
+  fi
+  report "Room $name reaches back" \
+    "$(grep -rnE '#include "' "$room" | grep -vE "#include \"stackabilization/(${allowed[$name]})/" || true)"
+done
+
+# Absolute paths of somebody's machine, in everything that is versioned.
+report "Absolute path" "$(git grep -nIE "(^|[^A-Za-z0-9_.\$}])/(home|root|work|tmp|mnt|Users)/" -- . \
+  ':!scripts/check_source.sh' 2>/dev/null || true)"
+
+exit "$broken"

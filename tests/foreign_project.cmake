@@ -1,0 +1,19 @@
+# Installs into the build folder, then configures, builds and runs tests/install/ against that, as a user would.
+set(prefix ${PROJECT_BINARY_DIR}/tests/install/prefix)
+add_test(NAME "install: into a prefix"
+  COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${prefix})
+set_tests_properties("install: into a prefix" PROPERTIES LABELS unit FIXTURES_SETUP installed)
+
+add_test(NAME "install: a foreign project builds and runs"
+  COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${PROJECT_SOURCE_DIR}/tests/install
+    ${PROJECT_BINARY_DIR}/tests/install/foreign
+    --build-generator ${CMAKE_GENERATOR} --build-makeprogram ${CMAKE_MAKE_PROGRAM} --build-project Foreign
+    --build-options -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
+      -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}
+    --test-command foreign)
+set_tests_properties("install: a foreign project builds and runs" PROPERTIES LABELS unit FIXTURES_REQUIRED installed
+  PASS_REGULAR_EXPRESSION "f_max = 2\n" TIMEOUT 600)
+
+add_test(NAME "sources: house rules"
+  COMMAND ${PROJECT_SOURCE_DIR}/scripts/check_source.sh)
+set_tests_properties("sources: house rules" PROPERTIES LABELS unit)
