@@ -1,0 +1,30 @@
+#pragma once
+
+#include <stdexcept>
+
+/// SIGINT and SIGTERM end the program at once, except while a file is being written (afterwards, so that
+/// nothing half written or temporary stays behind) and while a computation runs that can be asked to stop.
+namespace stackabilization::apps {
+
+/// The user stopped the program.
+class Interrupted : public std::runtime_error {
+ public:
+  Interrupted() : std::runtime_error("interrupted") {}
+};
+
+inline constexpr int status_interrupted = 130;  ///< as shells report it
+
+void install_interrupt_handler();
+
+/// While it lives a signal is remembered instead of ending the program; a second one ends it.
+class DeferredInterrupts {
+ public:
+  DeferredInterrupts();
+  ~DeferredInterrupts();
+  DeferredInterrupts(const DeferredInterrupts&) = delete;
+  DeferredInterrupts& operator=(const DeferredInterrupts&) = delete;
+
+  bool requested() const;
+};
+
+}  // namespace stackabilization::apps

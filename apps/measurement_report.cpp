@@ -1,0 +1,124 @@
+#include <cmath>
+
+#include "apps/measurement.h"
+#include "apps/text.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+/// Contact regions that a report names; the JSON has all.
+constexpr std::size_t listed_regions = 8;
+/// An error of at least this much of that at half the resolution does not shrink.
+constexpr double shrinks_below = 0.9;
+/// Errors below this fraction of the height are not worth a warning.
+constexpr double negligible_error = 1e-4;
+
+Json sampling_json(const Sampling& sampling) {
+  return {{"resolution", sampling.resolution},
+          {"columns", sampling.columns},
+          {"rows", sampling.rows},
+          {"pixel_size", sampling.pixel_size},
+          {"exact_f_max", sampling.exact_f_max},
+          {"error", sampling.error},
+          {"half_resolution_error", to_json(sampling.half_resolution_error)}};
+}
+
+Json exact_json(const Separation& separation) {
+  return to_json(separation.blocked ? separation.value : Rational());
+}
+
+void add_sampling_lines(TextTable& table, const Sampling& sampling, double height, Unit unit) {
+  table.add("Samples", std::to_string(sampling.columns) + " x " + std::to_string(sampling.rows),
+            "pixels of " + quantity(sampling.pixel_size, unit));
+  table.add("Error", quantity(sampling.error, unit),
+            "against the exact f_max of " + quantity(sampling.exact_f_max, unit) + "; " +
+                percent(sampling.error / height) + " of the height");
+  if (!sampling.half_resolution_error) return;
+  const bool stuck = std::abs(sampling.error) > negligible_error * height &&
+                     std::abs(sampling.error) >= shrinks_below * std::abs(*sampling.half_resolution_error);
+  table.add("", quantity(*sampling.half_resolution_error, unit),
+            stuck ? "at half the resolution: it does NOT shrink, thin parts slip between the samples"
+                  : "at half the resolution");
+}
+
+void add_contact_lines(TextTable& table, const Measurement& measurement, const Model& model) {
+  const std::vector<ContactRegion>& regions = measurement.contacts;
+  table.add("Contacts", counted(static_cast<long long>(regions.size()), "region"),
+            "where a copy rests on the one below");
+  const Json list = to_json(regions, model.shape.part_names);
+  for (std::size_t i = 0; i < std::min(regions.size(), listed_regions); ++i)
+    table.add("", list[i]["type"].get<std::string>() + ", " + quantity(regions[i].area, model.shape.unit, 2),
+              model.shape.part_names[regions[i].lower_part] + " on " +
+                  model.shape.part_names[regions[i].upper_part] + " at " +
+                  point_text(regions[i].upper_centre));
+  if (regions.size() > listed_regions) table.add("", "...", "all of them with --json");
+}
+
+}  // namespace
+
+std::string name_of(Method method) {
+  switch (method) {
+    case Method::exact:
+      return "exact";
+    case Method::rays:
+      return "rays";
+    case Method::raster:
+      return "raster";
+    case Method::gl_raster:
+      return "gl-raster";
+  }
+  return "";
+}
+
+std::string name_of(Semantics semantics) {
+  return semantics == Semantics::solid ? "solid" : "closed";
+}
+
+std::string name_of(BoxModel boxes) {
+  return boxes == BoxModel::oriented ? "oriented" : "frame";
+}
+
+void add_measurement(Json& document, const Measurement& measurement, const Model& model) {
+  const Stackability& values = measurement.values;
+  document["direction"] = to_json(values.direction);
+  document["method"] = name_of(measurement.method);
+  document["semantics"] = name_of(measurement.options.semantics);
+  document["boxes"] = name_of(measurement.options.boxes);
+  document["f_max"] = values.f_max;
+  document["height"] = values.extent;
+  document["f_max_over_height"] = values.f_max / values.extent;
+  document["stackability"] = values.value;
+  document["nesting_increment"] = values.f_max;
+  document["box_volume"] = values.box_volume;
+  document["stack_box_volume"] = values.stack_box_volume;
+  const std::optional<Separation>& separation = measurement.separation;
+  document["exact"] = separation ? exact_json(*separation) : Json(nullptr);
+  document["witness"] = separation && separation->blocked ? to_json(separation->witness) : Json(nullptr);
+  document["contacts"] = separation ? to_json(measurement.contacts, model.shape.part_names) : Json(nullptr);
+  if (measurement.sampling) document["sampling"] = sampling_json(*measurement.sampling);
+}
+
+std::string measurement_text(const Measurement& measurement, const Model& model) {
+  const Stackability& values = measurement.values;
+  const Unit unit = model.shape.unit;
+  const double share = values.f_max / values.extent;
+  TextTable table;
+  add_model_line(table, model);
+  table.add("Direction", vector_text(values.direction), "copies are lifted along it");
+  table.add("Height", quantity(values.extent, unit), "of one copy along the direction");
+  table.add("f_max", quantity(values.f_max, unit),
+            "smallest lift that sets a copy free, " + percent(share) + " of the height (" +
+                name_of(measurement.method) + ", " + name_of(measurement.options.semantics) + ")");
+  table.add("Boxes", quantity(values.box_volume, unit, 3),
+            "of one copy, and " + quantity(values.stack_box_volume, unit, 3) +
+                " with a side along the direction (" + name_of(measurement.options.boxes) + ")");
+  table.add("Stackability", rounded(values.value), "space saved in a tall stack: 1 is all of it, 0 none");
+  if (measurement.sampling) add_sampling_lines(table, *measurement.sampling, values.extent, unit);
+  if (measurement.separation) add_contact_lines(table, measurement, model);
+  return table.text() + "Each further copy adds " + quantity(values.f_max, unit) +
+         (unit == Unit::unknown ? " (model units)" : "") + " to the stack: " + percent(share) +
+         " of the height.\n";
+}
+
+}  // namespace stackabilization::apps

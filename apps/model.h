@@ -1,0 +1,43 @@
+#pragma once
+
+#include <chrono>
+
+#include "apps/common_options.h"
+#include "apps/json.h"
+#include "apps/text.h"
+#include "stackabilization/shape/inspect.h"
+#include "stackabilization/shape/shape.h"
+
+namespace stackabilization::apps {
+
+/// Wall clock since its construction.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+/// A mesh file read, and looked over.
+struct Model {
+  std::string name;  ///< as on the command line
+  Shape shape;
+  Findings findings;
+};
+
+/// Reads MODEL as `common` says. Throws InputError.
+Model load_model(const CommonOptions& common, const InspectOptions& options = {});
+
+/// {command, version, model, unit}: how every JSON document begins.
+Json document_head(const CLI::App& command, const Model& model);
+
+/// {findings, seconds}: how it ends.
+void add_document_tail(Json& document, const CommonOptions& common, const Model& model,
+                       const Stopwatch& watch);
+
+/// First line of every report.
+void add_model_line(TextTable& table, const Model& model);
+
+}  // namespace stackabilization::apps

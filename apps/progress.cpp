@@ -1,0 +1,33 @@
+#include "apps/progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <iostream>
+
+namespace stackabilization::apps {
+
+namespace {
+
+constexpr int bar_width = 40;  ///< characters
+
+}  // namespace
+
+ProgressBar::ProgressBar(std::string label)
+    : label_(std::move(label)), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+ProgressBar::~ProgressBar() {
+  if (shown_percent_ >= 0)
+    std::cerr << '\r' << std::string(label_.size() + bar_width + 8, ' ') << '\r' << std::flush;
+}
+
+void ProgressBar::show(double fraction) {
+  const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
+  if (!terminal_ || percent == shown_percent_) return;
+  shown_percent_ = percent;
+  const int filled = bar_width * percent / 100;
+  std::cerr << '\r' << label_ << " [" << std::string(filled, '=') << std::string(bar_width - filled, ' ')
+            << "] " << percent << '%' << std::flush;
+}
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/measurement.h"
+#include "stackabilization/envelope/height_field.h"
+#include "stackabilization/stacking/map.h"
+#include "stackabilization/stacking/validation.h"
+
+/// What needs the rendering room. In a program built without it every function throws UsageError unless it
+/// says otherwise.
+namespace stackabilization::apps {
+
+/// Call it before a long computation whose result is to be drawn.
+void require_rendering();
+
+/// Height field of the OpenGL depth buffer.
+HeightField depth_buffer_field(const Shape& shape, const Direction& direction, const Window& window);
+
+inline constexpr const char* depth_buffer_name = "OpenGL raster";
+
+/// The depth buffer as one of the checks of `validate`; without an OpenGL context, or without rendering, the
+/// reason.
+struct DepthBufferMaker {
+  std::optional<HeightFieldMaker> maker;
+  std::string reason;
+};
+DepthBufferMaker depth_buffer_maker(const Shape& shape);
+
+/// A picture file and its heading.
+struct PictureFile {
+  std::string path;  ///< .png or .svg
+  std::string title;
+};
+
+void write_measurement_picture(const PictureFile& file, const Shape& shape, const Measurement& measurement);
+void write_map_picture(const PictureFile& file, const StackabilityMap& map);
+/// Copies in their places, bottom first; `notes` are lines below the heading.
+struct PlacedCopies {
+  std::vector<Shape> copies;
+  Direction direction{0, 0, 1};
+  std::vector<std::string> notes;
+};
+void write_stack_picture(const PictureFile& file, const PlacedCopies& stack);
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,40 @@
+#include "apps/rendering.h"
+#include "stackabilization/shape/errors.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+[[noreturn]] void refuse() {
+  throw UsageError(
+      "this program was built without rendering, so there is no --picture and no --method gl-raster "
+      "(build with STACKABILIZATION_BUILD_RENDERING=ON)");
+}
+
+}  // namespace
+
+void require_rendering() {
+  refuse();
+}
+
+HeightField depth_buffer_field(const Shape&, const Direction&, const Window&) {
+  refuse();
+}
+
+DepthBufferMaker depth_buffer_maker(const Shape&) {
+  return {std::nullopt, "built without rendering"};
+}
+
+void write_measurement_picture(const PictureFile&, const Shape&, const Measurement&) {
+  refuse();
+}
+
+void write_map_picture(const PictureFile&, const StackabilityMap&) {
+  refuse();
+}
+
+void write_stack_picture(const PictureFile&, const PlacedCopies&) {
+  refuse();
+}
+
+}  // namespace stackabilization::apps

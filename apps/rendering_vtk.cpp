@@ -1,0 +1,61 @@
+#include <memory>
+
+#include "apps/interrupt.h"
+#include "apps/rendering.h"
+#include "stackabilization/rendering/depth_raster.h"
+#include "stackabilization/rendering/pictures.h"
+#include "stackabilization/shape/errors.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+/// Of heights, as a fraction of the extent: 24 bits of depth, and single precision across steep triangles.
+constexpr double depth_buffer_precision = 1e-5;
+
+void write(const PictureFile& file, const Drawing& drawing) {
+  const DeferredInterrupts until_written;
+  write_drawing(file.path, drawing);
+  if (until_written.requested()) throw Interrupted();
+}
+
+}  // namespace
+
+void require_rendering() {}
+
+HeightField depth_buffer_field(const Shape& shape, const Direction& direction, const Window& window) {
+  return height_field_by_depth_buffer(shape, direction, window);
+}
+
+DepthBufferMaker depth_buffer_maker(const Shape& shape) {
+  try {
+    const auto rasterizer = std::make_shared<DepthRasterizer>(shape);
+    const auto make = [rasterizer](const Shape&, const Direction& direction, const Window& window) {
+      return rasterizer->height_field(direction, window);
+    };
+    return {HeightFieldMaker{depth_buffer_name, make, depth_buffer_precision}, {}};
+  } catch (const RenderError& error) {
+    return {std::nullopt, error.what()};
+  }
+}
+
+void write_measurement_picture(const PictureFile& file, const Shape& shape, const Measurement& measurement) {
+  PictureOptions options;
+  options.title = file.title;
+  write(file, measure_picture(shape, measurement.values, measurement.contacts, options));
+}
+
+void write_map_picture(const PictureFile& file, const StackabilityMap& map) {
+  MapPictureOptions options;
+  options.title = file.title;
+  write(file, map_picture(map, options));
+}
+
+void write_stack_picture(const PictureFile& file, const PlacedCopies& stack) {
+  StackPictureOptions options;
+  options.title = file.title;
+  options.notes = stack.notes;
+  write(file, stack_picture(stack.copies, stack.direction, options));
+}
+
+}  // namespace stackabilization::apps

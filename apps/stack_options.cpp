@@ -1,0 +1,60 @@
+#include "apps/stack_options.h"
+
+#include "apps/output.h"
+#include "apps/rendering.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+constexpr int most_drawn_copies = 200;
+
+void refuse(bool given, const char* option, const char* reason) {
+  if (given) throw UsageError(std::string(option) + " " + reason);
+}
+
+double length_in(const char* option, const std::optional<Length>& length, Unit unit) {
+  if (!length) return 0;
+  if (length->value < 0)
+    throw UsageError(std::string(option) + " expects a length that is not negative, found " + length->text);
+  return length->in(unit);
+}
+
+}  // namespace
+
+void check(const StackCommandOptions& options) {
+  check_outputs(options.common, {{"--output", options.output, OutputKind::mesh},
+                                 {"--picture", options.picture, OutputKind::picture}});
+  if (options.picture) require_rendering();
+  refuse(options.picture && options.copy_count() > most_drawn_copies, "--picture",
+         "draws at most 200 copies");
+  refuse(options.best_twist && options.period, "--twist-degrees auto", "cannot be combined with --period");
+  refuse(options.within && options.within->value <= 0, "--within", "expects a length above 0");
+  if (!options.into) return;
+  const char* const reason = "makes no sense with --into, which puts one MODEL into one container";
+  refuse(options.copies.has_value(), "-n", reason);
+  refuse(options.twist_degrees || options.best_twist, "--twist-degrees", reason);
+  refuse(options.period.has_value(), "--period", reason);
+  refuse(options.within.has_value(), "--within", reason);
+  refuse(options.common.model == "-" && *options.into == "-", "--into",
+         "and MODEL cannot both be standard input");
+}
+
+Play play_of(const StackCommandOptions& options, Unit unit) {
+  return {length_in("--clearance", options.clearance, unit),
+          length_in("--lateral-clearance", options.lateral_clearance, unit)};
+}
+
+StackOptions stack_options(const StackCommandOptions& options, Unit unit) {
+  const Play play = play_of(options, unit);
+  StackOptions stack;
+  stack.copies = options.copy_count();
+  stack.semantics = options.stackability.semantics;
+  stack.boxes = options.stackability.boxes;
+  stack.twist_degrees = options.twist_degrees.value_or(0);
+  stack.clearance = play.clearance;
+  stack.play = play.lateral;
+  return stack;
+}
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,77 @@
+#include "apps/text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace stackabilization::apps {
+
+namespace {
+
+constexpr int readable_digits = 5;
+constexpr std::size_t widest_value = 28;  ///< longer values push their explanation to the right alone
+
+std::string chars(double value, std::chars_format format, int precision) {
+  char buffer[64];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value + 0.0, format, precision);
+  return {buffer, end};
+}
+
+std::string padded(const std::string& text, std::size_t width) {
+  return text + std::string(text.size() < width ? width - text.size() : 0, ' ');
+}
+
+}  // namespace
+
+std::string rounded(double value) {
+  return chars(value, std::chars_format::general, readable_digits);
+}
+
+std::string exact_digits(double value) {
+  char buffer[64];
+  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value + 0.0);
+  return {buffer, end};
+}
+
+std::string quantity(double value, Unit unit, int power) {
+  const std::string symbol = unit_symbol(unit);
+  if (symbol.empty()) return rounded(value);
+  return rounded(value) + " " + symbol + (power == 1 ? "" : "^" + std::to_string(power));
+}
+
+std::string percent(double fraction) {
+  return chars(100 * fraction, std::chars_format::fixed, 1) + " %";
+}
+
+std::string vector_text(const Eigen::Vector3d& vector) {
+  return exact_digits(vector.x()) + " " + exact_digits(vector.y()) + " " + exact_digits(vector.z());
+}
+
+std::string point_text(const Eigen::Vector3d& point) {
+  return "(" + rounded(point.x()) + ", " + rounded(point.y()) + ", " + rounded(point.z()) + ")";
+}
+
+std::string counted(long long count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+void TextTable::add(std::string label, std::string value, std::string explanation) {
+  rows_.push_back({std::move(label), std::move(value), std::move(explanation)});
+}
+
+std::string TextTable::text() const {
+  std::size_t labels = 0, values = 0;
+  for (const Row& row : rows_) {
+    labels = std::max(labels, row.label.size());
+    if (!row.explanation.empty()) values = std::max(values, std::min(row.value.size(), widest_value));
+  }
+  std::string lines;
+  for (const Row& row : rows_) {
+    lines += padded(row.label, labels) + "  ";
+    lines += row.explanation.empty() ? row.value : padded(row.value, values) + "  " + row.explanation;
+    lines += '\n';
+  }
+  return lines;
+}
+
+}  // namespace stackabilization::apps

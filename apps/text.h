@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "stackabilization/shape/shape.h"
+
+/// Numbers and tables for people. Independent of the locale.
+namespace stackabilization::apps {
+
+/// Five significant digits: for reading.
+std::string rounded(double value);
+/// As many digits as bring the double back.
+std::string exact_digits(double value);
+/// "0.412 m", "0.06 m^3"; without the unit where it is unknown.
+std::string quantity(double value, Unit unit, int power = 1);
+/// "50.9 %"
+std::string percent(double fraction);
+/// "0 0 1", all digits.
+std::string vector_text(const Eigen::Vector3d& vector);
+/// "(0.1, 0.2, 0.3)", rounded.
+std::string point_text(const Eigen::Vector3d& point);
+/// "1 region", "4 regions"
+std::string counted(long long count, const std::string& noun);
+
+/// Lines of label, value and explanation in columns.
+class TextTable {
+ public:
+  void add(std::string label, std::string value, std::string explanation = "");
+  std::string text() const;
+
+ private:
+  struct Row {
+    std::string label, value, explanation;
+  };
+  std::vector<Row> rows_;
+};
+
+}  // namespace stackabilization::apps

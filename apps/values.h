@@ -1,0 +1,77 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/shape.h"
+
+/// Values on the command line. Numbers are read as the nearest doubles, whatever the locale, because
+/// directions are exact: "0.3" means that double. All functions throw UsageError in words that name the
+/// option.
+namespace stackabilization::apps {
+
+/// A finite decimal number, all of `text`.
+double parse_number(const std::string& option, const std::string& text);
+
+/// A length as typed: "0.5" in model units, or with a unit, "5mm".
+struct Length {
+  double value = 0;
+  Unit unit = Unit::unknown;  ///< unknown: model units
+  std::string text;           ///< as typed
+
+  /// In units of a model. Throws UsageError when a unit was typed and the model has none.
+  double in(Unit model_unit) const;
+};
+Length parse_length(const std::string& option, const std::string& text);
+
+/// Names of the units on the command line: um, mm, cm, m, in, ft.
+std::optional<Unit> unit_of_symbol(const std::string& symbol);
+
+void add_number(CLI::App& command, const std::string& name, std::optional<double>& target,
+                const std::string& description);
+void add_length(CLI::App& command, const std::string& name, std::optional<Length>& target,
+                const std::string& description);
+/// Three numbers, not all zero.
+void add_direction(CLI::App& command, const std::string& name, std::optional<Eigen::Vector3d>& target,
+                   const std::string& description);
+
+/// An option whose values have names.
+template <class Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+/// "a|b|c", for the help.
+template <class Value>
+std::string choice_names(const Choices<Value>& choices) {
+  std::string names;
+  for (const auto& [name, value] : choices) names += (names.empty() ? "" : "|") + name;
+  return names;
+}
+
+template <class Value>
+const std::string& choice_name(const Choices<Value>& choices, const Value& wanted) {
+  for (const auto& [name, value] : choices)
+    if (value == wanted) return name;
+  throw UsageError("a value without a name was asked for");
+}
+
+/// Adds an option that takes one of the names of `choices` into `target` (a Value or std::optional of it).
+template <class Value, class Target>
+void add_choice(CLI::App& command, const std::string& name, Target& target, const Choices<Value>& choices,
+                const std::string& description) {
+  const auto take = [name, &target, choices](const std::string& text) {
+    for (const auto& [known, value] : choices)
+      if (known == text) {
+        target = value;
+        return;
+      }
+    throw UsageError(name + " expects one of " + choice_names(choices) + ", found '" + text + "'");
+  };
+  command.add_option_function<std::string>(name, take, description)->type_name(choice_names(choices));
+}
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,80 @@
+#include "apps/run_program.h"
+
+#include <stdlib.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include "stackabilization/shape/write.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+std::string quoted(const std::string& argument) {
+  std::string text = "'";
+  for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "stackabilize-XXXXXX").string();
+  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::string TemporaryFolder::file(const std::string& name, const std::string& bytes) const {
+  std::ofstream(path_ / name, std::ios::binary) << bytes;
+  return *this / name;
+}
+
+std::string TemporaryFolder::model(const std::string& name, const Shape& shape) const {
+  write_shape(shape, path_ / name);
+  return *this / name;
+}
+
+std::vector<std::string> TemporaryFolder::names() const {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(path_))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+Outcome run_program(const std::vector<std::string>& arguments, const std::string& input,
+                    const std::string& prefix) {
+  const TemporaryFolder folder;
+  std::string command = prefix + " " + quoted(STACKABILIZATION_PROGRAM);
+  for (const std::string& argument : arguments) command += " " + quoted(argument);
+  command += " <" + quoted(folder.file("in", input)) + " >" + quoted(folder / "out") + " 2>" +
+             quoted(folder / "err");
+  const int status = std::system(command.c_str());
+  Outcome outcome;
+  outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  outcome.out = bytes_of(folder / "out");
+  outcome.err = bytes_of(folder / "err");
+  return outcome;
+}
+
+bool is_one_sentence(const std::string& text) {
+  constexpr std::size_t shortest = 30;
+  return text.starts_with("stackabilize: ") && text.ends_with('\n') &&
+         std::count(text.begin(), text.end(), '\n') == 1 && text.size() > shortest;
+}
+
+std::string bytes_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "stackabilization/shape/shape.h"
+
+namespace stackabilization::apps {
+
+/// A folder of its own, gone with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// Path of a file in it.
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  /// A file with these bytes.
+  std::string file(const std::string& name, const std::string& bytes) const;
+  /// A mesh file in the format of its extension.
+  std::string model(const std::string& name, const Shape& shape) const;
+  /// Names of all files in it, sorted.
+  std::vector<std::string> names() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// What a run of the program left.
+struct Outcome {
+  int status = -1;       ///< exit status
+  std::string out, err;  ///< standard output and error
+
+  nlohmann::json json() const { return nlohmann::json::parse(out); }
+};
+
+/// Runs `stackabilize` with these arguments and `input` on standard input. `prefix` goes before the program.
+Outcome run_program(const std::vector<std::string>& arguments, const std::string& input = "",
+                    const std::string& prefix = "");
+
+/// Is it one sentence of the program, on one line?
+bool is_one_sentence(const std::string& text);
+
+std::string bytes_of(const std::string& path);
+
+}  // namespace stackabilization::apps

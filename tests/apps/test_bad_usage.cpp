@@ -1,0 +1,109 @@
+#include "apps/run_program.h"
+#include "support/catch.h"
+#include "support/solids.h"
+
+using namespace stackabilization;
+using namespace stackabilization::apps;
+
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+struct BoxFolder : TemporaryFolder {
+  std::string box = model("box.obj", solids::box({1, 2, 3}));
+};
+
+/// Status 2, one sentence that contains `word`, nothing on standard output, no file made or changed.
+void check_refused(const TemporaryFolder& folder, const Arguments& arguments, const std::string& word) {
+  std::string line;
+  for (const std::string& argument : arguments) line += " " + argument;
+  INFO("stackabilize" << line);
+  const std::vector<std::string> before = folder.names();
+  const Outcome outcome = run_program(arguments);
+  INFO(outcome.err);
+  CHECK(outcome.status == 2);
+  CHECK(outcome.out.empty());
+  CHECK(is_one_sentence(outcome.err));
+  CHECK(outcome.err.find(word) != std::string::npos);
+  CHECK(folder.names() == before);
+}
+
+}  // namespace
+
+TEST_CASE("wrong command lines end with 2 and one sentence that names the mistake") {
+  const BoxFolder folder;
+  const std::string& box = folder.box;
+  const std::vector<std::pair<Arguments, std::string>> cases = {
+      {{}, "subcommand"},
+      {{"weigh", box}, "weigh"},
+      {{"measure"}, "MODEL"},
+      {{"measure", box, box}, "not expected"},
+      {{"measure", box, "--colour"}, "--colour"},
+      {{"measure", box, "--direction", "0", "0"}, "--direction"},
+      {{"measure", box, "--direction", "0", "0", "0"}, "zero"},
+      {{"measure", box, "--direction", "0", "0", "up"}, "'up'"},
+      {{"measure", box, "--direction", "nan", "0", "1"}, "finite"},
+      {{"measure", box, "--direction", "inf", "0", "1"}, "finite"},
+      {{"measure", box, "--direction", "1e999", "0", "1"}, "finite"},
+      {{"measure", box, "--direction", "1e300", "0", "0"}, "direction"},
+      {{"measure", box, "--direction", "1,0,0", "0", "1"}, "'1,0,0'"},
+      {{"measure", box, "--method", "guess"}, "exact|rays|raster|gl-raster"},
+      {{"measure", box, "--resolution", "0"}, "--resolution"},
+      {{"measure", box, "--resolution", "100000"}, "--resolution"},
+      {{"measure", box, "--semantics", "liquid"}, "solid|closed"},
+      {{"measure", box, "--boxes", "round"}, "oriented|frame"},
+      {{"measure", box, "--unit", "mile"}, "mm|cm|m|in|ft"},
+      {{"measure", box, "--up", "w"}, "x|y|z"},
+      {{"measure", box, "--format", "doc"}, "obj|off"},
+      {{"measure", box, "--threads", "0"}, "--threads"},
+      {{"measure", box, "--threads", "many"}, "--threads"},
+      {{"search", box, "--cone-degrees", "0"}, "--cone-degrees"},
+      {{"search", box, "--cone-degrees", "91"}, "--cone-degrees"},
+      {{"search", box, "--direction", "0", "0", "1"}, "--cone-degrees"},
+      {{"search", box, "--plane", "0", "0", "0"}, "--plane"},
+      {{"search", box, "--cone-degrees", "5", "--plane", "0", "0", "1"}, "cone"},
+      {{"map", box, "--step-degrees", "0"}, "step"},
+      {{"map", box, "--step-degrees", "-1"}, "step"},
+      {{"map", box, "--step-degrees", "fine"}, "'fine'"},
+      {{"stack", box, "-n", "0"}, "-n"},
+      {{"stack", box, "-n", "2.5"}, "-n"},
+      {{"stack", box, "-n", "1000000"}, "-n"},
+      {{"stack", box, "--twist-degrees", "best"}, "'best'"},
+      {{"stack", box, "--period", "9"}, "--period"},
+      {{"stack", box, "--period", "2", "--twist-degrees", "auto"}, "--period"},
+      {{"stack", box, "--clearance", "-1"}, "--clearance"},
+      {{"stack", box, "--clearance", "1 league"}, "'1 league'"},
+      {{"stack", box, "--clearance", "1mm"}, "--unit"},
+      {{"stack", box, "--within", "0"}, "--within"},
+      {{"stack", box, "--into", box, "-n", "3"}, "--into"},
+      {{"stack", box, "--into", box, "--within", "3"}, "--into"},
+      {{"validate", box, "--direction"}, "--direction"},
+  };
+  for (const auto& [arguments, word] : cases) check_refused(folder, arguments, word);
+}
+
+TEST_CASE("outputs that cannot be written are refused before the work") {
+  const BoxFolder folder;
+  const std::string& box = folder.box;
+  const std::string nowhere = folder / "nowhere" + "/result";
+  const std::string here = folder.path().string();
+  const std::vector<std::pair<Arguments, std::string>> cases = {
+      {{"measure", box, "--json", nowhere + ".json"}, "no folder"},
+      {{"measure", box, "--json", here}, "folder"},
+      {{"measure", box, "--json", ""}, "--json"},
+      {{"measure", box, "--json", box}, "replace the model"},
+      {{"measure", box, "--picture", folder / "box.bmp"}, ".png"},
+      {{"measure", box, "--picture", nowhere + ".png"}, "no folder"},
+      {{"search", box, "--picture", folder / "box"}, ".png"},
+      {{"map", box, "-o", nowhere + ".csv"}, "no folder"},
+      {{"map", box, "-o", folder / "a", "--json", folder / "a"}, "same output"},
+      {{"map", box, "-o", "-", "--json", "-"}, "same output"},
+      {{"stack", box, "-o", "-"}, "file name"},
+      {{"stack", box, "-o", folder / "stack.doc"}, ".3mf"},
+      {{"stack", box, "-o", folder / "stack"}, ".3mf"},
+      {{"stack", box, "-o", nowhere + ".obj"}, "no folder"},
+      {{"inspect", box, "--json", "/dev/full"}, "/dev/full"},
+  };
+  for (const auto& [arguments, word] : cases) check_refused(folder, arguments, word);
+  CHECK(bytes_of(box) == bytes_of(folder.model("again.obj", solids::box({1, 2, 3}))));
+}

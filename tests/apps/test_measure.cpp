@@ -1,0 +1,155 @@
+#include "apps/run_program.h"
+#include "stackabilization/shape/rational.h"
+#include "support/catch.h"
+#include "support/solids.h"
+
+using namespace stackabilization;
+using namespace stackabilization::apps;
+using nlohmann::json;
+
+namespace {
+
+const solids::FrustumShell cup;
+
+double number(const Rational& value) {
+  return value.to_double();
+}
+
+}  // namespace
+
+TEST_CASE("measure finds f_max of a cup in closed form and says where it is attained") {
+  const TemporaryFolder folder;
+  const Shape shape = solids::frustum_shell(cup);
+  const std::string model = folder.model("cup.obj", shape);
+  const Outcome outcome = run_program({"measure", model, "--direction", "0", "0", "2", "--json", "-"});
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.err.empty());
+  const json result = outcome.json();
+
+  const double f_max = solids::frustum_shell_f_max(cup);
+  CHECK(result["f_max"].get<double>() == Approx(f_max).epsilon(1e-12));
+  CHECK(result["nesting_increment"] == result["f_max"]);
+  CHECK(result["height"].get<double>() == Approx(cup.height).epsilon(1e-12));
+  CHECK(result["f_max_over_height"].get<double>() == Approx(f_max / cup.height).epsilon(1e-12));
+  const double ratio = result["stack_box_volume"].get<double>() / result["box_volume"].get<double>();
+  CHECK(result["stackability"].get<double>() == Approx(1 - f_max / cup.height * ratio).epsilon(1e-12));
+  CHECK(result["direction"] == json({0, 0, 2}));
+  CHECK(result["method"] == "exact");
+  CHECK(result["semantics"] == "solid");
+  CHECK(result["boxes"] == "oriented");
+  CHECK(result["model"] == model);
+  CHECK(result["unit"].is_null());
+  CHECK(result["seconds"].get<double>() > 0);
+  CHECK(result["findings"]["triangles"] == shape.triangle_count());
+
+  // The exact value counts in lengths of the direction vector, which is 2 here.
+  const Rational exact(result["exact"]["numerator"].get<std::string>(),
+                       result["exact"]["denominator"].get<std::string>());
+  CHECK(2 * number(exact) == Approx(result["f_max"].get<double>()).epsilon(1e-15));
+
+  const json witness = result["witness"];
+  CHECK(witness["triangles"].size() == 2);
+  CHECK(witness["triangles"][0].get<int>() < shape.triangle_count());
+  CHECK(witness["point"][2].get<double>() - witness["lower_point"][2].get<double>() ==
+        Approx(f_max).epsilon(1e-12));
+  REQUIRE(result["contacts"].size() == 1);
+  CHECK(result["contacts"][0]["type"] == "ring");
+  CHECK(result["contacts"][0]["parts"] == json({"part", "part"}));
+  CHECK(result["contacts"][0]["area"].get<double>() > 0);
+  CHECK(result["contacts"][0]["centre"].size() == 3);
+}
+
+TEST_CASE("measure takes +z when no direction is given, and frame boxes when asked") {
+  const TemporaryFolder folder;
+  const std::string model = folder.model("box.off", solids::box({1, 2, 3}));
+  const json result = run_program({"measure", model, "--boxes", "frame", "--json", "-"}).json();
+  CHECK(result["direction"] == json({0, 0, 1}));
+  CHECK(result["boxes"] == "frame");
+  CHECK(result["stackability"] == 0);
+  CHECK(result["box_volume"] == 6);
+}
+
+TEST_CASE("measure tells sliding walls from touching ones") {
+  const TemporaryFolder folder;
+  const std::string model = folder.model("wall.obj", solids::boxes_sharing_wall());
+  CHECK(run_program({"measure", model, "--json", "-"}).json()["f_max"] == 1);
+  CHECK(run_program({"measure", model, "--semantics", "closed", "--json", "-"}).json()["f_max"] == 3);
+}
+
+TEST_CASE("measure by samples stays below the exact value and says how far") {
+  const TemporaryFolder folder;
+  const std::string model = folder.model("cup.obj", solids::frustum_shell(cup));
+  for (const std::string method : {"rays", "raster"}) {
+    const json result =
+        run_program({"measure", model, "--method", method, "--resolution", "128", "--json", "-"}).json();
+    CHECK(result["method"] == method);
+    CHECK(result["exact"].is_null());
+    CHECK(result["witness"].is_null());
+    CHECK(result["contacts"].is_null());
+    const json sampling = result["sampling"];
+    CHECK(sampling["resolution"] == 128);
+    CHECK(sampling["exact_f_max"].get<double>() == Approx(solids::frustum_shell_f_max(cup)).epsilon(1e-10));
+    CHECK(sampling["error"].get<double>() < 1e-9);
+    CHECK(sampling["error"].get<double>() >= sampling["half_resolution_error"].get<double>() - 1e-9);
+    CHECK(result["f_max"].get<double>() - sampling["exact_f_max"].get<double>() ==
+          Approx(sampling["error"].get<double>()).margin(1e-12));
+    const double ratio = result["stack_box_volume"].get<double>() / result["box_volume"].get<double>();
+    CHECK(result["stackability"].get<double>() ==
+          Approx(1 - result["f_max_over_height"].get<double>() * ratio).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("measure warns where more samples do not help") {
+  // A fin far thinner than a pixel, standing high over one side of a plate that fills the picture.
+  const TemporaryFolder folder;
+  const Shape plate = solids::box({0, 0, 0}, {1, 1, 0.1});
+  const Shape fin = solids::box({0.3, 0.2, 0.1}, {0.3000001, 0.8, 1});
+  const std::string model = folder.model("fin.obj", concatenate(plate, fin));
+  const Outcome outcome = run_program({"measure", model, "--method", "raster", "--resolution", "64"});
+  CHECK(outcome.out.find("does NOT shrink") != std::string::npos);
+}
+
+TEST_CASE("measure explains its numbers to a reader, with units") {
+  const TemporaryFolder folder;
+  const std::string model = folder.model("cup.obj", solids::frustum_shell(cup));
+  const Outcome outcome = run_program({"measure", model, "--unit", "cm"});
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err.empty());
+  for (const std::string text : {"cup.obj: ", "closed", "8 cm", "cm^3", "ring", "Each further copy adds "})
+    CHECK(outcome.out.find(text) != std::string::npos);
+}
+
+TEST_CASE("up axis, unit, format and labels change how a file is read") {
+  const TemporaryFolder folder;
+  const std::string model = folder.model("box.obj", solids::box({1, 2, 3}));
+  const auto measured = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"measure", model, "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments).json();
+  };
+  CHECK(measured({"--up", "x"})["height"] == 1);
+  CHECK(measured({"--up", "y"})["height"] == 2);
+  CHECK(measured({"--unit", "in"})["unit"] == "in");
+  const std::string other = folder.file("box.data", bytes_of(model));
+  CHECK(run_program({"measure", other, "--format", "obj", "--quiet"}).out == "0\n");
+
+  std::string labels;
+  for (int i = 0; i < 12; ++i) labels += i < 6 ? "low\n" : "high\n";
+  const std::string path = folder.file("labels.txt", labels);
+  CHECK(run_program({"inspect", model, "--labels", path, "--json", "-"}).json()["part_names"] ==
+        json({"low", "high"}));
+}
+
+TEST_CASE("inspect counts, and names what is wrong") {
+  const TemporaryFolder folder;
+  const std::string open = folder.file("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n");
+  const Outcome text = run_program({"inspect", open});
+  CHECK(text.status == 0);
+  CHECK(text.out.find("boundary edges") != std::string::npos);
+  const json result = run_program({"inspect", open, "--self-intersections", "--json", "-"}).json();
+  CHECK(result["findings"]["boundary_edges"] == 4);
+  CHECK(result["findings"]["closed"] == false);
+  CHECK(result["findings"]["volume"].is_null());
+  CHECK(result["findings"]["self_intersections"] == 0);
+  CHECK(run_program({"inspect", open, "--json", "-"}).json()["findings"]["self_intersections"].is_null());
+}

@@ -1,0 +1,110 @@
+#include "apps/run_program.h"
+#include "stackabilization/shape/rational.h"
+#include "stackabilization/shape/read.h"
+#include "support/catch.h"
+#include "support/solids.h"
+
+using namespace stackabilization;
+using namespace stackabilization::apps;
+using nlohmann::json;
+
+namespace {
+
+const solids::FrustumShell cup;
+
+struct CupFolder : TemporaryFolder {
+  std::string cup_file = model("cup.obj", solids::frustum_shell(cup));
+};
+
+}  // namespace
+
+TEST_CASE("stack puts copies f_max apart and writes them as a mesh") {
+  const CupFolder folder;
+  const std::string mesh = folder / "stack.3mf";
+  const Outcome outcome = run_program({"stack", folder.cup_file, "-n", "5", "-o", mesh, "--json", "-"});
+  REQUIRE(outcome.status == 0);
+  const json result = outcome.json();
+  const double f_max = solids::frustum_shell_f_max(cup);
+  CHECK(result["n"] == 5);
+  REQUIRE(result["offsets"].size() == 5);
+  for (int k = 0; k < 5; ++k) CHECK(result["offsets"][k].get<double>() == Approx(k * f_max).epsilon(1e-12));
+  const json exact = result["exact_offsets"][4];
+  CHECK(Rational(exact["numerator"], exact["denominator"]).to_double() == result["offsets"][4].get<double>());
+  const double height = cup.height + 4 * f_max;
+  CHECK(result["height"].get<double>() == Approx(height).epsilon(1e-12));
+  CHECK(result["nesting_increment"].get<double>() == Approx(f_max).epsilon(1e-12));
+  CHECK(result["stackability"].get<double>() ==
+        Approx(1 - result["stack_volume"].get<double>() / (5 * result["box_volume"].get<double>()))
+            .epsilon(1e-12));
+  CHECK(result["conflicts"].is_array());
+  CHECK(result["within"].is_null());
+
+  const Shape stack = read_shape(mesh);
+  CHECK(stack.part_count() == 5);
+  CHECK(stack.vertices.col(2).maxCoeff() - stack.vertices.col(2).minCoeff() == Approx(height).epsilon(1e-12));
+}
+
+TEST_CASE("clearances lift the copies") {
+  const CupFolder folder;
+  const auto increment = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"stack", folder.cup_file, "--unit", "cm", "--json", "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments).json()["nesting_increment"].get<double>();
+  };
+  const double f_max = solids::frustum_shell_f_max(cup);
+  CHECK(increment({"--clearance", "0.25"}) == Approx(f_max + 0.25).epsilon(1e-12));
+  CHECK(increment({"--clearance", "2.5mm"}) == Approx(f_max + 0.25).epsilon(1e-12));
+  CHECK(increment({"--lateral-clearance", "0.05"}) > f_max);
+}
+
+TEST_CASE("a wish that is met ends with 0, one that is not with 1, and both say what it takes") {
+  const CupFolder folder;
+  const double f_max = solids::frustum_shell_f_max(cup);
+  const double height = cup.height + 9 * f_max;
+  const auto wished = [&](double length) {
+    return run_program(
+        {"stack", folder.cup_file, "-n", "10", "--within", std::to_string(length), "--json", "-"});
+  };
+  const Outcome met = wished(height + 0.5), unmet = wished(height - 0.5);
+  CHECK(met.status == 0);
+  CHECK(met.json()["within"]["met"] == true);
+  CHECK(met.json()["within"]["straight"]["copies_now"].get<int>() >= 10);
+  CHECK(unmet.status == 1);
+  CHECK(unmet.json()["within"]["met"] == false);
+  CHECK(unmet.json()["within"]["straight"]["f_max"].get<double>() == Approx(f_max - 0.5 / 9).epsilon(1e-6));
+  const Outcome text = run_program({"stack", folder.cup_file, "-n", "10", "--within", "1"});
+  CHECK(text.status == 1);
+  CHECK(text.out.find("not met") != std::string::npos);
+}
+
+TEST_CASE("stack turns and flips copies when asked") {
+  const TemporaryFolder folder;
+  const std::string model = folder.model("l.obj", solids::l_shape(3, 1));
+  const json twisted =
+      run_program({"stack", model, "-n", "3", "--twist-degrees", "180", "--json", "-"}).json();
+  CHECK(twisted["twist_degrees"] == 180);
+  CHECK(twisted["copies"][1]["rotation"][0][0] == -1);
+  const json best = run_program({"stack", model, "-n", "2", "--twist-degrees", "auto", "--json", "-"}).json();
+  CHECK(best["stackability"].get<double>() >= best["untwisted_stackability"].get<double>());
+  const json period = run_program({"stack", model, "-n", "4", "--period", "2", "--json", "-"}).json();
+  CHECK(period["period"] == 2);
+  CHECK(period["poses"].size() == 2);
+  // Two upright Ls of 3 x 3 x 1 nest as halves of a block when every other one is flipped.
+  const json straight = run_program({"stack", model, "-n", "4", "--json", "-"}).json();
+  CHECK(period["height"].get<double>() < straight["height"].get<double>() - 0.5);
+}
+
+TEST_CASE("stack --into lowers one object into another") {
+  const TemporaryFolder folder;
+  const std::string container = folder.model("u.obj", solids::u_shape(4, 1));
+  const std::string content = folder.model("cube.obj", solids::box({1.25, 0.25, 7}, {2.75, 0.75, 8}));
+  const Outcome outcome = run_program({"stack", content, "--into", container, "--json", "-"});
+  REQUIRE(outcome.status == 0);
+  const json result = outcome.json();
+  CHECK(result["offset"].get<double>() == Approx(1 - 7).epsilon(1e-15));
+  CHECK(result["exact_offset"]["numerator"] == "-6");
+  CHECK(result["exact_offset"]["denominator"] == "1");
+  CHECK(result["height"] == 4);
+  CHECK(result["saving"] == 1);
+  CHECK(run_program({"stack", content, "--into", container, "--quiet"}).out == "-6\n");
+}
