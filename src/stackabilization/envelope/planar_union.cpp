@@ -207,7 +207,7 @@ Elongation elongation_of(const std::vector<Outline>& outlines) {
   const std::vector<int> corners = convex_polygon(points, 0);
   Eigen::Matrix2Xd polygon(2, static_cast<Eigen::Index>(corners.size()));
   for (std::size_t c = 0; c < corners.size(); ++c) polygon.col(static_cast<Eigen::Index>(c)) = points.col(corners[c]);
-  const Rectangle rectangle = minimal_rectangle(polygon);
+  const PlanarRectangle rectangle = minimal_rectangle(polygon);
   Elongation result{rectangle.size.x(), rectangle.size.y(), rectangle.axis};
   if (result.length < result.width) {
     std::swap(result.length, result.width);

@@ -93,7 +93,7 @@ double HullSupport::minimal_rectangle_area(const Direction& direction) const {
 
 OrientedBox HullSupport::box_along(const Direction& direction) const {
   const Frame frame = frame_of(direction);
-  const Rectangle rectangle = minimal_rectangle(projection(frame));
+  const PlanarRectangle rectangle = minimal_rectangle(projection(frame));
   const Eigen::VectorXd heights = centred_points_ * frame.w;
   const double low = heights.minCoeff(), high = heights.maxCoeff();
 

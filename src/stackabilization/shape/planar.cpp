@@ -71,7 +71,7 @@ class Caliper {
 };
 
 /// The rectangle with that axis.
-Rectangle rectangle_along(const Eigen::Vector2d& axis, const Eigen::Matrix2Xd& polygon) {
+PlanarRectangle rectangle_along(const Eigen::Vector2d& axis, const Eigen::Matrix2Xd& polygon) {
   const Eigen::Vector2d across(-axis.y(), axis.x());
   const Eigen::RowVectorXd x = axis.transpose() * polygon, y = across.transpose() * polygon;
   const Eigen::Vector2d low(x.minCoeff(), y.minCoeff()), high(x.maxCoeff(), y.maxCoeff());
@@ -83,8 +83,8 @@ Rectangle rectangle_along(const Eigen::Vector2d& axis, const Eigen::Matrix2Xd& p
 
 // The direction of a very short side is mostly rounding: calipers then find less than the true area, never more. So
 // they only choose which sides to measure.
-Rectangle minimal_rectangle(const Eigen::Matrix2Xd& polygon) {
-  Rectangle best;
+PlanarRectangle minimal_rectangle(const Eigen::Matrix2Xd& polygon) {
+  PlanarRectangle best;
   best.centre = polygon.col(0);
   if (polygon.cols() == 1) return best;
   const Caliper caliper(polygon);
@@ -100,7 +100,7 @@ Rectangle minimal_rectangle(const Eigen::Matrix2Xd& polygon) {
     const double length = (caliper.corner(right) - caliper.corner(left)).dot(axis);
     const double height = (caliper.corner(top) - base).dot(across);
     if (length * height >= least) continue;
-    const Rectangle measured = rectangle_along(axis, polygon);
+    const PlanarRectangle measured = rectangle_along(axis, polygon);
     if (measured.area() >= least) continue;
     least = measured.area();
     best = measured;

@@ -11,7 +11,7 @@ namespace stackabilization {
 std::vector<int> convex_polygon(const Eigen::Matrix2Xd& points, double resolution);
 
 /// A rectangle in the plane: `size.x()` along the unit vector `axis`, `size.y()` across it.
-struct Rectangle {
+struct PlanarRectangle {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   Eigen::Vector2d axis = Eigen::Vector2d::UnitX();
   Eigen::Vector2d size = Eigen::Vector2d::Zero();
@@ -19,8 +19,8 @@ struct Rectangle {
   double area() const { return size.prod(); }
 };
 
-/// Rectangle of minimal area around a convex polygon (2 x m, counter-clockwise, m >= 1, distinct corners): one of its
+/// PlanarRectangle of minimal area around a convex polygon (2 x m, counter-clockwise, m >= 1, distinct corners): one of its
 /// sides lies on a polygon side (Freeman and Shapira 1975). Rotating calipers, O(m); among equals the first side wins.
-Rectangle minimal_rectangle(const Eigen::Matrix2Xd& polygon);
+PlanarRectangle minimal_rectangle(const Eigen::Matrix2Xd& polygon);
 
 }  // namespace stackabilization
