@@ -93,7 +93,8 @@ View fit_view(const Scene& scene, const Direction& up, const ViewOptions& option
   return view;
 }
 
-Scene contact_marks(const std::vector<ContactRegion>& regions, EnvelopeSide side, const Eigen::Vector3d& shift) {
+Scene contact_marks(const std::vector<ContactRegion>& regions, EnvelopeSide side,
+                    const Eigen::Vector3d& shift) {
   std::vector<const Points*> polygons;
   SceneLines outlines{{}, palette::contact, 3};
   for (const ContactRegion& region : regions)
