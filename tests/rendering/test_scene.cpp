@@ -44,6 +44,8 @@ std::vector<ContactRegion> contact_on_top(double side) {
   piece.upper_points << a, a, 1, b, a, 1, b, b, 1, a, b, 1;
   piece.lower_points = piece.upper_points;
   ContactRegion region;
+  region.upper_centre = region.lower_centre = {0.5, 0.5, 1};
+  region.long_axis = {1, 0, 0};
   region.polygons = {piece};
   return {region};
 }
@@ -90,7 +92,7 @@ TEST_CASE("a box covers the area of its silhouette, in its own colour, on white 
   const Eigen::Vector3d d = view.towards.cwiseAbs();
   const double silhouette = d.x() * 3 * 4 + d.y() * 2 * 4 + d.z() * 2 * 3;
   CHECK(pixels_where(image, is_ink) ==
-        Approx(silhouette * std::pow(2 * view.pixels_per_unit, 2)).epsilon(0.02));
+        Approx(silhouette * std::pow(2 * view.pixels_per_unit, 2)).epsilon(0.04));
   CHECK(pixels_where(image, is_yellow) > 0.9 * pixels_where(image, is_ink));
   CHECK(image.pixel(0, 0) == std::array<std::uint8_t, 3>{255, 255, 255});
   CHECK(image.bytes == render(scene, view, 2).bytes);
@@ -129,8 +131,9 @@ TEST_CASE("contacts are red on the surface, and visible even as points") {
   wide.add(contact_marks(contact_on_top(0.5), EnvelopeSide::upper, {0, 0, 0.004}));
   point.add(contact_marks(contact_on_top(1e-9), EnvelopeSide::upper, {0, 0, 0.004}));
   const double square = 0.25 * view.towards.z() * std::pow(2 * view.pixels_per_unit, 2);
-  CHECK(pixels_where(render(wide, view), is_red) == Approx(square).epsilon(0.15));
-  CHECK(pixels_where(render(point, view), is_red) >= 9);
+  CHECK(pixels_where(render(wide, view), is_red) > 0.97 * square);
+  CHECK(pixels_where(render(wide, view), is_red) < 1.3 * square);  // the outline is three pixels wide
+  CHECK(pixels_where(render(point, view), is_red) >= 100);
   CHECK(contact_marks({}, EnvelopeSide::upper, {0, 0, 0}).meshes.empty());
 }
 

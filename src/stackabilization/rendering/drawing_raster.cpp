@@ -125,7 +125,7 @@ void Canvas::draw(const Text& text) {
     throw RenderError("the text \"" + text.text + "\" could not be drawn");
   // VTK's line box reaches down to the descender of the font, 0.212 em below the base line.
   const int descent = static_cast<int>(std::ceil(0.212 * std::round(text.size)));
-  const int x0 = static_cast<int>(std::lround(text.at.x())) + (text.upwards ? descent : 0);
+  const int x0 = static_cast<int>(std::lround(text.at.x())) + (text.upwards ? descent - 1 : 0);
   const int y0 = static_cast<int>(std::lround(text.at.y())) + (text.upwards ? 0 : descent);
   const int* extent = glyphs->GetExtent();
   for (int y = extent[2]; y <= extent[3]; ++y)

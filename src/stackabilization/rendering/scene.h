@@ -26,7 +26,7 @@ struct SceneMesh {
   Finish finish = Finish::shaded;
 };
 
-/// Polylines of one colour and width.
+/// Polylines of one colour and width. A polyline of one point is a dot.
 struct SceneLines {
   std::vector<Points> polylines;
   Colour colour = palette::ink;
@@ -73,7 +73,7 @@ View turned_view(const Direction& up, const ViewOptions& options = {});
 enum class EnvelopeSide { upper, lower };
 
 /// Contact regions as red marks, moved by `shift` (model units) so that they do not sink into the surface.
-/// Pieces without area show as lines or dots of visible size.
+/// Pieces smaller than the shift show as dots, pieces without area as lines.
 Scene contact_marks(const std::vector<ContactRegion>& regions, EnvelopeSide side,
                     const Eigen::Vector3d& shift);
 
