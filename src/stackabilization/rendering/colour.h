@@ -9,21 +9,21 @@ struct Colour {
 
 /// The palette of the paper's figures.
 namespace palette {
-inline constexpr Colour input{0.96, 0.78, 0.28};     ///< a shape as given
-inline constexpr Colour output{0.47, 0.71, 0.36};    ///< a shape after improvement
-inline constexpr Colour upper{0.27, 0.49, 0.78};     ///< upper envelope
-inline constexpr Colour lower{0.95, 0.56, 0.18};     ///< lower envelope, contact parts
-inline constexpr Colour contact{0.84, 0.10, 0.12};   ///< contact regions, active handles
-inline constexpr Colour ink{0.13, 0.14, 0.16};       ///< text and lines
-inline constexpr Colour faint{0.38, 0.40, 0.43};     ///< secondary text and lines
+inline constexpr Colour input{0.96, 0.78, 0.28};    ///< a shape as given
+inline constexpr Colour output{0.47, 0.71, 0.36};   ///< a shape after improvement
+inline constexpr Colour upper{0.27, 0.49, 0.78};    ///< upper envelope
+inline constexpr Colour lower{0.95, 0.56, 0.18};    ///< lower envelope, contact parts
+inline constexpr Colour contact{0.84, 0.10, 0.12};  ///< contact regions, active handles
+inline constexpr Colour ink{0.13, 0.14, 0.16};      ///< text and lines
+inline constexpr Colour faint{0.38, 0.40, 0.43};    ///< secondary text and lines
 inline constexpr Colour white{1, 1, 1};
 }  // namespace palette
 
 /// (1 - t) a + t b, component by component, t in [0, 1].
 Colour mix(const Colour& a, const Colour& b, double t);
 
-/// The perceptually uniform colour map viridis (van der Walt and Smith 2015) at t, clamped to [0, 1]; a fit of degree
-/// six within 0.01 of the published table. Dark blue is low, yellow is high.
+/// The perceptually uniform colour map viridis (van der Walt and Smith 2015) at t, clamped to [0, 1]; a fit
+/// of degree six within 0.01 of the published table. Dark blue is low, yellow is high.
 Colour viridis(double t);
 
 }  // namespace stackabilization

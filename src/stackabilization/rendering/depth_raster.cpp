@@ -25,18 +25,11 @@
 namespace stackabilization {
 namespace {
 
-constexpr int largest_window = 16384;
-// Heights fill the middle 7/8 of the depth range, so that nothing is clipped and depth 1 means "nothing here"; with
-// this fraction and a camera at distance 2 every entry of the projection in depth is exact in single precision.
+// Heights fill the middle 7/8 of the depth range, so that nothing is clipped and depth 1 means "nothing
+// here"; with this fraction and a camera at distance 2 every entry of the projection in depth is exact in
+// single precision.
 constexpr double used_depth = 7.0 / 8.0;
 constexpr double depth_steps = 16777215;  // 2^24 - 1
-
-void check(const Window& window) {
-  const auto in_range = [](int count) { return 1 <= count && count <= largest_window; };
-  if (!std::isfinite(window.x) || !std::isfinite(window.y) || !std::isfinite(window.pixel_size) ||
-      window.pixel_size <= 0 || !in_range(window.columns) || !in_range(window.rows))
-    throw UsageError("a sampling window needs a finite corner, a positive pixel size and 1 to 16384 rows and columns");
-}
 
 Points in_frame(const Points& points, const Frame& frame) {
   Points local(points.rows(), 3);
@@ -116,8 +109,8 @@ DepthRasterizer::Data::Data(const Shape& input, const DepthRasterOptions& option
   camera->SetClippingRange(1, 3);
 }
 
-/// Puts the triangles into pixels relative to the middle of the tile, and heights into [-7/8, 7/8]. Vertices that no
-/// triangle uses may hold anything.
+/// Puts the triangles into pixels relative to the middle of the tile, and heights into [-7/8, 7/8]. Vertices
+/// that no triangle uses may hold anything.
 void DepthRasterizer::Data::place(const Points& local, const HeightRange& range, const Window& target,
                                   const Tile& tile) {
   const double x = tile.column + tile.columns / 2.0, y = tile.row + tile.rows / 2.0;
@@ -149,12 +142,9 @@ DepthRasterizer& DepthRasterizer::operator=(DepthRasterizer&&) noexcept = defaul
 DepthRasterizer::~DepthRasterizer() = default;
 
 HeightField DepthRasterizer::height_field(const Direction& direction, const Window& window) {
-  check(window);
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  HeightField field{frame_of(direction), window, data_->shape.unit,
-                    Eigen::MatrixXd::Constant(window.columns, window.rows, -infinity),
-                    Eigen::MatrixXd::Constant(window.columns, window.rows, infinity)};
+  HeightField field = empty_height_field(data_->shape, direction, window);
   const Points local = in_frame(data_->shape.vertices, field.frame);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   HeightRange range{infinity, -infinity};
   for (const std::int32_t vertex : data_->shape.triangles.reshaped<Eigen::RowMajor>()) {
     range.low = std::min(range.low, local(vertex, 2));
@@ -195,7 +185,8 @@ Window authors_window(const Shape& shape, const Direction& direction) {
   }
   const Eigen::Vector3d extent = high - low, centre = low / 2 + high / 2;
   const double width = std::max({1.5 * extent.x(), 1.5 * extent.y(), 3 * extent.z()});
-  if (width <= 0) throw InputError("a sampling window needs a shape with an extent, and this one is a single point");
+  if (width <= 0)
+    throw InputError("a sampling window needs a shape with an extent, and this one is a single point");
   return {centre.x() - width / 2, centre.y() - width / 2, width / pixels, pixels, pixels};
 }
 

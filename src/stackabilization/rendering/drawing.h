@@ -64,14 +64,16 @@ struct PlacedImage {
 
 using DrawingElement = std::variant<FilledPolygon, Polyline, Text, PlacedImage>;
 
-/// A flat picture made of shapes, text and images, in drawing order on white ground. It becomes a PNG or an SVG file;
-/// neither needs OpenGL.
+/// A flat picture made of shapes, text and images, in drawing order on white ground. It becomes a PNG or an
+/// SVG file; neither needs OpenGL.
 struct Drawing {
   int width = 0, height = 0;  ///< pixels
   std::vector<DrawingElement> elements;
 
   void add(DrawingElement element) { elements.push_back(std::move(element)); }
-  void add(const std::vector<DrawingElement>& more) { elements.insert(elements.end(), more.begin(), more.end()); }
+  void add(const std::vector<DrawingElement>& more) {
+    elements.insert(elements.end(), more.begin(), more.end());
+  }
 };
 
 /// Anti-aliased pixels of a drawing. Throws UsageError unless 1 <= width, height <= 16384.
@@ -83,8 +85,8 @@ double text_width(const Text& text);
 /// The drawing as an SVG 1.1 document: shapes and text as such, images embedded.
 std::string svg_text(const Drawing& drawing);
 
-/// Writes a PNG or an SVG file, as the extension says, through a temporary name. Throws UsageError for any other
-/// extension and OutputError when the file cannot be written.
+/// Writes a PNG or an SVG file, as the extension says, through a temporary name. Throws UsageError for any
+/// other extension and OutputError when the file cannot be written.
 void write_drawing(const std::filesystem::path& path, const Drawing& drawing);
 
 }  // namespace stackabilization

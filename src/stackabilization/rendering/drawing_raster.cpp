@@ -26,9 +26,15 @@ vtkNew<vtkTextProperty> font(const Text& text) {
   property->SetOrientation(text.upwards ? 90 : 0);
   property->SetVerticalJustificationToBottom();
   switch (text.anchor) {
-    case Anchor::left: property->SetJustificationToLeft(); break;
-    case Anchor::centre: property->SetJustificationToCentered(); break;
-    case Anchor::right: property->SetJustificationToRight(); break;
+    case Anchor::left:
+      property->SetJustificationToLeft();
+      break;
+    case Anchor::centre:
+      property->SetJustificationToCentered();
+      break;
+    case Anchor::right:
+      property->SetJustificationToRight();
+      break;
   }
   return property;
 }
@@ -39,7 +45,8 @@ vtkTextRenderer& text_renderer() {
   return *renderer;
 }
 
-/// Pixels under construction. Coverage of polygons is exact along rows and sampled on eight lines per row across them.
+/// Pixels under construction. Coverage of polygons is exact along rows and sampled on eight lines per row
+/// across them.
 class Canvas {
  public:
   Canvas(int width, int height) : image_(width, height, palette::white) {}
@@ -69,7 +76,8 @@ void Canvas::add_spans(const PlanePoints& points, double y, std::vector<double>&
   std::vector<double> crossings;
   for (Eigen::Index k = 0; k < points.rows(); ++k) {
     const Eigen::RowVector2d a = points.row(k), b = points.row((k + 1) % points.rows());
-    if ((a.y() <= y) != (b.y() <= y)) crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
+    if ((a.y() <= y) != (b.y() <= y))
+      crossings.push_back(a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x()));
   }
   std::sort(crossings.begin(), crossings.end());
   for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
@@ -83,12 +91,14 @@ void Canvas::fill(const PlanePoints& points, const Colour& colour) {
   constexpr int lines = 8;
   if (points.rows() < 3 || !points.allFinite()) return;
   const int first = static_cast<int>(std::max(0.0, std::floor(points.col(1).minCoeff())));
-  const int last = static_cast<int>(std::min<double>(image_.height - 1, std::floor(points.col(1).maxCoeff())));
+  const int last =
+      static_cast<int>(std::min<double>(image_.height - 1, std::floor(points.col(1).maxCoeff())));
   std::vector<double> coverage(static_cast<std::size_t>(image_.width));
   for (int row = first; row <= last; ++row) {
     std::fill(coverage.begin(), coverage.end(), 0.0);
     for (int line = 0; line < lines; ++line) add_spans(points, row + (line + 0.5) / lines, coverage);
-    for (int x = 0; x < image_.width; ++x) blend(x, row, colour, coverage[static_cast<std::size_t>(x)] / lines);
+    for (int x = 0; x < image_.width; ++x)
+      blend(x, row, colour, coverage[static_cast<std::size_t>(x)] / lines);
   }
 }
 
@@ -115,7 +125,7 @@ void Canvas::draw(const Text& text) {
     throw RenderError("the text \"" + text.text + "\" could not be drawn");
   // VTK's line box reaches down to the descender of the font, 0.212 em below the base line.
   const int descent = static_cast<int>(std::ceil(0.212 * std::round(text.size)));
-  const int x0 = static_cast<int>(std::lround(text.at.x())) + (text.upwards ? descent : 0);
+  const int x0 = static_cast<int>(std::lround(text.at.x())) + (text.upwards ? descent - 1 : 0);
   const int y0 = static_cast<int>(std::lround(text.at.y())) + (text.upwards ? 0 : descent);
   const int* extent = glyphs->GetExtent();
   for (int y = extent[2]; y <= extent[3]; ++y)
@@ -157,7 +167,8 @@ void Canvas::draw(const PlacedImage& placed) {
 
 Image rasterize(const Drawing& drawing) {
   Canvas canvas(drawing.width, drawing.height);
-  for (const auto& element : drawing.elements) std::visit([&](const auto& item) { canvas.draw(item); }, element);
+  for (const auto& element : drawing.elements)
+    std::visit([&](const auto& item) { canvas.draw(item); }, element);
   return canvas.take();
 }
 

@@ -30,11 +30,20 @@ std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
     }
   }
   return result;
@@ -65,8 +74,8 @@ std::string list(const PlanePoints& points) {
 }
 
 std::string element(const FilledPolygon& polygon) {
-  return "<polygon fill-rule=\"evenodd\" fill=\"" + hex(polygon.colour) + "\" points=\"" + list(polygon.points) +
-         "\"/>\n";
+  return "<polygon fill-rule=\"evenodd\" fill=\"" + hex(polygon.colour) + "\" points=\"" +
+         list(polygon.points) + "\"/>\n";
 }
 
 std::string element(const Polyline& line) {
@@ -77,8 +86,9 @@ std::string element(const Polyline& line) {
 std::string element(const Text& text) {
   constexpr std::array<std::string_view, 3> anchors{"start", "middle", "end"};
   const std::string x = number(text.at.x()), y = number(text.at.y());
-  return "<text x=\"" + x + "\" y=\"" + y + "\" font-size=\"" + number(text.size) + "\" fill=\"" + hex(text.colour) +
-         "\" text-anchor=\"" + std::string(anchors[static_cast<std::size_t>(text.anchor)]) + "\"" +
+  return "<text x=\"" + x + "\" y=\"" + y + "\" font-size=\"" + number(text.size) + "\" fill=\"" +
+         hex(text.colour) + "\" text-anchor=\"" +
+         std::string(anchors[static_cast<std::size_t>(text.anchor)]) + "\"" +
          (text.bold ? " font-weight=\"bold\"" : "") +
          (text.upwards ? " transform=\"rotate(-90 " + x + " " + y + ")\"" : "") + ">" + escaped(text.text) +
          "</text>\n";
@@ -98,11 +108,14 @@ std::string svg_text(const Drawing& drawing) {
   const std::string width = std::to_string(drawing.width), height = std::to_string(drawing.height);
   std::string text =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" version=\"1.1\" width=\"" +
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+      "version=\"1.1\" width=\"" +
       width + "\" height=\"" + height + "\" viewBox=\"0 0 " + width + " " + height +
-      "\" font-family=\"Arial, Liberation Sans, DejaVu Sans, sans-serif\">\n<rect width=\"100%\" height=\"100%\" "
+      "\" font-family=\"Arial, Liberation Sans, DejaVu Sans, sans-serif\">\n<rect width=\"100%\" "
+      "height=\"100%\" "
       "fill=\"#ffffff\"/>\n";
-  for (const auto& item : drawing.elements) text += std::visit([](const auto& e) { return element(e); }, item);
+  for (const auto& item : drawing.elements)
+    text += std::visit([](const auto& e) { return element(e); }, item);
   return text + "</svg>\n";
 }
 

@@ -32,7 +32,8 @@ std::vector<EGLDisplay> candidate_displays() {
   if (platform_display != nullptr && has_client_extension("EGL_MESA_platform_surfaceless"))
     displays.push_back(platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
   const auto query_devices = entry_point<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-  if (platform_display != nullptr && query_devices != nullptr && has_client_extension("EGL_EXT_platform_device")) {
+  if (platform_display != nullptr && query_devices != nullptr &&
+      has_client_extension("EGL_EXT_platform_device")) {
     std::array<EGLDeviceEXT, 16> devices{};
     EGLint count = 0;
     if (query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count) == EGL_TRUE)
@@ -62,15 +63,31 @@ Handles context_on(EGLDisplay display) {
   EGLint major = 0, minor = 0;
   if (display == EGL_NO_DISPLAY || eglInitialize(display, &major, &minor) != EGL_TRUE) return handles;
   if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) return handles;
-  constexpr std::array<EGLint, 15> wanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RED_SIZE, 8, EGL_GREEN_SIZE, 8,
-                                          EGL_BLUE_SIZE, 8, EGL_ALPHA_SIZE, 8, EGL_DEPTH_SIZE, 24,
-                                          EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
+  constexpr std::array<EGLint, 15> wanted{EGL_SURFACE_TYPE,
+                                          EGL_PBUFFER_BIT,
+                                          EGL_RED_SIZE,
+                                          8,
+                                          EGL_GREEN_SIZE,
+                                          8,
+                                          EGL_BLUE_SIZE,
+                                          8,
+                                          EGL_ALPHA_SIZE,
+                                          8,
+                                          EGL_DEPTH_SIZE,
+                                          24,
+                                          EGL_RENDERABLE_TYPE,
+                                          EGL_OPENGL_BIT,
+                                          EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (eglChooseConfig(display, wanted.data(), &config, 1, &count) != EGL_TRUE || count == 0) return handles;
   constexpr std::array<EGLint, 5> size{EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
-  constexpr std::array<EGLint, 7> version{EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 2,
-                                          EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+  constexpr std::array<EGLint, 7> version{EGL_CONTEXT_MAJOR_VERSION,
+                                          3,
+                                          EGL_CONTEXT_MINOR_VERSION,
+                                          2,
+                                          EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                          EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
                                           EGL_NONE};
   handles.surface = eglCreatePbufferSurface(display, config, size.data());
   handles.context = eglCreateContext(display, config, EGL_NO_CONTEXT, version.data());
@@ -106,6 +123,8 @@ void EglContext::make_current() const {
   if (eglMakeCurrent(display_, surface_, surface_, context_) != EGL_TRUE) throw RenderError(no_context);
 }
 
-bool EglContext::is_current() const { return eglGetCurrentContext() == context_; }
+bool EglContext::is_current() const {
+  return eglGetCurrentContext() == context_;
+}
 
 }  // namespace stackabilization::detail

@@ -2,9 +2,9 @@
 
 namespace stackabilization::detail {
 
-/// An OpenGL 3.2 core context without a window, a display server or special rights, created through EGL: Mesa's
-/// surfaceless platform first, then the first usable device, then EGL's default display (which reaches the X server
-/// of xvfb-run). Private to rendering/; use one context from one thread at a time.
+/// An OpenGL 3.2 core context without a window, a display server or special rights, created through EGL:
+/// Mesa's surfaceless platform first, then the first usable device, then EGL's default display (which reaches
+/// the X server of xvfb-run). Private to rendering/; use one context from one thread at a time.
 class EglContext {
  public:
   /// Creates the context and makes it current. Throws RenderError when no platform can give one.

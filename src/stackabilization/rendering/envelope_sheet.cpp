@@ -20,7 +20,8 @@ struct SampleCount {
 /// Cuts triangles where the samples of a height field say that they pass behind others.
 class SheetCutter {
  public:
-  SheetCutter(const HeightField& field, EnvelopeSide side) : field_(field), side_(side), slack_(slack(field)) {}
+  SheetCutter(const HeightField& field, EnvelopeSide side)
+      : field_(field), side_(side), slack_(slack(field)) {}
 
   /// Appends the visible pieces of one triangle, in window coordinates.
   std::vector<Corners> cut(const Corners& triangle) const;
@@ -61,7 +62,9 @@ SampleCount SheetCutter::count(const Corners& t) const {
   SampleCount result;
   if (area == 0) return result;
   const auto first = [](double low) { return std::max(0, static_cast<int>(std::ceil(low - 0.5))); };
-  const auto last = [](double high, int limit) { return std::min(limit - 1, static_cast<int>(std::floor(high - 0.5))); };
+  const auto last = [](double high, int limit) {
+    return std::min(limit - 1, static_cast<int>(std::floor(high - 0.5)));
+  };
   const auto [x0, x1] = std::minmax({t[0].x(), t[1].x(), t[2].x()});
   const auto [y0, y1] = std::minmax({t[0].y(), t[1].y(), t[2].y()});
   for (int i = first(x0); i <= last(x1, field_.window.columns); ++i)
@@ -75,7 +78,8 @@ SampleCount SheetCutter::count(const Corners& t) const {
   return result;
 }
 
-/// For a piece between samples: its middle against the nearest sample, allowing for its slope on the way there.
+/// For a piece between samples: its middle against the nearest sample, allowing for its slope on the way
+/// there.
 bool SheetCutter::seen_near(const Corners& t) const {
   constexpr double farthest = 0.71;  // pixels to the nearest sample
   const Eigen::Vector3d middle = (t[0] + t[1] + t[2]) / 3, normal = (t[1] - t[0]).cross(t[2] - t[0]);
@@ -146,12 +150,14 @@ Shape envelope_sheet(const Shape& shape, const HeightField& field, EnvelopeSide 
       sheet.triangle_part.push_back(shape.triangle_part[static_cast<std::size_t>(t)]);
     }
   }
-  if (corners.empty()) throw InputError("no surface is seen along the direction at the samples of the height field");
+  if (corners.empty())
+    throw InputError("no surface is seen along the direction at the samples of the height field");
   sheet.vertices.resize(static_cast<Eigen::Index>(corners.size()), 3);
   sheet.triangles.resize(static_cast<Eigen::Index>(corners.size() / 3), 3);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     sheet.vertices.row(static_cast<Eigen::Index>(i)) = corners[i].transpose();
-    sheet.triangles(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3)) = static_cast<std::int32_t>(i);
+    sheet.triangles(static_cast<Eigen::Index>(i / 3), static_cast<Eigen::Index>(i % 3)) =
+        static_cast<std::int32_t>(i);
   }
   return sheet;
 }

@@ -29,14 +29,14 @@ Image::Image(int columns, int rows, const Colour& background) : width(columns), 
 }
 
 std::array<std::uint8_t, 3> Image::pixel(int x, int y) const {
-  const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                              static_cast<std::size_t>(x));
+  const std::size_t at =
+      3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
   return {bytes[at], bytes[at + 1], bytes[at + 2]};
 }
 
 void Image::set_pixel(int x, int y, const Colour& colour) {
-  const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
-                              static_cast<std::size_t>(x));
+  const std::size_t at =
+      3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
   bytes[at] = byte(colour.red);
   bytes[at + 1] = byte(colour.green);
   bytes[at + 2] = byte(colour.blue);
@@ -55,7 +55,8 @@ std::string png_bytes(const Image& image) {
   writer->WriteToMemoryOn();
   writer->Write();
   vtkUnsignedCharArray* encoded = writer->GetResult();
-  if (encoded == nullptr || writer->GetErrorCode() != 0) throw RenderError("the PNG picture could not be encoded");
+  if (encoded == nullptr || writer->GetErrorCode() != 0)
+    throw RenderError("the PNG picture could not be encoded");
   return {reinterpret_cast<const char*>(encoded->GetPointer(0)),
           static_cast<std::size_t>(encoded->GetNumberOfValues())};
 }

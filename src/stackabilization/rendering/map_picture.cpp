@@ -13,11 +13,14 @@ namespace {
 constexpr double continued_radius = 1.2;
 
 /// Lambert's equal-area projection from +z; the hemisphere z >= 0 becomes the unit disc.
-Eigen::Vector2d to_disc(const Eigen::Vector3d& d) { return d.head<2>() / std::sqrt(1 + d.z()); }
+Eigen::Vector2d to_disc(const Eigen::Vector3d& d) {
+  return d.head<2>() / std::sqrt(1 + d.z());
+}
 
 Eigen::Vector3d from_disc(const Eigen::Vector2d& p) {
   const double squared = p.squaredNorm();
-  return {p.x() * std::sqrt(std::max(0.0, 2 - squared)), p.y() * std::sqrt(std::max(0.0, 2 - squared)), 1 - squared};
+  return {p.x() * std::sqrt(std::max(0.0, 2 - squared)), p.y() * std::sqrt(std::max(0.0, 2 - squared)),
+          1 - squared};
 }
 
 /// Nearest sample to a point of the disc, through square buckets of about one sample each.
@@ -32,7 +35,8 @@ class NearestSample {
     double value;
   };
   int bucket_coordinate(double x) const {
-    return std::clamp(static_cast<int>((x + continued_radius) / (2 * continued_radius) * side_), 0, side_ - 1);
+    return std::clamp(static_cast<int>((x + continued_radius) / (2 * continued_radius) * side_), 0,
+                      side_ - 1);
   }
   void insert(const Eigen::Vector3d& direction, double value);
 
@@ -56,8 +60,8 @@ void NearestSample::insert(const Eigen::Vector3d& direction, double value) {
       {direction, value});
 }
 
-/// Searches growing squares of buckets, and two rings beyond the first hit: the projection stretches lengths by at
-/// most sqrt(2).
+/// Searches growing squares of buckets, and two rings beyond the first hit: the projection stretches lengths
+/// by at most sqrt(2).
 double NearestSample::value_at(const Eigen::Vector2d& point) const {
   const Eigen::Vector3d direction = from_disc(point);
   const int column = bucket_coordinate(point.x()), row = bucket_coordinate(point.y());
@@ -104,21 +108,25 @@ void check(const std::vector<MapSample>& samples) {
 /// Rim, circles at 30 and 60 degrees from z, and the names of the axes.
 detail::Elements graticule(const Eigen::Vector2d& centre, double radius, double size) {
   detail::Elements elements;
+  const auto append = [&](const detail::Elements& more) {
+    elements.insert(elements.end(), more.begin(), more.end());
+  };
   for (const double degrees : {30.0, 60.0}) {
     const double r = std::sqrt(2.0) * std::sin(degrees / 2 * std::numbers::pi / 180);
     elements.emplace_back(Polyline{detail::circle(centre, r * radius), palette::white, 1});
-    elements.emplace_back(Text{{centre.x() + 0.3 * size, centre.y() - r * radius - 0.3 * size},
-                               detail::number_text(degrees) + "°",
-                               0.8 * size,
-                               palette::white});
+    append(detail::outlined({{centre.x() + 0.3 * size, centre.y() - r * radius - 0.3 * size},
+                             detail::number_text(degrees) + "°",
+                             0.8 * size}));
   }
   elements.emplace_back(Polyline{detail::circle(centre, radius), palette::ink, 1.5});
   const double out = radius + 0.6 * size;
   elements.emplace_back(Text{{centre.x() + out, centre.y() + 0.35 * size}, "x", size});
   elements.emplace_back(Text{{centre.x(), centre.y() - out}, "y", size, palette::ink, Anchor::centre});
-  elements.emplace_back(Text{{centre.x() - out, centre.y() + 0.35 * size}, "-x", size, palette::ink, Anchor::right});
-  elements.emplace_back(Text{{centre.x(), centre.y() + out + 0.7 * size}, "-y", size, palette::ink, Anchor::centre});
-  elements.emplace_back(Text{{centre.x() + 0.3 * size, centre.y() - 0.3 * size}, "z", 0.9 * size, palette::white});
+  elements.emplace_back(
+      Text{{centre.x() - out, centre.y() + 0.35 * size}, "-x", size, palette::ink, Anchor::right});
+  elements.emplace_back(
+      Text{{centre.x(), centre.y() + out + 0.7 * size}, "-y", size, palette::ink, Anchor::centre});
+  append(detail::outlined({{centre.x() + 0.8 * size, centre.y() - 0.6 * size}, "z", 0.9 * size}));
   elements.emplace_back(
       Polyline{detail::segment(centre.x() - 4, centre.y(), centre.x() + 4, centre.y()), palette::white, 1.5});
   elements.emplace_back(
@@ -128,33 +136,30 @@ detail::Elements graticule(const Eigen::Vector2d& centre, double radius, double 
 
 }  // namespace
 
-Drawing map_picture(const std::vector<MapSample>& samples, const MapPictureOptions& options) {
+Drawing map_picture(const StackabilityMap& map, const MapPictureOptions& options) {
+  const std::vector<MapSample>& samples = map.samples;
   check(samples);
   const auto order = [](const MapSample& a, const MapSample& b) { return a.stackability < b.stackability; };
-  const auto [worst, best] = std::minmax_element(samples.begin(), samples.end(), order);
-  // minmax_element returns the last of equal maxima; the first is what a list of directions leads with.
-  const MapSample& top = *std::max_element(samples.begin(), samples.end(), order);
-  const Range range{worst->stackability, best->stackability};
+  const MapSample& best = *std::max_element(samples.begin(), samples.end(), order);
+  const Range range{std::min_element(samples.begin(), samples.end(), order)->stackability, best.stackability};
 
   Drawing drawing{options.width, options.height, {}};
   const double size = options.width / 48.0, margin = 1.5 * size;
-  const std::string title = options.title.empty() ? "Stackability S over all directions" : options.title;
-  drawing.add(Text{{margin, 2.2 * size}, title, 1.3 * size, palette::ink, Anchor::left, true});
-  const Eigen::Vector3d r = top.direction;
-  drawing.add(Text{{margin, 3.9 * size},
-                   "best S = " + detail::number_text(top.stackability) + " along " + detail::vector_text(r) + ", red ring; " +
-                       std::to_string(samples.size()) + " directions",
-                   size,
-                   palette::faint});
+  const detail::Heading heading = detail::heading(
+      options.title.empty() ? "Stackability S over all directions" : options.title,
+      {"best S = " + detail::fixed_text(best.stackability) + " along " + detail::vector_text(best.direction) +
+       " (red ring), of " + std::to_string(samples.size()) + " directions"},
+      options.width, size);
+  drawing.add(heading.elements);
 
-  const double head = 6 * size, foot = 3 * size, bar_room = 6.5 * size;
-  const double side = std::floor(
-      std::min(options.width - 2 * margin - bar_room - 2 * size, options.height - head - foot));
+  const double head = heading.bottom + 2 * size, foot = 3 * size, bar_room = 6.5 * size;
+  const double side =
+      std::floor(std::min(options.width - 2 * margin - bar_room - 2 * size, options.height - head - foot));
   const Rectangle disc{margin + 1.5 * size, head, side, side};
   drawing.add(PlacedImage{disc, disc_image(samples, range, static_cast<int>(2 * side))});
   const Eigen::Vector2d centre(disc.x + side / 2, disc.y + side / 2);
   drawing.add(graticule(centre, side / 2, size));
-  const Eigen::Vector3d shown = (r.z() < 0 ? -1.0 : 1.0) * r.normalized();
+  const Eigen::Vector3d shown = (best.direction.z() < 0 ? -1.0 : 1.0) * best.direction.normalized();
   const Eigen::Vector2d at = to_disc(shown) * side / 2;
   drawing.add(detail::ring_mark(centre + Eigen::Vector2d(at.x(), -at.y()), 0.5 * size, palette::contact));
   drawing.add(detail::colour_bar({disc.right() + 3.2 * size, disc.y + 0.1 * side, 1.3 * size, 0.8 * side},

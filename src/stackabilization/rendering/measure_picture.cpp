@@ -55,8 +55,8 @@ Scene contact_scene(const Subject& s) {
   return scene;
 }
 
-/// The lower envelope belongs to the copy above, so it floats over the upper envelope of the copy below; thin lines
-/// join the places that will touch.
+/// The lower envelope belongs to the copy above, so it floats over the upper envelope of the copy below; thin
+/// lines join the places that will touch.
 Scene envelope_scene(const Subject& s) {
   double top = -std::numeric_limits<double>::infinity(), bottom = -top;
   const HeightField& field = s.field;
@@ -71,7 +71,10 @@ Scene envelope_scene(const Subject& s) {
   const Eigen::Vector3d lift = (top - bottom + 0.1 * s.measured.extent + 0.25 * breadth) * s.up;
   Scene scene;
   scene.add({envelope_sheet(s.shape, field, EnvelopeSide::upper), {palette::upper}, 1, Finish::smooth});
-  scene.add({moved(envelope_sheet(s.shape, field, EnvelopeSide::lower), lift), {palette::lower}, 1, Finish::smooth});
+  scene.add({moved(envelope_sheet(s.shape, field, EnvelopeSide::lower), lift),
+             {palette::lower},
+             1,
+             Finish::smooth});
   scene.add(contact_marks(s.contacts, EnvelopeSide::upper, s.mark_lift()));
   scene.add(contact_marks(s.contacts, EnvelopeSide::lower, lift + s.mark_lift()));
   SceneLines links{{}, palette::faint, 1};
@@ -122,9 +125,10 @@ Elements stacked_panel(const Subject& s, const Rectangle& place) {
        {detail::vertical_dimension({inner.x + left - 0.8 * s.text_size, level(low), level(high),
                                     "h = " + length_text(s.measured.extent, unit), Anchor::left},
                                    s.text_size),
-        detail::vertical_dimension({inner.x + right + 0.8 * s.text_size, level(high), level(high + s.measured.f_max),
-                                    "f_max = " + length_text(s.measured.f_max, unit), Anchor::right},
-                                   s.text_size)})
+        detail::vertical_dimension(
+            {inner.x + right + 0.8 * s.text_size, level(high), level(high + s.measured.f_max),
+             "f_max = " + length_text(s.measured.f_max, unit), Anchor::right},
+            s.text_size)})
     elements.insert(elements.end(), dimension.begin(), dimension.end());
   return elements;
 }
@@ -136,9 +140,8 @@ struct Caption {
 Elements caption(const Caption& text, const Rectangle& place, double text_size) {
   Elements elements{
       Text{{place.x, place.y + text_size}, text.heading, 1.05 * text_size, palette::ink, Anchor::left, true}};
-  const Elements words =
-      detail::paragraph({{place.x, place.y + 2.4 * text_size}, text.words, 0.85 * text_size, palette::faint},
-                        place.width);
+  const Elements words = detail::paragraph(
+      {{place.x, place.y + 2.4 * text_size}, text.words, 0.85 * text_size, palette::faint}, place.width);
   elements.insert(elements.end(), words.begin(), words.end());
   return elements;
 }
@@ -174,54 +177,68 @@ Elements number_table(const Subject& s, const Rectangle& place) {
       {"contact regions", contact_summary(s.contacts)}};
   const double line = 1.75 * s.text_size;
   double y = place.y + 1.5 * s.text_size;
-  Elements elements{Text{{place.x, y}, "Stackability  S = " + number_text(m.value), 1.6 * s.text_size, palette::ink,
-                         Anchor::left, true}};
+  Elements elements{Text{{place.x, y},
+                         "Stackability  S = " + detail::fixed_text(m.value),
+                         1.6 * s.text_size,
+                         palette::ink,
+                         Anchor::left,
+                         true}};
   y += 1.5 * s.text_size;
-  elements.emplace_back(Text{{place.x, y},
-                             "S = 1 - (f_max / h) V(M,r) / V(M): the part of its box that each further copy saves",
-                             0.85 * s.text_size,
-                             palette::faint});
+  elements.emplace_back(
+      Text{{place.x, y},
+           "S = 1 - (f_max / h) V(M,r) / V(M): the part of its box that each further copy saves",
+           0.85 * s.text_size,
+           palette::faint});
   y += 0.7 * s.text_size;
   for (const auto& [name, value] : rows) {
     y += line;
     elements.emplace_back(Text{{place.x, y}, name, s.text_size});
-    elements.emplace_back(Text{{place.x + 0.52 * place.width, y}, value, s.text_size, palette::ink, Anchor::left, true});
-    elements.emplace_back(Polyline{detail::segment(place.x, y + 0.45 * s.text_size, place.right(), y + 0.45 * s.text_size),
-                                   mix(palette::faint, palette::white, 0.7), 1});
+    elements.emplace_back(
+        Text{{place.x + 0.52 * place.width, y}, value, s.text_size, palette::ink, Anchor::left, true});
+    elements.emplace_back(
+        Polyline{detail::segment(place.x, y + 0.45 * s.text_size, place.right(), y + 0.45 * s.text_size),
+                 mix(palette::faint, palette::white, 0.7), 1});
   }
   return elements;
 }
 
 }  // namespace
 
-Drawing measure_picture(const Shape& shape, const Stackability& measured, const std::vector<ContactRegion>& contacts,
-                        const PictureOptions& options) {
+Drawing measure_picture(const Shape& shape, const Stackability& measured,
+                        const std::vector<ContactRegion>& contacts, const PictureOptions& options) {
   const Direction direction(measured.direction);
   const double size = options.width / 68.0, margin = 1.5 * size;
-  const Subject subject{shape,
-                        measured,
-                        contacts,
-                        direction,
-                        height_field_by_depth_buffer(shape, direction, window_around(shape, direction, gap_samples)),
-                        direction.unit(),
-                        size};
+  const Subject subject{
+      shape,
+      measured,
+      contacts,
+      direction,
+      height_field_by_depth_buffer(shape, direction, window_around(shape, direction, gap_samples)),
+      direction.unit(),
+      size};
   Drawing drawing{options.width, options.height, {}};
-  const std::string title = options.title.empty() ? "How one shape stacks" : options.title;
-  drawing.add(Text{{margin, 2.4 * size}, title, 1.6 * size, palette::ink, Anchor::left, true});
+  const detail::Heading heading = detail::heading(
+      options.title.empty() ? "How one shape stacks" : options.title, {}, options.width, size);
+  drawing.add(heading.elements);
 
-  const double top = 3.6 * size, column = (options.width - 4 * margin) / 3, words = 5.2 * size;
+  const double top = heading.bottom + 1.2 * size;
+  const double column = (options.width - 4 * margin) / 3, words = 5.2 * size;
   const double upper_height = 0.6 * (options.height - top - 2 * words - margin);
-  const auto panel = [&](int k) { return Rectangle{margin + k * (column + margin), top, column, upper_height}; };
+  const auto panel = [&](int k) {
+    return Rectangle{margin + k * (column + margin), top, column, upper_height};
+  };
   const auto below = [&](const Rectangle& place) {
     return Rectangle{place.x, place.bottom() + 0.4 * size, place.width, words};
   };
   const Scene touching = contact_scene(subject), apart = envelope_scene(subject);
   drawing.add(picture_of(touching, fit_view(touching, direction, view_of(panel(0))), panel(0)));
-  drawing.add(caption({"1  The shape", "Red: where two stacked copies touch or nearly touch."}, below(panel(0)), size));
+  drawing.add(caption({"1  The shape", "Red: where two stacked copies touch or nearly touch."},
+                      below(panel(0)), size));
   drawing.add(picture_of(apart, fit_view(apart, direction, view_of(panel(1))), panel(1)));
-  drawing.add(caption({"2  Its envelopes, pulled apart",
-                       "Blue: all that is seen from above, u. Orange: all that is seen from below, l, of the next copy."},
-                      below(panel(1)), size));
+  drawing.add(caption(
+      {"2  Its envelopes, pulled apart",
+       "Blue: all that is seen from above, u. Orange: all that is seen from below, l, of the next copy."},
+      below(panel(1)), size));
   drawing.add(stacked_panel(subject, panel(2)));
   drawing.add(caption({"3  Two copies stacked", "The second copy comes to rest f_max higher than the first."},
                       below(panel(2)), size));
@@ -229,9 +246,11 @@ Drawing measure_picture(const Shape& shape, const Stackability& measured, const 
   const double row = top + upper_height + words + 0.5 * margin;
   const Rectangle gap{margin, row, column, options.height - row - words};
   drawing.add(detail::gap_panel(gap, subject.field, 0.85 * size));
-  drawing.add(caption({"4  The gap f = u - l, seen along r", "Its largest value (ring) is what keeps the copies apart."},
-                      below(gap), size));
-  drawing.add(number_table(subject, {2 * margin + column, row, 2 * column + margin, options.height - row - margin}));
+  drawing.add(caption(
+      {"4  The gap f = u - l, seen along r", "Its largest value (ring) is what keeps the copies apart."},
+      below(gap), size));
+  drawing.add(
+      number_table(subject, {2 * margin + column, row, 2 * column + margin, options.height - row - margin}));
   return drawing;
 }
 

@@ -17,8 +17,8 @@
 namespace stackabilization::detail {
 namespace {
 
-// Debian's GLEW is built for GLX. Under EGL it loads every OpenGL function and only then complains that it found no
-// GLX display; VTK repeats that complaint at each frame although all is well.
+// Debian's GLEW is built for GLX. Under EGL it loads every OpenGL function and only then complains that it
+// found no GLX display; VTK repeats that complaint at each frame although all is well.
 bool is_harmless(std::string_view message) {
   return message.find("GLEW could not be initialized") != std::string_view::npos;
 }
@@ -69,14 +69,20 @@ OffscreenWindow::Data::Data() {
   window->Render();  // the state cache of VTK answers questions about the driver only after a first frame
 }
 
-OffscreenWindow::OffscreenWindow(int width, int height) : data_(std::make_unique<Data>()) { resize(width, height); }
+OffscreenWindow::OffscreenWindow(int width, int height) : data_(std::make_unique<Data>()) {
+  resize(width, height);
+}
 OffscreenWindow::OffscreenWindow(OffscreenWindow&&) noexcept = default;
 OffscreenWindow& OffscreenWindow::operator=(OffscreenWindow&&) noexcept = default;
 OffscreenWindow::~OffscreenWindow() = default;
 
-vtkRenderWindow& OffscreenWindow::vtk() { return *data_->window; }
+vtkRenderWindow& OffscreenWindow::vtk() {
+  return *data_->window;
+}
 
-void OffscreenWindow::resize(int width, int height) { data_->window->SetSize(width, height); }
+void OffscreenWindow::resize(int width, int height) {
+  data_->window->SetSize(width, height);
+}
 
 int OffscreenWindow::maximal_side() {
   data_->context.make_current();

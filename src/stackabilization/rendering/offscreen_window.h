@@ -6,8 +6,9 @@ class vtkRenderWindow;
 
 namespace stackabilization::detail {
 
-/// A VTK render window that needs no display: an EGL context under vtkGenericOpenGLRenderWindow. VTK's own windows
-/// abort the process when there is no X server; this one throws. Private to rendering/; single-threaded use.
+/// A VTK render window that needs no display: an EGL context under vtkGenericOpenGLRenderWindow. VTK's own
+/// windows abort the process when there is no X server; this one throws. Private to rendering/;
+/// single-threaded use.
 class OffscreenWindow {
  public:
   /// Throws RenderError when there is no OpenGL context. Sizes in pixels, > 0.

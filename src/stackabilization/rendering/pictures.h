@@ -8,6 +8,7 @@
 #include "stackabilization/rendering/drawing.h"
 #include "stackabilization/shape/direction.h"
 #include "stackabilization/shape/shape.h"
+#include "stackabilization/stacking/map.h"
 #include "stackabilization/stacking/stackability.h"
 
 namespace stackabilization {
@@ -18,41 +19,36 @@ struct PictureOptions {
   std::string title;                ///< heading, for example the file's name; may be empty
 };
 
-/// One sheet that explains a measurement: the shape with its contact regions (red), the upper (blue) and lower
-/// (orange) envelope pulled apart, two copies stacked with h and f_max, the sampled gap function with colour bar, and
-/// the numbers. `measured` and `contacts` must be of this shape and one direction, which points up. Needs no display;
-/// throws RenderError when there is no OpenGL context.
-Drawing measure_picture(const Shape& shape, const Stackability& measured, const std::vector<ContactRegion>& contacts,
-                        const PictureOptions& options = {});
+/// One sheet that explains a measurement: the shape with its contact regions (red), the upper (blue) and
+/// lower (orange) envelope pulled apart, two copies stacked with h and f_max, the sampled gap function with
+/// colour bar, and the numbers. `measured` and `contacts` must be of this shape and one direction, which
+/// points up. Needs no display; throws RenderError when there is no OpenGL context.
+Drawing measure_picture(const Shape& shape, const Stackability& measured,
+                        const std::vector<ContactRegion>& contacts, const PictureOptions& options = {});
 
 struct StackPictureOptions {
-  int width = 1200, height = 900;   ///< pixels
-  std::string title;                ///< heading; may be empty
-  std::vector<std::string> notes;   ///< lines under the heading, such as the numbers of the stack
-  bool side_view = true;            ///< a second view along the horizontal beside the 3/4 view
+  int width = 1200, height = 900;  ///< pixels
+  std::string title;               ///< heading; may be empty
+  std::vector<std::string> notes;  ///< lines under the heading, such as the numbers of the stack
+  bool side_view = true;           ///< a second view along the horizontal beside the 3/4 view
 };
 
-/// A stack of copies in their places, bottom first, each in its own shade of yellow, with the total height along r,
-/// which points up. Throws UsageError when there is no copy, RenderError when there is no OpenGL context.
+/// A stack of copies in their places, bottom first, each in its own shade of yellow, with the total height
+/// along r, which points up. Throws UsageError when there is no copy, RenderError when there is no OpenGL
+/// context.
 Drawing stack_picture(const std::vector<Shape>& copies, const Direction& direction,
                       const StackPictureOptions& options = {});
-
-/// S(M, r) at one direction of a map.
-struct MapSample {
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< any length but zero
-  double stackability = 0;
-};
 
 struct MapPictureOptions {
   int width = 1000, height = 860;  ///< pixels
   std::string title;               ///< heading; may be empty
 };
 
-/// Map of S over all directions: the hemisphere z >= 0 as a disc in Lambert's equal-area projection, seen from +z
-/// with x to the right and y up (S(r) = S(-r) gives the other half). Every point has the colour of the nearest
-/// sample; the best sample is marked. Needs no OpenGL. Throws UsageError when there is no sample, a direction is zero or
-/// a value is not finite.
-Drawing map_picture(const std::vector<MapSample>& samples, const MapPictureOptions& options = {});
+/// Map of S over all directions: the hemisphere z >= 0 as a disc in Lambert's equal-area projection, seen
+/// from +z with x to the right and y up (S(r) = S(-r) gives the other half). Every point has the colour of
+/// the nearest sample; the best sample, the first of equal ones, is marked. Needs no OpenGL. Throws
+/// UsageError when there is no sample, a direction is zero or a value is not finite.
+Drawing map_picture(const StackabilityMap& map, const MapPictureOptions& options = {});
 
 /// The sampled gap function f = u - l with colour bar and the place of its maximum. Needs no OpenGL.
 Drawing gap_picture(const HeightField& field, const PictureOptions& options = {1000, 860, {}});

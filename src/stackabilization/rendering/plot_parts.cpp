@@ -37,6 +37,15 @@ std::string number_text(double value, int digits) {
   return {buffer.data(), end.ptr};
 }
 
+std::string fixed_text(double value) {
+  constexpr double unit = 10000;
+  std::array<char, 330> buffer{};
+  const double rounded = std::round(value * unit) / unit + 0.0;  // no -0
+  const auto end =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), rounded, std::chars_format::fixed, 4);
+  return {buffer.data(), end.ptr};
+}
+
 std::string length_text(double value, Unit unit) {
   std::string text = number_text(value);
   if (unit != Unit::unknown) text.append(" ").append(unit_symbol(unit));
@@ -66,6 +75,46 @@ PlanePoints circle(const Eigen::Vector2d& centre, double radius) {
     points.row(k) << centre.x() + radius * std::cos(angle), centre.y() + radius * std::sin(angle);
   }
   return points;
+}
+
+Text fitted(Text text, double width) {
+  // Font sizes are whole pixels, so the first guess can be a little too wide.
+  while (text.size > 1 && text_width(text) > width)
+    text.size = std::max(1.0, std::min(text.size - 1, std::floor(text.size * width / text_width(text))));
+  return text;
+}
+
+Elements outlined(const Text& text) {
+  Elements elements;
+  Text copy = text;
+  copy.colour = palette::ink;
+  for (const Eigen::Vector2d& shift :
+       {Eigen::Vector2d(1, 0), Eigen::Vector2d(-1, 0), Eigen::Vector2d(0, 1), Eigen::Vector2d(0, -1)}) {
+    copy.at = text.at + shift;
+    elements.emplace_back(copy);
+  }
+  copy.at = text.at;
+  copy.colour = palette::white;
+  elements.emplace_back(copy);
+  return elements;
+}
+
+Heading heading(const std::string& title, const std::vector<std::string>& lines, double width,
+                double text_size) {
+  const double margin = 1.5 * text_size;
+  Heading result{{}, 0.9 * text_size};
+  if (!title.empty()) {
+    result.bottom = 2.4 * text_size;
+    result.elements.emplace_back(
+        fitted({{margin, result.bottom}, title, 1.5 * text_size, palette::ink, Anchor::left, true},
+               width - 2 * margin));
+  }
+  for (const std::string& line : lines) {
+    result.bottom += 1.6 * text_size;
+    result.elements.emplace_back(
+        fitted({{margin, result.bottom}, line, text_size, palette::faint}, width - 2 * margin));
+  }
+  return result;
 }
 
 Elements paragraph(const Text& style, double width) {
@@ -108,7 +157,8 @@ Elements colour_bar(const Rectangle& place, const ColourScale& scale, double tex
   const double span = scale.high - scale.low;
   for (const double value : ticks(scale.low, scale.high, 6)) {
     const double y = place.bottom() - (span > 0 ? (value - scale.low) / span : 0) * place.height;
-    elements.emplace_back(Polyline{segment(place.right(), y, place.right() + 5, y), palette::ink, line_width});
+    elements.emplace_back(
+        Polyline{segment(place.right(), y, place.right() + 5, y), palette::ink, line_width});
     elements.emplace_back(Text{{place.right() + 9, y + 0.35 * text_size}, number_text(value), text_size});
   }
   elements.emplace_back(Text{{place.x, place.y - 0.8 * text_size}, scale.title, text_size});
@@ -136,11 +186,13 @@ Elements gap_panel(const Rectangle& place, const HeightField& field, double text
   const GapMaximum peak = maximum_gap(field);
   const double bar_room = 7 * text_size, foot = 2.2 * text_size, head = 2 * text_size;
   const Window& window = field.window;
-  const double scale = std::min((place.width - bar_room) / window.columns, (place.height - foot - head) / window.rows);
+  const double scale =
+      std::min((place.width - bar_room) / window.columns, (place.height - foot - head) / window.rows);
   const Rectangle image{place.x, place.y + head, scale * window.columns, scale * window.rows};
   Elements elements{PlacedImage{image, gap_image(gap(field), peak.value), Sampling::cells}};
   if (peak.column >= 0) {
-    const Eigen::Vector2d at(image.x + (peak.column + 0.5) * scale, image.bottom() - (peak.row + 0.5) * scale);
+    const Eigen::Vector2d at(image.x + (peak.column + 0.5) * scale,
+                             image.bottom() - (peak.row + 0.5) * scale);
     const Elements mark = ring_mark(at, 0.45 * text_size, palette::contact);
     elements.insert(elements.end(), mark.begin(), mark.end());
   }
@@ -148,10 +200,11 @@ Elements gap_panel(const Rectangle& place, const HeightField& field, double text
   const Elements bar = colour_bar({image.right() + 1.2 * text_size, image.y, 1.2 * text_size, image.height},
                                   {0, peak.value, symbol.empty() ? "f" : "f in " + symbol}, text_size);
   elements.insert(elements.end(), bar.begin(), bar.end());
-  elements.emplace_back(Text{{image.x, place.bottom() - 0.6 * text_size},
-                             std::to_string(window.columns) + " x " + std::to_string(window.rows) + " samples",
-                             text_size,
-                             palette::faint});
+  elements.emplace_back(
+      Text{{image.x, place.bottom() - 0.6 * text_size},
+           std::to_string(window.columns) + " x " + std::to_string(window.rows) + " samples",
+           text_size,
+           palette::faint});
   return elements;
 }
 

@@ -14,16 +14,34 @@ using Elements = std::vector<DrawingElement>;
 
 /// Shortest text with `digits` significant digits, locale independent: 0.5, 12.34, 1.2e-07.
 std::string number_text(double value, int digits = 4);
-/// The same with the unit's symbol, when it is known.
+/// With four digits after the point, never -0.0000: a stackability.
+std::string fixed_text(double value);
+/// The first one with the unit's symbol, when it is known.
 std::string length_text(double value, Unit unit);
 
 /// "(1, 0, 0.5)".
 std::string vector_text(const Eigen::Vector3d& vector);
 
+/// The text, made smaller if it is wider than `width` pixels.
+Text fitted(Text text, double width);
+
+/// White text with a dark outline, readable on any colour.
+Elements outlined(const Text& text);
+
+/// Heading of a picture: a title (bold, may be empty) and lines below it, from the top left; made smaller
+/// where they would not fit into `width` pixels. `bottom` is the last base line.
+struct Heading {
+  Elements elements;
+  double bottom = 0;
+};
+Heading heading(const std::string& title, const std::vector<std::string>& lines, double width,
+                double text_size);
+
 /// Text broken into lines between words, at most `width` pixels wide, downwards from the anchor of `style`.
 Elements paragraph(const Text& style, double width);
 
-/// Vertical bar from low (bottom) to high (top) in viridis with round ticks at its right, and its title above.
+/// Vertical bar from low (bottom) to high (top) in viridis with round ticks at its right, and its title
+/// above.
 struct ColourScale {
   double low = 0, high = 1;
   std::string title;

@@ -93,9 +93,10 @@ View fit_view(const Scene& scene, const Direction& up, const ViewOptions& option
   return view;
 }
 
-Scene contact_marks(const std::vector<ContactRegion>& regions, EnvelopeSide side, const Eigen::Vector3d& shift) {
+Scene contact_marks(const std::vector<ContactRegion>& regions, EnvelopeSide side,
+                    const Eigen::Vector3d& shift) {
   std::vector<const Points*> polygons;
-  SceneLines outlines{{}, palette::contact, 3};
+  SceneLines outlines{{}, palette::contact, 3}, dots{{}, palette::contact, 7};
   for (const ContactRegion& region : regions)
     for (const ContactPolygon& piece : region.polygons) {
       const Points& points = side == EnvelopeSide::upper ? piece.upper_points : piece.lower_points;
@@ -104,12 +105,15 @@ Scene contact_marks(const std::vector<ContactRegion>& regions, EnvelopeSide side
       Points loop(points.rows() + 1, 3);
       loop.topRows(points.rows()) = points.rowwise() + shift.transpose();
       loop.bottomRows(1) = loop.topRows(1);
+      const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+      if (size <= shift.norm()) dots.polylines.emplace_back(loop.topRows(1));
       outlines.polylines.push_back(std::move(loop));
     }
   Scene scene;
   if (polygons.empty()) return scene;
   scene.add({fans(polygons, shift), {palette::contact}, 1, Finish::plain});
   scene.add(std::move(outlines));
+  scene.add(std::move(dots));
   return scene;
 }
 

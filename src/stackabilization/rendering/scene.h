@@ -26,7 +26,7 @@ struct SceneMesh {
   Finish finish = Finish::shaded;
 };
 
-/// Polylines of one colour and width.
+/// Polylines of one colour and width. A polyline of one point is a dot.
 struct SceneLines {
   std::vector<Points> polylines;
   Colour colour = palette::ink;
@@ -62,7 +62,8 @@ struct ViewOptions {
   int width = 800, height = 600;  ///< pixels
 };
 
-/// The view that shows the whole scene as large as fits. Deterministic. Throws UsageError when the scene is empty.
+/// The view that shows the whole scene as large as fits. Deterministic. Throws UsageError when the scene is
+/// empty.
 View fit_view(const Scene& scene, const Direction& up, const ViewOptions& options = {});
 
 /// The same eye for any content: rotation only, so that pictures side by side can share one scale.
@@ -71,12 +72,14 @@ View turned_view(const Direction& up, const ViewOptions& options = {});
 /// Which side of a copy a contact region is shown on.
 enum class EnvelopeSide { upper, lower };
 
-/// Contact regions as red marks, moved by `shift` (model units) so that they do not sink into the surface. Pieces
-/// without area show as lines or dots of visible size.
-Scene contact_marks(const std::vector<ContactRegion>& regions, EnvelopeSide side, const Eigen::Vector3d& shift);
+/// Contact regions as red marks, moved by `shift` (model units) so that they do not sink into the surface.
+/// Pieces smaller than the shift show as dots, pieces without area as lines.
+Scene contact_marks(const std::vector<ContactRegion>& regions, EnvelopeSide side,
+                    const Eigen::Vector3d& shift);
 
-/// Pixels of a scene, twice the size of the view (`factor` 2) for smooth edges when it is scaled down. Soft light with
-/// ambient occlusion on white ground; needs no display. Throws RenderError when there is no OpenGL context.
+/// Pixels of a scene, twice the size of the view (`factor` 2) for smooth edges when it is scaled down. Soft
+/// light with ambient occlusion on white ground; needs no display. Throws RenderError when there is no OpenGL
+/// context.
 Image render(const Scene& scene, const View& view, int factor = 2);
 
 }  // namespace stackabilization

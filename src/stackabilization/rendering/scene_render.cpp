@@ -161,24 +161,27 @@ void Stage::add(const SceneMesh& mesh) {
 
 void Stage::add(const SceneLines& lines) {
   vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> cells;
+  vtkNew<vtkCellArray> cells, dots;
   for (const Points& line : lines.polylines) {
-    cells->InsertNextCell(static_cast<int>(line.rows()));
+    vtkCellArray& cell = line.rows() == 1 ? *dots : *cells;
+    cell.InsertNextCell(static_cast<int>(line.rows()));
     for (Eigen::Index i = 0; i < line.rows(); ++i) {
       const vtkIdType id = points->InsertNextPoint(0, 0, 0);
       set_point(*points, id, line.row(i).transpose());
-      cells->InsertCellPoint(id);
+      cell.InsertCellPoint(id);
     }
   }
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->SetLines(cells);
+  data->SetVerts(dots);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->SetColor(lines.colour.red, lines.colour.green, lines.colour.blue);
   actor->GetProperty()->SetLineWidth(static_cast<float>(lines.width * factor_));
+  actor->GetProperty()->SetPointSize(static_cast<float>(lines.width * factor_));
   actor->GetProperty()->LightingOff();
   renderer_->AddActor(actor);
 }

@@ -41,12 +41,9 @@ Drawing stack_picture(const std::vector<Shape>& copies, const Direction& directi
   if (copies.empty()) throw UsageError("a picture of a stack needs at least one copy");
   const double size = options.width / 60.0, margin = 1.5 * size;
   Drawing drawing{options.width, options.height, {}};
-  double top = 2.4 * size;
-  if (!options.title.empty())
-    drawing.add(Text{{margin, top}, options.title, 1.5 * size, palette::ink, Anchor::left, true});
-  for (const std::string& note : options.notes)
-    drawing.add(Text{{margin, top += 1.5 * size}, note, size, palette::faint});
-  top += size;
+  const detail::Heading heading = detail::heading(options.title, options.notes, options.width, size);
+  drawing.add(heading.elements);
+  const double top = heading.bottom + size;
 
   const Scene scene = stack_scene(copies);
   const double height = options.height - top - margin, dimension_room = 3 * size;
@@ -54,7 +51,8 @@ Drawing stack_picture(const std::vector<Shape>& copies, const Direction& directi
   ViewOptions view_options;
   view_options.width = static_cast<int>(width);
   view_options.height = static_cast<int>(height);
-  drawing.add(PlacedImage{{margin, top, width, height}, render(scene, fit_view(scene, direction, view_options))});
+  drawing.add(
+      PlacedImage{{margin, top, width, height}, render(scene, fit_view(scene, direction, view_options))});
   if (!options.side_view) return drawing;
 
   const Rectangle side{margin + width + dimension_room, top, width - dimension_room, height};
@@ -65,7 +63,9 @@ Drawing stack_picture(const std::vector<Shape>& copies, const Direction& directi
   drawing.add(PlacedImage{side, render(scene, view)});
   const Eigen::Vector3d up = direction.unit();
   const HeightRange range = height_range(copies, up, view);
-  const auto level = [&](double z) { return side.y + view.project(view.centre + (z - up.dot(view.centre)) * up).y(); };
+  const auto level = [&](double z) {
+    return side.y + view.project(view.centre + (z - up.dot(view.centre)) * up).y();
+  };
   drawing.add(detail::vertical_dimension(
       {side.x + range.left - size, level(range.low), level(range.high),
        "total height " + detail::length_text(range.high - range.low, copies.front().unit), Anchor::left},

@@ -1,0 +1,204 @@
+#include <Eigen/Geometry>
+#include <cmath>
+#include <set>
+#include <variant>
+
+#include "stackabilization/rendering/pictures.h"
+#include "stackabilization/shape/errors.h"
+#include "support/catch.h"
+#include "support/solids.h"
+
+using namespace stackabilization;
+
+namespace {
+
+/// Every text inside the picture, every image too: nothing is clipped.
+void check_nothing_clipped(const Drawing& drawing) {
+  for (const DrawingElement& element : drawing.elements) {
+    if (const auto* text = std::get_if<Text>(&element)) {
+      const double length = text_width(*text);
+      const double before = text->anchor == Anchor::left    ? 0
+                            : text->anchor == Anchor::right ? length
+                                                            : length / 2;
+      const double x0 = text->upwards ? text->at.x() - text->size : text->at.x() - before;
+      const double x1 = text->upwards ? text->at.x() : text->at.x() - before + length;
+      const double y0 = text->upwards ? text->at.y() + before - length : text->at.y() - 0.8 * text->size;
+      const double y1 = text->upwards ? text->at.y() + before : text->at.y() + 0.2 * text->size;
+      INFO(text->text);
+      CHECK(x0 >= 0);
+      CHECK(y0 >= 0);
+      CHECK(x1 <= drawing.width);
+      CHECK(y1 <= drawing.height);
+    }
+    if (const auto* image = std::get_if<PlacedImage>(&element)) {
+      CHECK(image->place.x >= 0);
+      CHECK(image->place.y >= 0);
+      CHECK(image->place.right() <= drawing.width);
+      CHECK(image->place.bottom() <= drawing.height);
+    }
+  }
+}
+
+bool says(const Drawing& drawing, const std::string& words) {
+  for (const DrawingElement& element : drawing.elements)
+    if (const auto* text = std::get_if<Text>(&element);
+        text != nullptr && text->text.find(words) != std::string::npos)
+      return true;
+  return false;
+}
+
+std::size_t distinct_colours(const Image& image) {
+  std::set<std::array<std::uint8_t, 3>> colours;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) colours.insert(image.pixel(x, y));
+  return colours.size();
+}
+
+/// Pixels whose hue is that of `colour`, in light and in shade.
+int pixels_of(const Image& image, const Colour& colour) {
+  const Eigen::Array3d wanted = Eigen::Array3d(colour.red, colour.green, colour.blue) /
+                                std::max({colour.red, colour.green, colour.blue});
+  int count = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) {
+      const auto p = image.pixel(x, y);
+      const Eigen::Array3d value(p[0], p[1], p[2]);
+      if (value.maxCoeff() > 80 && (value / value.maxCoeff() - wanted).abs().maxCoeff() < 0.06) ++count;
+    }
+  return count;
+}
+
+std::array<std::uint8_t, 3> bytes_of(const Colour& colour) {
+  Image one(1, 1, colour);
+  return one.pixel(0, 0);
+}
+
+}  // namespace
+
+TEST_CASE("the sheet of a measurement shows the shape, both envelopes, the contacts and the numbers") {
+  const Shape cup = solids::frustum_shell({});
+  const Direction up(0, 0, 1);
+  const StackabilitySolver solver(cup);
+  const Stackability measured = solver.measure(up);
+  const std::vector<ContactRegion> contacts = contact_regions(cup, solver.tree(), up, solver.separation(up));
+  const PictureOptions options{800, 590, "cup.obj"};
+  const Drawing sheet = measure_picture(cup, measured, contacts, options);
+  check_nothing_clipped(sheet);
+  CHECK(says(sheet, "cup.obj"));
+  CHECK(says(sheet, "h = 8"));
+  CHECK(says(sheet, "f_max = 4.25"));
+  CHECK(says(sheet, "(0, 0, 1)"));
+  const Image image = rasterize(sheet);
+  CHECK(image.width == 800);
+  CHECK(image.height == 590);
+  CHECK(distinct_colours(image) > 1000);
+  for (const Colour& colour : {palette::input, palette::upper, palette::lower, palette::contact})
+    CHECK(pixels_of(image, colour) > 100);
+  CHECK(png_bytes(image) == png_bytes(rasterize(measure_picture(cup, measured, contacts, options))));
+}
+
+TEST_CASE("a sheet finds room for long names, flat shapes and slanted directions") {
+  const Shape slab = solids::box({9, 4, 0.05});
+  const Stackability measured = stackability(slab, Direction(0.2, 0.1, 1));
+  check_nothing_clipped(measure_picture(slab, measured, {}, {700, 520, std::string(200, 'W') + ".obj"}));
+}
+
+TEST_CASE("a stack shows every copy in its shade and states the total height") {
+  const Shape cup = solids::frustum_shell({});
+  std::vector<Shape> copies;
+  for (int k = 0; k < 3; ++k)
+    copies.push_back(transformed(cup, Eigen::Matrix3d::Identity(), {0, 0, 4.25 * k}));
+  StackPictureOptions options;
+  options.width = 600;
+  options.height = 450;
+  options.title = "three cups";
+  options.notes = {"S = 0.31"};
+  const Drawing drawing = stack_picture(copies, Direction(0, 0, 1), options);
+  check_nothing_clipped(drawing);
+  CHECK(says(drawing, "total height 16.5"));
+  CHECK(says(drawing, "three cups"));
+  const Image image = rasterize(drawing);
+  CHECK(pixels_of(image, palette::input) > 2000);
+  CHECK(pixels_of(image, mix(palette::input, palette::white, 0.5)) > 1000);
+  CHECK(png_bytes(image) == png_bytes(rasterize(stack_picture(copies, Direction(0, 0, 1), options))));
+  CHECK_THROWS_AS(stack_picture({}, Direction(0, 0, 1)), UsageError);
+}
+
+TEST_CASE("a gap picture has one sharp cell per sample and names the largest value") {
+  const Shape cup = solids::frustum_shell({});
+  const Direction up(0, 0, 1);
+  const HeightField field = height_field_by_scanline(cup, up, window_around(cup, up, 50));
+  const Drawing drawing = gap_picture(field);
+  check_nothing_clipped(drawing);
+  const double largest = maximum_gap(field).value;
+  const Eigen::MatrixXd values = gap(field);
+  const Image image = rasterize(drawing);
+  const auto placed =
+      std::find_if(drawing.elements.begin(), drawing.elements.end(),
+                   [](const DrawingElement& e) { return std::holds_alternative<PlacedImage>(e); });
+  REQUIRE(placed != drawing.elements.end());
+  const Rectangle place = std::get<PlacedImage>(*placed).place;
+  int compared = 0;
+  for (const int i : {0, 3, 7, 20, 25, 41}) {
+    const int j = 25;  // off the ring that marks the maximum
+    const double cell = place.width / 50;
+    const auto pixel = image.pixel(static_cast<int>(place.x + (i + 0.5) * cell),
+                                   static_cast<int>(place.bottom() - (j + 0.5) * cell));
+    if (i == maximum_gap(field).column) continue;
+    CHECK(pixel == bytes_of(std::isnan(values(i, j)) ? palette::white : viridis(values(i, j) / largest)));
+    ++compared;
+  }
+  CHECK(compared >= 5);
+}
+
+TEST_CASE("a map gives every direction the colour of the nearest sample") {
+  StackabilityMap map;
+  for (int k = 0; k < 300; ++k) {  // spiral over the hemisphere
+    const double z = 1 - (k + 0.5) / 300, angle = 2.4 * k, r = std::sqrt(1 - z * z);
+    MapSample sample;
+    sample.direction = {r * std::cos(angle), r * std::sin(angle), z};
+    sample.stackability = std::sin(5 * sample.direction.x()) + sample.direction.y() * sample.direction.z();
+    map.samples.push_back(sample);
+  }
+  const Drawing drawing = map_picture(map);
+  check_nothing_clipped(drawing);
+  const PlacedImage& disc = std::get<PlacedImage>(
+      *std::find_if(drawing.elements.begin(), drawing.elements.end(),
+                    [](const DrawingElement& e) { return std::holds_alternative<PlacedImage>(e); }));
+  double low = 1e9, high = -1e9;
+  for (const MapSample& sample : map.samples) {
+    low = std::min(low, sample.stackability);
+    high = std::max(high, sample.stackability);
+  }
+  const int pixels = disc.image.width;
+  int compared = 0, equal = 0;
+  for (int y = 5; y < pixels; y += 37)
+    for (int x = 3; x < pixels; x += 31) {
+      const Eigen::Vector2d p(2 * (x + 0.5) / pixels - 1, 1 - 2 * (y + 0.5) / pixels);
+      if (p.norm() > 1) {
+        CHECK(disc.image.pixel(x, y) == bytes_of(palette::white));
+        continue;
+      }
+      // Lambert's projection: a point at distance sin(angle / 2) sqrt(2) from the centre.
+      const double angle = 2 * std::asin(p.norm() / std::sqrt(2.0));
+      const Eigen::Vector2d way = p.norm() > 0 ? Eigen::Vector2d(p.normalized()) : Eigen::Vector2d(1, 0);
+      const Eigen::Vector3d d(std::sin(angle) * way.x(), std::sin(angle) * way.y(), std::cos(angle));
+      const MapSample* nearest = &map.samples.front();
+      for (const MapSample& sample : map.samples)
+        if (std::abs(sample.direction.dot(d)) > std::abs(nearest->direction.dot(d))) nearest = &sample;
+      ++compared;
+      if (disc.image.pixel(x, y) == bytes_of(viridis((nearest->stackability - low) / (high - low)))) ++equal;
+    }
+  CHECK(compared > 1000);
+  CHECK(equal == compared);
+}
+
+TEST_CASE("a map names its best direction and refuses what is not a map") {
+  StackabilityMap map;
+  CHECK_THROWS_AS(map_picture(map), UsageError);
+  map.samples = {{{0, 0, 1}, 0, 0, 0, 0.25}, {{1, 0, 0}, 90, 0, 0, 0.75}};
+  CHECK(says(map_picture(map), "best S = 0.7500 along (1, 0, 0)"));
+  CHECK(svg_text(map_picture(map)) == svg_text(map_picture(map)));
+  map.samples[1].stackability = std::nan("");
+  CHECK_THROWS_AS(map_picture(map), UsageError);
+}
