@@ -77,6 +77,12 @@ TEST_CASE("PLY ascii keeps the decimals of a float property and reads CRLF") {
   CHECK(same_shape(read_text(Format::ply, crlf), shape));
 }
 
+TEST_CASE("PLY ascii ignores values that a line has beyond the header") {
+  const std::string plain = ascii_ply("0 0 0\n1 0 0\n0 1 0\n", "3 0 1 2\n");
+  CHECK(same_shape(read_text(Format::ply, ascii_ply("0 0 0 7 7\n1 0 0 7\n\n0 1 0\n", "3 0 1 2 9 9 9\n")),
+                   read_text(Format::ply, plain)));
+}
+
 TEST_CASE("PLY refuses what is damaged, with file and place") {
   const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n";
   CHECK(refusal(Format::ply, "plx\n") == "bad.file:1: expected 'ply' in the first line");

@@ -48,6 +48,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
 
   // A link keeps pointing to its file, which is what gets replaced.
   std::filesystem::path target = path;
+  error.clear();
   if (std::filesystem::exists(status)) target = std::filesystem::canonical(path, error);
   if (error) fail(path.string(), error.message());
   std::filesystem::path temporary = target;

@@ -146,10 +146,14 @@ class HeaderReader {
   bool has_format_ = false;
 };
 
-/// Values of an ascii body.
+/// Values of an ascii body. Every element begins a line; some programs leave more values on it than the header states.
 class AsciiBody {
  public:
   explicit AsciiBody(TextCursor cursor) : cursor_(std::move(cursor)) {}
+
+  void begin_element() {
+    if (!cursor_.next_content_line()) fail("expected a value, found the end of the file");
+  }
 
   double value(Scalar) {
     const std::string_view token = cursor_.token_of_any_line();
@@ -178,6 +182,7 @@ class BinaryBody {
         end_(source.bytes.data() + source.bytes.size()),
         order_(order) {}
 
+  void begin_element() {}
   double value(Scalar type) {
     const char* const at = take(size_of(type));
     switch (type) {
@@ -228,8 +233,7 @@ class BodyReader {
       else if (element.name == "face")
         read_faces(element);
       else
-        for (std::int64_t i = 0; i < element.count; ++i)
-          for (const Property& property : element.properties) skip(property);
+        skip_elements(element);
     }
     return builder_.finish();
   }
@@ -259,6 +263,13 @@ class BodyReader {
     return size;
   }
 
+  void skip_elements(const Element& element) {
+    for (std::int64_t i = 0; i < element.count; ++i) {
+      body_.begin_element();
+      for (const Property& property : element.properties) skip(property);
+    }
+  }
+
   void skip(const Property& property) { body_.skip(property.type, property.count_type ? list_size(property) : 1); }
 
   void read_vertices(const Element& element) {
@@ -271,6 +282,7 @@ class BodyReader {
     }
     builder_.reserve(static_cast<std::size_t>(element.count), 0);
     for (std::int64_t v = 0; v < element.count; ++v) {
+      body_.begin_element();
       std::array<double, 3> point{};
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         bool is_coordinate = false;
@@ -297,6 +309,7 @@ class BodyReader {
     if (header_.part_names.empty() || (part != Element::absent && element.properties[part].count_type))
       part = Element::absent;
     for (std::int64_t f = 0; f < element.count; ++f) {
+      body_.begin_element();
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         if (i == indices)
           read_corners(element.properties[i], f);
