@@ -10,7 +10,8 @@
 
 using namespace stackabilization;
 
-/// A file is refused with an InputError or gives a valid shape, which the formats without loss write and read back.
+/// A file is refused with an InputError or gives a valid shape, which the formats without loss write and read
+/// back.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   try {

@@ -26,17 +26,21 @@ Shape two_parts() {
 const char* const obj =
     "# c\nmtllib m\no a\nv 0 0 0 1 1 1\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .2 0\nvt 0 0\nvn 0 0 1\ng b c\ns 1\n"
     "f 1 2 3 4\nf -5/1 -4//1 -3/1/1 \\\n-2 -1\ng\nl 1 2\no d\nf 1 2 5\n";
-const char* const off = "COFF # c\n5 2 0\n0 0 0 1 1 1\n1 0 0\n1 1 0\n0 1 0\n.5 .2 0\n4 0 1 2 3 0.5\n5 0 1 2 3 4\n";
+const char* const off =
+    "COFF # c\n5 2 0\n0 0 0 1 1 1\n1 0 0\n1 1 0\n0 1 0\n.5 .2 0\n4 0 1 2 3 0.5\n5 0 1 2 3 4\n";
 const char* const ply =
-    "ply\r\nformat ascii 1.0\ncomment part a\nobj_info o\nelement vertex 4\nproperty float x\nproperty double y\n"
+    "ply\r\nformat ascii 1.0\ncomment part a\nobj_info o\nelement vertex 4\nproperty float x\nproperty "
+    "double y\n"
     "property list uchar short l\nproperty int z\nelement face 1\nproperty list uint8 int32 vertex_index\n"
-    "property int part\nelement edge 1\nproperty uint16 e\nend_header\n0 0 1 7 0\n1 0 0 0\n1 1 2 1 1 0\n0 1 0 0\n"
+    "property int part\nelement edge 1\nproperty uint16 e\nend_header\n0 0 1 7 0\n1 0 0 0\n1 1 2 1 1 0\n0 1 "
+    "0 0\n"
     "4 0 1 2 3 0\n5\n";
 const char* const three_mf =
     "<model unit='inch' xmlns:p='urn:/production/'><resources><object id='1' name='a'><mesh><vertices>"
     "<vertex x='0' y='0' z='0'/><vertex x='1' y='0' z='0'/><vertex x='0' y='1' z='0'/></vertices><triangles>"
     "<triangle v1='0' v2='1' v3='2'/></triangles></mesh></object><object id='2'><components>"
-    "<component objectid='1' transform='-1 0 0 0 2 0 0 0 3 1 2 3'/><component objectid='1' p:path='/3D/3dmodel.model'/>"
+    "<component objectid='1' transform='-1 0 0 0 2 0 0 0 3 1 2 3'/><component objectid='1' "
+    "p:path='/3D/3dmodel.model'/>"
     "</components></object></resources><build><item objectid='2'/></build></model>";
 const char* const gltf =
     R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1],"translation":[1,2,3],)"

@@ -9,14 +9,15 @@ using namespace stackabilization::test;
 namespace {
 
 struct BadFile {
-  std::string name;     ///< The extension tells the format.
+  std::string name;  ///< The extension tells the format.
   std::string content;
-  std::string place;    ///< What the message must contain, next to the file's name.
+  std::string place;  ///< What the message must contain, next to the file's name.
 };
 
 const std::string ply = "ply\nformat ascii 1.0\n";
-const std::string ply_body = "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                             "property list uchar int vertex_indices\nend_header\n";
+const std::string ply_body =
+    "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+    "property list uchar int vertex_indices\nend_header\n";
 
 std::vector<BadFile> bad_files() {
   const std::string v = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -57,13 +58,16 @@ std::vector<BadFile> bad_files() {
       {"header.ply", ply + "element vertex 3\n", ":3:"},
       {"type.ply", ply + "element vertex 3\nproperty quad x\n", ":4:"},
       {"axis.ply", ply + "element vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n", "'z'"},
-      {"lying.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n"
-                    "property float y\nproperty float z\nend_header\n", "4000000000"},
+      {"lying.ply",
+       "ply\nformat binary_little_endian 1.0\nelement vertex 4000000000\nproperty float x\n"
+       "property float y\nproperty float z\nend_header\n",
+       "4000000000"},
       {"endless.ply", ply + "element nothing 4000000000000\nend_header\n", "no properties"},
       {"cut.ply", ply + ply_body + "0 0 0\n1 0 0\n0 1 0\n3 0 1", "end of the file"},
       {"list.ply", ply + ply_body + "0 0 0\n1 0 0\n0 1 0\n-3 0 1 2\n", ":13:"},
       {"half.ply", ply + ply_body + "0 0 0\n1 0 0\n0 1 0\n3 0 1 1.5\n", ":13:"},
-      {"points.ply", ply + "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
+      {"points.ply",
+       ply + "element vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n",
        "no faces"},
       {"empty.stl", "", "STL"},
       {"cut.stl", stl.substr(0, stl.size() - 1), "byte 80"},
@@ -109,7 +113,8 @@ TEST_CASE("every bad file ends in one sentence that names the file and the place
 
 TEST_CASE("files that are missing, folders or unreadable are refused") {
   const ScratchFolder folder("missing");
-  CHECK(reading_message(folder.path() / "a.obj") == (folder.path() / "a.obj").string() + " cannot be read: no such file");
+  CHECK(reading_message(folder.path() / "a.obj") ==
+        (folder.path() / "a.obj").string() + " cannot be read: no such file");
   CHECK(reading_message(folder.path()) == folder.path().string() + " is a folder, expected a file");
   CHECK(reading_message("/dev/null/a.obj").starts_with("/dev/null/a.obj cannot be read: "));
   CHECK(reading_message("") != "");

@@ -22,10 +22,13 @@ std::vector<std::filesystem::path> mesh_files(const std::string& folder) {
     return {};
   }
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(root) / folder)) {
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(std::filesystem::path(root) / folder)) {
     std::string extension = entry.path().extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](char c) { return std::tolower(c); });
-    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) files.push_back(entry.path());
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](char c) { return std::tolower(c); });
+    if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end())
+      files.push_back(entry.path());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -58,8 +61,9 @@ TEST_CASE("every nasty file reads or is refused with the reason that fits it") {
       message = error.what();
     }
     INFO(path.string() << ": " << message);
-    const auto expected = std::find_if(refused.begin(), refused.end(),
-                                       [&](const auto& entry) { return entry.first == path.filename().string(); });
+    const auto expected = std::find_if(refused.begin(), refused.end(), [&](const auto& entry) {
+      return entry.first == path.filename().string();
+    });
     CHECK((expected == refused.end()) == message.empty());
     if (expected != refused.end()) CHECK(message.find(expected->second) != std::string::npos);
   }

@@ -1,9 +1,8 @@
-#include "stackabilization/shape/write.h"
-
 #include <fstream>
 
 #include "shape/meshes.h"
 #include "stackabilization/shape/read_file.h"
+#include "stackabilization/shape/write.h"
 #include "stackabilization/shape/write_file.h"
 #include "support/catch.h"
 
@@ -56,12 +55,13 @@ TEST_CASE("what cannot be written is refused and leaves nothing behind") {
 TEST_CASE("the up axis of a file is turned to z exactly") {
   Points vertices(3, 3);
   vertices << 1, 2, 3, 0.1, 0, 0, 0, 0.7, 0;
-  const std::string text = shape_bytes(make_shape(vertices, (Triangles(1, 3) << 0, 1, 2).finished()), Format::obj);
+  const std::string text =
+      shape_bytes(make_shape(vertices, (Triangles(1, 3) << 0, 1, 2).finished()), Format::obj);
   ReadOptions options;
   options.unit = Unit::inch;
-  for (const auto& [up, expected] : {std::pair(Axis::x, Eigen::RowVector3d(-3, 2, 1)),
-                                     std::pair(Axis::y, Eigen::RowVector3d(1, -3, 2)),
-                                     std::pair(Axis::z, Eigen::RowVector3d(1, 2, 3))}) {
+  for (const auto& [up, expected] :
+       {std::pair(Axis::x, Eigen::RowVector3d(-3, 2, 1)), std::pair(Axis::y, Eigen::RowVector3d(1, -3, 2)),
+        std::pair(Axis::z, Eigen::RowVector3d(1, 2, 3))}) {
     options.up = up;
     const Shape shape = read_text(Format::obj, text, options);
     CHECK(shape.vertices.row(0) == expected);
