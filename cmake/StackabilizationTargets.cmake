@@ -24,8 +24,12 @@ endfunction()
 # Warnings and sanitizers of this project's own targets.
 function(stackabilization_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+  if(STACKABILIZATION_BUILD_FUZZERS)
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
+  endif()
   if(STACKABILIZATION_SANITIZE)
-    target_compile_options(${target} PRIVATE -fsanitize=${STACKABILIZATION_SANITIZE} -fno-omit-frame-pointer -g)
+    target_compile_options(${target} PRIVATE -fsanitize=${STACKABILIZATION_SANITIZE}
+      -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
     target_link_options(${target} PUBLIC -fsanitize=${STACKABILIZATION_SANITIZE})
   endif()
 endfunction()

@@ -16,7 +16,8 @@ inline Shape two_tetrahedra() {
   Shape shape;
   shape.vertices.resize(8, 3);
   shape.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1,  //
-      0.1, 1.0 / 3, 2e-300, 0.1 + 0.2, 1e30, -7, 1e-5, 123456789.123456789, 3, -0.25, 1e22, 4503599627370497.5;
+      0.1, 1.0 / 3, 2e-300, 0.1 + 0.2, 1e30, -7, 1e-5, 123456789.123456789, 3, -0.25, 1e22,
+      4503599627370497.5;
   shape.triangles.resize(8, 3);
   shape.triangles << 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2, 4, 6, 5, 4, 5, 7, 5, 6, 7, 4, 7, 6;
   shape.part_names = {"left leg", "right"};
@@ -29,8 +30,8 @@ inline Shape cube(double edge = 1) {
   Points vertices(8, 3);
   for (int v = 0; v < 8; ++v) vertices.row(v) << (v & 1) * edge, (v >> 1 & 1) * edge, (v >> 2 & 1) * edge;
   Triangles triangles(12, 3);
-  triangles << 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1,
-      7, 5;
+  triangles << 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3,
+      7, 1, 7, 5;
   return make_shape(vertices, triangles);
 }
 
@@ -72,7 +73,8 @@ inline Eigen::Vector3d area_vector(const Shape& shape) {
 inline double area(const Shape& shape) {
   double sum = 0;
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-    sum += (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0)).norm() / 2;
+    sum +=
+        (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0)).norm() / 2;
   return sum;
 }
 

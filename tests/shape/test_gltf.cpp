@@ -9,18 +9,20 @@ using namespace stackabilization::test;
 namespace {
 
 /// Four positions of a tetrahedron (floats) and 12 indices (bytes), 60 bytes.
-const std::string buffer =
-    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAIBAAEDAQIDAAMC";
+const std::string buffer = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAIBAAEDAQIDAAMC";
 
-std::string gltf(const std::string& nodes, const std::string& uri = "data:application/octet-stream;base64," + buffer,
+std::string gltf(const std::string& nodes,
+                 const std::string& uri = "data:application/octet-stream;base64," + buffer,
                  const std::string& count = "12") {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":)" + nodes +
          R"(,"meshes":[{"name":"t","primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
     "accessors":[{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3","min":[0,0,0],"max":[1,1,1]},
-      {"bufferView":1,"componentType":5121,"count":)" + count +
+      {"bufferView":1,"componentType":5121,"count":)" +
+         count +
          R"(,"type":"SCALAR"}],
     "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":12}],
-    "buffers":[{"byteLength":60,"uri":")" + uri + R"("}]})";
+    "buffers":[{"byteLength":60,"uri":")" +
+         uri + R"("}]})";
 }
 
 }  // namespace
@@ -33,8 +35,9 @@ TEST_CASE("GLB keeps floats, parts and the z axis") {
 }
 
 TEST_CASE("glTF applies the transforms of its nodes and turns y up to z up") {
-  const Shape shape = read_text(
-      Format::gltf, gltf(R"([{"children":[1],"translation":[10,0,0]},{"mesh":0,"name":"n","scale":[2,3,4]}])"));
+  const Shape shape =
+      read_text(Format::gltf,
+                gltf(R"([{"children":[1],"translation":[10,0,0]},{"mesh":0,"name":"n","scale":[2,3,4]}])"));
   CHECK(shape.part_names == std::vector<std::string>{"n"});
   CHECK(shape.unit == Unit::metre);
   CHECK(shape.vertices.row(1) == Eigen::RowVector3d(12, 0, 0));
@@ -63,21 +66,25 @@ TEST_CASE("glTF finds buffers beside the file, and only there") {
   CHECK_THROWS_AS(read_shape(path), InputError);
   const Shape inside = read_text(Format::gltf, gltf(R"([{"mesh":0}])"));
   std::string bytes;
-  for (const float value : {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}) bytes.append(reinterpret_cast<const char*>(&value), 4);
+  for (const float value : {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1})
+    bytes.append(reinterpret_cast<const char*>(&value), 4);
   bytes += std::string("\0\2\1\0\1\3\1\2\3\0\3\2", 12);
   std::ofstream(folder.path() / "t.bin", std::ios::binary) << bytes;
   CHECK(same_shape(read_shape(path), inside));
-  CHECK(refusal(Format::gltf, gltf(R"([{"mesh":0}])", "t.bin")).starts_with("bad.file: expected a glTF 2.0 file"));
+  CHECK(refusal(Format::gltf, gltf(R"([{"mesh":0}])", "t.bin"))
+            .starts_with("bad.file: expected a glTF 2.0 file"));
 }
 
 TEST_CASE("glTF refuses what is damaged, with file and place") {
-  CHECK(refusal(Format::gltf, gltf(R"([{"mesh":0}])", "data:application/octet-stream;base64," + buffer, "13")) ==
+  CHECK(refusal(Format::gltf,
+                gltf(R"([{"mesh":0}])", "data:application/octet-stream;base64," + buffer, "13")) ==
         "bad.file: accessor 1 states 13 elements, its buffer has room for 12");
   CHECK(refusal(Format::gltf, gltf(R"([{"mesh":1}])")) == "bad.file: expected a mesh below 1, found 1");
   CHECK(refusal(Format::gltf, gltf(R"([{"children":[0]}])")) ==
         "bad.file: node 0 has several parents or is nested without end, expected a tree");
   CHECK(refusal(Format::gltf, gltf(R"([{}])")) == "bad.file holds no mesh: it has no faces");
-  CHECK(refusal(Format::gltf, "{\"a\":" + std::string(100000, '[')) == "bad.file: its JSON is nested without end");
+  CHECK(refusal(Format::gltf, "{\"a\":" + std::string(100000, '[')) ==
+        "bad.file: its JSON is nested without end");
   CHECK(refusal(Format::gltf, "{").starts_with("bad.file: expected a glTF 2.0 file"));
   const std::string bytes = shape_bytes(cube(), Format::gltf);
   for (std::size_t length = 0; length < bytes.size(); length += 7)

@@ -1,9 +1,8 @@
-#include "stackabilization/shape/inspect.h"
-
 #include <cmath>
 #include <tuple>
 
 #include "shape/meshes.h"
+#include "stackabilization/shape/inspect.h"
 #include "support/catch.h"
 
 using namespace stackabilization;
@@ -16,7 +15,8 @@ Shape with_triangles(const Shape& shape, const std::vector<std::array<std::int32
   triangles.conservativeResize(shape.triangle_count() + static_cast<Eigen::Index>(extra.size()), 3);
   for (std::size_t i = 0; i < extra.size(); ++i)
     for (int corner = 0; corner < 3; ++corner)
-      triangles(shape.triangle_count() + static_cast<Eigen::Index>(i), corner) = extra[i][static_cast<std::size_t>(corner)];
+      triangles(shape.triangle_count() + static_cast<Eigen::Index>(i), corner) =
+          extra[i][static_cast<std::size_t>(corner)];
   return make_shape(shape.vertices, triangles);
 }
 
@@ -83,7 +83,8 @@ TEST_CASE("edges are counted by their triangles and directions") {
   CHECK_FALSE(inspect(flipped).volume.has_value());
 
   const Findings fin = inspect(with_triangles(cube(), {{0, 1, 7}}));
-  CHECK(fin.non_manifold_edges == 2);  // 0-1 is an edge of the cube, 1-7 a diagonal, 7-0 runs through its inside.
+  CHECK(fin.non_manifold_edges ==
+        2);  // 0-1 is an edge of the cube, 1-7 a diagonal, 7-0 runs through its inside.
   CHECK(fin.boundary_edges == 1);
 }
 
@@ -128,16 +129,19 @@ TEST_CASE("self-intersections are pairs that meet elsewhere than in what they sh
   vertices(3, 2) = 0x1p-60;
   CHECK(self_intersections(make_shape(vertices, two)) == 0);
   // Two triangles on an edge: folded flat onto each other they overlap, unfolded and bent they do not.
-  for (const auto& [y, z, expected] : {std::tuple(1.0, 0.0, 1), std::tuple(-1.0, 0.0, 0), std::tuple(1.0, 0.5, 0)}) {
+  for (const auto& [y, z, expected] :
+       {std::tuple(1.0, 0.0, 1), std::tuple(-1.0, 0.0, 0), std::tuple(1.0, 0.5, 0)}) {
     Points hinge(4, 3);
     hinge << 0, 0, 0, 1, 0, 0, 0, 2, 0, 0.25, y, z;
-    CHECK(self_intersections(make_shape(hinge, (Triangles(2, 3) << 0, 1, 2, 1, 0, 3).finished())) == expected);
+    CHECK(self_intersections(make_shape(hinge, (Triangles(2, 3) << 0, 1, 2, 1, 0, 3).finished())) ==
+          expected);
   }
   // Two triangles on a corner: one passes through the other or not.
   for (const auto& [z, expected] : {std::pair(-1.0, 1), std::pair(0.5, 0)}) {
     Points corner(5, 3);
     corner << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, 1, 1, 1.5, z;
-    CHECK(self_intersections(make_shape(corner, (Triangles(2, 3) << 0, 1, 2, 0, 3, 4).finished())) == expected);
+    CHECK(self_intersections(make_shape(corner, (Triangles(2, 3) << 0, 1, 2, 0, 3, 4).finished())) ==
+          expected);
   }
 }
 
@@ -145,7 +149,8 @@ TEST_CASE("the up axis is the one with the widest stand") {
   // A tripod: a small top over three feet, so that it stands well on its low z end only.
   Points vertices(4, 3);
   vertices << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, 0.4, 3;
-  const Shape tripod = make_shape(vertices, (Triangles(4, 3) << 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3).finished());
+  const Shape tripod =
+      make_shape(vertices, (Triangles(4, 3) << 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3).finished());
   REQUIRE(inspect(tripod).likely_up.has_value());
   CHECK(*inspect(tripod).likely_up == Axis::z);
   Eigen::Matrix3d z_to_y;

@@ -1,8 +1,7 @@
-#include "stackabilization/shape/labels.h"
-
 #include <fstream>
 
 #include "shape/meshes.h"
+#include "stackabilization/shape/labels.h"
 #include "support/catch.h"
 
 using namespace stackabilization;
@@ -11,7 +10,9 @@ using namespace stackabilization::test;
 namespace {
 
 /// Four triangles.
-Shape tetrahedron() { return extract_part(two_tetrahedra(), 0); }
+Shape tetrahedron() {
+  return extract_part(two_tetrahedra(), 0);
+}
 
 std::string label_refusal(const std::string& text) {
   try {
@@ -28,7 +29,8 @@ using Parts = std::vector<std::int32_t>;
 }  // namespace
 
 TEST_CASE(".seg labels replace the parts, in any order, with or without names") {
-  const Shape named = with_labels(tetrahedron(), "3\r\nlabels seat leg back\r\n2 1\r\n0 0\r\n3 0\r\n1 2\r\n", "a.seg");
+  const Shape named =
+      with_labels(tetrahedron(), "3\r\nlabels seat leg back\r\n2 1\r\n0 0\r\n3 0\r\n1 2\r\n", "a.seg");
   CHECK(named.part_names == Names{"seat", "leg", "back"});
   CHECK(named.triangle_part == Parts{0, 2, 1, 0});
   const Shape numbered = with_labels(tetrahedron(), "2\n0 0\n1 1\n2 1\n3 0", "a.seg");
@@ -60,13 +62,17 @@ TEST_CASE("labels are applied on reading") {
 TEST_CASE("labels that do not fit are refused, with file and line") {
   CHECK(label_refusal("") == "bad.seg: expected part labels, found none");
   CHECK(label_refusal("2\n0 0\n1 1\n2 1\n") == "bad.seg: triangle 3 has no label");
-  CHECK(label_refusal("2\n0 0\n1 1\n2 1\n4 1\n") == "bad.seg:5: expected a triangle between 0 and 3, found '4'");
+  CHECK(label_refusal("2\n0 0\n1 1\n2 1\n4 1\n") ==
+        "bad.seg:5: expected a triangle between 0 and 3, found '4'");
   CHECK(label_refusal("2\n0 0\n1 2\n") == "bad.seg:3: expected a part between 0 and 1, found '2'");
   CHECK(label_refusal("2\n0 0\n0 1\n") == "bad.seg:3: triangle 0 has a label already");
   CHECK(label_refusal("2\n0 0\n1\n") == "bad.seg:3: expected a triangle and its part, found '1'");
   CHECK(label_refusal("2\nlabels a\n0 0\n") == "bad.seg:2: expected 2 part names, found 1");
-  CHECK(label_refusal("999999999999\n0 0\n") == "bad.seg:1: expected the number of parts, found '999999999999'");
-  CHECK(label_refusal("2\nlabels a a\n0 0\n1 1\n2 1\n3 1\n") == "bad.seg:2: expected part names that differ from each other");
+  CHECK(label_refusal("999999999999\n0 0\n") ==
+        "bad.seg:1: expected the number of parts, found '999999999999'");
+  CHECK(label_refusal("2\nlabels a a\n0 0\n1 1\n2 1\n3 1\n") ==
+        "bad.seg:2: expected part names that differ from each other");
   CHECK(label_refusal("a\nb\n") == "bad.seg: expected one label for each of 4 triangles, found 2");
-  CHECK(label_refusal("0\n1\n-1\n0\n") == "bad.seg:3: expected a part index that is not negative, found '-1'");
+  CHECK(label_refusal("0\n1\n-1\n0\n") ==
+        "bad.seg:3: expected a part index that is not negative, found '-1'");
 }

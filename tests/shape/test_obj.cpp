@@ -6,7 +6,9 @@ using namespace stackabilization::test;
 
 namespace {
 
-Shape read_obj_text(const std::string& text) { return read_text(Format::obj, text); }
+Shape read_obj_text(const std::string& text) {
+  return read_text(Format::obj, text);
+}
 
 const std::string three_vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
@@ -20,14 +22,16 @@ TEST_CASE("OBJ round trips to the bit, with parts") {
 TEST_CASE("OBJ reads every spelling of a face") {
   const Shape expected = read_obj_text(three_vertices + "f 1 2 3\n");
   REQUIRE(expected.triangles == (Triangles(1, 3) << 0, 1, 2).finished());
-  for (const char* face : {"f 1/7 2/8 3/9", "f 1//4 2//5 3//6", "f 1/1/1 2/1/1 3/1/1", "f -3 -2 -1", "f -3/-1 2 -1//-1",
-                           "f\t1   2\t3  ", "f 1 2 3 # comment", "f 1 \\\n2 \\\n 3", "f 1 2\\\r\n 3", "  f 1 2 3"})
+  for (const char* face :
+       {"f 1/7 2/8 3/9", "f 1//4 2//5 3//6", "f 1/1/1 2/1/1 3/1/1", "f -3 -2 -1", "f -3/-1 2 -1//-1",
+        "f\t1   2\t3  ", "f 1 2 3 # comment", "f 1 \\\n2 \\\n 3", "f 1 2\\\r\n 3", "  f 1 2 3"})
     CHECK(same_shape(read_obj_text(three_vertices + face), expected));
 }
 
 TEST_CASE("OBJ line ends, comments and other statements do not matter") {
   const std::string text =
-      "# comment\nmtllib a.mtl\nv 0 0 0 0.5 0.5 0.5\nv 1 0 0 1 1 1\nv 0 1 0\nvt 0 0\nvn 0 0 1\ns off\nusemtl red\n"
+      "# comment\nmtllib a.mtl\nv 0 0 0 0.5 0.5 0.5\nv 1 0 0 1 1 1\nv 0 1 0\nvt 0 0\nvn 0 0 1\ns off\nusemtl "
+      "red\n"
       "l 1 2\np 1\n\nf 1 2 3";
   const Shape expected = read_obj_text(text);
   CHECK(expected.triangle_count() == 1);
@@ -42,7 +46,8 @@ TEST_CASE("OBJ line ends, comments and other statements do not matter") {
 
 TEST_CASE("OBJ numbers are rounded to nearest, with three-digit exponents") {
   const Shape shape = read_obj_text(
-      "v 1.5e+002 -2.5E-003 +7\nv 0.1 1e-400 -1e-999\nv 1e30 .5 5.\nv 2.2250738585072011e-308 1E+030 0\nf 1 2 3\n");
+      "v 1.5e+002 -2.5E-003 +7\nv 0.1 1e-400 -1e-999\nv 1e30 .5 5.\nv 2.2250738585072011e-308 1E+030 0\nf 1 "
+      "2 3\n");
   CHECK(shape.vertices.row(0) == Eigen::RowVector3d(150, -0.0025, 7));
   CHECK(shape.vertices.row(1) == Eigen::RowVector3d(0.1, 0, 0));
   CHECK(shape.vertices.row(2) == Eigen::RowVector3d(1e30, 0.5, 5));
@@ -64,7 +69,8 @@ TEST_CASE("OBJ parts are groups inside objects") {
 }
 
 TEST_CASE("OBJ groups that open again go on, and a bare g is ignored") {
-  const Shape shape = read_obj_text(three_vertices + "g a\nf 1 2 3\ng b\nf 2 3 1\ng\nf 3 1 2\ng a\nf 1 2 3\n");
+  const Shape shape =
+      read_obj_text(three_vertices + "g a\nf 1 2 3\ng b\nf 2 3 1\ng\nf 3 1 2\ng a\nf 1 2 3\n");
   CHECK(shape.part_names == std::vector<std::string>{"a", "b"});
   CHECK(shape.triangle_part == std::vector<std::int32_t>{0, 1, 1, 0});
 }

@@ -19,7 +19,8 @@ TEST_CASE("OFF keywords, comments, colours and polygons") {
   const std::string body = "0 0 0\n2 0 0\n2 2 0\n0 2 0\n4 0 1 2 3\n";
   for (const std::string& text :
        {"OFF 4 1 0\n" + body, "# c\n\nOFF # c\n# c\n4 1\n\n" + body, "OFF\r\n4 1 0\r\n" + body,
-        std::string("COFF\n4 1 0\n0 0 0 255 0 0 1\n2 0 0 1 1 1 1\n2 2 0 1 1 1 1\n0 2 0 1 1 1 1\n4 0 1 2 3 0.5 0.5 0.5"),
+        std::string("COFF\n4 1 0\n0 0 0 255 0 0 1\n2 0 0 1 1 1 1\n2 2 0 1 1 1 1\n0 2 0 1 1 1 1\n4 0 1 2 3 "
+                    "0.5 0.5 0.5"),
         std::string("NOFF\n4 1 0\n0 0 0 0 0 1\n2 0 0 0 0 1\n2 2 0 0 0 1\n0 2 0 0 0 1\n4 0 1 2 3\n")})
     CHECK(same_shape(read_text(Format::off, text), expected));
 }

@@ -19,13 +19,14 @@ void append(std::string& bytes, Number value, std::endian order) {
 
 /// A unit square with every kind of property around what matters, in binary.
 std::string odd_binary_ply(std::endian order) {
-  std::string bytes = std::string("ply\nformat ") +
-                      (order == std::endian::big ? "binary_big_endian" : "binary_little_endian") +
-                      " 1.0\ncomment odd\nobj_info odd\nelement material 1\nproperty list uchar double numbers\n"
-                      "property short last\nelement vertex 4\nproperty uchar red\nproperty float x\nproperty double y\n"
-                      "property list ushort int extra\nproperty int8 z\nelement face 1\nproperty list uint8 float uv\n"
-                      "property list ushort uint vertex_index\nproperty float32 quality\nelement edge 1\n"
-                      "property int vertex1\nend_header\n";
+  std::string bytes =
+      std::string("ply\nformat ") +
+      (order == std::endian::big ? "binary_big_endian" : "binary_little_endian") +
+      " 1.0\ncomment odd\nobj_info odd\nelement material 1\nproperty list uchar double numbers\n"
+      "property short last\nelement vertex 4\nproperty uchar red\nproperty float x\nproperty double y\n"
+      "property list ushort int extra\nproperty int8 z\nelement face 1\nproperty list uint8 float uv\n"
+      "property list ushort uint vertex_index\nproperty float32 quality\nelement edge 1\n"
+      "property int vertex1\nend_header\n";
   bytes += '\2';
   for (const double value : {1.0, 2.0}) append(bytes, value, order);
   append(bytes, std::int16_t{-3}, order);
@@ -77,11 +78,19 @@ TEST_CASE("PLY ascii keeps the decimals of a float property and reads CRLF") {
   CHECK(same_shape(read_text(Format::ply, crlf), shape));
 }
 
+TEST_CASE("PLY ascii ignores values that a line has beyond the header") {
+  const std::string plain = ascii_ply("0 0 0\n1 0 0\n0 1 0\n", "3 0 1 2\n");
+  CHECK(same_shape(read_text(Format::ply, ascii_ply("0 0 0 7 7\n1 0 0 7\n\n0 1 0\n", "3 0 1 2 9 9 9\n")),
+                   read_text(Format::ply, plain)));
+}
+
 TEST_CASE("PLY refuses what is damaged, with file and place") {
   const std::string vertices = "0 0 0\n1 0 0\n0 1 0\n";
   CHECK(refusal(Format::ply, "plx\n") == "bad.file:1: expected 'ply' in the first line");
-  CHECK(refusal(Format::ply, ascii_ply(vertices, "3 0 1 3\n")) == "bad.file:13: face 0 refers to vertex 3 of 3");
-  CHECK(refusal(Format::ply, ascii_ply(vertices, "2 0 1\n")) == "bad.file:13: face 0 has 2 corners, expected at least 3");
+  CHECK(refusal(Format::ply, ascii_ply(vertices, "3 0 1 3\n")) ==
+        "bad.file:13: face 0 refers to vertex 3 of 3");
+  CHECK(refusal(Format::ply, ascii_ply(vertices, "2 0 1\n")) ==
+        "bad.file:13: face 0 has 2 corners, expected at least 3");
   CHECK(refusal(Format::ply, ascii_ply("0 0 0\n1 0 inf\n", "")) ==
         "bad.file:11: expected a finite number, found 'inf'");
   const std::string whole = odd_binary_ply(std::endian::little);

@@ -37,9 +37,10 @@ TEST_CASE("Binary STL may begin with the word solid") {
 }
 
 TEST_CASE("Ascii STL welds equal coordinates, also -0 and 0, and tells solids of one name apart") {
-  const std::string solid = "solid a b\n" + facet("0 0 0", "1 0 0", "0 1 0") + facet("-0 0 -0", "0 1 0", "-1 0 0.0e5") +
-                            "endsolid a b\n";
-  const Shape shape = read_text(Format::stl, solid + "SOLID\n" + facet("0 0 0", "1 0 0", "0 0 1") + "ENDSOLID\n" + solid);
+  const std::string solid = "solid a b\n" + facet("0 0 0", "1 0 0", "0 1 0") +
+                            facet("-0 0 -0", "0 1 0", "-1 0 0.0e5") + "endsolid a b\n";
+  const Shape shape =
+      read_text(Format::stl, solid + "SOLID\n" + facet("0 0 0", "1 0 0", "0 0 1") + "ENDSOLID\n" + solid);
   CHECK(shape.vertex_count() == 5);
   CHECK(shape.part_names == std::vector<std::string>{"a b", "part", "a b_2"});
   CHECK(shape.triangle_part == std::vector<std::int32_t>{0, 0, 1, 2, 2});

@@ -1,10 +1,9 @@
-#include "stackabilization/shape/formats/triangulate.h"
-
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
 #include "shape/meshes.h"
+#include "stackabilization/shape/formats/triangulate.h"
 #include "support/catch.h"
 
 using namespace stackabilization;
@@ -19,7 +18,8 @@ Shape cut(const Points& corners) {
   const auto triangles = triangulate(corners, polygon);
   Triangles rows(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) rows(static_cast<Eigen::Index>(t), i) = triangles[t][static_cast<std::size_t>(i)];
+    for (int i = 0; i < 3; ++i)
+      rows(static_cast<Eigen::Index>(t), i) = triangles[t][static_cast<std::size_t>(i)];
   return make_shape(corners, rows);
 }
 
@@ -68,10 +68,15 @@ Points polygon(std::initializer_list<Eigen::Vector2d> corners) {
 }  // namespace
 
 TEST_CASE("Concave polygons are cut without flipping") {
-  SECTION("arrow head") { check_all_poses(polygon({{0, 0}, {4, -2}, {1, 0}, {4, 2}})); }
-  SECTION("L") { check_all_poses(polygon({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}})); }
+  SECTION("arrow head") {
+    check_all_poses(polygon({{0, 0}, {4, -2}, {1, 0}, {4, 2}}));
+  }
+  SECTION("L") {
+    check_all_poses(polygon({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}}));
+  }
   SECTION("U with collinear corners") {
-    check_all_poses(polygon({{0, 0}, {2, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 1}, {2, 1}, {1, 1}, {1, 4}, {0, 4}, {0, 2}}));
+    check_all_poses(
+        polygon({{0, 0}, {2, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 1}, {2, 1}, {1, 1}, {1, 4}, {0, 4}, {0, 2}}));
   }
   SECTION("comb") {
     Points comb(21, 3);
@@ -89,7 +94,8 @@ TEST_CASE("Concave polygons are cut without flipping") {
     check_all_poses(star);
   }
   SECTION("a square hole reached by a bridge") {
-    check_all_poses(polygon({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}}));
+    check_all_poses(
+        polygon({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 1}, {1, 3}, {3, 3}, {3, 1}, {1, 1}}));
   }
 }
 
@@ -106,7 +112,8 @@ TEST_CASE("Polygons without area and polygons that cross themselves keep their n
   CHECK(cut(polygon({{0, 0}, {1, 1}, {1, 0}, {0, 1}})).triangle_count() == 2);
   CHECK(cut(Points::Zero(6, 3)).triangle_count() == 4);
   Points pentagram(5, 3);
-  for (int i = 0; i < 5; ++i) pentagram.row(i) << std::cos(4 * i * std::numbers::pi / 5), std::sin(4 * i * std::numbers::pi / 5), 0;
+  for (int i = 0; i < 5; ++i)
+    pentagram.row(i) << std::cos(4 * i * std::numbers::pi / 5), std::sin(4 * i * std::numbers::pi / 5), 0;
   CHECK(cut(pentagram).triangle_count() == 3);
 }
 

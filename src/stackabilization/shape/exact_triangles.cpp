@@ -15,7 +15,9 @@ using Point = Kernel::Point_3;
 using Corners = std::array<std::int32_t, 3>;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, const Corners*>;
 
-Point point_of(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+Point point_of(const Eigen::Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
 
 class PairTest {
  public:
@@ -24,11 +26,15 @@ class PairTest {
   bool intersect(Corners a, Corners b) const {
     const int shared = move_shared_first(a, b);
     switch (shared) {
-      case 0: return CGAL::do_intersect(triangle(a), triangle(b));
+      case 0:
+        return CGAL::do_intersect(triangle(a), triangle(b));
       // Through the common corner they leave apart unless a side opposite to it meets the other triangle.
-      case 1: return meets(a[1], a[2], b) || meets(b[1], b[2], a);
-      case 2: return overlap_beside_edge(a, b);
-      default: return false;
+      case 1:
+        return meets(a[1], a[2], b) || meets(b[1], b[2], a);
+      case 2:
+        return overlap_beside_edge(a, b);
+      default:
+        return false;
     }
   }
 
@@ -46,7 +52,9 @@ class PairTest {
     return static_cast<int>(shared);
   }
 
-  Kernel::Triangle_3 triangle(const Corners& corners) const { return {at(corners[0]), at(corners[1]), at(corners[2])}; }
+  Kernel::Triangle_3 triangle(const Corners& corners) const {
+    return {at(corners[0]), at(corners[1]), at(corners[2])};
+  }
 
   bool meets(std::int32_t from, std::int32_t to, const Corners& corners) const {
     return CGAL::do_intersect(Kernel::Segment_3(at(from), at(to)), triangle(corners));

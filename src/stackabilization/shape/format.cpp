@@ -24,7 +24,8 @@ Format format_of_extension(const std::filesystem::path& path) {
   const std::string found = lower_case(path.extension().string());
   for (const Extension& extension : extensions)
     if (extension.text == found) return extension.format;
-  throw InputError(path.string() + ": expected a file name ending in .obj, .off, .ply, .stl, .3mf, .gltf, .glb or " +
+  throw InputError(path.string() +
+                   ": expected a file name ending in .obj, .off, .ply, .stl, .3mf, .gltf, .glb or " +
                    "(written only) .vtp, found " + (found.empty() ? "no extension" : in_quotes(found)));
 }
 
@@ -45,7 +46,11 @@ std::optional<Format> sniff_format(std::string_view bytes) {
   return std::nullopt;
 }
 
-std::string_view readable_extensions() { return ".obj, .off, .ply, .stl, .3mf, .gltf, .glb"; }
-std::string_view writable_extensions() { return ".obj, .off, .ply, .stl, .3mf, .glb, .vtp"; }
+std::string_view readable_extensions() {
+  return ".obj, .off, .ply, .stl, .3mf, .gltf, .glb";
+}
+std::string_view writable_extensions() {
+  return ".obj, .off, .ply, .stl, .3mf, .glb, .vtp";
+}
 
 }  // namespace stackabilization

@@ -58,7 +58,9 @@ class Inspector {
   }
 
  private:
-  const Eigen::Vector3d& point(std::int32_t index) const { return index_.points()[static_cast<std::size_t>(index)]; }
+  const Eigen::Vector3d& point(std::int32_t index) const {
+    return index_.points()[static_cast<std::size_t>(index)];
+  }
 
   void weld() {
     std::vector<std::int32_t> point_of(static_cast<std::size_t>(shape_.vertex_count()), -1);
@@ -91,8 +93,7 @@ class Inspector {
     }
     findings_.components = components.count();
     std::sort(sorted.begin(), sorted.end());
-    findings_.duplicate_faces =
-        sorted.end() - std::unique(sorted.begin(), sorted.end());
+    findings_.duplicate_faces = sorted.end() - std::unique(sorted.begin(), sorted.end());
   }
 
   /// Edges as (lower point, higher point, direction), sorted so that those of one edge are neighbours.
@@ -159,8 +160,8 @@ class Inspector {
     return moment / total;
   }
 
-  /// How well the shape stands on its low end along `axis`: the part of the footprint that the lowest points span, or
-  /// nothing when they do not carry the centre.
+  /// How well the shape stands on its low end along `axis`: the part of the footprint that the lowest points
+  /// span, or nothing when they do not carry the centre.
   double support(Eigen::Index axis, const Eigen::Array3d& extent, const Eigen::Vector3d& centroid) const {
     const Eigen::Array3d scale = (extent > 0).select(extent, 1);
     const double highest = findings_.lower[axis] + tolerance::support_slab * extent[axis];
@@ -174,7 +175,8 @@ class Inspector {
     }
     const Eigen::Index u = (axis + 1) % 3;
     const Eigen::Index v = (axis + 2) % 3;
-    const bool carries = centroid[u] >= low[u] && centroid[u] <= high[u] && centroid[v] >= low[v] && centroid[v] <= high[v];
+    const bool carries =
+        centroid[u] >= low[u] && centroid[u] <= high[u] && centroid[v] >= low[v] && centroid[v] <= high[v];
     return carries ? (high[u] - low[u]) * (high[v] - low[v]) : 0;
   }
 

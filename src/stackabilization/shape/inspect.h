@@ -12,14 +12,15 @@
 namespace stackabilization {
 
 struct InspectOptions {
-  /// Count the pairs of triangles that intersect elsewhere than in what they share. Costs seconds on large meshes.
+  /// Count the pairs of triangles that intersect elsewhere than in what they share. Costs seconds on large
+  /// meshes.
   enum class SelfIntersections { skip, count } self_intersections = SelfIntersections::skip;
 };
 
-/// What `inspect` finds. Vertices with equal coordinates count as one wherever neighbourhood matters, because many
-/// formats repeat them. All counts are exact.
+/// What `inspect` finds. Vertices with equal coordinates count as one wherever neighbourhood matters, because
+/// many formats repeat them. All counts are exact.
 struct Findings {
-  std::int64_t vertices = 0;               ///< Rows of the vertex matrix.
+  std::int64_t vertices = 0;  ///< Rows of the vertex matrix.
   std::int64_t triangles = 0;
   std::int64_t parts = 0;
   std::int64_t components = 0;             ///< Sets of triangles connected through common points.
@@ -33,7 +34,7 @@ struct Findings {
   std::int64_t inconsistent_edges = 0;
   std::optional<std::int64_t> self_intersections;  ///< Pairs; empty unless asked for.
 
-  bool closed = false;           ///< No boundary edge.
+  bool closed = false;  ///< No boundary edge.
   /// Signed volume in model units cubed; empty unless closed and without inconsistent edges.
   std::optional<double> volume;
   bool oriented_outward = false;  ///< There is a volume and it is positive.

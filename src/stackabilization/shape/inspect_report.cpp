@@ -29,24 +29,30 @@ std::string with_unit(const std::string& text, Unit unit) {
 /// Six significant digits: a summary is for reading.
 std::string rounded(double value) {
   char buffer[32];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6);
+  const auto [end, error] =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6);
   return {buffer, end};
 }
 
-std::string yes_no(bool value) { return value ? "yes" : "no"; }
+std::string yes_no(bool value) {
+  return value ? "yes" : "no";
+}
 
-std::string axis_name(Axis axis) { return std::string(1, "xyz"[static_cast<int>(axis)]); }
+std::string axis_name(Axis axis) {
+  return std::string(1, "xyz"[static_cast<int>(axis)]);
+}
 
 }  // namespace
 
 std::string brief(const Findings& findings) {
   const Eigen::Vector3d extents = findings.upper - findings.lower;
-  std::string text = counted(findings.triangles, "triangle", "triangles") + ", " +
-                     counted(findings.vertices, "vertex", "vertices") + ", " +
-                     counted(findings.parts, "part", "parts") + ", " +
-                     with_unit(rounded(extents.x()) + " x " + rounded(extents.y()) + " x " + rounded(extents.z()),
-                               findings.unit) +
-                     ", " + (findings.closed ? "closed" : "open");
+  std::string text =
+      counted(findings.triangles, "triangle", "triangles") + ", " +
+      counted(findings.vertices, "vertex", "vertices") + ", " + counted(findings.parts, "part", "parts") +
+      ", " +
+      with_unit(rounded(extents.x()) + " x " + rounded(extents.y()) + " x " + rounded(extents.z()),
+                findings.unit) +
+      ", " + (findings.closed ? "closed" : "open");
   const auto add = [&text](std::int64_t count, const char* one, const char* many) {
     if (count > 0) text += ", " + counted(count, one, many);
   };
@@ -90,8 +96,8 @@ std::string report(const Findings& findings) {
   line("upper corner", vector(findings.upper, " "));
   line("extents", with_unit(vector(findings.upper - findings.lower, " x "), findings.unit));
   line("unit", findings.unit == Unit::unknown ? "unknown" : unit_symbol(findings.unit));
-  line("likely up axis", (findings.likely_up ? axis_name(*findings.likely_up) : "undecided") + " (" +
-                             findings.up_reason + ")");
+  line("likely up axis",
+       (findings.likely_up ? axis_name(*findings.likely_up) : "undecided") + " (" + findings.up_reason + ")");
   return text;
 }
 

@@ -22,7 +22,8 @@ struct Line {
     const std::string name;
     std::vector<std::string_view> result;
     TextCursor cursor({text, name});
-    for (std::string_view token = cursor.token_of_any_line(); !token.empty(); token = cursor.token_of_any_line())
+    for (std::string_view token = cursor.token_of_any_line(); !token.empty();
+         token = cursor.token_of_any_line())
       result.push_back(token);
     return result;
   }
@@ -30,7 +31,8 @@ struct Line {
 
 class LabelReader {
  public:
-  LabelReader(Shape shape, const Source& source) : name_(source.name), shape_(std::move(shape)), cursor_(source) {
+  LabelReader(Shape shape, const Source& source)
+      : name_(source.name), shape_(std::move(shape)), cursor_(source) {
     while (cursor_.next_content_line()) lines_.push_back({cursor_.line(), cursor_.rest_of_line()});
     if (lines_.empty()) throw InputError(name_ + ": expected part labels, found none");
   }
@@ -45,18 +47,22 @@ class LabelReader {
   }
 
  private:
-  [[noreturn]] void fail(const Line& line, const std::string& message) const { cursor_.fail_at(line.number, message); }
+  [[noreturn]] void fail(const Line& line, const std::string& message) const {
+    cursor_.fail_at(line.number, message);
+  }
 
   /// One integer, then a line of labels or of two integers.
   bool is_seg() const {
     if (lines_.size() < 2 || !parse_integer(lines_[0].text)) return false;
     const std::vector<std::string_view> second = lines_[1].tokens();
-    return second[0] == "labels" || (second.size() == 2 && parse_integer(second[0]) && parse_integer(second[1]));
+    return second[0] == "labels" ||
+           (second.size() == 2 && parse_integer(second[0]) && parse_integer(second[1]));
   }
 
   void apply_seg() {
     const std::optional<std::int64_t> part_count = parse_integer(lines_[0].text);
-    // Each part has a triangle, or else a name or a bare number that nobody uses; more parts than text is a lie.
+    // Each part has a triangle, or else a name or a bare number that nobody uses; more parts than text is a
+    // lie.
     const auto most_parts = static_cast<std::int64_t>(shape_.triangle_part.size() + lines_[1].text.size());
     if (*part_count < 1 || *part_count > most_parts)
       fail(lines_[0], "expected the number of parts, found " + in_quotes(lines_[0].text));
@@ -82,7 +88,8 @@ class LabelReader {
     std::fill(shape_.triangle_part.begin(), shape_.triangle_part.end(), -1);
     for (std::size_t i = first_line; i < lines_.size(); ++i) {
       const std::vector<std::string_view> tokens = lines_[i].tokens();
-      if (tokens.size() != 2) fail(lines_[i], "expected a triangle and its part, found " + in_quotes(lines_[i].text));
+      if (tokens.size() != 2)
+        fail(lines_[i], "expected a triangle and its part, found " + in_quotes(lines_[i].text));
       const std::int64_t triangle = index(lines_[i], tokens[0], shape_.triangle_count(), "a triangle");
       const std::int64_t part = index(lines_[i], tokens[1], shape_.part_count(), "a part");
       std::int32_t& label = shape_.triangle_part[static_cast<std::size_t>(triangle)];
@@ -98,8 +105,8 @@ class LabelReader {
   std::int64_t index(const Line& line, std::string_view token, std::int64_t count, const char* what) const {
     const std::optional<std::int64_t> value = parse_integer(token);
     if (!value || *value < 0 || *value >= count)
-      fail(line, std::string("expected ") + what + " between 0 and " + std::to_string(count - 1) + ", found " +
-                     in_quotes(token));
+      fail(line, std::string("expected ") + what + " between 0 and " + std::to_string(count - 1) +
+                     ", found " + in_quotes(token));
     return *value;
   }
 
@@ -107,8 +114,8 @@ class LabelReader {
     if (static_cast<std::int64_t>(lines_.size()) != shape_.triangle_count())
       throw InputError(name_ + ": expected one label for each of " + std::to_string(shape_.triangle_count()) +
                        " triangles, found " + std::to_string(lines_.size()));
-    const bool are_integers =
-        std::all_of(lines_.begin(), lines_.end(), [](const Line& line) { return parse_integer(line.text).has_value(); });
+    const bool are_integers = std::all_of(
+        lines_.begin(), lines_.end(), [](const Line& line) { return parse_integer(line.text).has_value(); });
     shape_.part_names.clear();
     if (are_integers)
       assign_numbers();

@@ -6,8 +6,8 @@
 
 namespace stackabilization {
 
-/// Numbers the different points it is shown 0, 1, 2 ... in order of first appearance. Points are equal when their
-/// coordinates are (-0 = 0); expected O(1) per point.
+/// Numbers the different points it is shown 0, 1, 2 ... in order of first appearance. Points are equal when
+/// their coordinates are (-0 = 0); expected O(1) per point.
 class PointIndex {
  public:
   /// Number of `point`, new or not. Precondition: finite coordinates.

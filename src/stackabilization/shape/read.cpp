@@ -13,15 +13,23 @@ using Folder = std::optional<std::filesystem::path>;
 
 Shape read_in_file_axes(const Source& source, Format format, const Folder& folder) {
   switch (format) {
-    case Format::obj: return read_obj(source);
-    case Format::off: return read_off(source);
-    case Format::ply: return read_ply(source);
-    case Format::stl: return read_stl(source);
-    case Format::three_mf: return read_three_mf(source);
-    case Format::gltf: return read_gltf(source, folder);
-    case Format::vtp: break;
+    case Format::obj:
+      return read_obj(source);
+    case Format::off:
+      return read_off(source);
+    case Format::ply:
+      return read_ply(source);
+    case Format::stl:
+      return read_stl(source);
+    case Format::three_mf:
+      return read_three_mf(source);
+    case Format::gltf:
+      return read_gltf(source, folder);
+    case Format::vtp:
+      break;
   }
-  throw InputError(source.name + ": VTP files are only written, expected one of " + std::string(readable_extensions()));
+  throw InputError(source.name + ": VTP files are only written, expected one of " +
+                   std::string(readable_extensions()));
 }
 
 void turn_up_to_z(Points& points, Axis up) {
@@ -50,7 +58,8 @@ Shape read_shape(const std::filesystem::path& path, const ReadOptions& options) 
   std::optional<Format> format = options.format;
   const std::string name = is_standard_input ? "standard input" : path.string();
   std::error_code ignored;
-  if (!format && !is_standard_input && !std::filesystem::is_directory(path, ignored)) format = format_of_extension(path);
+  if (!format && !is_standard_input && !std::filesystem::is_directory(path, ignored))
+    format = format_of_extension(path);
   const std::string bytes = read_file(path);
   if (!format) format = sniff_format(bytes);
   if (!format)

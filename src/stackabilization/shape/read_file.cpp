@@ -36,9 +36,11 @@ std::string read_file(const std::filesystem::path& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status))
-    throw InputError(path.string() + " cannot be read: " +
-                     (status.type() == std::filesystem::file_type::not_found ? "no such file" : error.message()));
-  if (std::filesystem::is_directory(status)) throw InputError(path.string() + " is a folder, expected a file");
+    throw InputError(
+        path.string() + " cannot be read: " +
+        (status.type() == std::filesystem::file_type::not_found ? "no such file" : error.message()));
+  if (std::filesystem::is_directory(status))
+    throw InputError(path.string() + " is a folder, expected a file");
   const std::unique_ptr<std::FILE, FileCloser> file(std::fopen(path.c_str(), "rb"));
   if (!file) throw InputError(path.string() + " cannot be read: " + std::strerror(errno));
   std::size_t size = 0;

@@ -48,31 +48,48 @@ std::string printable_name(const std::string& name) {
 std::string escaped_xml(const std::string& text) {
   std::string result;
   for (const char c : printable_name(text)) switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
     }
   return result;
 }
 
 float to_single(double value, const char* format) {
   if (std::abs(value) > std::numeric_limits<float>::max())
-    throw OutputError("the coordinate " + std::to_string(value) + " does not fit the single precision of " + format);
+    throw OutputError("the coordinate " + std::to_string(value) + " does not fit the single precision of " +
+                      format);
   return static_cast<float>(value);
 }
 
 std::string shape_bytes(const Shape& shape, Format format, const WriteOptions& options) {
   validate(shape);
   switch (format) {
-    case Format::obj: return write_obj(shape);
-    case Format::off: return write_off(shape);
-    case Format::ply: return write_ply(shape, options.encoding);
-    case Format::stl: return write_stl(shape, options.encoding);
-    case Format::three_mf: return write_three_mf(shape);
-    case Format::gltf: return write_glb(shape);
-    case Format::vtp: break;
+    case Format::obj:
+      return write_obj(shape);
+    case Format::off:
+      return write_off(shape);
+    case Format::ply:
+      return write_ply(shape, options.encoding);
+    case Format::stl:
+      return write_stl(shape, options.encoding);
+    case Format::three_mf:
+      return write_three_mf(shape);
+    case Format::gltf:
+      return write_glb(shape);
+    case Format::vtp:
+      break;
   }
   return write_vtp(shape, options.encoding);
 }
@@ -87,7 +104,8 @@ void write_shape(const Shape& shape, const std::filesystem::path& path, const Wr
       throw UsageError(error.what());
     }
     if (lower_case(path.extension().string()) == ".gltf")
-      throw UsageError(path.string() + ": glTF is written in its binary form only, expected the extension .glb");
+      throw UsageError(path.string() +
+                       ": glTF is written in its binary form only, expected the extension .glb");
   }
   write_file_atomically(path, shape_bytes(shape, *format, options));
 }

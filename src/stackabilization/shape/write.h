@@ -13,20 +13,21 @@ namespace stackabilization {
 enum class Encoding { binary, ascii };
 
 struct WriteOptions {
-  std::optional<Format> format;           ///< Default: by extension. Standard output needs it.
-  Encoding encoding = Encoding::binary;   ///< Binary or ascii text, where the format has both.
+  std::optional<Format> format;          ///< Default: by extension. Standard output needs it.
+  Encoding encoding = Encoding::binary;  ///< Binary or ascii text, where the format has both.
 };
 
 /// Writes a mesh file under a temporary name and renames it, so that no half file is ever seen; `path` "-" is
 /// standard output. The same shape gives the same bytes.
 ///
-/// What survives: OBJ, PLY and 3MF keep parts; OBJ, OFF, PLY, ascii STL, 3MF and VTP keep every double; binary STL and
-/// GLB hold single precision. 3MF keeps the unit (`unknown` becomes millimetre, its default, and so on reading back)
-/// and gives every part its own vertices. GLB turns z up into y up as its specification wants and converts nothing
-/// else: its metre is the model unit. VTP carries the part index as cell data "part".
+/// What survives: OBJ, PLY and 3MF keep parts; OBJ, OFF, PLY, ascii STL, 3MF and VTP keep every double;
+/// binary STL and GLB hold single precision. 3MF keeps the unit (`unknown` becomes millimetre, its default,
+/// and so on reading back) and gives every part its own vertices. GLB turns z up into y up as its
+/// specification wants and converts nothing else: its metre is the model unit. VTP carries the part index as
+/// cell data "part".
 ///
-/// Throws InputError when `shape` is invalid, UsageError when the format is missing or unknown, and OutputError when
-/// the file cannot be written or a coordinate does not fit the format.
+/// Throws InputError when `shape` is invalid, UsageError when the format is missing or unknown, and
+/// OutputError when the file cannot be written or a coordinate does not fit the format.
 void write_shape(const Shape& shape, const std::filesystem::path& path, const WriteOptions& options = {});
 
 /// The bytes of that file; `options.format` is not used.

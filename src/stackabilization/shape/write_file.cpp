@@ -44,10 +44,12 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (std::filesystem::is_directory(status)) fail(path.string(), "it is a folder");
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return write_directly(path, bytes);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    return write_directly(path, bytes);
 
   // A link keeps pointing to its file, which is what gets replaced.
   std::filesystem::path target = path;
+  error.clear();
   if (std::filesystem::exists(status)) target = std::filesystem::canonical(path, error);
   if (error) fail(path.string(), error.message());
   std::filesystem::path temporary = target;

@@ -1,4 +1,5 @@
-// tinygltf is compiled here, once, without its own image decoders and file access. It forgets to include <fstream>.
+// tinygltf is compiled here, once, without its own image decoders and file access. It forgets to include
+// <fstream>.
 #include <fstream>
 #define TINYGLTF_IMPLEMENTATION
 #define TINYGLTF_NO_STB_IMAGE
@@ -54,9 +55,12 @@ std::string_view json_of(std::string_view bytes) {
 template <class Callbacks>
 Callbacks file_callbacks(const Folder& folder) {
   Callbacks callbacks{};
-  callbacks.FileExists = [](const std::string& path, void*) { return std::filesystem::is_regular_file(path); };
+  callbacks.FileExists = [](const std::string& path, void*) {
+    return std::filesystem::is_regular_file(path);
+  };
   callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
-  callbacks.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void*) {
+  callbacks.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string* error, const std::string& path,
+                               void*) {
     try {
       const std::string text = read_file(path);
       bytes->assign(text.begin(), text.end());
@@ -79,10 +83,11 @@ Callbacks file_callbacks(const Folder& folder) {
 tinygltf::Model parse(const Source& source, const Folder& folder) {
   if (source.bytes.size() > std::numeric_limits<std::uint32_t>::max())
     throw InputError(source.name + ": glTF files hold at most 4 GiB");
-  if (is_deeply_nested(json_of(source.bytes))) throw InputError(source.name + ": its JSON is nested without end");
+  if (is_deeply_nested(json_of(source.bytes)))
+    throw InputError(source.name + ": its JSON is nested without end");
   tinygltf::TinyGLTF loader;
-  loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
-                           void*) { return true; },
+  loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
+                           const unsigned char*, int, void*) { return true; },
                         nullptr);
   loader.SetFsCallbacks(file_callbacks<tinygltf::FsCallbacks>(folder));
   tinygltf::Model model;
@@ -93,7 +98,8 @@ tinygltf::Model parse(const Source& source, const Folder& folder) {
   const bool good =
       source.bytes.starts_with("glTF")
           ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                        reinterpret_cast<const unsigned char*>(source.bytes.data()), length, base)
+                                        reinterpret_cast<const unsigned char*>(source.bytes.data()), length,
+                                        base)
           : loader.LoadASCIIFromString(&model, &error, &warning, source.bytes.data(), length, base);
   if (good) return model;
   std::replace(error.begin(), error.end(), '\n', ' ');
@@ -130,7 +136,9 @@ class Assembler {
     return items[static_cast<std::size_t>(index)];
   }
 
-  const tinygltf::Scene& scene() const { return item(model_.scenes, std::max(model_.defaultScene, 0), "scene"); }
+  const tinygltf::Scene& scene() const {
+    return item(model_.scenes, std::max(model_.defaultScene, 0), "scene");
+  }
 
   std::vector<int> roots() const {
     std::vector<char> is_child(model_.nodes.size(), 0);
@@ -153,7 +161,8 @@ class Assembler {
     }
     if (node.translation.size() == 3) transform.translate(Eigen::Vector3d(node.translation.data()));
     if (node.rotation.size() == 4) {
-      const Eigen::Quaterniond rotation(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
+      const Eigen::Quaterniond rotation(node.rotation[3], node.rotation[0], node.rotation[1],
+                                        node.rotation[2]);
       if (rotation.norm() > 0) transform.rotate(rotation.normalized());
     }
     if (node.scale.size() == 3) transform.scale(Eigen::Vector3d(node.scale.data()));
@@ -164,7 +173,8 @@ class Assembler {
     const tinygltf::Node& node = item(model_.nodes, index, "node");
     constexpr int deepest = 1000;
     if (depth > deepest || std::exchange(visited_[static_cast<std::size_t>(index)], 1))
-      fail("node " + std::to_string(index) + " has several parents or is nested without end, expected a tree");
+      fail("node " + std::to_string(index) +
+           " has several parents or is nested without end, expected a tree");
     const Eigen::Affine3d transform = outer * transform_of(node);
     if (node.mesh >= 0) add_mesh(node, transform);
     for (const int child : node.children) add_node(child, transform, depth + 1);
@@ -176,7 +186,8 @@ class Assembler {
     if (name.empty()) name = "mesh_" + std::to_string(node.mesh);
     builder_.begin_part(name);
     const bool mirrored = transform.linear().determinant() < 0;
-    std::map<int, std::int64_t> first_vertex;  ///< By accessor: primitives of a mesh often share their positions.
+    std::map<int, std::int64_t>
+        first_vertex;  ///< By accessor: primitives of a mesh often share their positions.
     for (const tinygltf::Primitive& primitive : mesh.primitives) {
       const auto position = primitive.attributes.find("POSITION");
       if (position == primitive.attributes.end()) continue;
@@ -203,16 +214,19 @@ class Assembler {
     const tinygltf::BufferView& view = item(model_.bufferViews, accessor.bufferView, "buffer view");
     const std::vector<unsigned char>& bytes = item(model_.buffers, view.buffer, "buffer").data;
     const int stride = accessor.ByteStride(view);
-    const int component_size = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
-    if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components || stride <= 0 ||
-        component_size <= 0)
+    const int component_size =
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
+    if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components ||
+        stride <= 0 || component_size <= 0)
       fail(what + " is not of the expected type");
-    const std::size_t element_size = static_cast<std::size_t>(component_size) * static_cast<std::size_t>(components);
+    const std::size_t element_size =
+        static_cast<std::size_t>(component_size) * static_cast<std::size_t>(components);
     // Compared by division and subtraction, which a lying header cannot make overflow.
     const std::size_t size = bytes.size();
     const bool starts_inside = view.byteOffset <= size && accessor.byteOffset <= size - view.byteOffset;
     const std::size_t room = starts_inside ? size - view.byteOffset - accessor.byteOffset : 0;
-    const std::size_t fitting = room < element_size ? 0 : (room - element_size) / static_cast<std::size_t>(stride) + 1;
+    const std::size_t fitting =
+        room < element_size ? 0 : (room - element_size) / static_cast<std::size_t>(stride) + 1;
     if (accessor.count > fitting)
       fail(what + " states " + std::to_string(accessor.count) + " elements, its buffer has room for " +
            std::to_string(fitting));
@@ -229,13 +243,21 @@ class Assembler {
 
   double component(const Elements& elements, const char* at) const {
     switch (elements.component_type) {
-      case TINYGLTF_COMPONENT_TYPE_FLOAT: return load<float>(at, std::endian::little);
-      case TINYGLTF_COMPONENT_TYPE_BYTE: return quantized<std::int8_t>(at, elements.normalized);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return quantized<std::uint8_t>(at, elements.normalized);
-      case TINYGLTF_COMPONENT_TYPE_SHORT: return quantized<std::int16_t>(at, elements.normalized);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return quantized<std::uint16_t>(at, elements.normalized);
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return quantized<std::uint32_t>(at, elements.normalized);
-      default: fail("an accessor has component type " + std::to_string(elements.component_type) + ", expected numbers");
+      case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        return load<float>(at, std::endian::little);
+      case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return quantized<std::int8_t>(at, elements.normalized);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return quantized<std::uint8_t>(at, elements.normalized);
+      case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return quantized<std::int16_t>(at, elements.normalized);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return quantized<std::uint16_t>(at, elements.normalized);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return quantized<std::uint32_t>(at, elements.normalized);
+      default:
+        fail("an accessor has component type " + std::to_string(elements.component_type) +
+             ", expected numbers");
     }
   }
 
@@ -261,7 +283,8 @@ class Assembler {
     std::vector<std::int32_t> result;
     if (primitive.indices < 0) {
       const std::size_t count = elements(primitive.attributes.at("POSITION"), 3).count;
-      for (std::size_t i = 0; i < count; ++i) result.push_back(static_cast<std::int32_t>(first_vertex + static_cast<std::int64_t>(i)));
+      for (std::size_t i = 0; i < count; ++i)
+        result.push_back(static_cast<std::int32_t>(first_vertex + static_cast<std::int64_t>(i)));
       return result;
     }
     const Elements indices = elements(primitive.indices, 1);
@@ -299,7 +322,8 @@ class Assembler {
   /// Triangles that the buffers could hold without instancing: an index takes a byte or more.
   std::int64_t stored_limit() const {
     std::int64_t bytes = 0;
-    for (const tinygltf::Buffer& buffer : model_.buffers) bytes += static_cast<std::int64_t>(buffer.data.size());
+    for (const tinygltf::Buffer& buffer : model_.buffers)
+      bytes += static_cast<std::int64_t>(buffer.data.size());
     return bytes / 3;
   }
 
@@ -320,7 +344,8 @@ class GlbWriter {
     model_.defaultScene = 0;
     const std::vector<PartMesh> meshes = split_by_part(shape);
     for (std::size_t part = 0; part < meshes.size(); ++part)
-      if (!meshes[part].triangles.empty()) add_part(shape, meshes[part], printable_name(shape.part_names[part]));
+      if (!meshes[part].triangles.empty())
+        add_part(shape, meshes[part], printable_name(shape.part_names[part]));
     model_.buffers[0].data.assign(bytes_.begin(), bytes_.end());
     std::ostringstream stream;
     tinygltf::TinyGLTF writer;
@@ -359,7 +384,8 @@ class GlbWriter {
       lower = lower.min(point.cast<double>());
       upper = upper.max(point.cast<double>());
     }
-    const int index = add_accessor(start, part.vertices.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+    const int index =
+        add_accessor(start, part.vertices.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
     model_.accessors.back().minValues.assign(lower.begin(), lower.end());
     model_.accessors.back().maxValues.assign(upper.begin(), upper.end());
     model_.bufferViews.back().target = TINYGLTF_TARGET_ARRAY_BUFFER;
@@ -403,6 +429,8 @@ Shape read_gltf(const Source& source, const Folder& folder) {
   return Assembler(source, model).assemble();
 }
 
-std::string write_glb(const Shape& shape) { return GlbWriter().write(shape); }
+std::string write_glb(const Shape& shape) {
+  return GlbWriter().write(shape);
+}
 
 }  // namespace stackabilization

@@ -47,7 +47,8 @@ class ObjReader {
 
   void read_face() {
     corners_.clear();
-    for (std::string_view corner = cursor_.token(); !corner.empty() && corner[0] != '#'; corner = cursor_.token())
+    for (std::string_view corner = cursor_.token(); !corner.empty() && corner[0] != '#';
+         corner = cursor_.token())
       corners_.push_back(vertex_of(corner));
     if (corners_.size() < 3)
       cursor_.fail("expected a face with at least three corners, found " + std::to_string(corners_.size()));
@@ -59,18 +60,20 @@ class ObjReader {
     std::int64_t index = 0;
     const char* const end = corner.data() + corner.size();
     const auto [stop, error] = std::from_chars(corner.data(), end, index);
-    const bool is_corner = error == std::errc() && (stop == end || *stop == '/') &&
-                           std::all_of(stop, end, [](char c) { return c == '/' || c == '-' || (c >= '0' && c <= '9'); });
+    const bool is_corner =
+        error == std::errc() && (stop == end || *stop == '/') &&
+        std::all_of(stop, end, [](char c) { return c == '/' || c == '-' || (c >= '0' && c <= '9'); });
     if (!is_corner) cursor_.fail_expected("a face corner such as 3 or 3/1/2", corner);
     const std::int64_t vertex = index > 0 ? index - 1 : builder_.vertex_count() + index;
-    if (index == 0 || vertex < 0 || vertex >= std::numeric_limits<std::int32_t>::max()) fail_missing(cursor_.line(), index);
+    if (index == 0 || vertex < 0 || vertex >= std::numeric_limits<std::int32_t>::max())
+      fail_missing(cursor_.line(), index);
     if (vertex >= builder_.vertex_count()) forward_references_.push_back({cursor_.line(), vertex});
     return static_cast<std::int32_t>(vertex);
   }
 
   [[noreturn]] void fail_missing(std::int64_t line, std::int64_t index) const {
-    cursor_.fail_at(line, "expected a vertex between 1 and " + std::to_string(builder_.vertex_count()) + ", found " +
-                              std::to_string(index));
+    cursor_.fail_at(line, "expected a vertex between 1 and " + std::to_string(builder_.vertex_count()) +
+                              ", found " + std::to_string(index));
   }
 
   void check_forward_references() const {
@@ -100,7 +103,9 @@ class ObjReader {
 
 }  // namespace
 
-Shape read_obj(const Source& source) { return ObjReader(source).read(); }
+Shape read_obj(const Source& source) {
+  return ObjReader(source).read();
+}
 
 std::string write_obj(const Shape& shape) {
   std::string text;
@@ -115,7 +120,8 @@ std::string write_obj(const Shape& shape) {
   std::int32_t open_part = -1;
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
     const std::int32_t part = shape.triangle_part[static_cast<std::size_t>(t)];
-    if (part != open_part) text += "g " + printable_name(shape.part_names[static_cast<std::size_t>(part)]) + "\n";
+    if (part != open_part)
+      text += "g " + printable_name(shape.part_names[static_cast<std::size_t>(part)]) + "\n";
     open_part = part;
     text += 'f';
     for (int corner = 0; corner < 3; ++corner) {

@@ -33,7 +33,8 @@ class OffReader {
     counts_ = cursor_.token();
     if (counts_ == "BINARY") cursor_.fail("binary OFF is not supported, expected a text file");
     if (!counts_.empty() && counts_[0] != '#') return;
-    if (!cursor_.next_content_line()) cursor_.fail("expected the number of vertices, found the end of the file");
+    if (!cursor_.next_content_line())
+      cursor_.fail("expected the number of vertices, found the end of the file");
     counts_ = cursor_.token();
   }
 
@@ -68,8 +69,8 @@ class OffReader {
     for (std::int64_t i = 0; i < size; ++i) {
       const std::int64_t vertex = cursor_.integer("the vertex of a face corner");
       if (vertex < 0 || vertex >= builder_.vertex_count())
-        cursor_.fail("expected a vertex between 0 and " + std::to_string(builder_.vertex_count() - 1) + ", found " +
-                     std::to_string(vertex));
+        cursor_.fail("expected a vertex between 0 and " + std::to_string(builder_.vertex_count() - 1) +
+                     ", found " + std::to_string(vertex));
       corners_.push_back(static_cast<std::int32_t>(vertex));
     }
     builder_.add_face(corners_);
@@ -83,10 +84,13 @@ class OffReader {
 
 }  // namespace
 
-Shape read_off(const Source& source) { return OffReader(source).read(); }
+Shape read_off(const Source& source) {
+  return OffReader(source).read();
+}
 
 std::string write_off(const Shape& shape) {
-  std::string text = "OFF\n" + std::to_string(shape.vertex_count()) + " " + std::to_string(shape.triangle_count()) + " 0\n";
+  std::string text =
+      "OFF\n" + std::to_string(shape.vertex_count()) + " " + std::to_string(shape.triangle_count()) + " 0\n";
   for (Eigen::Index v = 0; v < shape.vertex_count(); ++v)
     for (int axis = 0; axis < 3; ++axis) {
       append_number(text, shape.vertices(v, axis));

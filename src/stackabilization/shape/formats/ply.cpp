@@ -19,11 +19,11 @@ enum class Scalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 
 
 std::optional<Scalar> scalar_named(std::string_view name) {
   static const std::map<std::string_view, Scalar> names = {
-      {"char", Scalar::int8},     {"int8", Scalar::int8},       {"uchar", Scalar::uint8},
-      {"uint8", Scalar::uint8},   {"short", Scalar::int16},     {"int16", Scalar::int16},
-      {"ushort", Scalar::uint16}, {"uint16", Scalar::uint16},   {"int", Scalar::int32},
-      {"int32", Scalar::int32},   {"uint", Scalar::uint32},     {"uint32", Scalar::uint32},
-      {"float", Scalar::float32}, {"float32", Scalar::float32}, {"double", Scalar::float64},
+      {"char", Scalar::int8},      {"int8", Scalar::int8},       {"uchar", Scalar::uint8},
+      {"uint8", Scalar::uint8},    {"short", Scalar::int16},     {"int16", Scalar::int16},
+      {"ushort", Scalar::uint16},  {"uint16", Scalar::uint16},   {"int", Scalar::int32},
+      {"int32", Scalar::int32},    {"uint", Scalar::uint32},     {"uint32", Scalar::uint32},
+      {"float", Scalar::float32},  {"float32", Scalar::float32}, {"double", Scalar::float64},
       {"float64", Scalar::float64}};
   const auto found = names.find(name);
   if (found == names.end()) return std::nullopt;
@@ -33,11 +33,15 @@ std::optional<Scalar> scalar_named(std::string_view name) {
 std::size_t size_of(Scalar type) {
   switch (type) {
     case Scalar::int8:
-    case Scalar::uint8: return 1;
+    case Scalar::uint8:
+      return 1;
     case Scalar::int16:
-    case Scalar::uint16: return 2;
-    case Scalar::float64: return 8;
-    default: return 4;
+    case Scalar::uint16:
+      return 2;
+    case Scalar::float64:
+      return 8;
+    default:
+      return 4;
   }
 }
 
@@ -146,15 +150,21 @@ class HeaderReader {
   bool has_format_ = false;
 };
 
-/// Values of an ascii body.
+/// Values of an ascii body. Every element begins a line; some programs leave more values on it than the
+/// header states.
 class AsciiBody {
  public:
   explicit AsciiBody(TextCursor cursor) : cursor_(std::move(cursor)) {}
 
+  void begin_element() {
+    if (!cursor_.next_content_line()) fail("expected a value, found the end of the file");
+  }
+
   double value(Scalar) {
     const std::string_view token = cursor_.token_of_any_line();
     const std::optional<double> number = parse_number(token);
-    if (!number) fail("expected a finite number, found " + (token.empty() ? "the end of the file" : in_quotes(token)));
+    if (!number)
+      fail("expected a finite number, found " + (token.empty() ? "the end of the file" : in_quotes(token)));
     return *number;
   }
   void skip(Scalar, std::int64_t count) {
@@ -178,17 +188,26 @@ class BinaryBody {
         end_(source.bytes.data() + source.bytes.size()),
         order_(order) {}
 
+  void begin_element() {}
   double value(Scalar type) {
     const char* const at = take(size_of(type));
     switch (type) {
-      case Scalar::int8: return load<std::int8_t>(at, order_);
-      case Scalar::uint8: return load<std::uint8_t>(at, order_);
-      case Scalar::int16: return load<std::int16_t>(at, order_);
-      case Scalar::uint16: return load<std::uint16_t>(at, order_);
-      case Scalar::int32: return load<std::int32_t>(at, order_);
-      case Scalar::uint32: return load<std::uint32_t>(at, order_);
-      case Scalar::float32: return load<float>(at, order_);
-      case Scalar::float64: break;
+      case Scalar::int8:
+        return load<std::int8_t>(at, order_);
+      case Scalar::uint8:
+        return load<std::uint8_t>(at, order_);
+      case Scalar::int16:
+        return load<std::int16_t>(at, order_);
+      case Scalar::uint16:
+        return load<std::uint16_t>(at, order_);
+      case Scalar::int32:
+        return load<std::int32_t>(at, order_);
+      case Scalar::uint32:
+        return load<std::uint32_t>(at, order_);
+      case Scalar::float32:
+        return load<float>(at, order_);
+      case Scalar::float64:
+        break;
     }
     return load<double>(at, order_);
   }
@@ -228,8 +247,7 @@ class BodyReader {
       else if (element.name == "face")
         read_faces(element);
       else
-        for (std::int64_t i = 0; i < element.count; ++i)
-          for (const Property& property : element.properties) skip(property);
+        skip_elements(element);
     }
     return builder_.finish();
   }
@@ -240,8 +258,8 @@ class BodyReader {
     if (element.count == 0) return;
     if (element.properties.empty()) body_.fail("element " + in_quotes(element.name) + " has no properties");
     if (static_cast<std::uint64_t>(element.count) > body_.remaining())
-      body_.fail("the header states " + std::to_string(element.count) + " of element " + in_quotes(element.name) +
-                 ", more than the file has room for");
+      body_.fail("the header states " + std::to_string(element.count) + " of element " +
+                 in_quotes(element.name) + ", more than the file has room for");
   }
 
   std::int64_t integer(Scalar type, const char* what) {
@@ -259,7 +277,16 @@ class BodyReader {
     return size;
   }
 
-  void skip(const Property& property) { body_.skip(property.type, property.count_type ? list_size(property) : 1); }
+  void skip_elements(const Element& element) {
+    for (std::int64_t i = 0; i < element.count; ++i) {
+      body_.begin_element();
+      for (const Property& property : element.properties) skip(property);
+    }
+  }
+
+  void skip(const Property& property) {
+    body_.skip(property.type, property.count_type ? list_size(property) : 1);
+  }
 
   void read_vertices(const Element& element) {
     std::array<std::size_t, 3> where{};
@@ -271,6 +298,7 @@ class BodyReader {
     }
     builder_.reserve(static_cast<std::size_t>(element.count), 0);
     for (std::int64_t v = 0; v < element.count; ++v) {
+      body_.begin_element();
       std::array<double, 3> point{};
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         bool is_coordinate = false;
@@ -297,6 +325,7 @@ class BodyReader {
     if (header_.part_names.empty() || (part != Element::absent && element.properties[part].count_type))
       part = Element::absent;
     for (std::int64_t f = 0; f < element.count; ++f) {
+      body_.begin_element();
       for (std::size_t i = 0; i < element.properties.size(); ++i) {
         if (i == indices)
           read_corners(element.properties[i], f);
@@ -314,7 +343,8 @@ class BodyReader {
     const std::int64_t vertex_count = vertices ? vertices->count : 0;
     const std::int64_t size = list_size(property);
     if (size < 3)
-      body_.fail("face " + std::to_string(face) + " has " + std::to_string(size) + " corners, expected at least 3");
+      body_.fail("face " + std::to_string(face) + " has " + std::to_string(size) +
+                 " corners, expected at least 3");
     corners_.clear();
     for (std::int64_t i = 0; i < size; ++i) {
       const std::int64_t vertex = integer(property.type, "the vertex of a face corner");
@@ -327,7 +357,8 @@ class BodyReader {
 
   void open_part(std::int64_t part) {
     if (part < 0 || part >= static_cast<std::int64_t>(header_.part_names.size()))
-      body_.fail("a face belongs to part " + std::to_string(part) + " of " + std::to_string(header_.part_names.size()));
+      body_.fail("a face belongs to part " + std::to_string(part) + " of " +
+                 std::to_string(header_.part_names.size()));
     builder_.continue_part(header_.part_names[static_cast<std::size_t>(part)]);
   }
 
@@ -371,7 +402,8 @@ std::string write_ply(const Shape& shape, Encoding encoding) {
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
     const std::int32_t part = shape.triangle_part[static_cast<std::size_t>(t)];
     bytes += ascii ? '3' : '\3';
-    for (const std::int32_t value : {shape.triangles(t, 0), shape.triangles(t, 1), shape.triangles(t, 2), part}) {
+    for (const std::int32_t value :
+         {shape.triangles(t, 0), shape.triangles(t, 1), shape.triangles(t, 2), part}) {
       if (!ascii) {
         append_little(bytes, value);
         continue;

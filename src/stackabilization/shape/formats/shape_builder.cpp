@@ -46,7 +46,8 @@ std::int32_t ShapeBuilder::current_part() {
   if (open_part_ >= 0) return open_part_;
   std::string unique = open_name_;
   if (open_as_new_)
-    while (part_of_name_.contains(unique)) unique = open_name_ + "_" + std::to_string(++copies_of_name_[open_name_] + 1);
+    while (part_of_name_.contains(unique))
+      unique = open_name_ + "_" + std::to_string(++copies_of_name_[open_name_] + 1);
   const auto [entry, is_new] =
       part_of_name_.try_emplace(unique, static_cast<std::int32_t>(part_names_.size()));
   if (is_new) part_names_.push_back(unique);
@@ -55,8 +56,9 @@ std::int32_t ShapeBuilder::current_part() {
 
 void ShapeBuilder::add_face(std::span<const std::int32_t> corners) {
   if (corners.size() > most_corners)
-    throw InputError(name_ + ": face " + std::to_string(face_count()) + " has " + std::to_string(corners.size()) +
-                     " corners, expected at most " + std::to_string(most_corners));
+    throw InputError(name_ + ": face " + std::to_string(face_count()) + " has " +
+                     std::to_string(corners.size()) + " corners, expected at most " +
+                     std::to_string(most_corners));
   if (corners_.size() + corners.size() > most_indices)
     throw InputError(name_ + " has more faces than can be indexed");
   corners_.insert(corners_.end(), corners.begin(), corners.end());
@@ -66,8 +68,8 @@ void ShapeBuilder::add_face(std::span<const std::int32_t> corners) {
 
 Shape ShapeBuilder::finish() {
   if (face_sizes_.empty())
-    throw InputError(name_ + (coordinates_.empty() ? " holds no mesh: it has no faces"
-                                                   : " holds points but no faces"));
+    throw InputError(
+        name_ + (coordinates_.empty() ? " holds no mesh: it has no faces" : " holds points but no faces"));
   Shape shape;
   shape.vertices = Eigen::Map<const Points>(coordinates_.data(), vertex_count(), 3);
   coordinates_ = {};

@@ -113,8 +113,9 @@ Shape read_binary_stl(const Source& source) {
 
 /// Zero for a degenerate triangle. Scaled first, so that it cannot overflow.
 Eigen::Vector3d unit_normal(const Shape& shape, Eigen::Index t) {
-  const double scale = std::max({shape.corner(t, 0).cwiseAbs().maxCoeff(), shape.corner(t, 1).cwiseAbs().maxCoeff(),
-                                 shape.corner(t, 2).cwiseAbs().maxCoeff()});
+  const double scale =
+      std::max({shape.corner(t, 0).cwiseAbs().maxCoeff(), shape.corner(t, 1).cwiseAbs().maxCoeff(),
+                shape.corner(t, 2).cwiseAbs().maxCoeff()});
   if (scale == 0) return Eigen::Vector3d::Zero();
   const Eigen::Vector3d origin = shape.corner(t, 0) / scale;
   const Eigen::Vector3d a = (shape.corner(t, 1) / scale - origin).stableNormalized();
@@ -180,7 +181,8 @@ Shape read_stl(const Source& source) {
     throw InputError(source.name + ": expected an STL file, found neither 'solid' nor a binary header of " +
                      std::to_string(preamble_size) + " bytes");
   const auto facets = load<std::uint32_t>(source.bytes.data() + header_size, std::endian::little);
-  throw InputError(source.name + ": byte 80 states " + std::to_string(facets) + " triangles, expected a file of " +
+  throw InputError(source.name + ": byte 80 states " + std::to_string(facets) +
+                   " triangles, expected a file of " +
                    std::to_string(preamble_size + facet_size * std::size_t{facets}) + " bytes, found " +
                    std::to_string(source.bytes.size()));
 }

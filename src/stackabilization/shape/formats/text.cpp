@@ -16,7 +16,9 @@ std::string_view without_plus(std::string_view token) {
   return token;
 }
 
-bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f'; }
+bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\v' || c == '\f';
+}
 
 template <class Number>
 void append_chars(std::string& text, Number value) {
@@ -52,9 +54,15 @@ std::optional<std::int64_t> parse_integer(std::string_view token) {
   return value;
 }
 
-void append_number(std::string& text, double value) { append_chars(text, value); }
-void append_number(std::string& text, float value) { append_chars(text, value); }
-void append_integer(std::string& text, std::int64_t value) { append_chars(text, value); }
+void append_number(std::string& text, double value) {
+  append_chars(text, value);
+}
+void append_number(std::string& text, float value) {
+  append_chars(text, value);
+}
+void append_integer(std::string& text, std::int64_t value) {
+  append_chars(text, value);
+}
 
 std::string in_quotes(std::string_view token) {
   constexpr std::size_t longest = 40;
@@ -158,14 +166,17 @@ std::int64_t TextCursor::integer(const char* what) {
   return *value;
 }
 
-void TextCursor::fail(const std::string& message) const { fail_at(std::max<std::int64_t>(line_, 1), message); }
+void TextCursor::fail(const std::string& message) const {
+  fail_at(std::max<std::int64_t>(line_, 1), message);
+}
 
 void TextCursor::fail_at(std::int64_t line, const std::string& message) const {
   throw InputError(name_ + ":" + std::to_string(line) + ": " + message);
 }
 
 void TextCursor::fail_expected(const char* what, std::string_view found) const {
-  fail(std::string("expected ") + what + ", found " + (found.empty() ? "the end of the line" : in_quotes(found)));
+  fail(std::string("expected ") + what + ", found " +
+       (found.empty() ? "the end of the line" : in_quotes(found)));
 }
 
 }  // namespace stackabilization

@@ -13,8 +13,8 @@ struct Source {
   const std::string& name;
 };
 
-/// Decimal number of the whole token, rounded to nearest, independent of the locale; nothing when the token is
-/// something else or beyond the range of double. Numbers too small for double become zero.
+/// Decimal number of the whole token, rounded to nearest, independent of the locale; nothing when the token
+/// is something else or beyond the range of double. Numbers too small for double become zero.
 std::optional<double> parse_number(std::string_view token);
 
 std::optional<std::int64_t> parse_integer(std::string_view token);
@@ -32,8 +32,8 @@ std::string in_quotes(std::string_view token);
 /// In lower case, ASCII letters only.
 std::string lower_case(std::string_view text);
 
-/// Walks through the lines of a text and the blank-separated tokens of a line. Lines end with LF, CRLF or, in files
-/// without LF, CR. A UTF-8 byte order mark is skipped.
+/// Walks through the lines of a text and the blank-separated tokens of a line. Lines end with LF, CRLF or, in
+/// files without LF, CR. A UTF-8 byte order mark is skipped.
 class TextCursor {
  public:
   /// Whether a backslash at the end of a line joins the next line to it, as in OBJ.

@@ -22,7 +22,8 @@ constexpr std::int64_t most_placed_objects = 100000;
 
 constexpr const char* default_model = "3D/3dmodel.model";
 constexpr const char* core_namespace = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
-constexpr const char* relationships_namespace = "http://schemas.openxmlformats.org/package/2006/relationships";
+constexpr const char* relationships_namespace =
+    "http://schemas.openxmlformats.org/package/2006/relationships";
 constexpr const char* model_relationship = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
 
 struct UnitName {
@@ -71,7 +72,9 @@ const char* local_name(const char* name) {
   return colon ? colon + 1 : name;
 }
 
-bool is_named(pugi::xml_node node, const char* name) { return std::strcmp(local_name(node.name()), name) == 0; }
+bool is_named(pugi::xml_node node, const char* name) {
+  return std::strcmp(local_name(node.name()), name) == 0;
+}
 
 pugi::xml_node child(pugi::xml_node node, const char* name) {
   for (const pugi::xml_node candidate : node.children())
@@ -84,7 +87,8 @@ class ModelParser {
  public:
   ModelParser(const Source& source, std::string entry) : name_(source.name), entry_(std::move(entry)) {
     const pugi::xml_parse_result result = document_.load_buffer(source.bytes.data(), source.bytes.size());
-    if (!result) fail("byte " + std::to_string(result.offset) + ": expected XML, found: " + result.description());
+    if (!result)
+      fail("byte " + std::to_string(result.offset) + ": expected XML, found: " + result.description());
   }
 
   Model parse() {
@@ -115,7 +119,8 @@ class ModelParser {
       const bool is_harmless = space.find("/production/") != std::string_view::npos ||
                                space.find("/material/") != std::string_view::npos ||
                                space.find("/trianglesets/") != std::string_view::npos;
-      if (!is_harmless) fail("the file requires the extension " + in_quotes(prefix) + ", which is not supported");
+      if (!is_harmless)
+        fail("the file requires the extension " + in_quotes(prefix) + ", which is not supported");
     }
   }
 
@@ -129,8 +134,7 @@ class ModelParser {
   std::int64_t integer(pugi::xml_node node, const char* attribute) const {
     const std::string_view text = node.attribute(attribute).value();
     const std::optional<std::int64_t> value = parse_integer(text);
-    if (!value)
-      fail(place(node) + ": expected an integer as " + attribute + ", found " + in_quotes(text));
+    if (!value) fail(place(node) + ": expected an integer as " + attribute + ", found " + in_quotes(text));
     return *value;
   }
 
@@ -169,8 +173,8 @@ class ModelParser {
       for (std::size_t corner = 0; corner < 3; ++corner) {
         const std::int64_t vertex = integer(triangle, names[corner]);
         if (vertex < 0 || vertex >= static_cast<std::int64_t>(object.vertices.size()))
-          fail(place(triangle) + ": expected a vertex below " + std::to_string(object.vertices.size()) + ", found " +
-               std::to_string(vertex));
+          fail(place(triangle) + ": expected a vertex below " + std::to_string(object.vertices.size()) +
+               ", found " + std::to_string(vertex));
         corners[corner] = static_cast<std::int32_t>(vertex);
       }
     }
@@ -183,7 +187,8 @@ class ModelParser {
     for (const pugi::xml_attribute attribute : node.attributes())
       if (std::strcmp(local_name(attribute.name()), "path") == 0) placement.model = attribute.value();
     if (placement.model.starts_with('/')) placement.model.erase(0, 1);
-    if (const pugi::xml_attribute text = node.attribute("transform")) placement.transform = parse_transform(node, text);
+    if (const pugi::xml_attribute text = node.attribute("transform"))
+      placement.transform = parse_transform(node, text);
     return placement;
   }
 
@@ -197,7 +202,8 @@ class ModelParser {
       if (!value) fail(place(node) + ": expected a transform of 12 finite numbers");
       transform.matrix()(i % 3, i / 3) = *value;
     }
-    if (!cursor.token_of_any_line().empty()) fail(place(node) + ": expected a transform of 12 finite numbers");
+    if (!cursor.token_of_any_line().empty())
+      fail(place(node) + ": expected a transform of 12 finite numbers");
     if (transform.matrix() == Eigen::Matrix4d::Identity()) return std::nullopt;
     return transform;
   }
@@ -207,7 +213,8 @@ class ModelParser {
   pugi::xml_document document_;
 };
 
-/// Expands the build items of a model into a Shape. Models of other entries (production extension) are read on demand.
+/// Expands the build items of a model into a Shape. Models of other entries (production extension) are read
+/// on demand.
 class Assembler {
  public:
   Assembler(const Source& source, const ZipReader* archive, std::string entry, Model root)
@@ -236,7 +243,8 @@ class Assembler {
     auto model = models_.find(placement.model);
     if (model == models_.end()) {
       const std::optional<std::string> text = archive_ ? archive_->entry(placement.model) : std::nullopt;
-      if (!text) throw InputError(name_ + ": expected the entry " + in_quotes(placement.model) + " in the archive");
+      if (!text)
+        throw InputError(name_ + ": expected the entry " + in_quotes(placement.model) + " in the archive");
       add_model(placement.model, ModelParser({*text, name_}, placement.model).parse());
       model = models_.find(placement.model);
     }
@@ -255,7 +263,8 @@ class Assembler {
     const Object& object = find(placement);
     const Transform transform = outer * placement.transform;
     if (++placed_objects_ > most_placed_objects)
-      throw InputError(name_ + ": the components make more than " + std::to_string(most_placed_objects) + " objects");
+      throw InputError(name_ + ": the components make more than " + std::to_string(most_placed_objects) +
+                       " objects");
     placed_triangles_ += static_cast<std::int64_t>(object.triangles.size());
     if (placed_triangles_ > std::max(2 * stored_triangles_, most_instanced_triangles))
       throw InputError(name_ + ": the components make more than " + std::to_string(most_instanced_triangles) +
@@ -270,7 +279,8 @@ class Assembler {
     for (const Eigen::Vector3d& vertex : object.vertices) {
       const Eigen::Vector3d point = transform ? *transform * vertex : vertex;
       if (!point.allFinite())
-        throw InputError(name_ + ": a transform takes vertices of " + in_quotes(object.name) + " out of range");
+        throw InputError(name_ + ": a transform takes vertices of " + in_quotes(object.name) +
+                         " out of range");
       builder_.add_vertex(point.x(), point.y(), point.z());
     }
     const bool mirrored = transform && transform->linear().determinant() < 0;
@@ -295,7 +305,8 @@ class Assembler {
 std::string model_entry(const ZipReader& archive) {
   const std::optional<std::string> relationships = archive.entry("_rels/.rels");
   pugi::xml_document document;
-  if (!relationships || !document.load_buffer(relationships->data(), relationships->size())) return default_model;
+  if (!relationships || !document.load_buffer(relationships->data(), relationships->size()))
+    return default_model;
   for (const pugi::xml_node node : child(document, "Relationships").children())
     if (std::string_view(node.attribute("Type").value()) == model_relationship) {
       const std::string target = node.attribute("Target").value();
@@ -366,13 +377,17 @@ std::string write_three_mf(const Shape& shape) {
   const std::string types =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
-      "<Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
-      "<Default Extension=\"model\" ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
+      "<Default Extension=\"rels\" "
+      "ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
+      "<Default Extension=\"model\" "
+      "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
       "</Types>\n";
-  const std::string relationships = std::string("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Relationships xmlns=\"") +
-                                    relationships_namespace + "\">\n<Relationship Target=\"/" + default_model +
-                                    "\" Id=\"rel0\" Type=\"" + model_relationship + "\"/>\n</Relationships>\n";
-  return zip({{"[Content_Types].xml", types}, {"_rels/.rels", relationships}, {default_model, model_xml(shape)}});
+  const std::string relationships =
+      std::string("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Relationships xmlns=\"") +
+      relationships_namespace + "\">\n<Relationship Target=\"/" + default_model + "\" Id=\"rel0\" Type=\"" +
+      model_relationship + "\"/>\n</Relationships>\n";
+  return zip(
+      {{"[Content_Types].xml", types}, {"_rels/.rels", relationships}, {default_model, model_xml(shape)}});
 }
 
 }  // namespace stackabilization

@@ -27,7 +27,8 @@ Eigen::Vector3d newell_normal(const Points& vertices, std::span<const std::int32
   return normal;
 }
 
-/// The corners in the coordinate plane that the normal is most orthogonal to, counter-clockwise seen along it.
+/// The corners in the coordinate plane that the normal is most orthogonal to, counter-clockwise seen along
+/// it.
 std::vector<Point> project(const Points& vertices, std::span<const std::int32_t> polygon,
                            const Eigen::Vector3d& normal) {
   Eigen::Index dropped = 2;
@@ -41,7 +42,8 @@ std::vector<Point> project(const Points& vertices, std::span<const std::int32_t>
   return points;
 }
 
-/// Strictly convex and winding once: every corner turns left and the directions of the sides cross the x axis twice.
+/// Strictly convex and winding once: every corner turns left and the directions of the sides cross the x axis
+/// twice.
 bool is_strictly_convex(const std::vector<Point>& points) {
   const std::size_t count = points.size();
   int changes_of_direction = 0;
@@ -58,7 +60,11 @@ bool is_strictly_convex(const std::vector<Point>& points) {
 class EarCutter {
  public:
   EarCutter(const std::vector<Point>& points, std::span<const std::int32_t> polygon)
-      : points_(points), polygon_(polygon), next_(points.size()), previous_(points.size()), is_ear_(points.size()) {
+      : points_(points),
+        polygon_(polygon),
+        next_(points.size()),
+        previous_(points.size()),
+        is_ear_(points.size()) {
     const int count = static_cast<int>(points.size());
     for (int i = 0; i < count; ++i) {
       next_[i] = (i + 1) % count;
@@ -102,8 +108,8 @@ class EarCutter {
     return std::none_of(blockers_.begin(), blockers_.end(), [&](int other) {
       const Point& p = points_[other];
       if (p == a || p == b || p == c) return false;
-      return CGAL::orientation(a, b, p) != CGAL::RIGHT_TURN && CGAL::orientation(b, c, p) != CGAL::RIGHT_TURN &&
-             CGAL::orientation(c, a, p) != CGAL::RIGHT_TURN;
+      return CGAL::orientation(a, b, p) != CGAL::RIGHT_TURN &&
+             CGAL::orientation(b, c, p) != CGAL::RIGHT_TURN && CGAL::orientation(c, a, p) != CGAL::RIGHT_TURN;
     });
   }
 
@@ -134,13 +140,15 @@ class EarCutter {
 std::vector<std::array<std::int32_t, 3>> fan(std::span<const std::int32_t> polygon) {
   std::vector<std::array<std::int32_t, 3>> triangles;
   triangles.reserve(polygon.size() - 2);
-  for (std::size_t i = 2; i < polygon.size(); ++i) triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
+  for (std::size_t i = 2; i < polygon.size(); ++i)
+    triangles.push_back({polygon[0], polygon[i - 1], polygon[i]});
   return triangles;
 }
 
 }  // namespace
 
-std::vector<std::array<std::int32_t, 3>> triangulate(const Points& vertices, std::span<const std::int32_t> polygon) {
+std::vector<std::array<std::int32_t, 3>> triangulate(const Points& vertices,
+                                                     std::span<const std::int32_t> polygon) {
   if (polygon.size() == 3) return fan(polygon);
   const std::vector<Point> points = project(vertices, polygon, newell_normal(vertices, polygon));
   if (is_strictly_convex(points)) return fan(polygon);

@@ -15,21 +15,25 @@ class VtpWriter {
   std::string write(const Shape& shape) {
     const std::string point_count = std::to_string(shape.vertex_count());
     const std::string triangle_count = std::to_string(shape.triangle_count());
-    text_ = "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
-            "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
-            point_count + "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-            triangle_count + "\">\n<Points>\n";
-    append_array("Float64", "Points", 3, std::vector<double>(shape.vertices.data(), shape.vertices.data() + shape.vertices.size()));
+    text_ =
+        "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\" "
+        "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"" +
+        point_count + "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+        triangle_count + "\">\n<Points>\n";
+    append_array("Float64", "Points", 3,
+                 std::vector<double>(shape.vertices.data(), shape.vertices.data() + shape.vertices.size()));
     text_ += "</Points>\n<Polys>\n";
-    append_array("Int64", "connectivity", 1,
-                 std::vector<std::int64_t>(shape.triangles.data(), shape.triangles.data() + shape.triangles.size()));
+    append_array(
+        "Int64", "connectivity", 1,
+        std::vector<std::int64_t>(shape.triangles.data(), shape.triangles.data() + shape.triangles.size()));
     std::vector<std::int64_t> offsets;
     for (std::int64_t t = 1; t <= shape.triangle_count(); ++t) offsets.push_back(3 * t);
     append_array("Int64", "offsets", 1, offsets);
     text_ += "</Polys>\n<CellData Scalars=\"part\">\n";
     append_array("Int32", "part", 1, shape.triangle_part);
     text_ += "</CellData>\n</Piece>\n</PolyData>\n";
-    if (encoding_ == Encoding::binary) text_ += "<AppendedData encoding=\"raw\">\n_" + appended_ + "\n</AppendedData>\n";
+    if (encoding_ == Encoding::binary)
+      text_ += "<AppendedData encoding=\"raw\">\n_" + appended_ + "\n</AppendedData>\n";
     return text_ + "</VTKFile>\n";
   }
 
@@ -71,6 +75,8 @@ class VtpWriter {
 
 }  // namespace
 
-std::string write_vtp(const Shape& shape, Encoding encoding) { return VtpWriter(encoding).write(shape); }
+std::string write_vtp(const Shape& shape, Encoding encoding) {
+  return VtpWriter(encoding).write(shape);
+}
 
 }  // namespace stackabilization

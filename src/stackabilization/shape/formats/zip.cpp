@@ -21,14 +21,19 @@ struct MemoryFile {
   std::size_t size() const { return sink ? sink->size() : bytes.size(); }
 };
 
-MemoryFile& file_of(void* stream) { return *static_cast<MemoryFile*>(stream); }
+MemoryFile& file_of(void* stream) {
+  return *static_cast<MemoryFile*>(stream);
+}
 
-void* open_memory(void* opaque, const void*, int) { return opaque; }
+void* open_memory(void* opaque, const void*, int) {
+  return opaque;
+}
 
 uLong read_memory(void*, void* stream, void* buffer, uLong size) {
   MemoryFile& file = file_of(stream);
   const std::size_t count = std::min<std::size_t>(size, file.size() - std::min(file.size(), file.position));
-  if (count > 0) std::memcpy(buffer, (file.sink ? file.sink->data() : file.bytes.data()) + file.position, count);
+  if (count > 0)
+    std::memcpy(buffer, (file.sink ? file.sink->data() : file.bytes.data()) + file.position, count);
   file.position += count;
   return count;
 }
@@ -41,7 +46,9 @@ uLong write_memory(void*, void* stream, const void* buffer, uLong size) {
   return size;
 }
 
-ZPOS64_T tell_memory(void*, void* stream) { return file_of(stream).position; }
+ZPOS64_T tell_memory(void*, void* stream) {
+  return file_of(stream).position;
+}
 
 long seek_memory(void*, void* stream, ZPOS64_T offset, int origin) {
   MemoryFile& file = file_of(stream);
@@ -53,7 +60,9 @@ long seek_memory(void*, void* stream, ZPOS64_T offset, int origin) {
   return 0;
 }
 
-int succeed(void*, void*) { return 0; }
+int succeed(void*, void*) {
+  return 0;
+}
 
 zlib_filefunc64_def functions_for(MemoryFile& file) {
   zlib_filefunc64_def functions{};
@@ -97,14 +106,16 @@ std::optional<std::string> ZipReader::entry(const std::string& name) const {
   if (unzLocateFile(archive_->handle, name.c_str(), ignore_case) != UNZ_OK) return std::nullopt;
   if (unzOpenCurrentFile(archive_->handle) != UNZ_OK) archive_->fail(name, "cannot be opened");
 
-  // Mesh text deflates by a factor of ten or so; what exceeds this by far is a bomb, whatever its header states.
+  // Mesh text deflates by a factor of ten or so; what exceeds this by far is a bomb, whatever its header
+  // states.
   constexpr std::size_t least_limit = std::size_t{64} << 20;
   constexpr std::size_t largest_ratio = 200;
   const std::size_t limit = std::max(least_limit, largest_ratio * archive_->file.size());
   std::string content;
   std::vector<char> block(1 << 16);
   int count = 0;
-  while ((count = unzReadCurrentFile(archive_->handle, block.data(), static_cast<unsigned>(block.size()))) > 0) {
+  while ((count = unzReadCurrentFile(archive_->handle, block.data(), static_cast<unsigned>(block.size()))) >
+         0) {
     content.append(block.data(), static_cast<std::size_t>(count));
     if (content.size() > limit) archive_->fail(name, "inflates beyond any mesh");
   }
@@ -122,14 +133,16 @@ std::string zip(const std::vector<std::pair<std::string, std::string>>& entries)
   zip_fileinfo info{};
   info.dosDate = 0x00210000;  // 1980-01-01 00:00, the first date that zip knows.
   for (const auto& [name, content] : entries) {
-    bool good = zipOpenNewFileInZip64(handle, name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED,
-                                      Z_DEFAULT_COMPRESSION, content.size() > 0xffffffff) == ZIP_OK;
+    bool good =
+        zipOpenNewFileInZip64(handle, name.c_str(), &info, nullptr, 0, nullptr, 0, nullptr, Z_DEFLATED,
+                              Z_DEFAULT_COMPRESSION, content.size() > 0xffffffff) == ZIP_OK;
     // minizip takes 32-bit lengths.
     constexpr std::size_t block = std::size_t{1} << 30;
     for (std::size_t from = 0; good && from < content.size(); from += block)
       good = zipWriteInFileInZip(handle, content.data() + from,
                                  static_cast<unsigned>(std::min(block, content.size() - from))) == ZIP_OK;
-    if (!good || zipCloseFileInZip(handle) != ZIP_OK) throw OutputError("the zip entry " + name + " cannot be written");
+    if (!good || zipCloseFileInZip(handle) != ZIP_OK)
+      throw OutputError("the zip entry " + name + " cannot be written");
   }
   if (zipClose(handle, nullptr) != ZIP_OK) throw OutputError("a zip archive cannot be finished");
   return bytes;

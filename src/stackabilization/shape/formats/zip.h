@@ -17,8 +17,8 @@ class ZipReader {
   explicit ZipReader(const Source& source);
   ~ZipReader();
 
-  /// Content of the entry of this name, in either case, or nothing when there is none. Throws InputError when it is
-  /// damaged, or inflates to more than any mesh would.
+  /// Content of the entry of this name, in either case, or nothing when there is none. Throws InputError when
+  /// it is damaged, or inflates to more than any mesh would.
   std::optional<std::string> entry(const std::string& name) const;
 
  private:
@@ -26,7 +26,8 @@ class ZipReader {
   std::unique_ptr<Archive> archive_;
 };
 
-/// Zip archive of (name, content) entries, all dated 1980-01-01 so that the same content gives the same bytes.
+/// Zip archive of (name, content) entries, all dated 1980-01-01 so that the same content gives the same
+/// bytes.
 std::string zip(const std::vector<std::pair<std::string, std::string>>& entries);
 
 }  // namespace stackabilization

@@ -1,0 +1,93 @@
+// Writes a seed corpus for every fuzz target: make_seeds FOLDER.
+#include <filesystem>
+#include <iostream>
+#include <string>
+
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/formats/zip.h"
+#include "stackabilization/shape/write.h"
+#include "stackabilization/shape/write_file.h"
+
+using namespace stackabilization;
+
+namespace {
+
+Shape two_parts() {
+  Points vertices(4, 3);
+  vertices << 0, 0, 0, 1.5, 0, 0, 0, -2e3, 0, 0, 0, 1;
+  Triangles triangles(4, 3);
+  triangles << 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2;
+  Shape shape = make_shape(vertices, triangles);
+  shape.part_names = {"a", "b"};
+  shape.triangle_part = {0, 0, 1, 1};
+  return shape;
+}
+
+const char* const obj =
+    "# c\nmtllib m\no a\nv 0 0 0 1 1 1\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .2 0\nvt 0 0\nvn 0 0 1\ng b c\ns 1\n"
+    "f 1 2 3 4\nf -5/1 -4//1 -3/1/1 \\\n-2 -1\ng\nl 1 2\no d\nf 1 2 5\n";
+const char* const off =
+    "COFF # c\n5 2 0\n0 0 0 1 1 1\n1 0 0\n1 1 0\n0 1 0\n.5 .2 0\n4 0 1 2 3 0.5\n5 0 1 2 3 4\n";
+const char* const ply =
+    "ply\r\nformat ascii 1.0\ncomment part a\nobj_info o\nelement vertex 4\nproperty float x\nproperty "
+    "double y\n"
+    "property list uchar short l\nproperty int z\nelement face 1\nproperty list uint8 int32 vertex_index\n"
+    "property int part\nelement edge 1\nproperty uint16 e\nend_header\n0 0 1 7 0\n1 0 0 0\n1 1 2 1 1 0\n0 1 "
+    "0 0\n"
+    "4 0 1 2 3 0\n5\n";
+const char* const three_mf =
+    "<model unit='inch' xmlns:p='urn:/production/'><resources><object id='1' name='a'><mesh><vertices>"
+    "<vertex x='0' y='0' z='0'/><vertex x='1' y='0' z='0'/><vertex x='0' y='1' z='0'/></vertices><triangles>"
+    "<triangle v1='0' v2='1' v3='2'/></triangles></mesh></object><object id='2'><components>"
+    "<component objectid='1' transform='-1 0 0 0 2 0 0 0 3 1 2 3'/><component objectid='1' "
+    "p:path='/3D/3dmodel.model'/>"
+    "</components></object></resources><build><item objectid='2'/></build></model>";
+const char* const gltf =
+    R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1],"translation":[1,2,3],)"
+    R"("rotation":[0,0,1,0]},{"mesh":0,"scale":[1,-2,3]},{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}],)"
+    R"("meshes":[{"name":"t","primitives":[{"attributes":{"POSITION":0},"indices":1,"mode":5}]}],"accessors":[)"
+    R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)"
+    R"({"bufferView":1,"componentType":5121,"count":12,"type":"SCALAR"}],"bufferViews":[)"
+    R"({"buffer":0,"byteLength":48,"byteStride":12},{"buffer":0,"byteOffset":48,"byteLength":12}],"buffers":[)"
+    R"({"byteLength":60,"uri":"data:application/octet-stream;base64,)"
+    R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAIBAAEDAQIDAAMC"}]})";
+
+void write_seeds(const std::filesystem::path& folder) {
+  const auto seed = [&folder](const char* target, const char* name, const std::string& bytes) {
+    std::filesystem::create_directories(folder / target);
+    write_file_atomically(folder / target / name, bytes);
+  };
+  const Shape shape = two_parts();
+  seed("obj", "written", shape_bytes(shape, Format::obj));
+  seed("obj", "odd", obj);
+  seed("off", "written", shape_bytes(shape, Format::off));
+  seed("off", "odd", off);
+  seed("ply", "written", shape_bytes(shape, Format::ply));
+  seed("ply", "odd", ply);
+  seed("stl", "binary", shape_bytes(shape, Format::stl));
+  seed("stl", "ascii", shape_bytes(shape, Format::stl, {{}, Encoding::ascii}));
+  seed("three_mf", "written", shape_bytes(shape, Format::three_mf));
+  seed("three_mf", "odd", zip({{"3D/3dmodel.model", three_mf}}));
+  seed("three_mf_model", "odd", three_mf);
+  seed("gltf", "binary", shape_bytes(shape, Format::gltf));
+  seed("gltf", "text", gltf);
+  seed("labels", "seg", "2\nlabels a b\n1 0\n0 1\n2 1\n3 0\n");
+  seed("labels", "names", "leg\nseat\nleg\n# c\nleg\n");
+  seed("labels", "numbers", "0\n3\n3\n1\n");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: make_seeds FOLDER\n";
+    return 2;
+  }
+  try {
+    write_seeds(argv[1]);
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}
