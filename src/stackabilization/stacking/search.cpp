@@ -26,9 +26,11 @@ constexpr std::size_t batch_size = 256;
 /// A sample is worth a closer look when its S is at most this much below the best; halved with the spacing.
 constexpr double promising_range = 0.2;
 
-/// Times the spacing of samples is halved around the promising ones, and how many of these at most.
+/// Times the spacing of samples is halved around the promising ones, and how many of these at most: no halving costs
+/// more than the even samples did.
 constexpr int halvings = 3;
 constexpr std::size_t most_promising = 400;
+constexpr std::size_t trials_per_promising = 6;
 
 /// A peak is refined fully when the first part of its climb ends at most this much below the best.
 constexpr double finishing_range = 0.01;
@@ -59,7 +61,9 @@ class DirectionSearch {
   }
 
   SearchResult run() {
-    measure(trials(), promising_range);
+    const std::vector<Trial> evenly = trials();
+    first_trials_ = evenly.size();
+    measure(evenly, promising_range);
     look_closer();
     climb_to_peaks();
     report(1);
@@ -88,6 +92,7 @@ class DirectionSearch {
   const SearchOptions& options_;
   DirectionRegion region_;
   std::vector<Sample> samples_;  ///< measured trials in their order
+  std::size_t first_trials_ = 0;
   double best_ = -std::numeric_limits<double>::infinity();
   SearchResult result_;
 };
@@ -148,7 +153,7 @@ std::vector<Trial> DirectionSearch::promising(std::size_t begin, double spacing,
   std::vector<Sample> candidates(samples_.begin() + static_cast<std::ptrdiff_t>(begin), samples_.end());
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Sample& a, const Sample& b) { return a.at.value > b.at.value; });
-  candidates.resize(std::min(candidates.size(), most_promising));
+  candidates.resize(std::min({candidates.size(), most_promising, first_trials_ / trials_per_promising}));
   std::vector<Trial> trials;
   for (const Sample& sample : candidates) {
     if (sample.at.value < best_ - range) break;
