@@ -10,6 +10,8 @@
 #include "stackabilization/shape/boxes.h"
 #include "stackabilization/shape/errors.h"
 #include "support/catch.h"
+#include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 using point_sets::Random;
@@ -178,6 +180,24 @@ TEST_CASE("the minimal volume does not depend on the pose") {
       const double scale = std::exp(random.uniform(-5, 5));
       const Points turned = point_sets::moved(points, scale * random.rotation(), scale * random.vector(2));
       CHECK(minimal_volume(turned) == Approx(volume * scale * scale * scale).epsilon(1e-9));
+    }
+  }
+}
+
+TEST_CASE("the minimal volume of the test solids does not depend on the pose") {
+  const std::vector<Shape> shapes = {solids::boxes_sharing_wall(), solids::frustum_shell({.segments = 12}),
+                                     solids::stairs({}), solids::stair_plate({}), solids::l_shape(4, 1),
+                                     solids::u_shape(3, 0.5), solids::hook({}), solids::wine_glass(8), solids::table({}),
+                                     solids::torus({.ring_segments = 12, .tube_segments = 8}), solids::sphere(1, 1),
+                                     solids::gridfinity_bin({}), solids::prism(solids::regular_polygon(7), 2),
+                                     solids::triangle_soup({.seed = 2, .count = 30})};
+  Random random(12);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    INFO("shape " << i);
+    const double volume = minimal_oriented_box(HullSupport(shapes[i])).volume();
+    for (int pose = 0; pose < 10; ++pose) {
+      const HullSupport turned(transformed(shapes[i], 0.1 * random.rotation(), random.vector(1)));
+      CHECK(minimal_oriented_box(turned).volume() == Approx(volume * 1e-3).epsilon(1e-9));
     }
   }
 }

@@ -45,27 +45,27 @@ DirectionRegion::DirectionRegion(const std::optional<DirectionCone>& cone,
   if (plane_normal_) plane_normal_ = Direction(*plane_normal_).unit();
 }
 
-Eigen::Vector3d DirectionRegion::signed_direction(const Eigen::Vector3d& unit) const {
-  double sign = cone_ ? unit.dot(cone_->axis) : 0;
-  for (int k = 2; k >= 0 && sign == 0; --k) sign = unit[k];
-  return ((sign < 0 ? -unit : unit).array() + 0.0).matrix();
+Eigen::Vector3d DirectionRegion::with_sign(const Eigen::Vector3d& vector) const {
+  double sign = cone_ ? vector.dot(cone_->axis) : 0;
+  for (int k = 2; k >= 0 && sign == 0; --k) sign = vector[k];
+  return ((sign < 0 ? -vector : vector).array() + 0.0).matrix();
 }
 
 std::optional<Eigen::Vector3d> DirectionRegion::member(const Eigen::Vector3d& vector) const {
-  const Eigen::Vector3d unit = signed_direction(Direction(vector).unit());
-  if (plane_normal_ && std::abs(unit.dot(*plane_normal_)) > tolerance::relative) return std::nullopt;
-  if (cone_ && angle_between(unit, cone_->axis) > cone_->half_angle + tolerance::relative) return std::nullopt;
-  return unit;
+  const Eigen::Vector3d result = with_sign(Direction(vector).vector());
+  if (plane_normal_ && std::abs(result.dot(*plane_normal_)) > tolerance::relative * result.norm()) return std::nullopt;
+  if (cone_ && angle_between(result, cone_->axis) > cone_->half_angle + tolerance::relative) return std::nullopt;
+  return result;
 }
 
 std::optional<Eigen::Vector3d> DirectionRegion::nearest(const Eigen::Vector3d& vector) const {
-  if (!plane_normal_ && !cone_) return signed_direction(vector.normalized());
+  if (!plane_normal_ && !cone_) return with_sign(vector.normalized());
   if (plane_normal_) {
     const Eigen::Vector3d projected = vector - *plane_normal_ * plane_normal_->dot(vector);
     if (projected.norm() <= tolerance::relative * vector.norm()) return std::nullopt;
-    return member(projected);
+    return member(projected.normalized());
   }
-  const Eigen::Vector3d unit = signed_direction(vector.normalized());
+  const Eigen::Vector3d unit = with_sign(vector.normalized());
   if (angle_between(unit, cone_->axis) <= cone_->half_angle) return unit;
   const Eigen::Vector3d away = (unit - cone_->axis * cone_->axis.dot(unit)).normalized();
   return cone_->axis * std::cos(cone_->half_angle) + away * std::sin(cone_->half_angle);

@@ -20,16 +20,16 @@ class DirectionRegion {
   /// Throws UsageError when the cone's axis or half angle or the plane's normal is not usable.
   DirectionRegion(const std::optional<DirectionCone>& cone, const std::optional<Eigen::Vector3d>& plane_normal);
 
-  /// The unit vector of `vector`, signed as above, when it lies in the region (to tolerance::relative in angle).
+  /// `vector`, length kept and signed as above, when it lies in the region (to tolerance::relative in angle).
   std::optional<Eigen::Vector3d> member(const Eigen::Vector3d& vector) const;
-  /// The direction of the region nearest to `vector`; nothing when rounding leaves no meaningful one or, with cone and
+  /// The unit direction of the region nearest to `vector`; nothing when rounding leaves no meaningful one or, with cone and
   /// plane, when its projection onto the plane is outside the cone.
   std::optional<Eigen::Vector3d> nearest(const Eigen::Vector3d& vector) const;
   /// Evenly spread directions of the region about `spacing` radians apart, and at most a sixth of its width.
   std::vector<Eigen::Vector3d> samples(double spacing) const;
 
  private:
-  Eigen::Vector3d signed_direction(const Eigen::Vector3d& unit) const;
+  Eigen::Vector3d with_sign(const Eigen::Vector3d& vector) const;
 
   std::optional<DirectionCone> cone_;
   std::optional<Eigen::Vector3d> plane_normal_;

@@ -26,9 +26,14 @@ constexpr std::size_t batch_size = 256;
 /// A sample is worth a closer look when its S is at most this much below the best; halved with the spacing.
 constexpr double promising_range = 0.2;
 
-/// Times the spacing of samples is halved around the promising ones, and how many of these at most.
+/// Times the spacing of samples is halved around the promising ones, and how many of these at most: no halving costs
+/// more than the even samples did.
 constexpr int halvings = 3;
 constexpr std::size_t most_promising = 400;
+constexpr std::size_t trials_per_promising = 6;
+
+/// A peak is refined fully when the first part of its climb ends at most this much below the best.
+constexpr double finishing_range = 0.01;
 
 /// A direction to try, with the normal of the great circle it was taken from, or zero.
 struct Trial {
@@ -41,7 +46,10 @@ struct Sample {
   Eigen::Vector3d circle_normal;
 };
 
-double line_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.cross(b).norm(); }
+/// Sine of the angle between two lines.
+double line_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.normalized().cross(b.normalized()).norm();
+}
 
 class DirectionSearch {
  public:
@@ -53,9 +61,11 @@ class DirectionSearch {
   }
 
   SearchResult run() {
-    measure(trials(), promising_range);
+    const std::vector<Trial> evenly = trials();
+    first_trials_ = evenly.size();
+    measure(evenly, promising_range);
     look_closer();
-    climb_from(distinct(samples_, options_.spacing / 4));
+    climb_to_peaks();
     report(1);
     result_.separation = solver_.separation(Direction(result_.best.direction));
     return result_;
@@ -68,7 +78,8 @@ class DirectionSearch {
   std::vector<Trial> promising(std::size_t begin, double spacing, double range) const;
   std::vector<Trial> around(const Sample& sample, double distance) const;
   std::vector<Sample> distinct(const std::vector<Sample>& samples, double distance) const;
-  void climb_from(const std::vector<Sample>& starts);
+  void climb_to_peaks();
+  std::vector<Sample> climb_from(std::vector<Sample> starts, const ClimbOptions& climbing);
   void report(double fraction) const {
     if (options_.progress) options_.progress(fraction);
   }
@@ -81,6 +92,7 @@ class DirectionSearch {
   const SearchOptions& options_;
   DirectionRegion region_;
   std::vector<Sample> samples_;  ///< measured trials in their order
+  std::size_t first_trials_ = 0;
   double best_ = -std::numeric_limits<double>::infinity();
   SearchResult result_;
 };
@@ -141,7 +153,7 @@ std::vector<Trial> DirectionSearch::promising(std::size_t begin, double spacing,
   std::vector<Sample> candidates(samples_.begin() + static_cast<std::ptrdiff_t>(begin), samples_.end());
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Sample& a, const Sample& b) { return a.at.value > b.at.value; });
-  candidates.resize(std::min(candidates.size(), most_promising));
+  candidates.resize(std::min({candidates.size(), most_promising, first_trials_ / trials_per_promising}));
   std::vector<Trial> trials;
   for (const Sample& sample : candidates) {
     if (sample.at.value < best_ - range) break;
@@ -154,7 +166,7 @@ std::vector<Trial> DirectionSearch::promising(std::size_t begin, double spacing,
 /// Centres of the quarters of a sample's square, and two neighbours on its great circle.
 std::vector<Trial> DirectionSearch::around(const Sample& sample, double distance) const {
   const Frame frame = frame_of(Direction(sample.at.direction));
-  const Eigen::Vector3d along = sample.circle_normal.cross(frame.w) * distance;
+  const Eigen::Vector3d along = sample.circle_normal.cross(frame.w).normalized() * distance;
   std::vector<Trial> trials;
   if (!along.isZero(0))
     for (const double sign : {-1.0, 1.0})
@@ -185,20 +197,33 @@ std::vector<Sample> DirectionSearch::distinct(const std::vector<Sample>& samples
   return kept;
 }
 
-void DirectionSearch::climb_from(const std::vector<Sample>& starts) {
-  const double step = options_.spacing / (1 << halvings);
-  std::vector<Sample> ends = starts;
+/// Many starts lead to the same peak: they climb a little way, and what has come together goes on as one.
+void DirectionSearch::climb_to_peaks() {
+  const double step = options_.spacing / (1 << halvings), small_step = step / 32;
+  std::vector<Sample> peaks = climb_from(distinct(samples_, 2 * step), {step, small_step});
+  report(0.95);
+  peaks = distinct(peaks, step);
+  const double least = peaks.front().at.value - finishing_range;
+  const auto far_below =
+      std::find_if(peaks.begin(), peaks.end(), [&](const Sample& peak) { return peak.at.value < least; });
+  const std::vector<Sample> others(far_below, peaks.end());
+  peaks = climb_from({peaks.begin(), far_below}, {small_step, tolerance::direction_step});
+  peaks.insert(peaks.end(), others.begin(), others.end());
+  peaks = distinct(peaks, step);
+  result_.best = peaks.front().at;
+  for (const Sample& peak : peaks) result_.optima.push_back({peak.at.direction, peak.at.value});
+}
+
+std::vector<Sample> DirectionSearch::climb_from(std::vector<Sample> starts, const ClimbOptions& climbing) {
+  if (ended()) return starts;
   std::vector<std::int64_t> evaluated(starts.size(), 0);
-  if (!ended())
-    tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
-      const Climb end = climb(solver_, region_, starts[i].at, {step, tolerance::direction_step});
-      ends[i].at = end.at;
-      evaluated[i] = end.evaluated;
-    });
+  tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
+    const Climb end = climb(solver_, region_, starts[i].at, climbing);
+    starts[i].at = end.at;
+    evaluated[i] = end.evaluated;
+  });
   result_.evaluated = std::accumulate(evaluated.begin(), evaluated.end(), result_.evaluated);
-  ends = distinct(ends, step);
-  result_.best = ends.front().at;
-  for (const Sample& end : ends) result_.optima.push_back({end.at.direction, end.at.value});
+  return starts;
 }
 
 }  // namespace

@@ -1,0 +1,183 @@
+#include <tbb/global_control.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/stacking/map.h"
+#include "stackabilization/stacking/search.h"
+#include "support/catch.h"
+#include "support/solids.h"
+#include "support/variants.h"
+
+using namespace stackabilization;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+
+Shape small_cup() { return solids::frustum_shell({.segments = 12}); }
+
+/// A thick-walled cup with a slanted axis: no axis of the file is special.
+Shape leaning_cup() {
+  Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
+  shear(0, 2) = 0.4;
+  shear(1, 2) = 0.15;
+  return transformed(small_cup(), shear, Eigen::Vector3d::Zero());
+}
+
+double best_of_map(const StackabilitySolver& solver, double step) {
+  double best = -1e300;
+  for (const MapSample& sample : stackability_map(solver, {.step_degrees = step}).samples)
+    best = std::max(best, sample.stackability);
+  return best;
+}
+
+}  // namespace
+
+TEST_CASE("a cup stacks best along its axis, in any pose") {
+  const Shape cup = small_cup();
+  const SearchResult upright = best_direction(StackabilitySolver(cup));
+  CHECK(upright.best.direction == Eigen::Vector3d(0, 0, 1));
+  CHECK(upright.separation.length == Approx(solids::frustum_shell_f_max({.segments = 12})).epsilon(1e-12));
+  for (std::uint64_t seed = 1; seed < 3; ++seed) {
+    const Eigen::Matrix3d rotation = solids::random_rotation(seed);
+    const SearchResult turned = best_direction(StackabilitySolver(transformed(cup, rotation, Eigen::Vector3d::Ones())));
+    CHECK(turned.best.value == Approx(upright.best.value).margin(1e-7));
+    CHECK(turned.best.direction.cross(rotation.col(2)).norm() < 1e-6);
+  }
+}
+
+TEST_CASE("ties go to the first candidate, unmoved") {
+  const SearchResult cube = best_direction(StackabilitySolver(solids::box({1, 1, 1})));
+  CHECK(cube.best.direction == Eigen::Vector3d(1, 0, 0));
+  CHECK(cube.best.value == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("no direction of a map is better than the search") {
+  for (const Shape& shape : {leaning_cup(), solids::stair_plate({}), solids::l_shape(4, 1),
+                             solids::triangle_soup({.seed = 8, .count = 30})}) {
+    const StackabilitySolver solver(shape);
+    const SearchResult found = best_direction(solver);
+    CHECK(found.best.value >= best_of_map(solver, 3) - 1e-6);
+    CHECK(found.best.value == Approx(solver.measure(Direction(found.best.direction)).value).margin(1e-15));
+    CHECK(found.separation.length == Approx(found.best.f_max).margin(1e-12 * found.best.extent));
+  }
+}
+
+TEST_CASE("the optima are ranked, distinct, and topped by the best direction") {
+  const SearchResult found = best_direction(StackabilitySolver(leaning_cup()), {.climbs = 20});
+  REQUIRE_FALSE(found.optima.empty());
+  CHECK(found.optima.front().direction == found.best.direction);
+  CHECK(found.optima.front().stackability == found.best.value);
+  for (std::size_t i = 0; i < found.optima.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      CHECK(found.optima[j].stackability >= found.optima[i].stackability - 1e-10);
+      CHECK(found.optima[j].direction.cross(found.optima[i].direction).norm() > 1e-3);
+    }
+  CHECK(found.abandoned < found.evaluated);
+  CHECK(found.abandoned > 0);
+}
+
+TEST_CASE("a cone is respected") {
+  const StackabilitySolver solver(leaning_cup());
+  for (const Eigen::Vector3d& axis : std::vector<Eigen::Vector3d>{{0, 0, 1}, {0, 0, -2}, {1, 0.2, 0}, {-0.3, -1, -0.1}})
+    for (const double half : {2 * degree, 25 * degree, 90 * degree}) {
+      const SearchResult found = best_direction(solver, {.cone = DirectionCone{axis, half}});
+      CHECK(angle(found.best.direction, axis) <= half + 1e-8);
+      double sampled = -1e300;
+      for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const Eigen::Vector3d r = solids::Random(seed).on_sphere();
+        if (angle(r, axis) <= half) sampled = std::max(sampled, solver.measure(Direction(r)).value);
+      }
+      CHECK(found.best.value >= sampled - 1e-9);
+    }
+}
+
+TEST_CASE("a cone that ends short of the peak gives a direction on its rim") {
+  const StackabilitySolver solver(small_cup());
+  const Eigen::Vector3d axis(std::sin(20 * degree), 0, std::cos(20 * degree));
+  const SearchResult found = best_direction(solver, {.cone = DirectionCone{axis, 15 * degree}});
+  CHECK(angle(found.best.direction, axis) == Approx(15 * degree).epsilon(1e-4));
+}
+
+TEST_CASE("a plane is respected, alone and with a cone") {
+  const StackabilitySolver solver(leaning_cup());
+  const Eigen::Vector3d normal(0.2, 1, -0.3);
+  const SearchResult found = best_direction(solver, {.plane_normal = normal});
+  CHECK(std::abs(found.best.direction.dot(normal)) < 1e-8);
+  double sampled = -1e300;
+  for (const Eigen::Vector3d& r : half_circle(normal, degree / 2))
+    sampled = std::max(sampled, solver.measure(Direction(r)).value);
+  CHECK(found.best.value >= sampled - 1e-7);
+
+  const DirectionCone cone{{0.3, 0, 1}, 20 * degree};
+  const SearchResult both = best_direction(solver, {.cone = cone, .plane_normal = normal});
+  CHECK(std::abs(both.best.direction.dot(normal)) < 1e-8);
+  CHECK(angle(both.best.direction, cone.axis) <= 20 * degree + 1e-8);
+}
+
+TEST_CASE("a peak of one single direction is found when it is a candidate") {
+  // Walls of sheets swept along (1, 2, 3), exactly parallel to it.
+  Points vertices(8, 3);
+  vertices << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 1, 2, 3, 2, 2, 3, 2, 3, 3, 1, 3, 3;
+  Triangles triangles(8, 3);
+  triangles << 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7;
+  const StackabilitySolver solver(make_shape(vertices, triangles));
+  const SearchResult found = best_direction(solver, {.candidates = {{-1, -2, -3}}});
+  CHECK(found.best.direction == Eigen::Vector3d(1, 2, 3));
+  CHECK(found.best.value == 1);
+}
+
+TEST_CASE("one and two threads find the same bits") {
+  const StackabilitySolver solver(leaning_cup());
+  const auto with_threads = [&](int count) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, count);
+    return best_direction(solver);
+  };
+  const SearchResult one = with_threads(1), two = with_threads(2);
+  CHECK(one.evaluated == two.evaluated);
+  CHECK(one.abandoned == two.abandoned);
+  REQUIRE(one.optima.size() == two.optima.size());
+  for (std::size_t i = 0; i < one.optima.size(); ++i) {
+    CHECK(one.optima[i].direction == two.optima[i].direction);
+    CHECK(one.optima[i].stackability == two.optima[i].stackability);
+  }
+}
+
+TEST_CASE("a search reports progress and can be ended") {
+  const StackabilitySolver solver(leaning_cup());
+  std::vector<double> fractions;
+  SearchOptions options;
+  options.progress = [&](double fraction) { fractions.push_back(fraction); };
+  const SearchResult whole = best_direction(solver, options);
+  CHECK_FALSE(whole.cancelled);
+  CHECK(std::is_sorted(fractions.begin(), fractions.end()));
+  CHECK(fractions.back() == 1);
+
+  options.cancelled = [] { return true; };
+  const SearchResult ended = best_direction(solver, options);
+  CHECK(ended.cancelled);
+  CHECK(ended.evaluated < whole.evaluated);
+  CHECK(ended.best.value <= whole.best.value + 1e-12);
+  CHECK(ended.best.value == solver.measure(Direction(ended.best.direction)).value);
+}
+
+TEST_CASE("a search refuses options that make no sense") {
+  const StackabilitySolver solver(small_cup());
+  const auto refused = [&](const SearchOptions& options) { CHECK_THROWS_AS(best_direction(solver, options), UsageError); };
+  refused({.spacing = 0});
+  refused({.spacing = std::nan("")});
+  refused({.climbs = 0});
+  refused({.cone = DirectionCone{{0, 0, 1}, 0}});
+  refused({.cone = DirectionCone{{0, 0, 1}, 2}});
+  refused({.cone = DirectionCone{{0, 0, 0}, 0.1}});
+  refused({.plane_normal = Eigen::Vector3d::Zero()});
+  refused({.cone = DirectionCone{{0, 0, 1}, 0.1}, .plane_normal = Eigen::Vector3d::UnitZ()});
+}
