@@ -122,38 +122,50 @@ Number farthest_along(const Nef& set, const Kernel::Vector_3& r, const Point& en
   return farthest;
 }
 
-/// A lift, in units of r, beyond which no two points of the shape are on one line along r.
-Number beyond_reach(const Shape& shape, const Kernel::Vector_3& r) {
+/// A convex piece with its mirror image and its extent along r.
+struct Piece {
+  Nef set, mirror;
   Number low, high;
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d p = shape.corner(t, k);
-      const Number along = r * Kernel::Vector_3(p.x(), p.y(), p.z());
-      if ((t == 0 && k == 0) || along < low) low = along;
-      if ((t == 0 && k == 0) || along > high) high = along;
-    }
-  return (high - low) / r.squared_length() + 1;
+};
+
+std::vector<Piece> pieces_along(const Nef& solid, const Kernel::Vector_3& r) {
+  std::vector<Piece> pieces;
+  for (const std::vector<Point>& corners : convex_pieces(solid)) {
+    std::vector<Number> along;
+    for (const Point& p : corners) along.push_back(r * (p - CGAL::ORIGIN));
+    const auto [low, high] = std::minmax_element(along.begin(), along.end());
+    pieces.push_back({hull_of(corners), hull_of(mirrored(corners)), *low, *high});
+  }
+  return pieces;
 }
 
 /// f_max in units of r: the farthest point on the line along r in the sum of any two open convex pieces.
+/// Pairs that reach farthest come first, so that most of the others need no sum.
 Number farthest_in_sum(const Shape& shape, const ClosedSurface& surface, const Direction& direction) {
-  Nef solid;
-  for (const Component& component : components_of(shape, surface)) solid = solid.join(solid_of(component));
-  std::vector<Nef> pieces, mirrored_pieces;
-  for (const std::vector<Point>& corners : convex_pieces(solid)) {
-    pieces.push_back(hull_of(corners));
-    mirrored_pieces.push_back(hull_of(mirrored(corners)));
-  }
-
   const Eigen::Vector3d& d = direction.vector();
   const Kernel::Vector_3 r(d.x(), d.y(), d.z());
-  const Point end = CGAL::ORIGIN + r * beyond_reach(shape, r);
+  Nef solid;
+  for (const Component& component : components_of(shape, surface)) solid = solid.join(solid_of(component));
+  std::vector<Piece> pieces = pieces_along(solid, r);
+
+  struct Pair {
+    Number reach;
+    std::size_t upper, lower;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (std::size_t j = 0; j < pieces.size(); ++j)
+      pairs.push_back({(pieces[i].high - pieces[j].low) / r.squared_length(), i, j});
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const Pair& a, const Pair& b) { return a.reach > b.reach; });
+
   Number farthest = 0;
-  for (Nef& piece : pieces)
-    for (Nef& mirror : mirrored_pieces) {
-      const Nef differences = CGAL::minkowski_sum_3(piece, mirror).interior();
-      farthest = std::max(farthest, farthest_along(differences, r, end));
-    }
+  for (const Pair& pair : pairs) {
+    if (pair.reach <= farthest) break;
+    const Nef differences =
+        CGAL::minkowski_sum_3(pieces[pair.upper].set, pieces[pair.lower].mirror).interior();
+    farthest = std::max(farthest, farthest_along(differences, r, CGAL::ORIGIN + r * (pair.reach + 1)));
+  }
   return farthest;
 }
 
