@@ -43,8 +43,8 @@ class TwistSearch {
     tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) { costs[i] = cost(samples[i]); });
 
     const std::vector<std::size_t> order = best_first(costs);
-    std::vector<double> candidates(1 + 2 * order.size(),
-                                   0.0);  // no twist, the best samples, the refined ones
+    // No twist, then the best samples, then what refining them gave.
+    std::vector<double> candidates(1 + 2 * order.size(), 0.0);
     for (std::size_t i = 0; i < order.size(); ++i) candidates[1 + i] = samples[order[i]];
     tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
       candidates[1 + order.size() + i] = refined(samples[order[i]], costs[order[i]]);
@@ -55,14 +55,12 @@ class TwistSearch {
  private:
   std::vector<double> sampled_twists() const {
     std::vector<double> twists{0, 180};
-    for (int k = 3; k <= most_symmetric_fraction; ++k) {
-      twists.push_back(360.0 / k);
-      twists.push_back(-360.0 / k);
-    }
-    for (int i = 1; i * options_.step_degrees < 180; ++i) {
-      twists.push_back(i * options_.step_degrees);
-      twists.push_back(-i * options_.step_degrees);
-    }
+    const auto add_both_ways = [&](double twist) {
+      if (std::find(twists.begin(), twists.end(), twist) == twists.end())
+        twists.insert(twists.end(), {twist, -twist});
+    };
+    for (int k = 3; k <= most_symmetric_fraction; ++k) add_both_ways(360.0 / k);
+    for (int i = 1; i * options_.step_degrees < 180; ++i) add_both_ways(i * options_.step_degrees);
     return twists;
   }
 
