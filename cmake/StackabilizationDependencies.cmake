@@ -1,4 +1,6 @@
 # Every package the libraries need, found once. The installed package configuration finds the same ones.
+# CMake's own module for Boost is gone since 3.30, also for CGAL's inner search.
+set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)
 find_package(CGAL 5.5 REQUIRED)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 find_package(Boost 1.74 REQUIRED)

@@ -14,6 +14,9 @@ function(stackabilization_library name)
   # numbers stand on is still linked.
   if("CGAL::CGAL" IN_LIST ARG_PRIVATE)
     list(APPEND ARG_PRIVATE gmpxx mpfr gmp)
+    if(CGAL_VERSION VERSION_GREATER_EQUAL 6)  # which renamed headers that CGAL 5.5 knows by their old names only
+      target_compile_definitions(${target} PRIVATE CGAL_NO_DEPRECATION_WARNINGS)
+    endif()
   endif()
   list(TRANSFORM ARG_PRIVATE REPLACE "^(CGAL::.*|nlohmann_json::nlohmann_json)$" "$<BUILD_INTERFACE:\\1>")
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})

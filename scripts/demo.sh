@@ -35,7 +35,8 @@ for name in chair mug_with_handle; do
   show "${name}_measure" measure "$model" --direction 0 0 1 --json "$out.json" --picture "$out.png"
   show "${name}_search" search "$model" --json "${out}_search.json"
   show "${name}_map" map "$model" --step-degrees 4 -o "${out}_map.csv" --picture "${out}_map.png"
-  show "${name}_stack" stack "$model" -n 5 --direction 0 0 1 -o "${out}_stack.3mf" --json "${out}_stack.json"
+  show "${name}_stack" stack "$model" -n 5 --direction 0 0 1 -o "${out}_stack.3mf" \
+    --picture "${out}_stack.png" --json "${out}_stack.json"
   show "${name}_validate" validate "$model" --direction 0 0 1 --json "${out}_validate.json"
 done
 
@@ -44,7 +45,7 @@ cat <<END
 Done. In $PWD/out/demo, for chair and mug_with_handle (NAME):
   NAME.png           what touches what: envelopes seen from above (blue) and below (orange), contacts (red), the gap
   NAME_map.png       how well it stacks along every direction
-  NAME_stack.3mf     five copies in place, for any 3D viewer or slicer
+  NAME_stack.png     five copies in place; NAME_stack.3mf the same for any 3D viewer
   NAME_*.txt         what you have just read; NAME*.json the same with every digit
 How to read the numbers: docs/guide.md
 END

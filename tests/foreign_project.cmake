@@ -10,7 +10,7 @@ add_test(NAME "install: a foreign project builds and runs"
     --build-generator ${CMAKE_GENERATOR} --build-makeprogram ${CMAKE_MAKE_PROGRAM} --build-project Foreign
     --build-options -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
       -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}
-    --test-command foreign)
+    --test-command foreign ${PROJECT_SOURCE_DIR}/tests/install/pyramid.obj)
 set_tests_properties("install: a foreign project builds and runs" PROPERTIES LABELS unit FIXTURES_REQUIRED installed
   PASS_REGULAR_EXPRESSION "f_max = 2\n" TIMEOUT 600)
 

@@ -1,8 +1,8 @@
 #include <iostream>
+#include <stackabilization/shape/read.h>
 #include <stackabilization/stacking/stackability.h>
 
-int main() {
-  const stackabilization::Points corners{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
-  const stackabilization::Triangles faces{{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
-  std::cout << "f_max = " << stackabilization::stackability(stackabilization::make_shape(corners, faces), {0, 0, 1}).f_max << '\n';
+int main(int, char** arguments) {
+  const stackabilization::Shape shape = stackabilization::read_shape(arguments[1]);
+  std::cout << "f_max = " << stackabilization::stackability(shape, {0, 0, 1}).f_max << '\n';
 }
