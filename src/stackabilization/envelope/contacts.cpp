@@ -80,11 +80,10 @@ void set_centres(ContactRegion& region, const std::vector<const Patch*>& patches
 
 /// Ring, line or dot, from the union of the outlines.
 void classify(ContactRegion& region, const std::vector<Outline>& outlines, const Setting& setting) {
-  const PlanarUnion united = unite(outlines);
-  region.area = united.area;
+  region.area = union_area(outlines);
   const Elongation elongation = elongation_of(outlines);
   region.long_axis = setting.frame.u * elongation.axis.x() + setting.frame.v * elongation.axis.y();
-  if (united.largest_hole > setting.options.least_hole * elongation.length * elongation.width) {
+  if (largest_hole(outlines) > setting.options.least_hole * elongation.length * elongation.width) {
     region.type = ContactType::ring;
   } else if (elongation.length > 0 && elongation.length >= setting.options.line_aspect * elongation.width) {
     region.type = ContactType::line;

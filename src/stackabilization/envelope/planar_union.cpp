@@ -76,9 +76,7 @@ class Components {
   std::vector<std::size_t> parent_;
 };
 
-using PolygonSet = bp::polygon_set_data<int>;
-
-/// Grid of 2^30 cells across the longer side of the bounds, centred.
+/// The outline on a grid of 2^30 cells across the longer side of the bounds, centred.
 class Grid {
  public:
   explicit Grid(const Bounds& bounds) : centre_((bounds.low + bounds.high) / 2) {
@@ -86,14 +84,12 @@ class Grid {
     scale_ = longer > 0 ? static_cast<double>(1 << 30) / longer : 1;
   }
 
-  /// The outline swept by a square that reaches `margin` cells to every side.
-  bp::polygon_data<int> polygon(const Outline& outline, double margin) const {
-    Outline grown;
-    for (const Eigen::Vector2d& p : outline) grown.push_back((p - centre_) * scale_);
-    if (margin > 0) grown = swept(grown, margin);
+  bp::polygon_data<int> polygon(const Outline& outline) const {
     std::vector<bp::point_data<int>> points;
-    for (const Eigen::Vector2d& p : grown)
+    for (const Eigen::Vector2d& corner : outline) {
+      const Eigen::Vector2d p = (corner - centre_) * scale_;
       points.emplace_back(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
+    }
     bp::polygon_data<int> result;
     result.set(points.begin(), points.end());
     return result;
@@ -102,30 +98,86 @@ class Grid {
   double cell_area() const { return 1 / (scale_ * scale_); }
 
  private:
-  /// Convex hull of the outline's corners moved by the corners of a square.
-  static Outline swept(const Outline& outline, double margin) {
-    Eigen::Matrix2Xd points(2, 4 * static_cast<Eigen::Index>(outline.size()));
-    Eigen::Index column = 0;
-    for (const Eigen::Vector2d& p : outline)
-      for (const double dx : {-margin, margin})
-        for (const double dy : {-margin, margin}) points.col(column++) = p + Eigen::Vector2d(dx, dy);
-    Outline hull;
-    for (const int corner : convex_polygon(points, 0)) hull.push_back(points.col(corner));
-    return hull;
-  }
-
   Eigen::Vector2d centre_;
   double scale_;
 };
 
-std::vector<bp::polygon_with_holes_data<int>> united(const std::vector<Outline>& outlines, const Grid& grid,
-                                                     double margin) {
-  PolygonSet set;
-  for (const Outline& outline : outlines) set.insert(grid.polygon(outline, margin));
-  std::vector<bp::polygon_with_holes_data<int>> result;
-  set.get(result);
-  return result;
-}
+/// Which cells of a coarse bitmap the outlines touch. Cells that are only touched count as covered: that closes cracks
+/// and small gaps between neighbouring outlines.
+class CoverageBitmap {
+ public:
+  CoverageBitmap(const Bounds& bounds) : low_(bounds.low), covered_(side * side, 0) {
+    const double longer = (bounds.high - bounds.low).maxCoeff();
+    // One empty cell all around, so that the outside hangs together.
+    cell_ = longer > 0 ? longer / (side - 2) : 1;
+  }
+
+  void add(const Outline& outline) {
+    Bounds bounds;
+    bounds.add(outline);
+    const int last = row_of(bounds.high.y());
+    for (int row = row_of(bounds.low.y()); row <= last; ++row) fill_row(outline, row);
+  }
+
+  /// Area of the largest set of free cells that does not reach the border.
+  double largest_hole() {
+    flood(0);
+    std::size_t largest = 0;
+    for (std::size_t cell = 0; cell < covered_.size(); ++cell)
+      if (!covered_[cell]) largest = std::max(largest, flood(cell));
+    return static_cast<double>(largest) * cell_ * cell_;
+  }
+
+ private:
+  static constexpr int side = 256;
+
+  int index_of(double offset) const { return 1 + std::clamp(static_cast<int>(offset / cell_), 0, side - 3); }
+  int row_of(double y) const { return index_of(y - low_.y()); }
+
+  /// Covers the cells of one row that the outline reaches within it.
+  void fill_row(const Outline& outline, int row) {
+    const double bottom = low_.y() + (row - 1) * cell_, top = bottom + cell_;
+    double left = std::numeric_limits<double>::infinity(), right = -left;
+    for (std::size_t c = 0; c < outline.size(); ++c) {
+      const Eigen::Vector2d &a = outline[c], &b = outline[(c + 1) % outline.size()];
+      for (const double y : {std::clamp(a.y(), bottom, top), std::clamp(b.y(), bottom, top)}) {
+        if (std::max(a.y(), b.y()) < bottom || std::min(a.y(), b.y()) > top) continue;
+        const double x = a.y() == b.y() ? a.x() : a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+        left = std::min({left, x, a.y() == b.y() ? b.x() : x});
+        right = std::max({right, x, a.y() == b.y() ? b.x() : x});
+      }
+    }
+    if (left > right) return;
+    for (int column = index_of(left - low_.x()); column <= index_of(right - low_.x()); ++column)
+      covered_[static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column)] = 1;
+  }
+
+  /// Covers all free cells connected with `start` by sides; returns their number.
+  std::size_t flood(std::size_t start) {
+    std::vector<std::size_t> open{start};
+    covered_[start] = 1;
+    std::size_t count = 0;
+    const auto visit = [&](std::size_t cell) {
+      if (covered_[cell]) return;
+      covered_[cell] = 1;
+      open.push_back(cell);
+    };
+    while (!open.empty()) {
+      const std::size_t cell = open.back(), column = cell % side, row = cell / side;
+      open.pop_back();
+      ++count;
+      if (column > 0) visit(cell - 1);
+      if (column + 1 < side) visit(cell + 1);
+      if (row > 0) visit(cell - side);
+      if (row + 1 < side) visit(cell + side);
+    }
+    return count;
+  }
+
+  Eigen::Vector2d low_;
+  double cell_;
+  std::vector<char> covered_;
+};
 
 }  // namespace
 
@@ -182,19 +234,25 @@ std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outli
   return result;
 }
 
-PlanarUnion unite(const std::vector<Outline>& outlines) {
+double union_area(const std::vector<Outline>& outlines) {
   Bounds bounds;
   for (const Outline& outline : outlines) bounds.add(outline);
   const Grid grid(bounds);
-  PlanarUnion result;
-  for (const auto& polygon : united(outlines, grid, 0)) result.area += static_cast<double>(bp::area(polygon)) * grid.cell_area();
-  // Neighbouring outlines were clipped apart in floating point: cracks of a cell or two are no holes, and must not open
-  // a ring either.
-  constexpr double cracks = 8;
-  for (const auto& polygon : united(outlines, grid, cracks))
-    for (auto hole = polygon.begin_holes(); hole != polygon.end_holes(); ++hole)
-      result.largest_hole = std::max<double>(result.largest_hole, bp::area(*hole) * grid.cell_area());
-  return result;
+  bp::polygon_set_data<int> set;
+  for (const Outline& outline : outlines) set.insert(grid.polygon(outline));
+  std::vector<bp::polygon_with_holes_data<int>> united;
+  set.get(united);
+  double area = 0;
+  for (const auto& polygon : united) area += static_cast<double>(bp::area(polygon)) * grid.cell_area();
+  return area;
+}
+
+double largest_hole(const std::vector<Outline>& outlines) {
+  Bounds bounds;
+  for (const Outline& outline : outlines) bounds.add(outline);
+  CoverageBitmap bitmap(bounds);
+  for (const Outline& outline : outlines) bitmap.add(outline);
+  return bitmap.largest_hole();
 }
 
 Elongation elongation_of(const std::vector<Outline>& outlines) {

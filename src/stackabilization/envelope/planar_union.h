@@ -18,13 +18,12 @@ Eigen::VectorXd outline_centroid(const Outline& outline);
 /// by their smallest index, members ascending.
 std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outline>& outlines, double reach);
 
-/// Union of the outlines, on an integer grid of 2^30 cells across: area, and the area of the largest hole after cracks
-/// of a few cells are closed.
-struct PlanarUnion {
-  double area = 0;
-  double largest_hole = 0;
-};
-PlanarUnion unite(const std::vector<Outline>& outlines);
+/// Area of the union of the outlines, on an integer grid of 2^30 cells across.
+double union_area(const std::vector<Outline>& outlines);
+
+/// Area of the largest hole of the union, on a bitmap of 254 cells across in which every touched cell is covered: good
+/// enough to tell a ring from a patch, and blind to cracks between neighbours.
+double largest_hole(const std::vector<Outline>& outlines);
 
 /// Minimal-area rectangle around all corners: its longer side and the unit direction of that side.
 struct Elongation {

@@ -16,16 +16,15 @@ namespace {
 using namespace detail;
 
 /// A slab over many triangles is no tighter than the box; larger nodes keep none.
-constexpr std::int32_t largest_slab = 1024;
+constexpr std::int32_t largest_slab = 256;
 constexpr std::int32_t smallest_task = 8192;
 
 /// Builds the tree top down by median splits, in parallel, into nodes whose places depend on the counts
 /// alone, so that the result is the same for any number of threads.
 class TreeBuilder {
  public:
-  TreeBuilder(std::vector<Piece>& pieces, const std::vector<TreeTriangle>& triangles,
-              SeparationTree::Data& data)
-      : pieces_(pieces), triangles_(triangles), nodes_(data.nodes) {
+  TreeBuilder(Pieces& pieces, const std::vector<TreeTriangle>& triangles, SeparationTree::Data& data)
+      : cut_(pieces), pieces_(pieces.pieces), triangles_(triangles), nodes_(data.nodes) {
     nodes_.resize(node_count(static_cast<std::int32_t>(pieces_.size())));
     build(0, 1, 0, static_cast<std::int32_t>(pieces_.size()));
     data.triangles.reserve(pieces_.size());
@@ -37,16 +36,18 @@ class TreeBuilder {
     return pieces <= leaf_size ? 1 : 1 + node_count(pieces / 2) + node_count(pieces - pieces / 2);
   }
 
-  /// Node `self` over [first, last); its descendants occupy nodes_ from `free` on.
-  void build(std::size_t self, std::size_t free, std::int32_t first, std::int32_t last) {
+  /// Node `self` over [first, last); its descendants occupy nodes_ from `free` on. Returns which way its triangles
+  /// face: the sum of area n n^T over them.
+  Eigen::Matrix3d build(std::size_t self, std::size_t free, std::int32_t first, std::int32_t last) {
     TreeNode& node = nodes_[self];
     fit_box(node, first, last);
-    fit_slab(node, first, last);
     const std::int32_t count = last - first;
     if (count <= leaf_size) {
       node.first = first;
       node.count = count;
-      return;
+      const Eigen::Matrix3d facing = facing_of(first, last);
+      fit_slab(node, facing, first, last);
+      return facing;
     }
     const std::int32_t middle = first + count / 2;
     split(node, first, middle, last);
@@ -54,14 +55,18 @@ class TreeBuilder {
     node.count = 0;
     const std::size_t left_descendants = free + 2;
     const std::size_t right_descendants = left_descendants + node_count(count / 2) - 1;
-    const auto left = [=, this] { build(free, left_descendants, first, middle); };
-    const auto right = [=, this] { build(free + 1, right_descendants, middle, last); };
+    Eigen::Matrix3d left_facing, right_facing;
+    const auto left = [&] { left_facing = build(free, left_descendants, first, middle); };
+    const auto right = [&] { right_facing = build(free + 1, right_descendants, middle, last); };
     if (count < smallest_task) {
       left();
       right();
     } else {
       tbb::parallel_invoke(left, right);
     }
+    const Eigen::Matrix3d facing = left_facing + right_facing;
+    fit_slab(node, facing, first, last);
+    return facing;
   }
 
   void fit_box(TreeNode& node, std::int32_t first, std::int32_t last) const {
@@ -74,29 +79,34 @@ class TreeBuilder {
       }
   }
 
-  /// Slab across the direction that the triangles face most: the dominant eigenvector of sum n n^T over area
-  /// normals.
-  void fit_slab(TreeNode& node, std::int32_t first, std::int32_t last) const {
-    node.normal.fill(0);
-    node.slab_low = node.slab_high = 0;
-    if (last - first > largest_slab) return;
+  Eigen::Matrix3d facing_of(std::int32_t first, std::int32_t last) const {
     Eigen::Matrix3d facing = Eigen::Matrix3d::Zero();
     for (std::int32_t t = first; t < last; ++t) {
       const Eigen::Vector3d normal = area_normal(triangles_[pieces_[t].triangle]);
       const double length = normal.norm();
       if (length > 0) facing += normal * (normal / length).transpose();
     }
+    return facing;
+  }
+
+  /// Slab across the direction that the triangles face most: the dominant eigenvector of `facing`.
+  void fit_slab(TreeNode& node, const Eigen::Matrix3d& facing, std::int32_t first, std::int32_t last) const {
+    node.normal.fill(0);
+    node.slab_low = node.slab_high = 0;
+    if (last - first > largest_slab) return;
     const Eigen::Vector3d axis = dominant_axis(facing);
     if (!axis.allFinite() || axis.isZero(0)) return;
     double low = std::numeric_limits<double>::infinity(), high = -low, magnitude = 0;
-    for (std::int32_t t = first; t < last; ++t)
-      for (int p = 0; p < pieces_[t].point_count; ++p) {
-        const auto& point = pieces_[t].points[p];
+    for (std::int32_t t = first; t < last; ++t) {
+      const PiecePolygon polygon = polygon_of(pieces_[t], cut_, triangles_);
+      for (int p = 0; p < polygon.point_count; ++p) {
+        const auto& point = polygon.points[p];
         const double offset = axis[0] * point[0] + axis[1] * point[1] + axis[2] * point[2];
         low = std::min(low, offset);
         high = std::max(high, offset);
         for (const double coordinate : point) magnitude = std::max(magnitude, std::abs(coordinate));
       }
+    }
     const double rounding = 16 * unit_roundoff * magnitude;
     node.normal = {axis[0], axis[1], axis[2]};
     node.slab_low = low - rounding;
@@ -134,7 +144,8 @@ class TreeBuilder {
                      });
   }
 
-  std::vector<Piece>& pieces_;
+  const Pieces& cut_;
+  std::vector<Piece>& pieces_;  ///< those of `cut_`, reordered
   const std::vector<TreeTriangle>& triangles_;
   std::vector<TreeNode>& nodes_;
 };
@@ -155,7 +166,7 @@ SeparationTree::SeparationTree(const Shape& shape) {
         data->magnitude = std::max(data->magnitude, std::abs(coordinate));
       }
   }
-  std::vector<Piece> pieces = cut_into_pieces(triangles);
+  Pieces pieces = cut_into_pieces(triangles);
   TreeBuilder(pieces, triangles, *data);
   data_ = std::move(data);
 }

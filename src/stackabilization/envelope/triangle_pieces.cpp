@@ -1,5 +1,7 @@
 #include "stackabilization/envelope/triangle_pieces.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,12 +11,12 @@
 namespace stackabilization::detail {
 namespace {
 
-void fit_box(Piece& piece, double rounding) {
+void fit_box(Piece& piece, const PiecePolygon& polygon, double rounding) {
   for (int axis = 0; axis < 3; ++axis) {
-    double low = piece.points[0][axis], high = low;
-    for (int p = 1; p < piece.point_count; ++p) {
-      low = std::min(low, piece.points[p][axis]);
-      high = std::max(high, piece.points[p][axis]);
+    double low = polygon.points[0][axis], high = low;
+    for (int p = 1; p < polygon.point_count; ++p) {
+      low = std::min(low, polygon.points[p][axis]);
+      high = std::max(high, polygon.points[p][axis]);
     }
     // Interpolation between equal coordinates is exact: flat triangles keep flat boxes.
     const double margin = high > low ? rounding : 0;
@@ -32,97 +34,145 @@ int longest_axis(const Piece& piece) {
 
 /// Half the surface of the box.
 double box_area(const Piece& piece) {
-  const double a = piece.high[0] - piece.low[0], b = piece.high[1] - piece.low[1],
-               c = piece.high[2] - piece.low[2];
+  const double a = piece.high[0] - piece.low[0], b = piece.high[1] - piece.low[1], c = piece.high[2] - piece.low[2];
   return a * b + b * c + c * a;
 }
 
-void add(Piece& piece, const std::array<double, 3>& point) {
-  piece.points[piece.point_count++] = point;
+void add(PiecePolygon& polygon, const std::array<double, 3>& point) {
+  polygon.points[polygon.point_count++] = point;
 }
 
-/// The halves on either side of the middle of the longest axis; they share the cut points. Precondition: at
-/// least one free point.
-std::array<Piece, 2> halves(const Piece& piece, double rounding) {
+struct Half {
+  Piece piece;
+  PiecePolygon polygon;
+};
+
+/// The halves on either side of the middle of the longest axis; they share the cut points. Precondition: room for one
+/// more point.
+std::array<Half, 2> halves(const Piece& piece, const PiecePolygon& polygon, double rounding) {
   const int axis = longest_axis(piece);
   const double at = piece.low[axis] + (piece.high[axis] - piece.low[axis]) / 2;
-  std::array<Piece, 2> result;
-  result[0].triangle = result[1].triangle = piece.triangle;
-  for (int p = 0; p < piece.point_count; ++p) {
-    const auto& a = piece.points[p];
-    const auto& b = piece.points[(p + 1) % piece.point_count];
-    if (a[axis] <= at) add(result[0], a);
-    if (a[axis] >= at) add(result[1], a);
+  std::array<Half, 2> result;
+  for (int p = 0; p < polygon.point_count; ++p) {
+    const auto& a = polygon.points[p];
+    const auto& b = polygon.points[(p + 1) % polygon.point_count];
+    if (a[axis] <= at) add(result[0].polygon, a);
+    if (a[axis] >= at) add(result[1].polygon, a);
     if ((a[axis] < at && b[axis] > at) || (a[axis] > at && b[axis] < at)) {
       const double t = (at - a[axis]) / (b[axis] - a[axis]);
       std::array<double, 3> point;
       for (int other = 0; other < 3; ++other) point[other] = a[other] + t * (b[other] - a[other]);
       point[axis] = at;
-      add(result[0], point);
-      add(result[1], point);
+      add(result[0].polygon, point);
+      add(result[1].polygon, point);
     }
   }
-  for (Piece& half : result)
-    if (half.point_count > 0) fit_box(half, rounding);
+  for (Half& half : result) {
+    half.piece.triangle = piece.triangle;
+    if (half.polygon.point_count > 0) fit_box(half.piece, half.polygon, rounding);
+  }
   return result;
 }
 
-/// What cutting a piece saves in box surface. The split is cheap enough to be done twice.
-double gain(const Piece& piece, double rounding) {
-  if (piece.point_count >= Piece::most_points) return 0;
-  const std::array<Piece, 2> parts = halves(piece, rounding);
-  if (parts[0].point_count < 3 || parts[1].point_count < 3) return 0;
-  return box_area(piece) - box_area(parts[0]) - box_area(parts[1]);
+/// What cutting a piece saves in box surface. The cut is cheap enough to be made twice.
+double saving(const Piece& piece, const PiecePolygon& polygon, double rounding) {
+  if (polygon.point_count >= PiecePolygon::most_points) return 0;
+  const std::array<Half, 2> parts = halves(piece, polygon, rounding);
+  if (parts[0].polygon.point_count < 3 || parts[1].polygon.point_count < 3) return 0;
+  return box_area(piece) - box_area(parts[0].piece) - box_area(parts[1].piece);
 }
 
-struct Saving {
-  double area;
-  std::size_t piece;
-
-  friend bool operator<(const Saving& a, const Saving& b) {
-    return a.area != b.area ? a.area < b.area : a.piece > b.piece;
+/// Cuts the piece with the largest saving, again and again.
+class Cutter {
+ public:
+  explicit Cutter(const std::vector<TreeTriangle>& triangles) : triangles_(triangles) {
+    for (const TreeTriangle& triangle : triangles)
+      for (const auto& corner : triangle.corners)
+        for (const double coordinate : corner) rounding_ = std::max(rounding_, std::abs(coordinate));
+    rounding_ *= 8 * unit_roundoff;
+    wrap_triangles();
   }
+
+  Pieces run() {
+    // Small shapes may take more: their trees are cheap. Cuts that save less than a small share of the mean box are not
+    // worth a node.
+    const std::size_t most = 2 * triangles_.size() + 2048;
+    const double least = total_ / static_cast<double>(most) / 64;
+    std::vector<double> savings(triangles_.size());
+    tbb::parallel_for(std::size_t{0}, savings.size(), [&](std::size_t t) {
+      const Piece& piece = result_.pieces[t];
+      if (box_area(piece) > least) savings[t] = saving(piece, polygon_of(piece, result_, triangles_), rounding_);
+    });
+    for (std::size_t t = 0; t < savings.size(); ++t)
+      if (savings[t] > least) queue_.push_back({savings[t], t});
+    std::make_heap(queue_.begin(), queue_.end());
+    while (!queue_.empty() && result_.pieces.size() < most) {
+      const std::size_t chosen = queue_.front().piece;
+      std::pop_heap(queue_.begin(), queue_.end());
+      queue_.pop_back();
+      cut(chosen, least);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  struct Entry {
+    double saving;
+    std::size_t piece;
+
+    friend bool operator<(const Entry& a, const Entry& b) {
+      return a.saving != b.saving ? a.saving < b.saving : a.piece > b.piece;
+    }
+  };
+
+  void wrap_triangles() {
+    result_.pieces.resize(triangles_.size());
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+      Piece& piece = result_.pieces[t];
+      piece.triangle = static_cast<std::int32_t>(t);
+      fit_box(piece, polygon_of(piece, result_, triangles_), 0);
+      total_ += box_area(piece);
+    }
+  }
+
+  void cut(std::size_t chosen, double least) {
+    const Piece piece = result_.pieces[chosen];
+    std::array<Half, 2> parts = halves(piece, polygon_of(piece, result_, triangles_), rounding_);
+    parts[0].piece.polygon = piece.polygon;
+    for (Half& part : parts) {
+      if (part.piece.polygon < 0) {
+        part.piece.polygon = static_cast<std::int32_t>(result_.polygons.size());
+        result_.polygons.emplace_back();
+      }
+      result_.polygons[static_cast<std::size_t>(part.piece.polygon)] = part.polygon;
+    }
+    result_.pieces[chosen] = parts[0].piece;
+    result_.pieces.push_back(parts[1].piece);
+    for (const std::size_t index : {chosen, result_.pieces.size() - 1}) {
+      const Piece& half = result_.pieces[index];
+      const double worth = saving(half, polygon_of(half, result_, triangles_), rounding_);
+      if (!(worth > least)) continue;
+      queue_.push_back({worth, index});
+      std::push_heap(queue_.begin(), queue_.end());
+    }
+  }
+
+  const std::vector<TreeTriangle>& triangles_;
+  Pieces result_;
+  std::vector<Entry> queue_;  ///< binary heap
+  double rounding_ = 0;       ///< bound on how far a cut point lies off its triangle
+  double total_ = 0;          ///< box surface of all triangles
 };
 
 }  // namespace
 
-std::vector<Piece> cut_into_pieces(const std::vector<TreeTriangle>& triangles) {
-  double magnitude = 0;
-  for (const TreeTriangle& triangle : triangles)
-    for (const auto& corner : triangle.corners)
-      for (const double coordinate : corner) magnitude = std::max(magnitude, std::abs(coordinate));
-  const double rounding = 8 * unit_roundoff * magnitude;
-
-  std::vector<Piece> pieces(triangles.size());
-  double total = 0;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    pieces[t].triangle = static_cast<std::int32_t>(t);
-    for (const auto& corner : triangles[t].corners) add(pieces[t], corner);
-    fit_box(pieces[t], 0);
-    total += box_area(pieces[t]);
-  }
-  // Cuts that save less than a small share of the mean box are not worth a node.
-  const std::size_t most = 2 * triangles.size() + 2048;
-  const double least = total / static_cast<double>(most) / 64;
-  std::vector<Saving> savings;
-  const auto offer = [&](std::size_t piece) {
-    const double area = gain(pieces[piece], rounding);
-    if (!(area > least)) return;
-    savings.push_back({area, piece});
-    std::push_heap(savings.begin(), savings.end());
-  };
-  for (std::size_t t = 0; t < triangles.size(); ++t) offer(t);
-  while (!savings.empty() && pieces.size() < most) {
-    const std::size_t chosen = savings.front().piece;
-    std::pop_heap(savings.begin(), savings.end());
-    savings.pop_back();
-    const std::array<Piece, 2> parts = halves(pieces[chosen], rounding);
-    pieces[chosen] = parts[0];
-    pieces.push_back(parts[1]);
-    offer(chosen);
-    offer(pieces.size() - 1);
-  }
-  return pieces;
+PiecePolygon polygon_of(const Piece& piece, const Pieces& pieces, const std::vector<TreeTriangle>& triangles) {
+  if (piece.polygon >= 0) return pieces.polygons[static_cast<std::size_t>(piece.polygon)];
+  PiecePolygon whole;
+  for (const auto& corner : triangles[static_cast<std::size_t>(piece.triangle)].corners) add(whole, corner);
+  return whole;
 }
+
+Pieces cut_into_pieces(const std::vector<TreeTriangle>& triangles) { return Cutter(triangles).run(); }
 
 }  // namespace stackabilization::detail

@@ -8,18 +8,30 @@
 
 namespace stackabilization::detail {
 
-/// A convex piece of a triangle. Long triangles are cut so that boxes fit closely; the pieces of one triangle
-/// cover it.
-struct Piece {
+/// A convex polygon in space, at most as many corners as a few cuts of a triangle leave.
+struct PiecePolygon {
   static constexpr int most_points = 7;
   std::array<std::array<double, 3>, most_points> points;
   int point_count = 0;
-  std::int32_t triangle = 0;        ///< row in the list of triangles
-  std::array<double, 3> low, high;  ///< box, widened by the rounding of cut points
 };
 
-/// One piece per triangle, plus about as many again where cutting shrinks boxes most. Deterministic; the more
-/// uniform the mesh, the fewer cuts.
-std::vector<Piece> cut_into_pieces(const std::vector<TreeTriangle>& triangles);
+/// A convex piece of a triangle, by its box. Most pieces are whole triangles and need no polygon of their own.
+struct Piece {
+  std::array<double, 3> low, high;  ///< widened by the rounding of cut points
+  std::int32_t triangle = 0;        ///< row in the list of triangles
+  std::int32_t polygon = -1;        ///< row in `Pieces::polygons`; -1: the whole triangle
+};
+
+struct Pieces {
+  std::vector<Piece> pieces;
+  std::vector<PiecePolygon> polygons;
+};
+
+/// Pieces that cover all triangles: one per triangle, plus about as many again where cutting long triangles shrinks
+/// boxes most. Deterministic; the more uniform the mesh, the fewer cuts.
+Pieces cut_into_pieces(const std::vector<TreeTriangle>& triangles);
+
+/// The polygon of a piece.
+PiecePolygon polygon_of(const Piece& piece, const Pieces& pieces, const std::vector<TreeTriangle>& triangles);
 
 }  // namespace stackabilization::detail
