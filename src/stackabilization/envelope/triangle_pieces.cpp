@@ -82,6 +82,8 @@ double saving(const Piece& piece, const PiecePolygon& polygon, double rounding) 
   return box_area(piece) - box_area(parts[0].piece) - box_area(parts[1].piece);
 }
 
+constexpr std::size_t most_cuts = 100000;
+
 /// Cuts the piece with the largest saving, again and again.
 class Cutter {
  public:
@@ -94,9 +96,9 @@ class Cutter {
   }
 
   Pieces run() {
-    // Small shapes may take more: their trees are cheap. Cuts that save less than a small share of the mean box are not
-    // worth a node.
-    const std::size_t most = 2 * triangles_.size() + 2048;
+    // Small shapes may take more, their trees are cheap; of large ones only the worst triangles matter. Cuts that save
+    // less than a small share of the mean box are not worth a node.
+    const std::size_t most = triangles_.size() + std::min(triangles_.size() + 2048, most_cuts);
     const double least = total_ / static_cast<double>(most) / 64;
     std::vector<double> savings(triangles_.size());
     tbb::parallel_for(std::size_t{0}, savings.size(), [&](std::size_t t) {

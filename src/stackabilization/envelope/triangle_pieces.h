@@ -27,8 +27,8 @@ struct Pieces {
   std::vector<PiecePolygon> polygons;
 };
 
-/// Pieces that cover all triangles: one per triangle, plus about as many again where cutting long triangles shrinks
-/// boxes most. Deterministic; the more uniform the mesh, the fewer cuts.
+/// Pieces that cover all triangles: one per triangle, plus up to about as many again, within a limit, where cutting
+/// long triangles shrinks boxes most. Deterministic; the more uniform the mesh, the fewer cuts.
 Pieces cut_into_pieces(const std::vector<TreeTriangle>& triangles);
 
 /// The polygon of a piece.
