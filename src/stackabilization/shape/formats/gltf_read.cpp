@@ -1,112 +1,19 @@
-// tinygltf is compiled here, once, without its own image decoders and file access. It forgets to include
-// <fstream>.
-#include <fstream>
-#define TINYGLTF_IMPLEMENTATION
-#define TINYGLTF_NO_STB_IMAGE
-#define TINYGLTF_NO_STB_IMAGE_WRITE
-#define TINYGLTF_NO_FS
-#include <tiny_gltf.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/formats/bytes.h"
 #include "stackabilization/shape/formats/formats.h"
+#include "stackabilization/shape/formats/gltf_model.h"
 #include "stackabilization/shape/formats/shape_builder.h"
-#include "stackabilization/shape/read_file.h"
 
 namespace stackabilization {
 
 namespace {
-
-using Folder = std::optional<std::filesystem::path>;
-
-/// tinygltf descends into nested JSON by recursion, so that text without end would overflow its stack.
-bool is_deeply_nested(std::string_view bytes) {
-  constexpr int deepest = 200;
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const char c = bytes[i];
-    if (in_string && c == '\\') ++i;
-    if (c == '"') in_string = !in_string;
-    if (in_string) continue;
-    if (c == '{' || c == '[') ++depth;
-    if (c == '}' || c == ']') --depth;
-    if (depth > deepest) return true;
-  }
-  return false;
-}
-
-/// The JSON text of either kind of file.
-std::string_view json_of(std::string_view bytes) {
-  constexpr std::size_t start = 20;
-  if (!bytes.starts_with("glTF") || bytes.size() < start) return bytes;
-  return bytes.substr(start, load<std::uint32_t>(bytes.data() + 12, std::endian::little));
-}
-
-/// File access for tinygltf; the user pointer is the folder of the file.
-template <class Callbacks>
-Callbacks file_callbacks(const Folder& folder) {
-  Callbacks callbacks{};
-  callbacks.FileExists = [](const std::string& path, void*) {
-    return std::filesystem::is_regular_file(path);
-  };
-  callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
-  callbacks.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string* error, const std::string& path,
-                               void*) {
-    try {
-      const std::string text = read_file(path);
-      bytes->assign(text.begin(), text.end());
-      return true;
-    } catch (const InputError& reason) {
-      *error += reason.what();
-      return false;
-    }
-  };
-  if constexpr (requires { callbacks.GetFileSizeInBytes; })
-    callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& path, void*) {
-      std::error_code error;
-      *size = static_cast<std::size_t>(std::filesystem::file_size(path, error));
-      return !error;
-    };
-  if (!folder) callbacks.FileExists = [](const std::string&, void*) { return false; };
-  return callbacks;
-}
-
-tinygltf::Model parse(const Source& source, const Folder& folder) {
-  if (source.bytes.size() > std::numeric_limits<std::uint32_t>::max())
-    throw InputError(source.name + ": glTF files hold at most 4 GiB");
-  if (is_deeply_nested(json_of(source.bytes)))
-    throw InputError(source.name + ": its JSON is nested without end");
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
-                           const unsigned char*, int, void*) { return true; },
-                        nullptr);
-  loader.SetFsCallbacks(file_callbacks<tinygltf::FsCallbacks>(folder));
-  tinygltf::Model model;
-  std::string error;
-  std::string warning;
-  const std::string base = folder ? folder->string() : "";
-  const auto length = static_cast<unsigned>(source.bytes.size());
-  const bool good =
-      source.bytes.starts_with("glTF")
-          ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                        reinterpret_cast<const unsigned char*>(source.bytes.data()), length,
-                                        base)
-          : loader.LoadASCIIFromString(&model, &error, &warning, source.bytes.data(), length, base);
-  if (good) return model;
-  std::replace(error.begin(), error.end(), '\n', ' ');
-  error.erase(error.find_last_not_of(' ') + 1);
-  throw InputError(source.name + ": expected a glTF 2.0 file with its buffers: " +
-                   (error.empty() ? "it cannot be parsed" : error));
-}
 
 /// Walks the nodes of the default scene.
 class Assembler {
@@ -333,104 +240,11 @@ class Assembler {
   ShapeBuilder builder_;
 };
 
-/// Model under construction for writing: one buffer.
-class GlbWriter {
- public:
-  std::string write(const Shape& shape) {
-    model_.asset.version = "2.0";
-    model_.asset.generator = "Stackabilization";
-    model_.buffers.emplace_back();
-    model_.scenes.emplace_back();
-    model_.defaultScene = 0;
-    const std::vector<PartMesh> meshes = split_by_part(shape);
-    for (std::size_t part = 0; part < meshes.size(); ++part)
-      if (!meshes[part].triangles.empty())
-        add_part(shape, meshes[part], printable_name(shape.part_names[part]));
-    model_.buffers[0].data.assign(bytes_.begin(), bytes_.end());
-    std::ostringstream stream;
-    tinygltf::TinyGLTF writer;
-    if (!writer.WriteGltfSceneToStream(&model_, stream, false, true))
-      throw OutputError("a GLB file cannot be composed");
-    return std::move(stream).str();
-  }
-
- private:
-  void add_part(const Shape& shape, const PartMesh& part, const std::string& name) {
-    tinygltf::Primitive primitive;
-    primitive.mode = TINYGLTF_MODE_TRIANGLES;
-    primitive.attributes["POSITION"] = add_positions(shape, part);
-    primitive.indices = add_indices(part);
-    tinygltf::Mesh mesh;
-    mesh.name = name;
-    mesh.primitives.push_back(primitive);
-    tinygltf::Node node;
-    node.name = name;
-    node.mesh = static_cast<int>(model_.meshes.size());
-    model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()));
-    model_.meshes.push_back(mesh);
-    model_.nodes.push_back(node);
-  }
-
-  int add_positions(const Shape& shape, const PartMesh& part) {
-    const std::size_t start = bytes_.size();
-    Eigen::Array3d lower = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
-    Eigen::Array3d upper = -lower;
-    for (const std::int32_t v : part.vertices) {
-      // z up becomes y up.
-      const Eigen::Array3d turned(shape.vertices(v, 0), shape.vertices(v, 2), 0 - shape.vertices(v, 1));
-      const Eigen::Array3f point(to_single(turned.x(), "GLB"), to_single(turned.y(), "GLB"),
-                                 to_single(turned.z(), "GLB"));
-      for (const float coordinate : point) append_little(bytes_, coordinate);
-      lower = lower.min(point.cast<double>());
-      upper = upper.max(point.cast<double>());
-    }
-    const int index =
-        add_accessor(start, part.vertices.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
-    model_.accessors.back().minValues.assign(lower.begin(), lower.end());
-    model_.accessors.back().maxValues.assign(upper.begin(), upper.end());
-    model_.bufferViews.back().target = TINYGLTF_TARGET_ARRAY_BUFFER;
-    return index;
-  }
-
-  int add_indices(const PartMesh& part) {
-    const std::size_t start = bytes_.size();
-    for (const std::array<std::int32_t, 3>& triangle : part.triangles)
-      for (const std::int32_t vertex : triangle) append_little(bytes_, static_cast<std::uint32_t>(vertex));
-    const int index = add_accessor(start, 3 * part.triangles.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                                   TINYGLTF_TYPE_SCALAR);
-    model_.bufferViews.back().target = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
-    return index;
-  }
-
-  /// Accessor and buffer view for what lies in the buffer from `start` on.
-  int add_accessor(std::size_t start, std::size_t count, int component_type, int type) {
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = start;
-    view.byteLength = bytes_.size() - start;
-    tinygltf::Accessor accessor;
-    accessor.bufferView = static_cast<int>(model_.bufferViews.size());
-    accessor.componentType = component_type;
-    accessor.type = type;
-    accessor.count = count;
-    model_.bufferViews.push_back(view);
-    model_.accessors.push_back(accessor);
-    return static_cast<int>(model_.accessors.size()) - 1;
-  }
-
-  tinygltf::Model model_;
-  std::string bytes_;
-};
-
 }  // namespace
 
-Shape read_gltf(const Source& source, const Folder& folder) {
-  const tinygltf::Model model = parse(source, folder);
+Shape read_gltf(const Source& source, const std::optional<std::filesystem::path>& folder) {
+  const tinygltf::Model model = parse_gltf(source, folder);
   return Assembler(source, model).assemble();
-}
-
-std::string write_glb(const Shape& shape) {
-  return GlbWriter().write(shape);
 }
 
 }  // namespace stackabilization

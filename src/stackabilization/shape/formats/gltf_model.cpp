@@ -1,0 +1,101 @@
+// tinygltf is compiled here, once. It forgets to include <fstream>.
+#include <fstream>
+#define TINYGLTF_IMPLEMENTATION
+#include <algorithm>
+#include <limits>
+
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/formats/bytes.h"
+#include "stackabilization/shape/formats/gltf_model.h"
+#include "stackabilization/shape/read_file.h"
+
+namespace stackabilization {
+
+namespace {
+
+using Folder = std::optional<std::filesystem::path>;
+
+/// tinygltf descends into nested JSON by recursion, so that text without end would overflow its stack.
+bool is_deeply_nested(std::string_view bytes) {
+  constexpr int deepest = 200;
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const char c = bytes[i];
+    if (in_string && c == '\\') ++i;
+    if (c == '"') in_string = !in_string;
+    if (in_string) continue;
+    if (c == '{' || c == '[') ++depth;
+    if (c == '}' || c == ']') --depth;
+    if (depth > deepest) return true;
+  }
+  return false;
+}
+
+/// The JSON text of either kind of file.
+std::string_view json_of(std::string_view bytes) {
+  constexpr std::size_t start = 20;
+  if (!bytes.starts_with("glTF") || bytes.size() < start) return bytes;
+  return bytes.substr(start, load<std::uint32_t>(bytes.data() + 12, std::endian::little));
+}
+
+/// File access for tinygltf; the user pointer is the folder of the file.
+template <class Callbacks>
+Callbacks file_callbacks(const Folder& folder) {
+  Callbacks callbacks{};
+  callbacks.FileExists = [](const std::string& path, void*) {
+    return std::filesystem::is_regular_file(path);
+  };
+  callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
+  callbacks.ReadWholeFile = [](std::vector<unsigned char>* bytes, std::string* error, const std::string& path,
+                               void*) {
+    try {
+      const std::string text = read_file(path);
+      bytes->assign(text.begin(), text.end());
+      return true;
+    } catch (const InputError& reason) {
+      *error += reason.what();
+      return false;
+    }
+  };
+  if constexpr (requires { callbacks.GetFileSizeInBytes; })
+    callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& path, void*) {
+      std::error_code error;
+      *size = static_cast<std::size_t>(std::filesystem::file_size(path, error));
+      return !error;
+    };
+  if (!folder) callbacks.FileExists = [](const std::string&, void*) { return false; };
+  return callbacks;
+}
+
+}  // namespace
+
+tinygltf::Model parse_gltf(const Source& source, const Folder& folder) {
+  if (source.bytes.size() > std::numeric_limits<std::uint32_t>::max())
+    throw InputError(source.name + ": glTF files hold at most 4 GiB");
+  if (is_deeply_nested(json_of(source.bytes)))
+    throw InputError(source.name + ": its JSON is nested without end");
+  tinygltf::TinyGLTF loader;
+  loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
+                           const unsigned char*, int, void*) { return true; },
+                        nullptr);
+  loader.SetFsCallbacks(file_callbacks<tinygltf::FsCallbacks>(folder));
+  tinygltf::Model model;
+  std::string error;
+  std::string warning;
+  const std::string base = folder ? folder->string() : "";
+  const auto length = static_cast<unsigned>(source.bytes.size());
+  const bool good =
+      source.bytes.starts_with("glTF")
+          ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                        reinterpret_cast<const unsigned char*>(source.bytes.data()), length,
+                                        base)
+          : loader.LoadASCIIFromString(&model, &error, &warning, source.bytes.data(), length, base);
+  if (good) return model;
+  std::replace(error.begin(), error.end(), '\n', ' ');
+  error.erase(error.find_last_not_of(' ') + 1);
+  throw InputError(source.name + ": expected a glTF 2.0 file with its buffers: " +
+                   (error.empty() ? "it cannot be parsed" : error));
+}
+
+}  // namespace stackabilization
