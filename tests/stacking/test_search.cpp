@@ -22,15 +22,10 @@ constexpr double degree = std::numbers::pi / 180;
 
 double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
-Shape small_cup() { return solids::frustum_shell({.segments = 12}); }
+Shape small_cup() { return solids::frustum_shell({.segments = 8}); }
 
-/// A thick-walled cup with a slanted axis: no axis of the file is special.
-Shape leaning_cup() {
-  Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
-  shear(0, 2) = 0.4;
-  shear(1, 2) = 0.15;
-  return transformed(small_cup(), shear, Eigen::Vector3d::Zero());
-}
+/// No direction is special, and S has many narrow peaks.
+Shape irregular() { return solids::triangle_soup({.seed = 8, .count = 30}); }
 
 double best_of_map(const StackabilitySolver& solver, double step) {
   double best = -1e300;
@@ -43,15 +38,15 @@ double best_of_map(const StackabilitySolver& solver, double step) {
 
 TEST_CASE("a cup stacks best along its axis, in any pose") {
   const Shape cup = small_cup();
-  const SearchResult upright = best_direction(StackabilitySolver(cup));
+  const SearchOptions quick{.spacing = 0.1, .climbs = 2};
+  const SearchResult upright = best_direction(StackabilitySolver(cup), quick);
   CHECK(upright.best.direction == Eigen::Vector3d(0, 0, 1));
-  CHECK(upright.separation.length == Approx(solids::frustum_shell_f_max({.segments = 12})).epsilon(1e-12));
-  for (std::uint64_t seed = 1; seed < 3; ++seed) {
-    const Eigen::Matrix3d rotation = solids::random_rotation(seed);
-    const SearchResult turned = best_direction(StackabilitySolver(transformed(cup, rotation, Eigen::Vector3d::Ones())));
-    CHECK(turned.best.value == Approx(upright.best.value).margin(1e-7));
-    CHECK(turned.best.direction.cross(rotation.col(2)).norm() < 1e-6);
-  }
+  CHECK(upright.separation.length == Approx(solids::frustum_shell_f_max({.segments = 8})).epsilon(1e-12));
+  const Eigen::Matrix3d rotation = solids::random_rotation(1);
+  const StackabilitySolver turned(transformed(cup, rotation, Eigen::Vector3d::Ones()));
+  const SearchResult found = best_direction(turned, quick);
+  CHECK(found.best.value == Approx(upright.best.value).margin(1e-7));
+  CHECK(found.best.direction.cross(rotation.col(2)).norm() < 1e-6);
 }
 
 TEST_CASE("ties go to the first candidate, unmoved") {
@@ -61,18 +56,17 @@ TEST_CASE("ties go to the first candidate, unmoved") {
 }
 
 TEST_CASE("no direction of a map is better than the search") {
-  for (const Shape& shape : {leaning_cup(), solids::stair_plate({}), solids::l_shape(4, 1),
-                             solids::triangle_soup({.seed = 8, .count = 30})}) {
+  for (const Shape& shape : {irregular(), solids::l_shape(4, 1), solids::triangle_soup({.seed = 9, .count = 60})}) {
     const StackabilitySolver solver(shape);
-    const SearchResult found = best_direction(solver);
-    CHECK(found.best.value >= best_of_map(solver, 3) - 1e-6);
+    const SearchResult found = best_direction(solver, {.climbs = 4});
+    CHECK(found.best.value >= best_of_map(solver, 2) - 1e-6);
     CHECK(found.best.value == Approx(solver.measure(Direction(found.best.direction)).value).margin(1e-15));
     CHECK(found.separation.length == Approx(found.best.f_max).margin(1e-12 * found.best.extent));
   }
 }
 
 TEST_CASE("the optima are ranked, distinct, and topped by the best direction") {
-  const SearchResult found = best_direction(StackabilitySolver(leaning_cup()), {.climbs = 20});
+  const SearchResult found = best_direction(StackabilitySolver(irregular()), {.climbs = 20});
   REQUIRE_FALSE(found.optima.empty());
   CHECK(found.optima.front().direction == found.best.direction);
   CHECK(found.optima.front().stackability == found.best.value);
@@ -86,8 +80,8 @@ TEST_CASE("the optima are ranked, distinct, and topped by the best direction") {
 }
 
 TEST_CASE("a cone is respected") {
-  const StackabilitySolver solver(leaning_cup());
-  for (const Eigen::Vector3d& axis : std::vector<Eigen::Vector3d>{{0, 0, 1}, {0, 0, -2}, {1, 0.2, 0}, {-0.3, -1, -0.1}})
+  const StackabilitySolver solver(irregular());
+  for (const Eigen::Vector3d& axis : std::vector<Eigen::Vector3d>{{0, 0, -2}, {1, 0.2, 0}, {-0.3, -1, -0.1}})
     for (const double half : {2 * degree, 25 * degree, 90 * degree}) {
       const SearchResult found = best_direction(solver, {.cone = DirectionCone{axis, half}});
       CHECK(angle(found.best.direction, axis) <= half + 1e-8);
@@ -102,13 +96,13 @@ TEST_CASE("a cone is respected") {
 
 TEST_CASE("a cone that ends short of the peak gives a direction on its rim") {
   const StackabilitySolver solver(small_cup());
-  const Eigen::Vector3d axis(std::sin(20 * degree), 0, std::cos(20 * degree));
-  const SearchResult found = best_direction(solver, {.cone = DirectionCone{axis, 15 * degree}});
-  CHECK(angle(found.best.direction, axis) == Approx(15 * degree).epsilon(1e-4));
+  const Eigen::Vector3d axis(std::sin(4 * degree), 0, std::cos(4 * degree));
+  const SearchResult found = best_direction(solver, {.cone = DirectionCone{axis, 3 * degree}, .climbs = 2});
+  CHECK(angle(found.best.direction, axis) == Approx(3 * degree).epsilon(1e-4));
 }
 
 TEST_CASE("a plane is respected, alone and with a cone") {
-  const StackabilitySolver solver(leaning_cup());
+  const StackabilitySolver solver(irregular());
   const Eigen::Vector3d normal(0.2, 1, -0.3);
   const SearchResult found = best_direction(solver, {.plane_normal = normal});
   CHECK(std::abs(found.best.direction.dot(normal)) < 1e-8);
@@ -117,7 +111,8 @@ TEST_CASE("a plane is respected, alone and with a cone") {
     sampled = std::max(sampled, solver.measure(Direction(r)).value);
   CHECK(found.best.value >= sampled - 1e-7);
 
-  const DirectionCone cone{{0.3, 0, 1}, 20 * degree};
+  // The plane holds (1.2, 0.06, 1).
+  const DirectionCone cone{{1, 0, 1}, 20 * degree};
   const SearchResult both = best_direction(solver, {.cone = cone, .plane_normal = normal});
   CHECK(std::abs(both.best.direction.dot(normal)) < 1e-8);
   CHECK(angle(both.best.direction, cone.axis) <= 20 * degree + 1e-8);
@@ -130,13 +125,13 @@ TEST_CASE("a peak of one single direction is found when it is a candidate") {
   Triangles triangles(8, 3);
   triangles << 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7;
   const StackabilitySolver solver(make_shape(vertices, triangles));
-  const SearchResult found = best_direction(solver, {.candidates = {{-1, -2, -3}}});
+  const SearchResult found = best_direction(solver, {.candidates = {{-1, -2, -3}}, .climbs = 1});
   CHECK(found.best.direction == Eigen::Vector3d(1, 2, 3));
   CHECK(found.best.value == 1);
 }
 
 TEST_CASE("one and two threads find the same bits") {
-  const StackabilitySolver solver(leaning_cup());
+  const StackabilitySolver solver(irregular());
   const auto with_threads = [&](int count) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, count);
     return best_direction(solver);
@@ -152,7 +147,7 @@ TEST_CASE("one and two threads find the same bits") {
 }
 
 TEST_CASE("a search reports progress and can be ended") {
-  const StackabilitySolver solver(leaning_cup());
+  const StackabilitySolver solver(irregular());
   std::vector<double> fractions;
   SearchOptions options;
   options.progress = [&](double fraction) { fractions.push_back(fraction); };

@@ -99,7 +99,7 @@ class DirectionSearch {
 
 std::vector<Trial> DirectionSearch::trials() const {
   CandidateDirections candidates = candidate_directions(solver_);
-  candidates.main.insert(candidates.main.end(), options_.candidates.begin(), options_.candidates.end());
+  candidates.main.insert(candidates.main.begin(), options_.candidates.begin(), options_.candidates.end());
   const Eigen::Vector3d none = options_.plane_normal.value_or(Eigen::Vector3d::Zero());
   std::vector<Trial> trials;
   for (const auto* directions : {&candidates.main, &candidates.others})

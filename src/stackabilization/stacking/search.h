@@ -46,7 +46,7 @@ struct SearchResult {
 /// of large faces and directions along two of them); from the best distinct ones it climbs to local maxima. Not proven
 /// global: a peak much narrower than `spacing` away from every candidate can be missed.
 ///
-/// Among directions equal to tolerance::stackability the earliest wins, candidates first. Deterministic for any number
+/// Among directions equal to tolerance::stackability the earliest wins: candidates of the options, then of the shape. Deterministic for any number
 /// of threads. Throws UsageError when an option is out of range or cone and plane have no direction in common.
 /// Source: section 4.3 of the paper samples uniformly and takes the best sample.
 SearchResult best_direction(const StackabilitySolver& solver, const SearchOptions& options = {});
