@@ -6,6 +6,7 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <vector>
 
 #include "apps/command.h"
 #include "apps/interrupt.h"
@@ -44,6 +45,16 @@ int guarded(const std::function<int()>& body) {
   }
 }
 
+/// What is wrong with a command line without a known command.
+std::string unknown_command(const CLI::App& program) {
+  std::string known;
+  for (const CLI::App* command : program.get_subcommands(nullptr))
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  const std::vector<std::string> words = program.remaining();
+  const std::string found = words.empty() ? "none was given" : "found '" + words.front() + "'";
+  return "expected one of the commands " + known + "; " + found;
+}
+
 int parse_and_run(int argc, char** argv) {
   CLI::App program("Measure exactly how well 3D shapes stack, and find out how to stack them best.",
                    "stackabilize");
@@ -60,6 +71,9 @@ int parse_and_run(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
     return program.exit(help_or_version);
+  } catch (const CLI::RequiredError&) {
+    if (!program.get_subcommands().empty()) throw;
+    throw UsageError(unknown_command(program));
   }
   for (const Command& command : commands)
     if (command.app->parsed()) return command.run();

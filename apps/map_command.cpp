@@ -100,7 +100,8 @@ int run(const CLI::App& command, const Options& options) {
   if (options.picture) require_rendering();
   const ThreadLimit limit(options.common);
   const Model model = load_model(options.common);
-  const StackabilitySolver solver(model.shape, options.stackability);
+  const StackabilitySolver solver =
+      named(model, [&] { return StackabilitySolver(model.shape, options.stackability); });
   const StackabilityMap map = map_with_progress(solver, options);
   const Summary summary = summary_of(map);
 

@@ -27,7 +27,8 @@ int run(const CLI::App& command, const Options& options) {
   const Direction direction(options.direction.value_or(Eigen::Vector3d::UnitZ()));
   const ThreadLimit limit(options.common);
   const Model model = load_model(options.common);
-  const StackabilitySolver solver(model.shape, options.stackability);
+  const StackabilitySolver solver =
+      named(model, [&] { return StackabilitySolver(model.shape, options.stackability); });
   const Measurement measurement =
       options.method == Method::exact
           ? measure_exactly(solver, direction)

@@ -4,6 +4,10 @@
 
 namespace stackabilization::apps {
 
+std::string display_name(const Model& model) {
+  return model.name == "-" ? "standard input" : model.name;
+}
+
 Model load_model(const CommonOptions& common, const InspectOptions& options) {
   Model model;
   model.name = common.model;
@@ -26,7 +30,7 @@ void add_document_tail(Json& document, const CommonOptions& common, const Model&
 }
 
 void add_model_line(TextTable& table, const Model& model) {
-  table.add("Model", (model.name == "-" ? "standard input" : model.name) + ": " + brief(model.findings));
+  table.add("Model", display_name(model) + ": " + brief(model.findings));
 }
 
 }  // namespace stackabilization::apps

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "apps/common_options.h"
 #include "apps/json.h"
 #include "apps/text.h"
+#include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/inspect.h"
 #include "stackabilization/shape/shape.h"
 
@@ -26,6 +28,19 @@ struct Model {
   Shape shape;
   Findings findings;
 };
+
+/// "chair.obj", "standard input".
+std::string display_name(const Model& model);
+
+/// What `work` returns; the model's name is put before what it says about the shape. Throws as `work` does.
+template <class Work>
+auto named(const Model& model, const Work& work) {
+  try {
+    return work();
+  } catch (const InputError& error) {
+    throw InputError(display_name(model) + ": " + error.what());
+  }
+}
 
 /// Reads MODEL as `common` says. Throws InputError.
 Model load_model(const CommonOptions& common, const InspectOptions& options = {});

@@ -77,7 +77,8 @@ int run(const CLI::App& command, const Options& options) {
   const SearchOptions search = search_options(options);
   const ThreadLimit limit(options.common);
   const Model model = load_model(options.common);
-  const StackabilitySolver solver(model.shape, options.stackability);
+  const StackabilitySolver solver =
+      named(model, [&] { return StackabilitySolver(model.shape, options.stackability); });
   const SearchResult result = search_with_progress(solver, search);
   const Measurement measurement = measure_exactly(solver, Direction(result.best.direction));
 

@@ -28,7 +28,7 @@ int run(const CLI::App& command, const StackCommandOptions& options) {
   const Direction direction = options.stacking_direction();
   const ThreadLimit limit(options.common);
   const Model model = load_model(options.common);
-  const StackRun stack = run_stack(options, model);
+  const StackRun stack = named(model, [&] { return run_stack(options, model); });
 
   Json document = document_head(command, model);
   add_stack(document, stack, direction);

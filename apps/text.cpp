@@ -36,7 +36,9 @@ std::string exact_digits(double value) {
 std::string quantity(double value, Unit unit, int power) {
   const std::string symbol = unit_symbol(unit);
   if (symbol.empty()) return rounded(value);
-  return rounded(value) + " " + symbol + (power == 1 ? "" : "^" + std::to_string(power));
+  std::string text = rounded(value) + " " + symbol;
+  if (power != 1) text.append("^").append(std::to_string(power));
+  return text;
 }
 
 std::string percent(double fraction) {
@@ -48,7 +50,8 @@ std::string vector_text(const Eigen::Vector3d& vector) {
 }
 
 std::string point_text(const Eigen::Vector3d& point) {
-  return "(" + rounded(point.x()) + ", " + rounded(point.y()) + ", " + rounded(point.z()) + ")";
+  std::string text = "(";
+  return text.append(rounded(point.x()) + ", " + rounded(point.y()) + ", " + rounded(point.z()) + ")");
 }
 
 std::string counted(long long count, const std::string& noun) {

@@ -100,6 +100,6 @@ TEST_CASE("a flat shape has no stackability, and every command that needs one sa
   const TemporaryFolder folder;
   const std::string sheet = folder.file("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   for (const std::string command : {"measure", "search", "map", "stack"})
-    check_unusable(folder, {command, sheet}, "flat");
+    check_unusable(folder, {command, sheet}, "sheet.obj");
   CHECK(run_program({"inspect", sheet}).status == 0);
 }

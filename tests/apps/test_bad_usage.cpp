@@ -34,8 +34,8 @@ TEST_CASE("wrong command lines end with 2 and one sentence that names the mistak
   const BoxFolder folder;
   const std::string& box = folder.box;
   const std::vector<std::pair<Arguments, std::string>> cases = {
-      {{}, "subcommand"},
-      {{"weigh", box}, "weigh"},
+      {{}, "none was given"},
+      {{"weigh", box}, "'weigh'"},
       {{"measure"}, "MODEL"},
       {{"measure", box, box}, "not expected"},
       {{"measure", box, "--colour"}, "--colour"},

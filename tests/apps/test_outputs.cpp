@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "apps/run_program.h"
 #include "support/catch.h"
 #include "support/solids.h"
@@ -99,7 +101,7 @@ TEST_CASE("an interrupted run ends with 130 and leaves nothing behind") {
   const std::string model = folder.model("soup.obj", soup);
   const Outcome outcome = run_program(
       {"map", model, "--step-degrees", "0.1", "-o", folder / "map.csv", "--json", folder / "map.json"}, "",
-      "timeout --preserve-status -s INT 1");
+      "timeout --foreground --preserve-status -s INT 1");
   CHECK(outcome.status == 130);
   CHECK(outcome.out.empty());
   CHECK(outcome.err == "stackabilize: interrupted\n");

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "apps/run_program.h"
 #include "support/catch.h"
 #include "support/solids.h"
