@@ -31,13 +31,13 @@ echo "== 3/3 Two models: how high does each further copy sit, and do independent
 for name in chair mug_with_handle; do
   model=data/models/$name.obj
   out=out/demo/$name
-  show "${name}_inspect" inspect "$model"
-  show "${name}_measure" measure "$model" --direction 0 0 1 --json "$out.json" --picture "$out.png"
-  show "${name}_search" search "$model" --json "${out}_search.json"
-  show "${name}_map" map "$model" --step-degrees 4 -o "${out}_map.csv" --picture "${out}_map.png"
-  show "${name}_stack" stack "$model" -n 5 --direction 0 0 1 -o "${out}_stack.3mf" \
+  show "${name}_inspect" inspect "$model" --unit m
+  show "${name}_measure" measure "$model" --unit m --direction 0 0 1 --json "$out.json" --picture "$out.png"
+  show "${name}_search" search "$model" --unit m --json "${out}_search.json"
+  show "${name}_map" map "$model" --unit m --step-degrees 4 -o "${out}_map.csv" --picture "${out}_map.png"
+  show "${name}_stack" stack "$model" --unit m -n 5 --direction 0 0 1 -o "${out}_stack.3mf" \
     --picture "${out}_stack.png" --json "${out}_stack.json"
-  show "${name}_validate" validate "$model" --direction 0 0 1 --json "${out}_validate.json"
+  show "${name}_validate" validate "$model" --unit m --direction 0 0 1 --json "${out}_validate.json"
 done
 
 cat <<END
