@@ -1,8 +1,9 @@
 #include "stackabilization/envelope/contacts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
-#include <numeric>
 
 #include "stackabilization/envelope/contact_polygons.h"
 #include "stackabilization/envelope/planar_union.h"
@@ -13,10 +14,16 @@ namespace {
 
 using namespace detail;
 
-/// Contact polygons of one pair of parts, with their outlines in the plane orthogonal to r.
+/// A contact polygon with its outline in the plane orthogonal to r.
 struct Patch {
   ContactPolygon polygon;
   Outline outline;
+};
+
+/// Consecutive patches [first, last) that act as one in the plane.
+struct Tile {
+  Outline outline;
+  std::size_t first, last;
 };
 
 /// What the steps of one query share.
@@ -38,7 +45,9 @@ double extent_along(const Shape& shape, const Eigen::Vector3d& unit) {
 }
 
 double diagonal(const Shape& shape) {
-  return (shape.vertices.colwise().maxCoeff() - shape.vertices.colwise().minCoeff()).norm();
+  Eigen::Vector3d extents;
+  for (int axis = 0; axis < 3; ++axis) extents[axis] = extent_along(shape, Eigen::Vector3d::Unit(axis));
+  return extents.norm();
 }
 
 /// The point where the separation is attained, for contacts that have no area at all.
@@ -49,13 +58,36 @@ ContactPolygon witness_polygon(const Witness& witness) {
   return polygon;
 }
 
-Outline outline_of(const ContactPolygon& polygon, const Frame& frame) {
+Outline outline_of(const Points& points, const Frame& frame) {
   Outline outline;
-  for (Eigen::Index p = 0; p < polygon.upper_points.rows(); ++p) {
-    const Eigen::Vector3d local = frame.to_local(polygon.upper_points.row(p).transpose());
+  for (Eigen::Index p = 0; p < points.rows(); ++p) {
+    const Eigen::Vector3d local = frame.to_local(points.row(p).transpose());
     outline.push_back({local.x(), local.y()});
   }
   return outline;
+}
+
+/// On dense meshes most upper triangles are covered whole, by many small patches: those count as the triangle. (Patches
+/// over one triangle that overlap and leave gaps of the very same area would pass for it.)
+std::vector<Tile> tiles(const std::vector<Patch>& patches, const Shape& shape, const Frame& frame) {
+  std::vector<Tile> result;
+  for (std::size_t first = 0; first < patches.size();) {
+    const std::int32_t triangle = patches[first].polygon.upper_triangle;
+    double area = 0;
+    std::size_t last = first;
+    for (; last < patches.size() && patches[last].polygon.upper_triangle == triangle; ++last)
+      area += outline_area(patches[last].outline);
+    Points corners(3, 3);
+    for (int c = 0; c < 3; ++c) corners.row(c) = shape.corner(triangle, c);
+    const Outline whole = outline_of(corners, frame);
+    if (last - first > 1 && std::abs(area - outline_area(whole)) <= tolerance::relative * area) {
+      result.push_back({whole, first, last});
+    } else {
+      for (std::size_t p = first; p < last; ++p) result.push_back({patches[p].outline, p, p + 1});
+    }
+    first = last;
+  }
+  return result;
 }
 
 /// Centroids of the two lifted polygons, weighted by their area seen along r; equal weights where all areas vanish.
@@ -90,19 +122,34 @@ void classify(ContactRegion& region, const std::vector<Outline>& outlines, const
   }
 }
 
-ContactRegion make_region(const std::vector<Patch>& patches, const std::vector<std::size_t>& members,
-                          const Setting& setting) {
+/// The region of the listed tiles; takes the polygons out of their patches.
+ContactRegion make_region(std::vector<Patch>& patches, const std::vector<Tile>& members, const Setting& setting) {
   ContactRegion region;
   std::vector<const Patch*> chosen;
   std::vector<Outline> outlines;
-  for (const std::size_t member : members) {
-    chosen.push_back(&patches[member]);
-    outlines.push_back(patches[member].outline);
-    region.polygons.push_back(patches[member].polygon);
+  for (const Tile& tile : members) {
+    outlines.push_back(tile.outline);
+    for (std::size_t p = tile.first; p < tile.last; ++p) chosen.push_back(&patches[p]);
   }
   classify(region, outlines, setting);
   set_centres(region, chosen);
+  for (const Tile& tile : members)
+    for (std::size_t p = tile.first; p < tile.last; ++p) region.polygons.push_back(std::move(patches[p].polygon));
   return region;
+}
+
+/// All regions between one pair of parts.
+std::vector<ContactRegion> regions_of(std::vector<Patch>& patches, const Shape& shape, const Setting& setting) {
+  const std::vector<Tile> all = tiles(patches, shape, setting.frame);
+  std::vector<Outline> outlines;
+  for (const Tile& tile : all) outlines.push_back(tile.outline);
+  std::vector<ContactRegion> regions;
+  for (const std::vector<std::size_t>& component : connected_outlines(outlines, setting.reach)) {
+    std::vector<Tile> members;
+    for (const std::size_t member : component) members.push_back(all[member]);
+    regions.push_back(make_region(patches, members, setting));
+  }
+  return regions;
 }
 
 bool comes_first(const ContactRegion& a, const ContactRegion& b) {
@@ -125,20 +172,17 @@ std::vector<ContactRegion> contact_regions(const Shape& shape, const SeparationT
 
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Patch>> by_parts;
   for (ContactPolygon& polygon : polygons) {
-    Outline outline = outline_of(polygon, setting.frame);
+    Outline outline = outline_of(polygon.upper_points, setting.frame);
     by_parts[{shape.triangle_part[polygon.upper_triangle], shape.triangle_part[polygon.lower_triangle]}].push_back(
         {std::move(polygon), std::move(outline)});
   }
   std::vector<ContactRegion> regions;
-  for (const auto& [parts, patches] : by_parts) {
-    std::vector<Outline> outlines;
-    for (const Patch& patch : patches) outlines.push_back(patch.outline);
-    for (const std::vector<std::size_t>& members : connected_outlines(outlines, setting.reach)) {
-      regions.push_back(make_region(patches, members, setting));
-      regions.back().upper_part = parts.first;
-      regions.back().lower_part = parts.second;
+  for (auto& [parts, patches] : by_parts)
+    for (ContactRegion& region : regions_of(patches, shape, setting)) {
+      region.upper_part = parts.first;
+      region.lower_part = parts.second;
+      regions.push_back(std::move(region));
     }
-  }
   std::stable_sort(regions.begin(), regions.end(), comes_first);
   return regions;
 }
