@@ -19,12 +19,13 @@ struct Line {
   std::string text;
 
   std::vector<std::string_view> tokens() const {
-    const std::string name;
     std::vector<std::string_view> result;
-    TextCursor cursor({text, name});
-    for (std::string_view token = cursor.token_of_any_line(); !token.empty();
-         token = cursor.token_of_any_line())
-      result.push_back(token);
+    const std::string_view view = text;
+    for (std::size_t start = 0; start < view.size();) {
+      const std::size_t end = std::min(view.find(' ', start), view.size());
+      result.push_back(view.substr(start, end - start));
+      start = end + 1;
+    }
     return result;
   }
 };
