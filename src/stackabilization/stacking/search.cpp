@@ -19,15 +19,15 @@ namespace stackabilization {
 
 namespace {
 
-/// Directions measured between two updates of the threshold; fixed, so that what is abandoned does not depend on the
-/// number of threads.
+/// Directions measured between two updates of the threshold; fixed, so that what is abandoned does not depend
+/// on the number of threads.
 constexpr std::size_t batch_size = 256;
 
 /// A sample is worth a closer look when its S is at most this much below the best; halved with the spacing.
 constexpr double promising_range = 0.2;
 
-/// Times the spacing of samples is halved around the promising ones, and how many of these at most: no halving costs
-/// more than the even samples did.
+/// Times the spacing of samples is halved around the promising ones, and how many of these at most: no
+/// halving costs more than the even samples did.
 constexpr int halvings = 3;
 constexpr std::size_t most_promising = 400;
 constexpr std::size_t trials_per_promising = 6;
@@ -105,7 +105,8 @@ std::vector<Trial> DirectionSearch::trials() const {
   for (const auto* directions : {&candidates.main, &candidates.others})
     for (const Eigen::Vector3d& direction : *directions)
       if (const auto member = region_.member(direction)) trials.push_back({*member, none});
-  for (const Eigen::Vector3d& direction : region_.samples(options_.spacing)) trials.push_back({direction, none});
+  for (const Eigen::Vector3d& direction : region_.samples(options_.spacing))
+    trials.push_back({direction, none});
   if (!options_.plane_normal)
     for (const Eigen::Vector3d& normal : candidates.main)
       for (const Eigen::Vector3d& direction : half_circle(normal, options_.spacing / 2))
@@ -180,10 +181,13 @@ std::vector<Trial> DirectionSearch::around(const Sample& sample, double distance
   return trials;
 }
 
-/// The best ones that are farther than `distance` from every better one. Of those equally good the earliest leads.
+/// The best ones that are farther than `distance` from every better one. Of those equally good the earliest
+/// leads.
 std::vector<Sample> DirectionSearch::distinct(const std::vector<Sample>& samples, double distance) const {
   std::vector<Sample> sorted = samples;
-  const auto level = [](const Sample& sample) { return std::round(sample.at.value / tolerance::stackability); };
+  const auto level = [](const Sample& sample) {
+    return std::round(sample.at.value / tolerance::stackability);
+  };
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const Sample& a, const Sample& b) { return level(a) > level(b); });
   std::vector<Sample> kept;
