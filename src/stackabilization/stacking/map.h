@@ -10,8 +10,8 @@ namespace stackabilization {
 
 struct MapOptions {
   double step_degrees = 1;  ///< between rings of latitude and along each ring, in [0.1, 90]
-  std::function<void(double)> progress =
-      {};  ///< called with the fraction done, in [0, 1], from the calling thread
+  /// Called with the fraction done, in [0, 1], from the calling thread.
+  std::function<void(double)> progress = {};
   std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends the map early
 };
 

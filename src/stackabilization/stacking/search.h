@@ -20,8 +20,8 @@ struct SearchOptions {
   std::vector<Eigen::Vector3d> candidates = {};
   double spacing = 0.04;  ///< radians between samples, in (0, 1]
   int climbs = 12;        ///< distinct local maxima that are refined at most, at least 1
-  std::function<void(double)> progress =
-      {};  ///< called with the fraction done, in [0, 1], from the calling thread
+  /// Called with the fraction done, in [0, 1], from the calling thread.
+  std::function<void(double)> progress = {};
   std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends the search early
 };
 
@@ -35,8 +35,8 @@ struct DirectionOptimum {
 struct SearchResult {
   Stackability best;
   Separation separation;  ///< exact f_max with witness at the best direction
-  /// Distinct local maxima, best first; the first is the best direction. Those more than 0.01 below it are
-  /// refined to about a thousandth of a radian only, and those far below it are not listed.
+  /// Distinct local maxima, best first; the first is the best direction. Only those within
+  /// about 0.05 of it are looked for.
   std::vector<DirectionOptimum> optima;
   std::int64_t evaluated = 0;  ///< directions tried
   std::int64_t abandoned = 0;  ///< of these given up before S was known, because they could not win
