@@ -12,9 +12,10 @@
 namespace stackabilization {
 
 struct SearchOptions {
-  std::optional<DirectionCone> cone = {};  ///< only look within this cone; default the whole sphere
-  std::optional<Eigen::Vector3d> plane_normal =
-      {};  ///< only look in the plane through the origin with this normal
+  /// Only look within this cone; default: the whole sphere.
+  std::optional<DirectionCone> cone = {};
+  /// Only look in the plane through the origin with this normal; default: everywhere.
+  std::optional<Eigen::Vector3d> plane_normal = {};
   /// Further directions to try, exactly as given, for instance normals of symmetry planes; the great circles
   /// orthogonal to them are searched too. Those outside cone and plane are left out.
   std::vector<Eigen::Vector3d> candidates = {};
