@@ -2,9 +2,10 @@
 //
 //     search_against_brute_force [--directions N] MODEL...
 //
-// One row per model, comma separated: the best S of the search, the best S of N (default 100,000) directions of a
-// Fibonacci lattice on the hemisphere, their difference (negative where the search is worse), both times in seconds,
-// the numbers of directions, and the threads used. Exit status 1 when the search is worse by more than 1e-6 anywhere.
+// One row per model, comma separated: the best S of the search, the best S of N (default 100,000) directions
+// of a Fibonacci lattice on the hemisphere, their difference (negative where the search is worse), both times
+// in seconds, the numbers of directions, and the threads used. Exit status 1 when the search is worse by more
+// than 1e-6 anywhere.
 
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -62,9 +63,9 @@ bool compare(const std::string& model, int count) {
   const double difference = searched.best.value - brute;
   const Eigen::Vector3d& r = searched.best.direction;
   std::printf("%s,%lld,%.17g,%.17g,%.3g,%.3f,%.3f,%lld,%d,%d,%.17g,%.17g,%.17g\n", model.c_str(),
-              static_cast<long long>(shape.triangle_count()), searched.best.value, brute, difference, middle - start,
-              seconds() - middle, static_cast<long long>(searched.evaluated), count, tbb::info::default_concurrency(),
-              r.x(), r.y(), r.z());
+              static_cast<long long>(shape.triangle_count()), searched.best.value, brute, difference,
+              middle - start, seconds() - middle, static_cast<long long>(searched.evaluated), count,
+              tbb::info::default_concurrency(), r.x(), r.y(), r.z());
   std::fflush(stdout);
   return difference >= -1e-6;
 }
@@ -74,8 +75,9 @@ bool compare(const std::string& model, int count) {
 int main(int argc, char** argv) {
   int count = 100000;
   bool never_worse = true;
-  std::printf("model,triangles,S_search,S_brute,difference,search_seconds,brute_seconds,search_directions,"
-              "brute_directions,threads,x,y,z\n");
+  std::printf(
+      "model,triangles,S_search,S_brute,difference,search_seconds,brute_seconds,search_directions,"
+      "brute_directions,threads,x,y,z\n");
   try {
     for (int i = 1; i < argc; ++i) {
       if (std::string(argv[i]) == "--directions" && i + 1 < argc)

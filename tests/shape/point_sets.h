@@ -41,7 +41,8 @@ inline Points moved(const Points& points, const Eigen::Matrix3d& linear, const E
 
 inline Points box(const Eigen::Vector3d& size) {
   Points points(8, 3);
-  for (int i = 0; i < 8; ++i) points.row(i) << (i & 1) * size.x(), (i >> 1 & 1) * size.y(), (i >> 2 & 1) * size.z();
+  for (int i = 0; i < 8; ++i)
+    points.row(i) << (i & 1) * size.x(), (i >> 1 & 1) * size.y(), (i >> 2 & 1) * size.z();
   return points;
 }
 

@@ -18,7 +18,9 @@ using point_sets::Random;
 
 namespace {
 
-double minimal_volume(const Points& points) { return minimal_oriented_box(HullSupport(points)).volume(); }
+double minimal_volume(const Points& points) {
+  return minimal_oriented_box(HullSupport(points)).volume();
+}
 
 /// Largest distance by which a point sticks out of the box.
 double overhang(const OrientedBox& box, const Points& points) {
@@ -49,7 +51,8 @@ double rectangle_area_by_pairs(const Points& points, const Direction& direction)
   return least;
 }
 
-/// Smallest box met when one normal runs densely over every great circle orthogonal to a difference of two points.
+/// Smallest box met when one normal runs densely over every great circle orthogonal to a difference of two
+/// points.
 double box_volume_by_brute_force(const Points& points, int steps) {
   const HullSupport hull(points);
   double least = std::numeric_limits<double>::infinity();
@@ -58,7 +61,8 @@ double box_volume_by_brute_force(const Points& points, int steps) {
       const Frame frame = frame_of(Direction((points.row(i) - points.row(j)).transpose()));
       for (int k = 0; k < steps; ++k) {
         const double angle = std::numbers::pi * k / steps;
-        least = std::min(least, hull.box_along(Direction(frame.u * std::cos(angle) + frame.v * std::sin(angle))).volume());
+        least = std::min(
+            least, hull.box_along(Direction(frame.u * std::cos(angle) + frame.v * std::sin(angle))).volume());
       }
     }
   return least;
@@ -84,7 +88,8 @@ std::vector<std::pair<std::string, Points>> families() {
 
 }  // namespace
 
-TEST_CASE("the hull of a box has six faces, twelve edges, eight corners, however it is triangulated or turned") {
+TEST_CASE(
+    "the hull of a box has six faces, twelve edges, eight corners, however it is triangulated or turned") {
   Points cut(125, 3);
   for (int i = 0; i < 125; ++i) cut.row(i) << i % 5 / 4.0, i / 5 % 5 / 2.0, i / 25 * 0.75;
   Random random(5);
@@ -96,7 +101,8 @@ TEST_CASE("the hull of a box has six faces, twelve edges, eight corners, however
     const double areas[] = {6, 6, 3, 3, 2, 2};
     for (int f = 0; f < 6; ++f) CHECK(hull.face_areas()[f] == Approx(areas[f]).epsilon(1e-12));
     for (Eigen::Index e = 0; e < 12; ++e) {
-      const Eigen::Vector3d along = hull.points().row(hull.edges()(e, 0)) - hull.points().row(hull.edges()(e, 1));
+      const Eigen::Vector3d along =
+          hull.points().row(hull.edges()(e, 0)) - hull.points().row(hull.edges()(e, 1));
       for (int side = 0; side < 2; ++side)
         CHECK(std::abs(hull.face_normals().row(hull.edge_faces()(e, side)).dot(along)) < 1e-13);
     }
@@ -125,9 +131,11 @@ TEST_CASE("extent and rectangle agree with brute force over all points") {
     INFO(name);
     const HullSupport hull(points);
     for (int i = 0; i < (points.rows() > 100 ? 3 : 20); ++i) {
-      const Direction r(i < 3 ? Eigen::Vector3d(Eigen::Vector3d::Unit(i)) : Eigen::Vector3d(random.unit() * 3));
+      const Direction r(i < 3 ? Eigen::Vector3d(Eigen::Vector3d::Unit(i))
+                              : Eigen::Vector3d(random.unit() * 3));
       const Eigen::VectorXd heights = points * r.unit();
-      const double extent = heights.maxCoeff() - heights.minCoeff(), area = rectangle_area_by_pairs(hull.points(), r);
+      const double extent = heights.maxCoeff() - heights.minCoeff(),
+                   area = rectangle_area_by_pairs(hull.points(), r);
       CHECK(hull.extent(r) == Approx(extent).epsilon(1e-13));
       CHECK(hull.minimal_rectangle_area(r) == Approx(area).epsilon(1e-12));
       const OrientedBox box = hull.box_along(r);
@@ -141,7 +149,8 @@ TEST_CASE("extent and rectangle agree with brute force over all points") {
 
 TEST_CASE("a turned box is its own minimal box") {
   Random random(7);
-  for (const Eigen::Vector3d& size : std::vector<Eigen::Vector3d>{{1, 1, 1}, {1, 2, 3}, {100, 1, 1}, {5, 7, 0.01}})
+  for (const Eigen::Vector3d& size :
+       std::vector<Eigen::Vector3d>{{1, 1, 1}, {1, 2, 3}, {100, 1, 1}, {5, 7, 0.01}})
     for (int pose = 0; pose < 20; ++pose) {
       const Points points = point_sets::moved(point_sets::box(size), random.rotation(), random.vector(1));
       const OrientedBox box = minimal_oriented_box(HullSupport(points));
@@ -156,7 +165,8 @@ TEST_CASE("minimal boxes known in closed form") {
   CHECK(minimal_volume(point_sets::tetrahedron()) == Approx(8).epsilon(1e-12));
   // A prism over a regular polygon stands in a box over the polygon's smallest rectangle.
   const double flat_to_flat = 2 * std::cos(std::numbers::pi / 48);
-  CHECK(minimal_volume(point_sets::frustum(48, 1, 1, 3)) == Approx(3 * flat_to_flat * flat_to_flat).epsilon(1e-12));
+  CHECK(minimal_volume(point_sets::frustum(48, 1, 1, 3)) ==
+        Approx(3 * flat_to_flat * flat_to_flat).epsilon(1e-12));
   CHECK(minimal_volume(point_sets::frustum(3, 1, 1, 2)) == Approx(2 * 1.5 * std::sqrt(3)).epsilon(1e-12));
   CHECK(minimal_volume(point_sets::frustum(6, 1, 1, 1)) == Approx(2 * std::sqrt(3)).epsilon(1e-12));
 }
@@ -185,11 +195,19 @@ TEST_CASE("the minimal volume does not depend on the pose") {
 }
 
 TEST_CASE("the minimal volume of the test solids does not depend on the pose") {
-  const std::vector<Shape> shapes = {solids::boxes_sharing_wall(), solids::frustum_shell({.segments = 12}),
-                                     solids::stairs({}), solids::stair_plate({}), solids::l_shape(4, 1),
-                                     solids::u_shape(3, 0.5), solids::hook({}), solids::wine_glass(8), solids::table({}),
-                                     solids::torus({.ring_segments = 12, .tube_segments = 8}), solids::sphere(1, 1),
-                                     solids::gridfinity_bin({}), solids::prism(solids::regular_polygon(7), 2),
+  const std::vector<Shape> shapes = {solids::boxes_sharing_wall(),
+                                     solids::frustum_shell({.segments = 12}),
+                                     solids::stairs({}),
+                                     solids::stair_plate({}),
+                                     solids::l_shape(4, 1),
+                                     solids::u_shape(3, 0.5),
+                                     solids::hook({}),
+                                     solids::wine_glass(8),
+                                     solids::table({}),
+                                     solids::torus({.ring_segments = 12, .tube_segments = 8}),
+                                     solids::sphere(1, 1),
+                                     solids::gridfinity_bin({}),
+                                     solids::prism(solids::regular_polygon(7), 2),
                                      solids::triangle_soup({.seed = 2, .count = 30})};
   Random random(12);
   for (std::size_t i = 0; i < shapes.size(); ++i) {

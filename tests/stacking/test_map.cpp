@@ -13,7 +13,9 @@ using namespace stackabilization;
 
 namespace {
 
-Shape small_cup() { return solids::frustum_shell({.segments = 8}); }
+Shape small_cup() {
+  return solids::frustum_shell({.segments = 8});
+}
 
 }  // namespace
 
@@ -54,7 +56,8 @@ TEST_CASE("a step of one degree gives 20,969 directions, evenly spread") {
   const StackabilityMap map = stackability_map(StackabilitySolver(solids::box({1, 1, 1})), {});
   CHECK(map.samples.size() == 20969);
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const MapSample& sample : map.samples) mean += sample.direction / static_cast<double>(map.samples.size());
+  for (const MapSample& sample : map.samples)
+    mean += sample.direction / static_cast<double>(map.samples.size());
   CHECK((mean - Eigen::Vector3d(0, 0, 0.5)).norm() < 0.01);
 }
 
@@ -66,7 +69,8 @@ TEST_CASE("one and two threads map the same bits") {
   };
   const StackabilityMap one = with_threads(1), two = with_threads(2);
   REQUIRE(one.samples.size() == two.samples.size());
-  for (std::size_t i = 0; i < one.samples.size(); ++i) CHECK(one.samples[i].stackability == two.samples[i].stackability);
+  for (std::size_t i = 0; i < one.samples.size(); ++i)
+    CHECK(one.samples[i].stackability == two.samples[i].stackability);
 }
 
 TEST_CASE("a map reports progress, can be ended, and refuses steps out of range") {

@@ -20,12 +20,18 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
+double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
 
-Shape small_cup() { return solids::frustum_shell({.segments = 8}); }
+Shape small_cup() {
+  return solids::frustum_shell({.segments = 8});
+}
 
 /// No direction is special, and S has many narrow peaks.
-Shape irregular() { return solids::triangle_soup({.seed = 8, .count = 30}); }
+Shape irregular() {
+  return solids::triangle_soup({.seed = 8, .count = 30});
+}
 
 double best_of_map(const StackabilitySolver& solver, double step) {
   double best = -1e300;
@@ -56,7 +62,8 @@ TEST_CASE("ties go to the first candidate, unmoved") {
 }
 
 TEST_CASE("no direction of a map is better than the search") {
-  for (const Shape& shape : {irregular(), solids::l_shape(4, 1), solids::triangle_soup({.seed = 9, .count = 60})}) {
+  for (const Shape& shape :
+       {irregular(), solids::l_shape(4, 1), solids::triangle_soup({.seed = 9, .count = 60})}) {
     const StackabilitySolver solver(shape);
     const SearchResult found = best_direction(solver, {.climbs = 4});
     CHECK(found.best.value >= best_of_map(solver, 2) - 1e-6);
@@ -166,7 +173,9 @@ TEST_CASE("a search reports progress and can be ended") {
 
 TEST_CASE("a search refuses options that make no sense") {
   const StackabilitySolver solver(small_cup());
-  const auto refused = [&](const SearchOptions& options) { CHECK_THROWS_AS(best_direction(solver, options), UsageError); };
+  const auto refused = [&](const SearchOptions& options) {
+    CHECK_THROWS_AS(best_direction(solver, options), UsageError);
+  };
   refused({.spacing = 0});
   refused({.spacing = std::nan("")});
   refused({.climbs = 0});

@@ -20,7 +20,8 @@ struct Case {
 
 std::vector<Case> shapes() {
   return {{"cup", solids::frustum_shell({.segments = 16})},
-          {"tetrahedron", solids::tetrahedron({Eigen::Vector3d(0, 0, 0), {2, 0.1, 0.3}, {0.2, 1.5, 0}, {0.5, 0.4, 1}})},
+          {"tetrahedron",
+           solids::tetrahedron({Eigen::Vector3d(0, 0, 0), {2, 0.1, 0.3}, {0.2, 1.5, 0}, {0.5, 0.4, 1}})},
           {"torus", solids::torus({.ring_segments = 12, .tube_segments = 8})},
           {"soup", solids::triangle_soup({.seed = 3, .count = 40})}};
 }
@@ -55,7 +56,8 @@ TEST_CASE("a box does not stack: S is 0 along its axes in every model and semant
   for (const Semantics semantics : {Semantics::solid, Semantics::closed})
     for (const BoxModel boxes : {BoxModel::oriented, BoxModel::frame})
       for (int axis = 0; axis < 3; ++axis) {
-        const Stackability result = stackability(box, Direction(Eigen::Vector3d::Unit(axis)), {semantics, boxes});
+        const Stackability result =
+            stackability(box, Direction(Eigen::Vector3d::Unit(axis)), {semantics, boxes});
         CHECK(result.value == Approx(0).margin(1e-12));
         CHECK(result.f_max == Approx(axis + 1).epsilon(1e-12));
         CHECK(result.extent == Approx(axis + 1).epsilon(1e-14));
@@ -121,7 +123,8 @@ TEST_CASE("f_max of a measurement is the exact one") {
       CHECK(result.f_max == Approx(solver.separation(Direction(r)).length).margin(1e-12 * result.extent));
       CHECK(result.direction == r);
       CHECK(result.value ==
-            Approx(1 - result.f_max / result.extent * result.stack_box_volume / result.box_volume).margin(1e-12));
+            Approx(1 - result.f_max / result.extent * result.stack_box_volume / result.box_volume)
+                .margin(1e-12));
     }
   }
 }
@@ -159,6 +162,7 @@ TEST_CASE("a flat shape has no stackability") {
   triangle << 0, 1, 2;
   const Shape flat = make_shape(corners, triangle);
   CHECK_THROWS_AS(StackabilitySolver(flat), InputError);
-  CHECK_THROWS_AS(StackabilitySolver(transformed(flat, solids::random_rotation(1), Eigen::Vector3d::Ones())), InputError);
+  CHECK_THROWS_AS(StackabilitySolver(transformed(flat, solids::random_rotation(1), Eigen::Vector3d::Ones())),
+                  InputError);
   CHECK_THROWS_AS(StackabilitySolver(Shape{}), InputError);
 }

@@ -36,7 +36,8 @@ void require_finite(const Points& points) {
 OrientedBox box_with_axes(const Points& points, const Eigen::Matrix3d& axes) {
   const Eigen::Vector3d centre = (points.colwise().minCoeff() + points.colwise().maxCoeff()).transpose() / 2;
   const Points local = (points.rowwise() - centre.transpose()) * axes;
-  const Eigen::Vector3d low = local.colwise().minCoeff().transpose(), high = local.colwise().maxCoeff().transpose();
+  const Eigen::Vector3d low = local.colwise().minCoeff().transpose(),
+                        high = local.colwise().maxCoeff().transpose();
   return {centre + axes * ((low + high) / 2), axes, (high - low) / 2};
 }
 

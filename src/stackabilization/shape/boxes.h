@@ -17,32 +17,35 @@ struct OrientedBox {
   double volume() const { return 8 * half_extents.prod(); }
 };
 
-/// Convex hull prepared for box and extent queries in many directions; one per shape, safe to share between threads.
+/// Convex hull prepared for box and extent queries in many directions; one per shape, safe to share between
+/// threads.
 class HullSupport {
  public:
   /// Hull of the vertices that triangles use. Flat, straight and single-point sets are accepted.
   explicit HullSupport(const Shape& shape);
-  /// Throws InputError when there is no point or a coordinate is not finite. The order and repetition of points do not
-  /// matter: the same set gives the same bits.
+  /// Throws InputError when there is no point or a coordinate is not finite. The order and repetition of
+  /// points do not matter: the same set gives the same bits.
   explicit HullSupport(const Points& points);
 
-  /// k x 3 extreme points in lexicographic order. Points that lie on a face or edge of the hull are left out, also
-  /// where rounding (tolerance::rounding) lifted them a little above it.
+  /// k x 3 extreme points in lexicographic order. Points that lie on a face or edge of the hull are left out,
+  /// also where rounding (tolerance::rounding) lifted them a little above it.
   const Points& points() const { return points_; }
-  /// f x 3 unit outward normals of the hull faces (coplanar triangles merged), largest face first; for a flat set the
-  /// two normals of its plane; empty for straight and single-point sets.
+  /// f x 3 unit outward normals of the hull faces (coplanar triangles merged), largest face first; for a flat
+  /// set the two normals of its plane; empty for straight and single-point sets.
   const Points& face_normals() const { return face_normals_; }
   /// f areas of those faces, model units squared.
   const Eigen::VectorXd& face_areas() const { return face_areas_; }
-  /// e x 2 rows of `points()`: hull edges between faces that are not coplanar, with e x 2 adjacent faces. For a flat
-  /// set the sides of its convex polygon, between its two normals; empty for straight and single-point sets.
+  /// e x 2 rows of `points()`: hull edges between faces that are not coplanar, with e x 2 adjacent faces. For
+  /// a flat set the sides of its convex polygon, between its two normals; empty for straight and single-point
+  /// sets.
   const Eigen::Matrix<int, Eigen::Dynamic, 2>& edges() const { return edges_; }
   const Eigen::Matrix<int, Eigen::Dynamic, 2>& edge_faces() const { return edge_faces_; }
 
   /// h(M, r): extent along r / |r|, model units.
   double extent(const Direction& direction) const;
-  /// Area of the minimal-area rectangle that holds the projection along r. Exact up to rounding: rotating calipers
-  /// (Toussaint 1983) around the silhouette, which is read off the signs of the face normals along r.
+  /// Area of the minimal-area rectangle that holds the projection along r. Exact up to rounding: rotating
+  /// calipers (Toussaint 1983) around the silhouette, which is read off the signs of the face normals along
+  /// r.
   double minimal_rectangle_area(const Direction& direction) const;
   /// The box with one axis along r over that rectangle: V(M, r) of the `oriented` box model.
   OrientedBox box_along(const Direction& direction) const;
@@ -55,24 +58,26 @@ class HullSupport {
   Points points_, face_normals_;
   Eigen::VectorXd face_areas_;
   Eigen::Matrix<int, Eigen::Dynamic, 2> edges_, edge_faces_;
-  Eigen::Vector3d centre_ = Eigen::Vector3d::Zero();  ///< taken off before projecting: keeps digits far from the origin
-  Columns centred_points_, normal_columns_;           ///< column by column, for fast products
-  double resolution_ = 0;                             ///< tolerance::rounding in model units
+  Eigen::Vector3d centre_ =
+      Eigen::Vector3d::Zero();  ///< taken off before projecting: keeps digits far from the origin
+  Columns centred_points_, normal_columns_;  ///< column by column, for fast products
+  double resolution_ = 0;                    ///< tolerance::rounding in model units
 };
 
-/// Box of minimal volume over all orientations, invariant under rigid motions to 1e-9 relative. Found on the Gauss map
-/// of the hull: a minimal box has two adjacent faces that each contain a hull edge (O'Rourke 1985), so one of its
-/// normals runs on an arc between the normals of two neighbouring hull faces. Best-first branch and bound over these
-/// arcs; volumes along an arc are bounded by how fast a turning box must grow. The search is complete for hulls of up
-/// to some hundreds of faces; for larger ones (finely cut spheres) it stops, at the same place in every pose, after a
-/// fixed amount of work and returns the best box met, whose normal is at least locally optimal on its arc.
+/// Box of minimal volume over all orientations, invariant under rigid motions to 1e-9 relative. Found on the
+/// Gauss map of the hull: a minimal box has two adjacent faces that each contain a hull edge (O'Rourke 1985),
+/// so one of its normals runs on an arc between the normals of two neighbouring hull faces. Best-first branch
+/// and bound over these arcs; volumes along an arc are bounded by how fast a turning box must grow. The
+/// search is complete for hulls of up to some hundreds of faces; for larger ones (finely cut spheres) it
+/// stops, at the same place in every pose, after a fixed amount of work and returns the best box met, whose
+/// normal is at least locally optimal on its arc.
 OrientedBox minimal_oriented_box(const HullSupport& hull);
 
 /// The box of the file's axes.
 OrientedBox axis_aligned_box(const Points& points);
 
-/// Axis-aligned box after the minimal rotation that takes z to r, expressed in the file's frame: V(M, r) of the
-/// `frame` box model, which is what the authors' program computes.
+/// Axis-aligned box after the minimal rotation that takes z to r, expressed in the file's frame: V(M, r) of
+/// the `frame` box model, which is what the authors' program computes.
 OrientedBox frame_box(const Points& points, const Direction& direction);
 
 }  // namespace stackabilization

@@ -17,8 +17,7 @@ using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 /// Vertices of the mesh in lexicographic order of their coordinates.
 std::vector<Mesh::Vertex_index> sorted_vertices(const Mesh& mesh) {
   std::vector<Mesh::Vertex_index> vertices(mesh.vertices().begin(), mesh.vertices().end());
-  std::sort(vertices.begin(), vertices.end(),
-            [&](auto a, auto b) { return mesh.point(a) < mesh.point(b); });
+  std::sort(vertices.begin(), vertices.end(), [&](auto a, auto b) { return mesh.point(a) < mesh.point(b); });
   return vertices;
 }
 
@@ -27,7 +26,8 @@ std::vector<Mesh::Vertex_index> sorted_vertices(const Mesh& mesh) {
 TriangulatedHull triangulated_hull(const Points& points) {
   std::vector<Kernel::Point_3> input;
   input.reserve(static_cast<std::size_t>(points.rows()));
-  for (Eigen::Index i = 0; i < points.rows(); ++i) input.emplace_back(points(i, 0), points(i, 1), points(i, 2));
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    input.emplace_back(points(i, 0), points(i, 1), points(i, 2));
   Mesh mesh;
   CGAL::convex_hull_3(input.begin(), input.end(), mesh);
 

@@ -10,8 +10,8 @@ struct TriangulatedHull {
   Triangles triangles;
 };
 
-/// Convex hull with exact predicates (CGAL, quickhull). Precondition: the points are finite and do not lie in a plane.
-/// Depends on the order of the points only where the hull is not simplicial.
+/// Convex hull with exact predicates (CGAL, quickhull). Precondition: the points are finite and do not lie in
+/// a plane. Depends on the order of the points only where the hull is not simplicial.
 TriangulatedHull triangulated_hull(const Points& points);
 
 }  // namespace stackabilization

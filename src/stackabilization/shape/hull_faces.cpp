@@ -23,12 +23,11 @@ bool lexicographically_less(const Points& points, Eigen::Index a, Eigen::Index b
 /// The listed rows in lexicographic order, each point once, negative zeros made positive.
 Points sorted_rows(const Points& points, std::vector<Eigen::Index> rows) {
   std::sort(rows.begin(), rows.end(), [&](auto a, auto b) { return lexicographically_less(points, a, b); });
-  rows.erase(std::unique(rows.begin(), rows.end(),
-                         [&](auto a, auto b) { return points.row(a) == points.row(b); }),
-             rows.end());
+  rows.erase(
+      std::unique(rows.begin(), rows.end(), [&](auto a, auto b) { return points.row(a) == points.row(b); }),
+      rows.end());
   Points result(rows.size(), 3);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    result.row(i) = points.row(rows[i]).array() + 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) result.row(i) = points.row(rows[i]).array() + 0.0;
   return result;
 }
 
@@ -74,8 +73,7 @@ HullFaces flat_hull(const Points& points, const Spread& spread, double resolutio
   std::vector<int> order(polygon);
   std::sort(order.begin(), order.end());
   const auto row = [&](int corner) {
-    return static_cast<int>(std::lower_bound(order.begin(), order.end(), polygon[corner]) -
-                            order.begin());
+    return static_cast<int>(std::lower_bound(order.begin(), order.end(), polygon[corner]) - order.begin());
   };
   HullFaces hull;
   hull.points = points(order, Eigen::all);
@@ -154,16 +152,14 @@ void FaceMerger::grow_faces() {
   for (int t = 0; t < triangle_count(); ++t) areas[t] = area_vector(t).norm();
   std::vector<int> seeds(areas.size());
   std::iota(seeds.begin(), seeds.end(), 0);
-  std::stable_sort(seeds.begin(), seeds.end(), [&](int a, int b) {
-    return areas[a] > areas[b];
-  });
+  std::stable_sort(seeds.begin(), seeds.end(), [&](int a, int b) { return areas[a] > areas[b]; });
   face_of_.assign(areas.size(), -1);
   for (const int seed : seeds)
-    if (face_of_[seed] < 0)
-      area_vectors_.push_back(grow_face(seed, static_cast<int>(area_vectors_.size())));
+    if (face_of_[seed] < 0) area_vectors_.push_back(grow_face(seed, static_cast<int>(area_vectors_.size())));
 }
 
-/// The plane is corrected with every triangle, so that a face of many small triangles is as flat as its whole extent.
+/// The plane is corrected with every triangle, so that a face of many small triangles is as flat as its whole
+/// extent.
 Eigen::Vector3d FaceMerger::grow_face(int seed, int face) {
   const Eigen::Vector3d origin = corner(seed, 0);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

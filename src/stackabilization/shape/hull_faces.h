@@ -13,8 +13,8 @@ struct HullFaces {
   Eigen::Matrix<int, Eigen::Dynamic, 2> edges, edge_faces;
 };
 
-/// Hull of any non-empty set of finite points. Sets within `resolution` (model units) of a plane, line or point are
-/// flat, straight or single; hull triangles within it of one plane are one face.
+/// Hull of any non-empty set of finite points. Sets within `resolution` (model units) of a plane, line or
+/// point are flat, straight or single; hull triangles within it of one plane are one face.
 HullFaces hull_faces(const Points& points, double resolution);
 
 }  // namespace stackabilization

@@ -17,7 +17,8 @@ namespace {
 /// Work for one search, in visits of hull elements: a fraction of a second.
 constexpr double total_effort = 1.5e8;
 
-/// The same for one box. Corners of the silhouette, at most about those of the face with most sides, must be sorted.
+/// The same for one box. Corners of the silhouette, at most about those of the face with most sides, must be
+/// sorted.
 double effort_per_box(const HullSupport& hull) {
   Eigen::VectorXi sides = Eigen::VectorXi::Zero(hull.face_normals().rows());
   for (Eigen::Index e = 0; e < hull.edge_faces().rows(); ++e)
@@ -29,7 +30,7 @@ double effort_per_box(const HullSupport& hull) {
 /// Intervals of an arc narrower than this are searched by golden section, radians.
 constexpr double narrow = 0.01;
 
-/// The quarter turn from one hull face normal towards a neighbouring one, as far as that normal.
+/// The turn from one hull face normal to a neighbouring one.
 struct Arc {
   Eigen::Vector3d start, side;
   double length;
@@ -37,8 +38,8 @@ struct Arc {
   Eigen::Vector3d normal(double angle) const { return start * std::cos(angle) + side * std::sin(angle); }
 };
 
-/// The smallest box at one place of an arc. Turning the normal by a small angle d changes its volume by a factor of at
-/// most 1 + d * rate: a box that turns grows by its other sides times d.
+/// The smallest box at one place of an arc. Turning the normal by a small angle d changes its volume by a
+/// factor of at most 1 + d * rate: a box that turns grows by its other sides times d.
 struct Sample {
   double angle = 0, volume = 0, rate = 0;
 };
@@ -62,8 +63,7 @@ double turning_rate(const OrientedBox& box) {
 class MinimalBoxSearch {
  public:
   explicit MinimalBoxSearch(const HullSupport& hull)
-      : hull_(hull),
-        boxes_left_(static_cast<int>(total_effort / effort_per_box(hull))) {}
+      : hull_(hull), boxes_left_(static_cast<int>(total_effort / effort_per_box(hull))) {}
 
   OrientedBox run() {
     visit_faces();
@@ -95,7 +95,8 @@ class MinimalBoxSearch {
 
   void push(int arc, const Sample& low, const Sample& high) {
     const double growth = std::max(low.rate, high.rate) * (high.angle - low.angle) / 2;
-    const double bound = std::min({low.volume, high.volume, std::sqrt(low.volume * high.volume) * std::exp(-growth)});
+    const double bound =
+        std::min({low.volume, high.volume, std::sqrt(low.volume * high.volume) * std::exp(-growth)});
     if (!cannot_win(bound)) intervals_.push({arc, low, high, bound});
   }
 
@@ -115,10 +116,12 @@ class MinimalBoxSearch {
 
 /// Large hulls: the largest faces get half of the effort, the arcs between them the rest.
 void MinimalBoxSearch::visit_faces() {
-  const Eigen::Index visited = std::min<Eigen::Index>(hull_.face_normals().rows(), std::max(1, boxes_left_ / 2));
+  const Eigen::Index visited =
+      std::min<Eigen::Index>(hull_.face_normals().rows(), std::max(1, boxes_left_ / 2));
   face_samples_.resize(hull_.face_normals().rows());
   for (Eigen::Index f = 0; f < visited; ++f)
-    if (!hull_.face_normals().row(f).isZero()) face_samples_[f] = visit(hull_.face_normals().row(f).transpose(), 0);
+    if (!hull_.face_normals().row(f).isZero())
+      face_samples_[f] = visit(hull_.face_normals().row(f).transpose(), 0);
 }
 
 void MinimalBoxSearch::visit_arcs() {
@@ -142,7 +145,8 @@ void MinimalBoxSearch::split(const Interval& interval) {
   push(interval.arc, middle, interval.high);
 }
 
-/// Golden section: it needs no derivatives, and the minimum is often a kink where the hull touches with another corner.
+/// Golden section: it needs no derivatives, and the minimum is often a kink where the hull touches with
+/// another corner.
 void MinimalBoxSearch::minimise_inside(const Interval& interval) {
   constexpr double golden = 0.6180339887498949;
   const Arc& arc = arcs_[interval.arc];
@@ -170,14 +174,16 @@ void MinimalBoxSearch::minimise_inside(const Interval& interval) {
 /// Direction in which a straight set runs; z for a point.
 Direction direction_of_straight_set(const Points& points) {
   const Eigen::Vector3d along = (points.row(points.rows() - 1) - points.row(0)).transpose();
-  return Direction(along.isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::UnitZ()) : Eigen::Vector3d(along.stableNormalized()));
+  return Direction(along.isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::UnitZ())
+                                   : Eigen::Vector3d(along.stableNormalized()));
 }
 
 }  // namespace
 
 OrientedBox minimal_oriented_box(const HullSupport& hull) {
   if (hull.face_normals().rows() == 0) return hull.box_along(direction_of_straight_set(hull.points()));
-  if (hull.face_normals().rows() == 2) return hull.box_along(Direction(hull.face_normals().row(0).transpose()));
+  if (hull.face_normals().rows() == 2)
+    return hull.box_along(Direction(hull.face_normals().row(0).transpose()));
   return MinimalBoxSearch(hull).run();
 }
 

@@ -8,7 +8,9 @@ namespace stackabilization {
 
 namespace {
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 /// Appends `index` to a chain that turns left only; the first `fixed` entries stay.
 void extend_chain(const Eigen::Matrix2Xd& points, int index, std::size_t fixed, std::vector<int>& chain) {
@@ -43,7 +45,8 @@ std::vector<int> convex_polygon(const Eigen::Matrix2Xd& points, double resolutio
   chain.reserve(order.size() + 1);
   for (const int index : order) extend_chain(points, index, 1, chain);
   const std::size_t lower = chain.size();
-  for (auto index = order.rbegin() + 1; index != order.rend(); ++index) extend_chain(points, *index, lower, chain);
+  for (auto index = order.rbegin() + 1; index != order.rend(); ++index)
+    extend_chain(points, *index, lower, chain);
   if (chain.size() > 1) chain.pop_back();
   drop_close_corners(points, resolution, chain);
   return chain;
@@ -51,8 +54,8 @@ std::vector<int> convex_polygon(const Eigen::Matrix2Xd& points, double resolutio
 
 namespace {
 
-/// Walks a caliper on to the corner from which the next side no longer advances along `along`. Corners are counted on
-/// past the last one, so that the four calipers never overtake each other.
+/// Walks a caliper on to the corner from which the next side no longer advances along `along`. Corners are
+/// counted on past the last one, so that the four calipers never overtake each other.
 class Caliper {
  public:
   explicit Caliper(const Eigen::Matrix2Xd& polygon) : polygon_(polygon) {}
@@ -81,8 +84,8 @@ PlanarRectangle rectangle_along(const Eigen::Vector2d& axis, const Eigen::Matrix
 
 }  // namespace
 
-// The direction of a very short side is mostly rounding: calipers then find less than the true area, never more. So
-// they only choose which sides to measure.
+// The direction of a very short side is mostly rounding: calipers then find less than the true area, never
+// more. So they only choose which sides to measure.
 PlanarRectangle minimal_rectangle(const Eigen::Matrix2Xd& polygon) {
   PlanarRectangle best;
   best.centre = polygon.col(0);

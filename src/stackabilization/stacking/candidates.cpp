@@ -18,7 +18,9 @@ constexpr std::size_t crossed = 8;           ///< of each kind are paired for di
 
 using Lines = std::vector<Eigen::Vector3d>;
 
-bool same_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.cross(b).norm() < tolerance::relative; }
+bool same_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.cross(b).norm() < tolerance::relative;
+}
 
 /// Appends the unit vectors of those that no line in `known` or `lines` has, up to `limit`.
 void append(const Lines& from, std::size_t limit, const Lines& known, Lines& lines) {
@@ -27,13 +29,16 @@ void append(const Lines& from, std::size_t limit, const Lines& known, Lines& lin
     if (vector.isZero(0)) continue;
     const Eigen::Vector3d unit = vector.normalized();
     const auto repeats = [&](const Eigen::Vector3d& line) { return same_line(line, unit); };
-    if (std::any_of(known.begin(), known.end(), repeats) || std::any_of(lines.begin(), lines.end(), repeats)) continue;
+    if (std::any_of(known.begin(), known.end(), repeats) || std::any_of(lines.begin(), lines.end(), repeats))
+      continue;
     lines.push_back(unit);
     --limit;
   }
 }
 
-Lines columns(const Eigen::Matrix3d& axes) { return {axes.col(0), axes.col(1), axes.col(2)}; }
+Lines columns(const Eigen::Matrix3d& axes) {
+  return {axes.col(0), axes.col(1), axes.col(2)};
+}
 
 Eigen::Vector3d area_vector(const Shape& shape, Eigen::Index t) {
   return (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0)) / 2;
@@ -74,7 +79,8 @@ Lines rows(const Points& vectors) {
   return lines;
 }
 
-/// Cells on the surface of a cube around the origin, an odd number across so that the axes are at cell centres.
+/// Cells on the surface of a cube around the origin, an odd number across so that the axes are at cell
+/// centres.
 class NormalCells {
  public:
   NormalCells() : sums_(3 * across * across, Eigen::Vector3d::Zero()) {}
@@ -88,7 +94,8 @@ class NormalCells {
     const auto cell = [&](double x) {
       return std::min(across - 1, static_cast<int>((x / largest + 1) / 2 * across));
     };
-    sums_[(axis * across + cell(outward[(axis + 1) % 3])) * across + cell(outward[(axis + 2) % 3])] += outward;
+    sums_[(axis * across + cell(outward[(axis + 1) % 3])) * across + cell(outward[(axis + 2) % 3])] +=
+        outward;
   }
   /// Sums of the fullest cells first.
   Lines fullest(std::size_t count) const {

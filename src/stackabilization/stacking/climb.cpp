@@ -33,7 +33,8 @@ class Model {
   Model(const std::vector<Plane>& planes, const Eigen::Vector2d& centre, double radius)
       : planes_(planes), centre_(centre), radius_(radius), best_(centre), best_value_(value(centre)) {}
 
-  /// Its maximum is at a corner of the square, where two planes meet on a side of it, or where three planes meet.
+  /// Its maximum is at a corner of the square, where two planes meet on a side of it, or where three planes
+  /// meet.
   Eigen::Vector2d maximum() {
     for (const double x : {-radius_, radius_})
       for (const double y : {-radius_, radius_}) consider(centre_ + Eigen::Vector2d(x, y));
@@ -124,7 +125,8 @@ class Climber {
 };
 
 void Climber::add_plane(const Eigen::Vector2d& p, double value) {
-  const double width = std::clamp(radius_ / 100, tolerance::direction_step / 10, 100 * tolerance::direction_step);
+  const double width =
+      std::clamp(radius_ / 100, tolerance::direction_step / 10, 100 * tolerance::direction_step);
   Plane plane{p, Eigen::Vector2d::Zero(), value};
   for (int k = 0; k < 2; ++k)
     plane.slope[k] = (measure(direction_at(p + width * Eigen::Vector2d::Unit(k))).value - value) / width;
@@ -132,7 +134,8 @@ void Climber::add_plane(const Eigen::Vector2d& p, double value) {
   planes_.push_back(plane);
 }
 
-/// Planes of the trust region. One that S exceeds at the centre comes from where S is not concave: it is lifted.
+/// Planes of the trust region. One that S exceeds at the centre comes from where S is not concave: it is
+/// lifted.
 std::vector<Plane> Climber::planes_here(const Eigen::Vector2d& centre) const {
   std::vector<Plane> here;
   for (Plane plane : planes_) {

@@ -20,10 +20,10 @@ struct Climb {
   std::int64_t evaluated = 0;  ///< directions tried
 };
 
-/// Climbs to a local maximum of S within the region. S is the least of many smooth functions, and its maxima are corners
-/// and crests of theirs: the functions met nearby are kept as planes (values and difference quotients, at the start and
-/// at every trial), and the maximum of the least of the planes within a trust region is the next trial (bundle method,
-/// Schramm and Zowe 1992). Only values of S are used. Deterministic.
+/// Climbs to a local maximum of S within the region. S is the least of many smooth functions, and its maxima
+/// are corners and crests of theirs: the functions met nearby are kept as planes (values and difference
+/// quotients, at the start and at every trial), and the maximum of the least of the planes within a trust
+/// region is the next trial (bundle method, Schramm and Zowe 1992). Only values of S are used. Deterministic.
 Climb climb(const StackabilitySolver& solver, const DirectionRegion& region, const Stackability& start,
             const ClimbOptions& options);
 

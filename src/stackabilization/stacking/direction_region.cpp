@@ -21,12 +21,14 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 std::vector<Eigen::Vector3d> cap(const Eigen::Vector3d& axis, double half_angle, double spacing) {
   constexpr double golden_angle = 2.399963229728653;
   const double height = 1 - std::cos(half_angle);
-  const int count = std::max(1, static_cast<int>(std::ceil(2 * std::numbers::pi * height / (spacing * spacing))));
+  const int count =
+      std::max(1, static_cast<int>(std::ceil(2 * std::numbers::pi * height / (spacing * spacing))));
   const Frame frame = frame_of(Direction(axis));
   std::vector<Eigen::Vector3d> directions;
   directions.reserve(count);
   for (int i = 0; i < count; ++i) {
-    const double z = 1 - height * (i + 0.5) / count, radius = std::sqrt((1 - z) * (1 + z)), angle = golden_angle * i;
+    const double z = 1 - height * (i + 0.5) / count, radius = std::sqrt((1 - z) * (1 + z)),
+                 angle = golden_angle * i;
     directions.push_back(frame.to_world({radius * std::cos(angle), radius * std::sin(angle), z}));
   }
   return directions;
@@ -53,8 +55,10 @@ Eigen::Vector3d DirectionRegion::with_sign(const Eigen::Vector3d& vector) const 
 
 std::optional<Eigen::Vector3d> DirectionRegion::member(const Eigen::Vector3d& vector) const {
   const Eigen::Vector3d result = with_sign(Direction(vector).vector());
-  if (plane_normal_ && std::abs(result.dot(*plane_normal_)) > tolerance::relative * result.norm()) return std::nullopt;
-  if (cone_ && angle_between(result, cone_->axis) > cone_->half_angle + tolerance::relative) return std::nullopt;
+  if (plane_normal_ && std::abs(result.dot(*plane_normal_)) > tolerance::relative * result.norm())
+    return std::nullopt;
+  if (cone_ && angle_between(result, cone_->axis) > cone_->half_angle + tolerance::relative)
+    return std::nullopt;
   return result;
 }
 
@@ -75,7 +79,8 @@ std::vector<Eigen::Vector3d> DirectionRegion::samples(double spacing) const {
   const double width = cone_ ? 2 * cone_->half_angle : std::numbers::pi;
   const double step = std::min(spacing, width / 6);
   const Eigen::Vector3d axis = cone_ ? cone_->axis : Eigen::Vector3d::UnitZ();
-  const std::vector<Eigen::Vector3d> all = plane_normal_ ? half_circle(*plane_normal_, step) : cap(axis, width / 2, step);
+  const std::vector<Eigen::Vector3d> all =
+      plane_normal_ ? half_circle(*plane_normal_, step) : cap(axis, width / 2, step);
   std::vector<Eigen::Vector3d> inside;
   for (const Eigen::Vector3d& direction : all)
     if (const auto found = member(direction)) inside.push_back(*found);

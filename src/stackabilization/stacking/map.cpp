@@ -23,10 +23,14 @@ Turn turn(double degrees) {
   const double quarters = std::floor(degrees / 90), rest = (degrees - 90 * quarters) * std::numbers::pi / 180;
   const double c = std::cos(rest), s = std::sin(rest);
   switch (static_cast<int>(quarters) % 4) {
-    case 0: return {c, s};
-    case 1: return {-s, c};
-    case 2: return {-c, -s};
-    default: return {s, -c};
+    case 0:
+      return {c, s};
+    case 1:
+      return {-s, c};
+    case 2:
+      return {-c, -s};
+    default:
+      return {s, -c};
   }
 }
 
@@ -62,7 +66,8 @@ StackabilityMap stackability_map(const StackabilitySolver& solver, const MapOpti
       map.cancelled = true;
       return map;
     }
-    if (options.progress) options.progress(static_cast<double>(begin) / static_cast<double>(map.samples.size()));
+    if (options.progress)
+      options.progress(static_cast<double>(begin) / static_cast<double>(map.samples.size()));
     tbb::parallel_for(begin, std::min(begin + batch_size, map.samples.size()), [&](std::size_t i) {
       const Stackability measured = solver.measure(Direction(map.samples[i].direction));
       map.samples[i].f_max_over_height = measured.f_max / measured.extent;

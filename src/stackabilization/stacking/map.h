@@ -9,9 +9,10 @@
 namespace stackabilization {
 
 struct MapOptions {
-  double step_degrees = 1;               ///< between rings of latitude and along each ring, in [0.1, 90]
-  std::function<void(double)> progress = {};  ///< called with the fraction done, in [0, 1], from the calling thread
-  std::function<bool()> cancelled = {};       ///< asked from the calling thread; true ends the map early
+  double step_degrees = 1;  ///< between rings of latitude and along each ring, in [0.1, 90]
+  /// Called with the fraction done, in [0, 1], from the calling thread.
+  std::function<void(double)> progress = {};
+  std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends the map early
 };
 
 /// S in one direction: (sin theta cos phi, sin theta sin phi, cos theta).
@@ -30,9 +31,9 @@ struct StackabilityMap {
   bool cancelled = false;          ///< ended early: the first samples only
 };
 
-/// S on rings of latitude `step_degrees` apart, from the pole to the equator, with samples about as far apart along
-/// each ring, a multiple of four per ring; 1 degree gives 20,969 directions. Directions on the axes are exact. Deterministic for any number of
-/// threads. Throws UsageError when the step is out of range.
+/// S on rings of latitude `step_degrees` apart, from the pole to the equator, with samples about as far apart
+/// along each ring, a multiple of four per ring; 1 degree gives 20,969 directions. Directions on the axes are
+/// exact. Deterministic for any number of threads. Throws UsageError when the step is out of range.
 StackabilityMap stackability_map(const StackabilitySolver& solver, const MapOptions& options = {});
 
 }  // namespace stackabilization

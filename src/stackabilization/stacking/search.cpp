@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "stackabilization/shape/errors.h"
@@ -19,21 +20,21 @@ namespace stackabilization {
 
 namespace {
 
-/// Directions measured between two updates of the threshold; fixed, so that what is abandoned does not depend on the
-/// number of threads.
+/// Directions measured between two updates of the threshold; fixed, so that what is abandoned does not depend
+/// on the number of threads.
 constexpr std::size_t batch_size = 256;
 
 /// A sample is worth a closer look when its S is at most this much below the best; halved with the spacing.
 constexpr double promising_range = 0.2;
 
-/// Times the spacing of samples is halved around the promising ones, and how many of these at most: no halving costs
-/// more than the even samples did.
+/// Times the spacing of samples is halved around the promising ones, and how many of these at most: no
+/// halving costs more than the even samples did.
 constexpr int halvings = 3;
 constexpr std::size_t most_promising = 400;
 constexpr std::size_t trials_per_promising = 6;
 
-/// A peak is refined fully when the first part of its climb ends at most this much below the best.
-constexpr double finishing_range = 0.01;
+/// After that, climbs start from peaks of the samples at most this much below the best.
+constexpr double climbing_range = 0.05;
 
 /// A direction to try, with the normal of the great circle it was taken from, or zero.
 struct Trial {
@@ -45,11 +46,6 @@ struct Sample {
   Stackability at;
   Eigen::Vector3d circle_normal;
 };
-
-/// Sine of the angle between two lines.
-double line_distance(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return a.normalized().cross(b.normalized()).norm();
-}
 
 class DirectionSearch {
  public:
@@ -77,7 +73,7 @@ class DirectionSearch {
   void look_closer();
   std::vector<Trial> promising(std::size_t begin, double spacing, double range) const;
   std::vector<Trial> around(const Sample& sample, double distance) const;
-  std::vector<Sample> distinct(const std::vector<Sample>& samples, double distance) const;
+  std::vector<Sample> peaks(const std::vector<Sample>& samples, double distance) const;
   void climb_to_peaks();
   std::vector<Sample> climb_from(std::vector<Sample> starts, const ClimbOptions& climbing);
   void report(double fraction) const {
@@ -105,7 +101,8 @@ std::vector<Trial> DirectionSearch::trials() const {
   for (const auto* directions : {&candidates.main, &candidates.others})
     for (const Eigen::Vector3d& direction : *directions)
       if (const auto member = region_.member(direction)) trials.push_back({*member, none});
-  for (const Eigen::Vector3d& direction : region_.samples(options_.spacing)) trials.push_back({direction, none});
+  for (const Eigen::Vector3d& direction : region_.samples(options_.spacing))
+    trials.push_back({direction, none});
   if (!options_.plane_normal)
     for (const Eigen::Vector3d& normal : candidates.main)
       for (const Eigen::Vector3d& direction : half_circle(normal, options_.spacing / 2))
@@ -180,19 +177,31 @@ std::vector<Trial> DirectionSearch::around(const Sample& sample, double distance
   return trials;
 }
 
-/// The best ones that are farther than `distance` from every better one. Of those equally good the earliest leads.
-std::vector<Sample> DirectionSearch::distinct(const std::vector<Sample>& samples, double distance) const {
+/// The best samples that have no better one within `distance`: peaks, not the flanks beside them. Of those
+/// equally good the earliest leads.
+std::vector<Sample> DirectionSearch::peaks(const std::vector<Sample>& samples, double distance) const {
+  const auto level = [](const Sample& sample) {
+    return std::round(sample.at.value / tolerance::stackability);
+  };
   std::vector<Sample> sorted = samples;
-  const auto level = [](const Sample& sample) { return std::round(sample.at.value / tolerance::stackability); };
   std::stable_sort(sorted.begin(), sorted.end(),
                    [&](const Sample& a, const Sample& b) { return level(a) > level(b); });
-  std::vector<Sample> kept;
+  std::vector<Eigen::Vector3d> better;  // and equal ones that were kept
+  std::vector<Sample> kept, equal;
   for (const Sample& sample : sorted) {
     if (static_cast<int>(kept.size()) == options_.climbs) break;
-    if (std::none_of(kept.begin(), kept.end(), [&](const Sample& better) {
-          return line_distance(better.at.direction, sample.at.direction) <= distance;
-        }))
-      kept.push_back(sample);
+    if (!equal.empty() && level(equal.front()) > level(sample)) {
+      for (const Sample& passed : equal) better.push_back(passed.at.direction.normalized());
+      equal.clear();
+    }
+    equal.push_back(sample);
+    const Eigen::Vector3d unit = sample.at.direction.normalized();
+    const auto near = [&](const Eigen::Vector3d& other) {
+      return std::abs(other.dot(unit)) >= std::cos(distance);
+    };
+    if (std::any_of(better.begin(), better.end(), near)) continue;
+    kept.push_back(sample);
+    better.push_back(unit);
   }
   return kept;
 }
@@ -200,18 +209,13 @@ std::vector<Sample> DirectionSearch::distinct(const std::vector<Sample>& samples
 /// Many starts lead to the same peak: they climb a little way, and what has come together goes on as one.
 void DirectionSearch::climb_to_peaks() {
   const double step = options_.spacing / (1 << halvings), small_step = step / 32;
-  std::vector<Sample> peaks = climb_from(distinct(samples_, 2 * step), {step, small_step});
+  std::vector<Sample> tops = peaks(samples_, options_.spacing / 2);
+  std::erase_if(tops, [&](const Sample& top) { return top.at.value < best_ - climbing_range; });
+  tops = peaks(climb_from(std::move(tops), {step, small_step}), step);
   report(0.95);
-  peaks = distinct(peaks, step);
-  const double least = peaks.front().at.value - finishing_range;
-  const auto far_below =
-      std::find_if(peaks.begin(), peaks.end(), [&](const Sample& peak) { return peak.at.value < least; });
-  const std::vector<Sample> others(far_below, peaks.end());
-  peaks = climb_from({peaks.begin(), far_below}, {small_step, tolerance::direction_step});
-  peaks.insert(peaks.end(), others.begin(), others.end());
-  peaks = distinct(peaks, step);
-  result_.best = peaks.front().at;
-  for (const Sample& peak : peaks) result_.optima.push_back({peak.at.direction, peak.at.value});
+  tops = peaks(climb_from(std::move(tops), {small_step, tolerance::direction_step}), step);
+  result_.best = tops.front().at;
+  for (const Sample& top : tops) result_.optima.push_back({top.at.direction, top.at.value});
 }
 
 std::vector<Sample> DirectionSearch::climb_from(std::vector<Sample> starts, const ClimbOptions& climbing) {

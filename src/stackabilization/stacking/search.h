@@ -12,19 +12,22 @@
 namespace stackabilization {
 
 struct SearchOptions {
-  std::optional<DirectionCone> cone = {};           ///< only look within this cone; default the whole sphere
-  std::optional<Eigen::Vector3d> plane_normal = {}; ///< only look in the plane through the origin with this normal
+  /// Only look within this cone; default: the whole sphere.
+  std::optional<DirectionCone> cone = {};
+  /// Only look in the plane through the origin with this normal; default: everywhere.
+  std::optional<Eigen::Vector3d> plane_normal = {};
   /// Further directions to try, exactly as given, for instance normals of symmetry planes; the great circles
   /// orthogonal to them are searched too. Those outside cone and plane are left out.
   std::vector<Eigen::Vector3d> candidates = {};
   double spacing = 0.04;  ///< radians between samples, in (0, 1]
   int climbs = 12;        ///< distinct local maxima that are refined at most, at least 1
-  std::function<void(double)> progress = {};  ///< called with the fraction done, in [0, 1], from the calling thread
-  std::function<bool()> cancelled = {};       ///< asked from the calling thread; true ends the search early
+  /// Called with the fraction done, in [0, 1], from the calling thread.
+  std::function<void(double)> progress = {};
+  std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends the search early
 };
 
-/// A direction at which S has a local maximum: of unit length unless it is a candidate of the options, signed as in
-/// DirectionRegion.
+/// A direction at which S has a local maximum: of unit length unless it is a candidate of the options, signed
+/// as in DirectionRegion.
 struct DirectionOptimum {
   Eigen::Vector3d direction;
   double stackability;
@@ -32,23 +35,25 @@ struct DirectionOptimum {
 
 struct SearchResult {
   Stackability best;
-  Separation separation;                 ///< exact f_max with witness at the best direction
-  /// Distinct local maxima, best first; the first is the best direction. Those more than 0.01 below it are refined to
-  /// about a thousandth of a radian only, and those far below it are not listed.
+  Separation separation;  ///< exact f_max with witness at the best direction
+  /// Distinct local maxima, best first; the first is the best direction. Only those within
+  /// about 0.05 of it are looked for.
   std::vector<DirectionOptimum> optima;
-  std::int64_t evaluated = 0;            ///< directions tried
-  std::int64_t abandoned = 0;            ///< of these given up before S was known, because they could not win
-  bool cancelled = false;                ///< ended early: the best of what was seen
+  std::int64_t evaluated = 0;  ///< directions tried
+  std::int64_t abandoned = 0;  ///< of these given up before S was known, because they could not win
+  bool cancelled = false;      ///< ended early: the best of what was seen
 };
 
-/// The direction of largest S(M, r): S is sampled evenly and on great circles orthogonal to the main axes, where
-/// symmetry planes are likely, and at candidates where it often has narrow peaks (axes of file, box and surface, normals
-/// of large faces and directions along two of them); from the best distinct ones it climbs to local maxima. Not proven
-/// global: a peak much narrower than `spacing` away from every candidate can be missed.
+/// The direction of largest S(M, r): S is sampled evenly and on great circles orthogonal to the main axes,
+/// where symmetry planes are likely, and at candidates where it often has narrow peaks (axes of file, box and
+/// surface, normals of large faces and directions along two of them); from the best distinct ones it climbs
+/// to local maxima. Not proven global: a peak much narrower than `spacing` away from every candidate can be
+/// missed.
 ///
-/// Among directions equal to tolerance::stackability the earliest wins: candidates of the options, then of the shape. Deterministic for any number
-/// of threads. Throws UsageError when an option is out of range or cone and plane have no direction in common.
-/// Source: section 4.3 of the paper samples uniformly and takes the best sample.
+/// Among directions equal to tolerance::stackability the earliest wins: candidates of the options, then of
+/// the shape. Deterministic for any number of threads. Throws UsageError when an option is out of range or
+/// cone and plane have no direction in common. Source: section 4.3 of the paper samples uniformly and takes
+/// the best sample.
 SearchResult best_direction(const StackabilitySolver& solver, const SearchOptions& options = {});
 
 }  // namespace stackabilization

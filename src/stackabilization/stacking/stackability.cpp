@@ -59,21 +59,33 @@ StackabilitySolver::StackabilitySolver(StackabilitySolver&&) noexcept = default;
 StackabilitySolver& StackabilitySolver::operator=(StackabilitySolver&&) noexcept = default;
 StackabilitySolver::~StackabilitySolver() = default;
 
-const Shape& StackabilitySolver::shape() const { return data_->shape; }
-const SeparationTree& StackabilitySolver::tree() const { return data_->tree; }
-const HullSupport& StackabilitySolver::hull() const { return data_->hull; }
-const StackabilityOptions& StackabilitySolver::options() const { return data_->options; }
-double StackabilitySolver::box_volume() const { return data_->box_volume; }
+const Shape& StackabilitySolver::shape() const {
+  return data_->shape;
+}
+const SeparationTree& StackabilitySolver::tree() const {
+  return data_->tree;
+}
+const HullSupport& StackabilitySolver::hull() const {
+  return data_->hull;
+}
+const StackabilityOptions& StackabilitySolver::options() const {
+  return data_->options;
+}
+double StackabilitySolver::box_volume() const {
+  return data_->box_volume;
+}
 
 Separation StackabilitySolver::separation(const Direction& direction) const {
-  return stackabilization::separation(data_->tree, data_->tree, direction, {data_->options.semantics, std::nullopt});
+  return stackabilization::separation(data_->tree, data_->tree, direction,
+                                      {data_->options.semantics, std::nullopt});
 }
 
 Stackability StackabilitySolver::measure(const Direction& direction) const {
   return *measure_if_above(direction, -std::numeric_limits<double>::infinity());
 }
 
-std::optional<Stackability> StackabilitySolver::measure_if_above(const Direction& direction, double threshold) const {
+std::optional<Stackability> StackabilitySolver::measure_if_above(const Direction& direction,
+                                                                 double threshold) const {
   if (threshold > 1) return std::nullopt;
   const double area = data_->base_area(direction);
   std::optional<double> abandon_above;
@@ -95,7 +107,8 @@ std::optional<Stackability> StackabilitySolver::measure_if_above(const Direction
   return result;
 }
 
-Stackability stackability(const Shape& shape, const Direction& direction, const StackabilityOptions& options) {
+Stackability stackability(const Shape& shape, const Direction& direction,
+                          const StackabilityOptions& options) {
   return StackabilitySolver(shape, options).measure(direction);
 }
 

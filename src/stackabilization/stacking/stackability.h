@@ -11,7 +11,8 @@ namespace stackabilization {
 
 /// How V(M) and V(M, r) are measured.
 enum class BoxModel {
-  oriented,  ///< V(M) minimal oriented box, V(M, r) = h times the minimal-area rectangle: independent of the pose
+  oriented,  ///< V(M) minimal oriented box, V(M, r) = h times the minimal-area rectangle: independent of the
+             ///< pose
   frame,     ///< V(M) the file's axis-aligned box, V(M, r) axis-aligned after the minimal rotation of z to r
 };
 
@@ -30,12 +31,12 @@ struct Stackability {
   double value = 0;             ///< S(M, r) = 1 - (f_max / h) V(M, r) / V(M), Eq. 3; may be negative
 };
 
-/// A shape prepared for measurements in many directions: separation tree, hull and V(M), built once. Queries are const,
-/// deterministic and safe to run from any number of threads.
+/// A shape prepared for measurements in many directions: separation tree, hull and V(M), built once. Queries
+/// are const, deterministic and safe to run from any number of threads.
 class StackabilitySolver {
  public:
-  /// Throws InputError when the shape has no volume to speak of (V(M) = 0: flat, straight or a point), since S is then
-  /// undefined, or when `validate(shape)` fails.
+  /// Throws InputError when the shape has no volume to speak of (V(M) = 0: flat, straight or a point), since
+  /// S is then undefined, or when `validate(shape)` fails.
   explicit StackabilitySolver(const Shape& shape, const StackabilityOptions& options = {});
   StackabilitySolver(StackabilitySolver&&) noexcept;
   StackabilitySolver& operator=(StackabilitySolver&&) noexcept;
@@ -60,6 +61,7 @@ class StackabilitySolver {
 };
 
 /// S(M, r) for one use.
-Stackability stackability(const Shape& shape, const Direction& direction, const StackabilityOptions& options = {});
+Stackability stackability(const Shape& shape, const Direction& direction,
+                          const StackabilityOptions& options = {});
 
 }  // namespace stackabilization
