@@ -13,9 +13,7 @@ find_package(nlohmann_json 3.9 REQUIRED)
 
 if(STACKABILIZATION_BUILD_RENDERING)
   set(STACKABILIZATION_VTK_COMPONENTS
-    ChartsCore CommonColor CommonCore CommonDataModel FiltersCore FiltersGeneral FiltersSources
-    IOExport IOImage RenderingAnnotation RenderingContext2D RenderingContextOpenGL2 RenderingCore
-    RenderingFreeType RenderingOpenGL2 ViewsContext2D)
+    CommonCore CommonDataModel FiltersCore IOImage RenderingCore RenderingFreeType RenderingOpenGL2)
   find_package(VTK 9.1 REQUIRED COMPONENTS ${STACKABILIZATION_VTK_COMPONENTS})
   find_package(OpenGL REQUIRED COMPONENTS EGL)
 endif()

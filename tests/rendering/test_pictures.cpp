@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "stackabilization/rendering/pictures.h"
+#include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/shape/errors.h"
 #include "support/catch.h"
 #include "support/solids.h"
@@ -201,4 +202,19 @@ TEST_CASE("a map names its best direction and refuses what is not a map") {
   CHECK(svg_text(map_picture(map)) == svg_text(map_picture(map)));
   map.samples[1].stackability = std::nan("");
   CHECK_THROWS_AS(map_picture(map), UsageError);
+}
+
+TEST_CASE("numbers in pictures are short and plain") {
+  CHECK(detail::number_text(0.5) == "0.5");
+  CHECK(detail::number_text(1.0 / 3) == "0.3333");
+  CHECK(detail::number_text(14627.3) == "14630");
+  CHECK(detail::number_text(-9999999) == "-10000000");
+  CHECK(detail::number_text(1.25e-9) == "1.25e-09");
+  CHECK(detail::number_text(123456789) == "1.235e+08");
+  CHECK(detail::fixed_text(-1e-9) == "0.0000");
+  CHECK(detail::fixed_text(0.56414) == "0.5641");
+  CHECK(detail::length_text(21, Unit::millimetre) == "21 mm");
+  CHECK(detail::length_text(21, Unit::unknown) == "21");
+  CHECK(detail::ticks(-0.2, 0.9, 6) == std::vector<double>{-0.2, 0, 0.2, 0.4, 3 * 0.2, 0.8});
+  CHECK(detail::ticks(2, 2, 6) == std::vector<double>{2});
 }

@@ -31,10 +31,18 @@ Image gap_image(const Eigen::MatrixXd& values, double maximum) {
 }  // namespace
 
 std::string number_text(double value, int digits) {
+  constexpr double largest_plain = 10000000;
   std::array<char, 32> buffer{};
-  const auto end =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, digits);
-  return {buffer.data(), end.ptr};
+  const auto print = [&](double number, int precision) {
+    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number,
+                                   std::chars_format::general, precision);
+    return std::string(buffer.data(), end.ptr);
+  };
+  const std::string text = print(value, digits);
+  if (text.find("e+") == std::string::npos || std::abs(value) >= largest_plain) return text;
+  double rounded = 0;
+  std::from_chars(text.data(), text.data() + text.size(), rounded);
+  return print(rounded, 8);
 }
 
 std::string fixed_text(double value) {

@@ -12,7 +12,7 @@ namespace stackabilization::detail {
 
 using Elements = std::vector<DrawingElement>;
 
-/// Shortest text with `digits` significant digits, locale independent: 0.5, 12.34, 1.2e-07.
+/// Shortest text with `digits` significant digits, locale independent: 0.5, 12.34, 14630, 1.2e-07.
 std::string number_text(double value, int digits = 4);
 /// With four digits after the point, never -0.0000: a stackability.
 std::string fixed_text(double value);
