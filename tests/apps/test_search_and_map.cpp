@@ -13,7 +13,7 @@ using nlohmann::json;
 TEST_CASE("search finds the axis of a cup and reports what measure reports there") {
   const TemporaryFolder folder;
   const std::string model = folder.model("cup.obj", solids::frustum_shell({}));
-  const Outcome outcome = run_program({"search", model, "--json", "-"});
+  const Outcome outcome = run_program({"search", model, "--cone-degrees", "5", "--json", "-"});
   REQUIRE(outcome.status == 0);
   const json found = outcome.json();
   const json measured = run_program({"measure", model, "--json", "-"}).json();
