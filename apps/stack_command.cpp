@@ -35,7 +35,7 @@ int run(const CLI::App& command, const StackCommandOptions& options) {
   add_document_tail(document, options.common, model, watch);
   if (options.output) write_mesh_output(*options.output, stacked_shape(model.shape, direction, stack.result));
   if (options.picture)
-    write_stack_picture({*options.picture, model.name}, placed_copies(stack, model, direction));
+    write_stack_picture({*options.picture, title_of(model)}, placed_copies(stack, model, direction));
   deliver(options.common, document,
           options.common.quiet ? exact_digits(stack.result.stackability) + "\n"
                                : stack_text(stack, model, direction));
