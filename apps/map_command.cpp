@@ -108,7 +108,7 @@ int run(const CLI::App& command, const Options& options) {
   Json document = document_head(command, model);
   document.update(map_json(options, map, summary));
   add_document_tail(document, options.common, model, watch);
-  if (options.picture) write_map_picture({*options.picture, model.name}, map);
+  if (options.picture) write_map_picture({*options.picture, title_of(model)}, map);
   if (options.table) write_output(*options.table, csv_text(map));
   const std::string essential =
       exact_digits(summary.best.stackability) + " " + vector_text(summary.best.direction) + "\n";

@@ -37,7 +37,8 @@ int run(const CLI::App& command, const Options& options) {
   Json document = document_head(command, model);
   add_measurement(document, measurement, model);
   add_document_tail(document, options.common, model, watch);
-  if (options.picture) write_measurement_picture({*options.picture, model.name}, model.shape, measurement);
+  if (options.picture)
+    write_measurement_picture({*options.picture, title_of(model)}, model.shape, measurement);
   deliver(options.common, document,
           options.common.quiet ? exact_digits(measurement.values.value) + "\n"
                                : measurement_text(measurement, model));

@@ -1,11 +1,17 @@
 #include "apps/model.h"
 
+#include <filesystem>
+
 #include "apps/version.h"
 
 namespace stackabilization::apps {
 
 std::string display_name(const Model& model) {
   return model.name == "-" ? "standard input" : model.name;
+}
+
+std::string title_of(const Model& model) {
+  return std::filesystem::path(display_name(model)).filename().string();
 }
 
 Model load_model(const CommonOptions& common, const InspectOptions& options) {

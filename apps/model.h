@@ -32,6 +32,9 @@ struct Model {
 /// "chair.obj", "standard input".
 std::string display_name(const Model& model);
 
+/// The same without folders, for headings.
+std::string title_of(const Model& model);
+
 /// What `work` returns; the model's name is put before what it says about the shape. Throws as `work` does.
 template <class Work>
 auto named(const Model& model, const Work& work) {

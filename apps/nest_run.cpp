@@ -105,7 +105,7 @@ int run_nest(const CLI::App& command, const StackCommandOptions& options) {
   if (options.output) write_mesh_output(*options.output, both);
   if (options.picture) {
     const std::string note = "nesting saves " + quantity(result.saving, content.shape.unit) + " of height";
-    write_stack_picture({*options.picture, content.name + " in " + container.name},
+    write_stack_picture({*options.picture, title_of(content) + " in " + title_of(container)},
                         {{container.shape, lowered}, direction, {note}});
   }
   deliver(options.common, document,

@@ -86,7 +86,8 @@ int run(const CLI::App& command, const Options& options) {
   add_measurement(document, measurement, model);
   add_search(document, result);
   add_document_tail(document, options.common, model, watch);
-  if (options.picture) write_measurement_picture({*options.picture, model.name}, model.shape, measurement);
+  if (options.picture)
+    write_measurement_picture({*options.picture, title_of(model)}, model.shape, measurement);
   const std::string essential =
       exact_digits(measurement.values.value) + " " + vector_text(measurement.values.direction) + "\n";
   deliver(options.common, document,

@@ -35,7 +35,7 @@ int run(const CLI::App& command, const StackCommandOptions& options) {
   add_document_tail(document, options.common, model, watch);
   if (options.output) write_mesh_output(*options.output, stacked_shape(model.shape, direction, stack.result));
   if (options.picture)
-    write_stack_picture({*options.picture, model.name}, placed_copies(stack, model, direction));
+    write_stack_picture({*options.picture, title_of(model)}, placed_copies(stack, model, direction));
   deliver(options.common, document,
           options.common.quiet ? exact_digits(stack.result.stackability) + "\n"
                                : stack_text(stack, model, direction));
@@ -61,7 +61,7 @@ Command make_stack_command(CLI::App& program) {
       add_command(program, "stack", "Stack copies of a shape, or put it into another one",
                   "stackabilize stack chair.obj -n 10 --unit m --within 2m -o stack.3mf");
   add_common_options(*command, options->common);
-  command->add_option("-n,--copies", options->copies, "Number of copies (default: 2)")
+  command->add_option("-n", options->copies, "Number of copies (default: 2)")
       ->type_name("N")
       ->check(CLI::Range(1, 10000));
   command->add_option("--into", options->into, "Lower MODEL into this container instead of stacking copies")

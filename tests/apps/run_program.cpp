@@ -54,10 +54,12 @@ std::vector<std::string> TemporaryFolder::names() const {
 Outcome run_program(const std::vector<std::string>& arguments, const std::string& input,
                     const std::string& prefix) {
   const TemporaryFolder folder;
-  std::string command = prefix + " " + quoted(STACKABILIZATION_PROGRAM);
-  for (const std::string& argument : arguments) command += " " + quoted(argument);
-  command += " <" + quoted(folder.file("in", input)) + " >" + quoted(folder / "out") + " 2>" +
-             quoted(folder / "err");
+  std::string command = prefix;
+  command.append(" ").append(quoted(STACKABILIZATION_PROGRAM));
+  for (const std::string& argument : arguments) command.append(" ").append(quoted(argument));
+  command.append(" <").append(quoted(folder.file("in", input)));
+  command.append(" >").append(quoted(folder / "out"));
+  command.append(" 2>").append(quoted(folder / "err"));
   const int status = std::system(command.c_str());
   Outcome outcome;
   outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -23,7 +23,7 @@ std::vector<Arguments> every_command(const std::string& model) {
   return {{"inspect", model},
           {"measure", model},
           {"measure", model, "--method", "rays", "--resolution", "32"},
-          {"search", model},
+          {"search", model, "--cone-degrees", "5"},
           {"map", model, "--step-degrees", "20"},
           {"stack", model, "-n", "4", "--twist-degrees", "auto", "--within", "100"},
           {"validate", model}};
