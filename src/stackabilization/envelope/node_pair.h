@@ -111,7 +111,7 @@ class NodePairBound {
   /// `magnitude`: largest absolute coordinate of both shapes.
   explicit NodePairBound(double magnitude)
       : rounding_(16 * unit_roundoff * magnitude),
-        plane_rounding_(64 * unit_roundoff * magnitude / ProjectedNode::steepest) {}
+        plane_rounding_(64 * unit_roundoff * magnitude) {}
 
   /// -inf where the nodes have no common columns, or certainly nothing above `floor`.
   DoubleDouble operator()(const ProjectedNode& upper, const ProjectedNode& lower, const DoubleDouble& floor) const {
@@ -134,13 +134,13 @@ class NodePairBound {
           std::min(planes, top - bottom - tilt_x * common.x - tilt_y * common.y +
                                std::abs(tilt_x) * common.half_width + std::abs(tilt_y) * common.half_height);
     }
-    planes += plane_rounding_;
+    planes += plane_rounding_ * std::max({1.0, std::abs(upper.inverse_slope), std::abs(lower.inverse_slope)});
     return planes < boxes.high ? DoubleDouble{planes, 0} : boxes;
   }
 
  private:
   double rounding_;        ///< of n.p within the shapes
-  double plane_rounding_;  ///< of the difference of two planes within the shapes
+  double plane_rounding_;  ///< of the difference of two planes within the shapes, for slopes up to 1
 };
 
 }  // namespace stackabilization::detail

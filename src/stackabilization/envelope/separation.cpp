@@ -58,14 +58,14 @@ class SeparationQuery {
 
   /// Runs until the bounds differ by at most `width` (heights). With width 0, until the exact value is known.
   void run(double width) {
-    exact_ = width == 0;
+    width_ = width;
     while (!tasks_.empty()) {
       if (floor_.high > abandon_above_) {
         abandoned_ = true;
         return;
       }
       const Task task = tasks_.front();
-      if (hopeless(task.high) || (width > 0 && task.high.high - floor_.high <= width)) return;
+      if (hopeless(task.high)) return;
       std::pop_heap(tasks_.begin(), tasks_.end());
       tasks_.pop_back();
       if (task.triangles) {
@@ -83,8 +83,7 @@ class SeparationQuery {
     };
     const double low = widened(floor_.high, -infinity);
     if (abandoned_) return {low, infinity, true};
-    const bool open = !tasks_.empty() && !hopeless(tasks_.front().high);
-    return {low, widened(open ? tasks_.front().high.high : floor_.high, infinity), false};
+    return {low, widened(std::max(floor_.high, dropped_), infinity), false};
   }
 
   Separation separation() const {
@@ -101,13 +100,19 @@ class SeparationQuery {
   }
 
  private:
-  bool hopeless(const DoubleDouble& high) const { return high <= cut_; }
+/// Can a pair of this bound be left out? Within the width of an enclosure it can, but the bound counts.
+  bool hopeless(const DoubleDouble& high) {
+    if (high <= cut_) return true;
+    if (!(high.high - floor_.high <= width_)) return false;
+    dropped_ = std::max(dropped_, high.high);
+    return width_ > 0;
+  }
 
   /// A pair whose bound only equals the floor cannot improve an enclosure, nor an exact value that is known
   /// already; but a floor that no exact value attains yet must not cut off the pair that attains it.
   void raise_floor(const DoubleDouble& height, bool attained) {
     floor_ = cut_ = height;
-    if (exact_ && !attained) cut_.low = std::nextafter(cut_.low, -infinity);
+    if (width_ == 0 && !attained) cut_.low = std::nextafter(cut_.low, -infinity);
   }
 
   const ProjectedNode& upper_node(std::int32_t index) { return upper_nodes_.get(index, projection_); }
@@ -181,7 +186,8 @@ class SeparationQuery {
   double abandon_above_ = infinity;
   DoubleDouble floor_{-infinity, 0};  ///< certified lower bound of the answer, as a height difference
   DoubleDouble cut_{-infinity, 0};    ///< pairs bounded by this are out
-  bool exact_ = true;
+  double width_ = 0;             ///< of the enclosure asked for; 0: the exact value
+  double dropped_ = -infinity;   ///< largest bound left out within that width
   bool abandoned_ = false;
   std::vector<Task> tasks_;                   ///< binary heap
   ProjectedNodes upper_nodes_, lower_nodes_;  ///< the second is empty where both shapes are one
