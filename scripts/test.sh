@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Builds everything and runs all tests; arguments go to ctest, for instance -L unit or -R separation.
+# Installs the packages it needs, builds everything and runs all tests; arguments go to ctest, for instance -L unit.
 # Tests on outside data run when STACKABILIZATION_PAPER_DATA and STACKABILIZATION_CORPORA name their folders.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+scripts/install_packages.sh
 scripts/build.sh
 exec ctest --test-dir build/release --parallel "$(nproc)" --no-tests=error --output-on-failure "$@"

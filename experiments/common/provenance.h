@@ -13,7 +13,8 @@ struct Provenance {
   int threads = 1;
 };
 
-/// Comment lines "# key: value" with program, arguments, threads, processor, compiler, library version and revision.
+/// Comment lines "# key: value" with program, arguments, threads, processor, compiler, library version and
+/// revision.
 std::string provenance_lines(const Provenance& provenance);
 
 /// FNV-1a 64-bit hash of a file's bytes, 16 hexadecimal digits. Throws InputError when it cannot be read.

@@ -24,7 +24,8 @@ class Scene {
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float),
                                 static_cast<std::size_t>(shape.vertex_count())));
     for (Eigen::Index v = 0; v < shape.vertex_count(); ++v)
-      for (int axis = 0; axis < 3; ++axis) vertices[3 * v + axis] = static_cast<float>(shape.vertices(v, axis));
+      for (int axis = 0; axis < 3; ++axis)
+        vertices[3 * v + axis] = static_cast<float>(shape.vertices(v, axis));
     auto* triangles = static_cast<unsigned*>(
         rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned),
                                 static_cast<std::size_t>(shape.triangle_count())));

@@ -16,7 +16,8 @@ std::shared_ptr<Model> build(const Shape& shape) {
   auto model = std::make_shared<Model>();
   model->beginModel(static_cast<int>(shape.triangle_count()), static_cast<int>(shape.vertex_count()));
   std::vector<fcl::Vector3d> vertices;
-  for (Eigen::Index v = 0; v < shape.vertex_count(); ++v) vertices.emplace_back(shape.vertices.row(v).transpose());
+  for (Eigen::Index v = 0; v < shape.vertex_count(); ++v)
+    vertices.emplace_back(shape.vertices.row(v).transpose());
   std::vector<fcl::Triangle> triangles;
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
     triangles.emplace_back(static_cast<std::size_t>(shape.triangles(t, 0)),
@@ -48,7 +49,8 @@ Competitor fcl_bisection(const Shape& shape) {
       lifted.translation() = lift * unit;
       fcl::CollisionRequestd request(1, false);
       fcl::CollisionResultd collision;
-      return fcl::collide(model.get(), fcl::Transform3d::Identity(), model.get(), lifted, request, collision) > 0;
+      return fcl::collide(model.get(), fcl::Transform3d::Identity(), model.get(), lifted, request,
+                          collision) > 0;
     };
     constexpr int steps = 64;
     double free = height, blocked = 0;

@@ -2,10 +2,11 @@
 //
 //     separation_speed [--directions N] [--slow-directions N] [-o FILE.csv] MODEL...
 //
-// One row per model and method, all in one process on one thread: milliseconds to prepare the shape, median and largest
-// milliseconds per direction, the ratio of the median to that of the exact method, and the largest error of f_max
-// against the exact one as a fraction of the extent. Collision methods count touching as collision (closed semantics),
-// so flush walls show as error there. Methods slower than the exact one by far are run on fewer directions.
+// One row per model and method, all in one process on one thread: milliseconds to prepare the shape, median
+// and largest milliseconds per direction, the ratio of the median to that of the exact method, and the
+// largest error of f_max against the exact one as a fraction of the extent. Collision methods count touching
+// as collision (closed semantics), so flush walls show as error there. Methods slower than the exact one by
+// far are run on fewer directions.
 
 #include <tbb/global_control.h>
 
@@ -68,7 +69,9 @@ Competitor scanline(const Shape& shape, int resolution) {
   Competitor result;
   result.name = "CPU raster " + std::to_string(resolution);
   result.measure = [&shape, resolution](const Direction& direction) {
-    return maximum_gap(height_field_by_scanline(shape, direction, window_around(shape, direction, resolution))).value;
+    return maximum_gap(
+               height_field_by_scanline(shape, direction, window_around(shape, direction, resolution)))
+        .value;
   };
   return result;
 }
@@ -81,14 +84,16 @@ Competitor depth_buffer(const Shape& shape, int resolution) {
   const auto rasterizer = std::make_shared<DepthRasterizer>(shape);
   result.build_seconds = now() - start;
   result.measure = [rasterizer, &shape, resolution](const Direction& direction) {
-    return maximum_gap(rasterizer->height_field(direction, window_around(shape, direction, resolution))).value;
+    return maximum_gap(rasterizer->height_field(direction, window_around(shape, direction, resolution)))
+        .value;
   };
   return result;
 }
 #endif
 
 std::vector<Competitor> competitors(const Shape& shape) {
-  std::vector<Competitor> list = {exact(shape), enclosure(shape), scanline(shape, 256), scanline(shape, 1024)};
+  std::vector<Competitor> list = {exact(shape), enclosure(shape), scanline(shape, 256),
+                                  scanline(shape, 1024)};
 #ifdef STACKABILIZATION_WITH_RENDERING
   list.push_back(depth_buffer(shape, 1024));
 #endif
@@ -110,8 +115,8 @@ struct Row {
 
   std::string text() const {
     char numbers[256];
-    std::snprintf(numbers, sizeof numbers, "%ld,%d,%.3f,%.4f,%.4f,%.2f,%.3g", triangles, directions, build_ms, median_ms,
-                  largest_ms, ratio, error);
+    std::snprintf(numbers, sizeof numbers, "%ld,%d,%.3f,%.4f,%.4f,%.2f,%.3g", triangles, directions, build_ms,
+                  median_ms, largest_ms, ratio, error);
     return model + "," + hash + "," + method + "," + numbers + "\n";
   }
   static std::string header() {
@@ -143,8 +148,16 @@ std::vector<Row> compare(const std::string& model, int count, int slow_count) {
       if (rows.empty()) reference.push_back(value);
       error = std::max(error, std::abs(value - reference[at]) / extent(shape, directions[at]));
     }
-    Row row{model, file_hash(model), competitor.name, static_cast<long>(shape.triangle_count()), runs,
-            1e3 * competitor.build_seconds, median(times), *std::max_element(times.begin(), times.end()), 1, error};
+    Row row{model,
+            file_hash(model),
+            competitor.name,
+            static_cast<long>(shape.triangle_count()),
+            runs,
+            1e3 * competitor.build_seconds,
+            median(times),
+            *std::max_element(times.begin(), times.end()),
+            1,
+            error};
     if (!rows.empty()) row.ratio = row.median_ms / rows.front().median_ms;
     rows.push_back(row);
   }
@@ -167,7 +180,8 @@ int main(int argc, char** argv) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   try {
     std::string csv =
-        provenance_lines({"separation_speed", std::vector<std::string>(argv + 1, argv + argc), 1}) + Row::header();
+        provenance_lines({"separation_speed", std::vector<std::string>(argv + 1, argv + argc), 1}) +
+        Row::header();
     for (const std::string& model : models)
       for (const Row& row : compare(model, directions, slow_directions)) csv += row.text();
     write_file_atomically(output, csv);

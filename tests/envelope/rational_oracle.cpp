@@ -61,8 +61,8 @@ Rational height_over(const std::vector<Point>& base, const Point& p) {
 
 }  // namespace
 
-std::optional<Rational> oracle_pair(const Shape& below, Eigen::Index upper, const Shape& above, Eigen::Index lower,
-                                    const Direction& direction) {
+std::optional<Rational> oracle_pair(const Shape& below, Eigen::Index upper, const Shape& above,
+                                    Eigen::Index lower, const Direction& direction) {
   const std::vector<Point> a = triangle(below, upper, direction.vector());
   const std::vector<Point> b = triangle(above, lower, direction.vector());
   if (area(a) == zero || area(b) == zero) return std::nullopt;
@@ -77,7 +77,8 @@ std::optional<Rational> oracle_pair(const Shape& below, Eigen::Index upper, cons
   return best;
 }
 
-std::optional<Rational> oracle_separation(const Shape& below, const Shape& above, const Direction& direction) {
+std::optional<Rational> oracle_separation(const Shape& below, const Shape& above,
+                                          const Direction& direction) {
   std::optional<Rational> best;
   for (Eigen::Index upper = 0; upper < below.triangle_count(); ++upper)
     for (Eigen::Index lower = 0; lower < above.triangle_count(); ++lower) {

@@ -1,10 +1,9 @@
-#include "stackabilization/envelope/contacts.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "stackabilization/envelope/contacts.h"
 #include "stackabilization/shape/errors.h"
 #include "support/catch.h"
 #include "support/solids.h"
@@ -15,7 +14,8 @@ using namespace stackabilization::solids;
 
 namespace {
 
-std::vector<ContactRegion> contacts(const Shape& shape, const Direction& direction, const ContactOptions& options = {}) {
+std::vector<ContactRegion> contacts(const Shape& shape, const Direction& direction,
+                                    const ContactOptions& options = {}) {
   const SeparationTree tree(shape);
   SeparationOptions separation_options;
   separation_options.semantics = options.semantics;
@@ -63,7 +63,8 @@ TEST_CASE("four legs give four regions, each the foot of a leg") {
 }
 
 TEST_CASE("a cup touches in one ring, whose area is the band's") {
-  // Both walls are cones of one slope: f is constant along the wall, and on the band up to the knees f falls linearly.
+  // Both walls are cones of one slope: f is constant along the wall, and on the band up to the knees f falls
+  // linearly.
   FrustumShell cup;
   for (const int segments : {8, 64}) {
     cup.segments = segments;
@@ -85,7 +86,8 @@ TEST_CASE("the area of a union does not count overlaps twice") {
 
 TEST_CASE("regions are seen along r, not along an axis of the file") {
   // Along (1, 0, 1) an L rests on its inner corner and along both inner walls.
-  const std::vector<ContactRegion> regions = contacts(l_shape(4, 1), Direction(1, 0, 1), {Semantics::solid, 0});
+  const std::vector<ContactRegion> regions =
+      contacts(l_shape(4, 1), Direction(1, 0, 1), {Semantics::solid, 0});
   double expected = 0;
   // Inner side of the standing arm (3 x 1) and top of the lying arm (3 x 1), both seen at 45 degrees.
   expected = 2 * 3 * std::numbers::sqrt2 / 2;
@@ -113,7 +115,8 @@ TEST_CASE("every polygon lies on both surfaces, one f above the other") {
   REQUIRE(!regions.empty());
   const auto distance = [&](std::int32_t triangle, const Eigen::Vector3d& p) {
     const Eigen::Vector3d a = shape.corner(triangle, 0);
-    const Eigen::Vector3d normal = (shape.corner(triangle, 1) - a).cross(shape.corner(triangle, 2) - a).normalized();
+    const Eigen::Vector3d normal =
+        (shape.corner(triangle, 1) - a).cross(shape.corner(triangle, 2) - a).normalized();
     return std::abs(normal.dot(p - a));
   };
   double highest = 0;

@@ -14,7 +14,8 @@ using namespace stackabilization;
 
 namespace {
 
-/// One row of a table made by an independent program in rational arithmetic: file, direction, f_max, h, f_max / h.
+/// One row of a table made by an independent program in rational arithmetic: file, direction, f_max, h, f_max
+/// / h.
 struct Expected {
   std::string model;
   double x, y, z, f_max, height, ratio;

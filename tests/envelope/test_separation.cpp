@@ -1,8 +1,7 @@
-#include "stackabilization/envelope/separation.h"
-
 #include <cmath>
 
 #include "envelope/rational_oracle.h"
+#include "stackabilization/envelope/separation.h"
 #include "stackabilization/shape/errors.h"
 #include "support/catch.h"
 #include "support/solids.h"
@@ -15,7 +14,8 @@ namespace {
 
 const Direction z(0, 0, 1);
 
-/// Large triangles through each other; on a coarse grid, so that edges meet corners and planes coincide, if `bits` > 0.
+/// Large triangles through each other; on a coarse grid, so that edges meet corners and planes coincide, if
+/// `bits` > 0.
 Shape random_soup(int count, std::uint64_t seed, int bits = 0) {
   Soup soup;
   soup.count = count;
@@ -42,8 +42,8 @@ Shape moved(const Shape& shape, const Eigen::Vector3d& by) {
 }
 
 const std::vector<Direction>& directions() {
-  static const std::vector<Direction> list = {{0, 0, 1},    {0, 0, -2},  {1, 0, 0},   {0, -3, 0}, {1, 1, 0},
-                                              {0.3, -0.2, 1}, {1, 2, 3}, {-1, 0.1, 0}, {2, -1, -2}};
+  static const std::vector<Direction> list = {{0, 0, 1},      {0, 0, -2}, {1, 0, 0},    {0, -3, 0}, {1, 1, 0},
+                                              {0.3, -0.2, 1}, {1, 2, 3},  {-1, 0.1, 0}, {2, -1, -2}};
   return list;
 }
 
@@ -98,8 +98,11 @@ TEST_CASE("every answer equals pairwise clipping in rational arithmetic") {
 TEST_CASE("random soups equal the oracle, also against each other") {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     const int bits = static_cast<int>(seed % 3);
-    const Shape a = random_soup(10, seed, bits), b = moved(random_soup(9, seed + 100, bits), {0.25, -0.5, 0.125});
-    const Direction r = seed % 2 == 0 ? Direction(0, 0, 1) : Direction(0.1 * static_cast<double>(seed) - 0.6, 0.7 - 0.15 * static_cast<double>(seed), 1);
+    const Shape a = random_soup(10, seed, bits),
+                b = moved(random_soup(9, seed + 100, bits), {0.25, -0.5, 0.125});
+    const Direction r = seed % 2 == 0 ? Direction(0, 0, 1)
+                                      : Direction(0.1 * static_cast<double>(seed) - 0.6,
+                                                  0.7 - 0.15 * static_cast<double>(seed), 1);
     const std::optional<Rational> expected = oracle_separation(a, b, r);
     const Separation result = separation(SeparationTree(a), SeparationTree(b), r);
     REQUIRE(result.blocked == expected.has_value());

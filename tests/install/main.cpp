@@ -1,6 +1,7 @@
-#include <iostream>
 #include <stackabilization/shape/read.h>
 #include <stackabilization/stacking/stackability.h>
+
+#include <iostream>
 
 int main(int, char** arguments) {
   const stackabilization::Shape shape = stackabilization::read_shape(arguments[1]);

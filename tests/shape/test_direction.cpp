@@ -17,8 +17,9 @@ TEST_CASE("a direction refuses what is not a direction") {
 }
 
 TEST_CASE("the frame of a direction is the minimal rotation of z") {
-  for (const Eigen::Vector3d& r : {Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(0.3, -0.2, 1), Eigen::Vector3d(1, 2, -3),
-                                  Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1e-9, 2e-9, -1)}) {
+  for (const Eigen::Vector3d& r :
+       {Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(0.3, -0.2, 1), Eigen::Vector3d(1, 2, -3),
+        Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1e-9, 2e-9, -1)}) {
     const Frame frame = frame_of(Direction(r));
     Eigen::Matrix3d rotation;
     rotation << frame.u, frame.v, frame.w;

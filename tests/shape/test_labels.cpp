@@ -66,7 +66,8 @@ TEST_CASE("labels that do not fit are refused, with file and line") {
         "bad.seg:5: expected a triangle between 0 and 3, found '4'");
   CHECK(label_refusal("2\n0 0\n1 2\n") == "bad.seg:3: expected a part between 0 and 1, found '2'");
   CHECK(label_refusal("2\n0 0\n0 1\n") == "bad.seg:3: triangle 0 has a label already");
-  CHECK(label_refusal("0\n\xEF\xBB\xBF\n3") == "bad.seg: expected one label for each of 4 triangles, found 3");
+  CHECK(label_refusal("0\n\xEF\xBB\xBF\n3") ==
+        "bad.seg: expected one label for each of 4 triangles, found 3");
   CHECK(label_refusal("2\n0 0\n1\n") == "bad.seg:3: expected a triangle and its part, found '1'");
   CHECK(label_refusal("2\nlabels a\n0 0\n") == "bad.seg:2: expected 2 part names, found 1");
   CHECK(label_refusal("999999999999\n0 0\n") ==

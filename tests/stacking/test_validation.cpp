@@ -56,8 +56,7 @@ TEST_CASE("every check agrees on a small solid", "[validation]") {
 }
 
 TEST_CASE("sampled values close in on the exact one from below", "[validation]") {
-  const ValidationReport report =
-      validate_translation(solids::torus({}), Direction(0.3, -0.2, 1), coarse());
+  const ValidationReport report = validate_translation(solids::torus({}), Direction(0.3, -0.2, 1), coarse());
   CAPTURE(table(report));
   CHECK(report.passed);
   for (const std::string method : {"rays", "scanline"}) {

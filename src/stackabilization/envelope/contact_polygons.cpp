@@ -38,7 +38,8 @@ double cross(const ProjectedTriangle& triangle, int p, int q, double x, double y
          (triangle.y[q] - triangle.y[p]) * (x - triangle.x[p]);
 }
 
-/// Height of the triangle's plane, kept within the triangle's heights: slivers seen edge-on extrapolate wildly.
+/// Height of the triangle's plane, kept within the triangle's heights: slivers seen edge-on extrapolate
+/// wildly.
 double height_over(const ProjectedTriangle& triangle, double x, double y) {
   double weighted = 0;
   for (int c = 0; c < 3; ++c) weighted += cross(triangle, (c + 1) % 3, (c + 2) % 3, x, y) * triangle.h[c];
@@ -69,7 +70,8 @@ double area(const std::vector<Corner>& polygon) {
 /// All pairs of triangles that may reach the floor, by descending the tree against itself.
 class ContactSearch {
  public:
-  ContactSearch(const SeparationTree::Data& tree, const Direction& direction, Semantics semantics, double floor)
+  ContactSearch(const SeparationTree::Data& tree, const Direction& direction, Semantics semantics,
+                double floor)
       : tree_(tree),
         projection_(direction, tree.magnitude, semantics),
         bound_(tree.magnitude),
@@ -99,7 +101,7 @@ class ContactSearch {
 
  private:
   struct Pair {
-    std::int32_t upper, lower;      ///< triangles of the shape
+    std::int32_t upper, lower;        ///< triangles of the shape
     std::int32_t upper_at, lower_at;  ///< the same in tree order
 
     friend bool operator<(const Pair& a, const Pair& b) {

@@ -67,8 +67,8 @@ Outline outline_of(const Points& points, const Frame& frame) {
   return outline;
 }
 
-/// On dense meshes most upper triangles are covered whole, by many small patches: those count as the triangle. (Patches
-/// over one triangle that overlap and leave gaps of the very same area would pass for it.)
+/// On dense meshes most upper triangles are covered whole, by many small patches: those count as the
+/// triangle. (Patches over one triangle that overlap and leave gaps of the very same area would pass for it.)
 std::vector<Tile> tiles(const std::vector<Patch>& patches, const Shape& shape, const Frame& frame) {
   std::vector<Tile> result;
   for (std::size_t first = 0; first < patches.size();) {
@@ -90,7 +90,8 @@ std::vector<Tile> tiles(const std::vector<Patch>& patches, const Shape& shape, c
   return result;
 }
 
-/// Centroids of the two lifted polygons, weighted by their area seen along r; equal weights where all areas vanish.
+/// Centroids of the two lifted polygons, weighted by their area seen along r; equal weights where all areas
+/// vanish.
 void set_centres(ContactRegion& region, const std::vector<const Patch*>& patches) {
   region.upper_centre.setZero();
   region.lower_centre.setZero();
@@ -123,7 +124,8 @@ void classify(ContactRegion& region, const std::vector<Outline>& outlines, const
 }
 
 /// The region of the listed tiles; takes the polygons out of their patches.
-ContactRegion make_region(std::vector<Patch>& patches, const std::vector<Tile>& members, const Setting& setting) {
+ContactRegion make_region(std::vector<Patch>& patches, const std::vector<Tile>& members,
+                          const Setting& setting) {
   ContactRegion region;
   std::vector<const Patch*> chosen;
   std::vector<Outline> outlines;
@@ -134,12 +136,14 @@ ContactRegion make_region(std::vector<Patch>& patches, const std::vector<Tile>& 
   classify(region, outlines, setting);
   set_centres(region, chosen);
   for (const Tile& tile : members)
-    for (std::size_t p = tile.first; p < tile.last; ++p) region.polygons.push_back(std::move(patches[p].polygon));
+    for (std::size_t p = tile.first; p < tile.last; ++p)
+      region.polygons.push_back(std::move(patches[p].polygon));
   return region;
 }
 
 /// All regions between one pair of parts.
-std::vector<ContactRegion> regions_of(std::vector<Patch>& patches, const Shape& shape, const Setting& setting) {
+std::vector<ContactRegion> regions_of(std::vector<Patch>& patches, const Shape& shape,
+                                      const Setting& setting) {
   const std::vector<Tile> all = tiles(patches, shape, setting.frame);
   std::vector<Outline> outlines;
   for (const Tile& tile : all) outlines.push_back(tile.outline);
@@ -160,9 +164,11 @@ bool comes_first(const ContactRegion& a, const ContactRegion& b) {
 
 }  // namespace
 
-std::vector<ContactRegion> contact_regions(const Shape& shape, const SeparationTree& tree, const Direction& direction,
-                                           const Separation& separation, const ContactOptions& options) {
-  if (!(options.band >= 0 && options.band <= 1)) throw UsageError("the contact band must lie between 0 and 1");
+std::vector<ContactRegion> contact_regions(const Shape& shape, const SeparationTree& tree,
+                                           const Direction& direction, const Separation& separation,
+                                           const ContactOptions& options) {
+  if (!(options.band >= 0 && options.band <= 1))
+    throw UsageError("the contact band must lie between 0 and 1");
   if (!separation.blocked) return {};
   const Setting setting{frame_of(direction), options, tolerance::relative * diagonal(shape)};
   const double band = options.band * extent_along(shape, setting.frame.w) / direction.length();
@@ -173,8 +179,8 @@ std::vector<ContactRegion> contact_regions(const Shape& shape, const SeparationT
   std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Patch>> by_parts;
   for (ContactPolygon& polygon : polygons) {
     Outline outline = outline_of(polygon.upper_points, setting.frame);
-    by_parts[{shape.triangle_part[polygon.upper_triangle], shape.triangle_part[polygon.lower_triangle]}].push_back(
-        {std::move(polygon), std::move(outline)});
+    by_parts[{shape.triangle_part[polygon.upper_triangle], shape.triangle_part[polygon.lower_triangle]}]
+        .push_back({std::move(polygon), std::move(outline)});
   }
   std::vector<ContactRegion> regions;
   for (auto& [parts, patches] : by_parts)

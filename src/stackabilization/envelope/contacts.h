@@ -37,8 +37,8 @@ struct ContactRegion {
 struct ContactOptions {
   Semantics semantics = Semantics::solid;
   double band = tolerance::contact_band;  ///< eps as a fraction of the extent h(M, r); in [0, 1]
-  double line_aspect = 4;     ///< a region at least this many times longer than wide is a line
-  double least_hole = 0.01;   ///< a ring's hole takes at least this share of the rectangle around the region
+  double line_aspect = 4;                 ///< a region at least this many times longer than wide is a line
+  double least_hole = 0.01;  ///< a ring's hole takes at least this share of the rectangle around the region
 };
 
 /// The contact regions { q : f(q) >= f_max - eps } of a shape stacked on itself along `direction`, as

@@ -104,17 +104,17 @@ struct HeightRange {
   }
 };
 
-/// Upper bound of the height difference (upper minus lower) over common columns of two nodes. In the header because
-/// nearly all the time of a query is spent here.
+/// Upper bound of the height difference (upper minus lower) over common columns of two nodes. In the header
+/// because nearly all the time of a query is spent here.
 class NodePairBound {
  public:
   /// `magnitude`: largest absolute coordinate of both shapes.
   explicit NodePairBound(double magnitude)
-      : rounding_(16 * unit_roundoff * magnitude),
-        plane_rounding_(64 * unit_roundoff * magnitude) {}
+      : rounding_(16 * unit_roundoff * magnitude), plane_rounding_(64 * unit_roundoff * magnitude) {}
 
   /// -inf where the nodes have no common columns, or certainly nothing above `floor`.
-  DoubleDouble operator()(const ProjectedNode& upper, const ProjectedNode& lower, const DoubleDouble& floor) const {
+  DoubleDouble operator()(const ProjectedNode& upper, const ProjectedNode& lower,
+                          const DoubleDouble& floor) const {
     constexpr DoubleDouble none{-infinity, 0};
     const CommonRectangle common(upper, lower);
     const DoubleDouble boxes = exact_difference(upper.h_high, lower.h_low);

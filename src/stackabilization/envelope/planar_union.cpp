@@ -13,7 +13,9 @@ namespace {
 
 namespace bp = boost::polygon;
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 struct Bounds {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
@@ -27,8 +29,8 @@ struct Bounds {
   }
 };
 
-/// Distance between two convex outlines along the best separating axis among their sides: 0 when they overlap, never
-/// more than the true distance.
+/// Distance between two convex outlines along the best separating axis among their sides: 0 when they
+/// overlap, never more than the true distance.
 double separating_distance(const Outline& a, const Outline& b) {
   double best = 0;
   const auto try_axis = [&](const Eigen::Vector2d& axis) {
@@ -102,8 +104,8 @@ class Grid {
   double scale_;
 };
 
-/// Which cells of a coarse bitmap the outlines touch. Cells that are only touched count as covered: that closes cracks
-/// and small gaps between neighbouring outlines.
+/// Which cells of a coarse bitmap the outlines touch. Cells that are only touched count as covered: that
+/// closes cracks and small gaps between neighbouring outlines.
 class CoverageBitmap {
  public:
   CoverageBitmap(const Bounds& bounds) : low_(bounds.low), covered_(side * side, 0) {
@@ -212,9 +214,11 @@ std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outli
   Components components(outlines.size());
   std::vector<std::size_t> active;
   for (const std::size_t o : order) {
-    std::erase_if(active, [&](std::size_t other) { return bounds[other].high.x() + reach < bounds[o].low.x(); });
+    std::erase_if(active,
+                  [&](std::size_t other) { return bounds[other].high.x() + reach < bounds[o].low.x(); });
     for (const std::size_t other : active) {
-      if (bounds[other].high.y() + reach < bounds[o].low.y() || bounds[o].high.y() + reach < bounds[other].low.y())
+      if (bounds[other].high.y() + reach < bounds[o].low.y() ||
+          bounds[o].high.y() + reach < bounds[other].low.y())
         continue;
       if (components.find(o) == components.find(other)) continue;
       if (separating_distance(outlines[o], outlines[other]) <= reach) components.join(o, other);
@@ -264,7 +268,8 @@ Elongation elongation_of(const std::vector<Outline>& outlines) {
     for (const Eigen::Vector2d& p : outline) points.col(column++) = p;
   const std::vector<int> corners = convex_polygon(points, 0);
   Eigen::Matrix2Xd polygon(2, static_cast<Eigen::Index>(corners.size()));
-  for (std::size_t c = 0; c < corners.size(); ++c) polygon.col(static_cast<Eigen::Index>(c)) = points.col(corners[c]);
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    polygon.col(static_cast<Eigen::Index>(c)) = points.col(corners[c]);
   const PlanarRectangle rectangle = minimal_rectangle(polygon);
   Elongation result{rectangle.size.x(), rectangle.size.y(), rectangle.axis};
   if (result.length < result.width) {

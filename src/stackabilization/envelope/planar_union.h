@@ -6,23 +6,25 @@
 
 namespace stackabilization::detail {
 
-/// Corners of a convex polygon in the plane, in order, either orientation; may degenerate to a segment or a point.
+/// Corners of a convex polygon in the plane, in order, either orientation; may degenerate to a segment or a
+/// point.
 using Outline = std::vector<Eigen::Vector2d>;
 
 double outline_area(const Outline& outline);
 
-/// Barycentric weights of the corners whose combination is the centroid of the area (of the corners if that is zero).
+/// Barycentric weights of the corners whose combination is the centroid of the area (of the corners if that
+/// is zero).
 Eigen::VectorXd outline_centroid(const Outline& outline);
 
-/// Indices of outlines that hang together: two are neighbours when they come within `reach` of each other. Components
-/// by their smallest index, members ascending.
+/// Indices of outlines that hang together: two are neighbours when they come within `reach` of each other.
+/// Components by their smallest index, members ascending.
 std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outline>& outlines, double reach);
 
 /// Area of the union of the outlines, on an integer grid of 2^30 cells across.
 double union_area(const std::vector<Outline>& outlines);
 
-/// Area of the largest hole of the union, on a bitmap of 254 cells across in which every touched cell is covered: good
-/// enough to tell a ring from a patch, and blind to cracks between neighbours.
+/// Area of the largest hole of the union, on a bitmap of 254 cells across in which every touched cell is
+/// covered: good enough to tell a ring from a patch, and blind to cracks between neighbours.
 double largest_hole(const std::vector<Outline>& outlines);
 
 /// Minimal-area rectangle around all corners: its longer side and the unit direction of that side.

@@ -100,7 +100,7 @@ class SeparationQuery {
   }
 
  private:
-/// Can a pair of this bound be left out? Within the width of an enclosure it can, but the bound counts.
+  /// Can a pair of this bound be left out? Within the width of an enclosure it can, but the bound counts.
   bool hopeless(const DoubleDouble& high) {
     if (high <= cut_) return true;
     if (!(high.high - floor_.high <= width_)) return false;
@@ -181,13 +181,13 @@ class SeparationQuery {
   const SeparationTree::Data& upper_;
   const SeparationTree::Data& lower_;
   Projection projection_;
-  double scale_;           ///< heights per unit of r
+  double scale_;  ///< heights per unit of r
   NodePairBound node_bound_;
   double abandon_above_ = infinity;
   DoubleDouble floor_{-infinity, 0};  ///< certified lower bound of the answer, as a height difference
   DoubleDouble cut_{-infinity, 0};    ///< pairs bounded by this are out
-  double width_ = 0;             ///< of the enclosure asked for; 0: the exact value
-  double dropped_ = -infinity;   ///< largest bound left out within that width
+  double width_ = 0;                  ///< of the enclosure asked for; 0: the exact value
+  double dropped_ = -infinity;        ///< largest bound left out within that width
   bool abandoned_ = false;
   std::vector<Task> tasks_;                   ///< binary heap
   ProjectedNodes upper_nodes_, lower_nodes_;  ///< the second is empty where both shapes are one

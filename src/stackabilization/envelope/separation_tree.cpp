@@ -36,8 +36,8 @@ class TreeBuilder {
     return pieces <= leaf_size ? 1 : 1 + node_count(pieces / 2) + node_count(pieces - pieces / 2);
   }
 
-  /// Node `self` over [first, last); its descendants occupy nodes_ from `free` on. Returns which way its triangles
-  /// face: the sum of area n n^T over them.
+  /// Node `self` over [first, last); its descendants occupy nodes_ from `free` on. Returns which way its
+  /// triangles face: the sum of area n n^T over them.
   Eigen::Matrix3d build(std::size_t self, std::size_t free, std::int32_t first, std::int32_t last) {
     TreeNode& node = nodes_[self];
     fit_box(node, first, last);

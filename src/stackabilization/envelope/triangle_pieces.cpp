@@ -34,7 +34,8 @@ int longest_axis(const Piece& piece) {
 
 /// Half the surface of the box.
 double box_area(const Piece& piece) {
-  const double a = piece.high[0] - piece.low[0], b = piece.high[1] - piece.low[1], c = piece.high[2] - piece.low[2];
+  const double a = piece.high[0] - piece.low[0], b = piece.high[1] - piece.low[1],
+               c = piece.high[2] - piece.low[2];
   return a * b + b * c + c * a;
 }
 
@@ -47,8 +48,8 @@ struct Half {
   PiecePolygon polygon;
 };
 
-/// The halves on either side of the middle of the longest axis; they share the cut points. Precondition: room for one
-/// more point.
+/// The halves on either side of the middle of the longest axis; they share the cut points. Precondition: room
+/// for one more point.
 std::array<Half, 2> halves(const Piece& piece, const PiecePolygon& polygon, double rounding) {
   const int axis = longest_axis(piece);
   const double at = piece.low[axis] + (piece.high[axis] - piece.low[axis]) / 2;
@@ -96,14 +97,15 @@ class Cutter {
   }
 
   Pieces run() {
-    // Small shapes may take more, their trees are cheap; of large ones only the worst triangles matter. Cuts that save
-    // less than a small share of the mean box are not worth a node.
+    // Small shapes may take more, their trees are cheap; of large ones only the worst triangles matter. Cuts
+    // that save less than a small share of the mean box are not worth a node.
     const std::size_t most = triangles_.size() + std::min(triangles_.size() + 2048, most_cuts);
     const double least = total_ / static_cast<double>(most) / 64;
     std::vector<double> savings(triangles_.size());
     tbb::parallel_for(std::size_t{0}, savings.size(), [&](std::size_t t) {
       const Piece& piece = result_.pieces[t];
-      if (box_area(piece) > least) savings[t] = saving(piece, polygon_of(piece, result_, triangles_), rounding_);
+      if (box_area(piece) > least)
+        savings[t] = saving(piece, polygon_of(piece, result_, triangles_), rounding_);
     });
     for (std::size_t t = 0; t < savings.size(); ++t)
       if (savings[t] > least) queue_.push_back({savings[t], t});
@@ -168,13 +170,16 @@ class Cutter {
 
 }  // namespace
 
-PiecePolygon polygon_of(const Piece& piece, const Pieces& pieces, const std::vector<TreeTriangle>& triangles) {
+PiecePolygon polygon_of(const Piece& piece, const Pieces& pieces,
+                        const std::vector<TreeTriangle>& triangles) {
   if (piece.polygon >= 0) return pieces.polygons[static_cast<std::size_t>(piece.polygon)];
   PiecePolygon whole;
   for (const auto& corner : triangles[static_cast<std::size_t>(piece.triangle)].corners) add(whole, corner);
   return whole;
 }
 
-Pieces cut_into_pieces(const std::vector<TreeTriangle>& triangles) { return Cutter(triangles).run(); }
+Pieces cut_into_pieces(const std::vector<TreeTriangle>& triangles) {
+  return Cutter(triangles).run();
+}
 
 }  // namespace stackabilization::detail

@@ -15,7 +15,8 @@ struct PiecePolygon {
   int point_count = 0;
 };
 
-/// A convex piece of a triangle, by its box. Most pieces are whole triangles and need no polygon of their own.
+/// A convex piece of a triangle, by its box. Most pieces are whole triangles and need no polygon of their
+/// own.
 struct Piece {
   std::array<double, 3> low, high;  ///< widened by the rounding of cut points
   std::int32_t triangle = 0;        ///< row in the list of triangles
@@ -27,8 +28,8 @@ struct Pieces {
   std::vector<PiecePolygon> polygons;
 };
 
-/// Pieces that cover all triangles: one per triangle, plus up to about as many again, within a limit, where cutting
-/// long triangles shrinks boxes most. Deterministic; the more uniform the mesh, the fewer cuts.
+/// Pieces that cover all triangles: one per triangle, plus up to about as many again, within a limit, where
+/// cutting long triangles shrinks boxes most. Deterministic; the more uniform the mesh, the fewer cuts.
 Pieces cut_into_pieces(const std::vector<TreeTriangle>& triangles);
 
 /// The polygon of a piece.

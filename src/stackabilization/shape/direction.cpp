@@ -13,13 +13,18 @@ Direction::Direction(const Eigen::Vector3d& vector) : vector_(vector) {
   if (!std::isnormal(squared)) throw UsageError("the length of the direction is outside the range of double");
 }
 
-double Direction::length() const { return vector_.norm(); }
+double Direction::length() const {
+  return vector_.norm();
+}
 
-Eigen::Vector3d Direction::unit() const { return vector_ / vector_.norm(); }
+Eigen::Vector3d Direction::unit() const {
+  return vector_ / vector_.norm();
+}
 
 Frame frame_of(const Direction& direction) {
   const Eigen::Vector3d w = direction.unit();
-  // Rodrigues' formula for the rotation about z x w, with 1 / (1 + w.z) = (1 - w.z) / (w.x^2 + w.y^2): stable near -z.
+  // Rodrigues' formula for the rotation about z x w, with 1 / (1 + w.z) = (1 - w.z) / (w.x^2 + w.y^2): stable
+  // near -z.
   const double lateral = w.x() * w.x() + w.y() * w.y();
   if (lateral == 0) {
     const double side = w.z() > 0 ? 1 : -1;

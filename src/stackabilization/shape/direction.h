@@ -4,11 +4,13 @@
 
 namespace stackabilization {
 
-/// A stacking direction r: three finite doubles, not all zero, taken exactly as given. It needs no unit length:
-/// (0.3, -0.2, 1) means those three doubles, and exact results are expressed in units of this very vector.
+/// A stacking direction r: three finite doubles, not all zero, taken exactly as given. It needs no unit
+/// length: (0.3, -0.2, 1) means those three doubles, and exact results are expressed in units of this very
+/// vector.
 class Direction {
  public:
-  /// Throws UsageError when a component is not finite, all are zero, or the squared length overflows or underflows.
+  /// Throws UsageError when a component is not finite, all are zero, or the squared length overflows or
+  /// underflows.
   explicit Direction(const Eigen::Vector3d& vector);
   Direction(double x, double y, double z) : Direction(Eigen::Vector3d(x, y, z)) {}
 
@@ -29,8 +31,8 @@ struct Frame {
   Eigen::Vector3d to_world(const Eigen::Vector3d& q) const { return u * q.x() + v * q.y() + w * q.z(); }
 };
 
-/// The frame that the minimal rotation taking +z to r gives to the axes x, y, z. For r along -z it is the half turn
-/// about x. It varies continuously with r except there.
+/// The frame that the minimal rotation taking +z to r gives to the axes x, y, z. For r along -z it is the
+/// half turn about x. It varies continuously with r except there.
 Frame frame_of(const Direction& direction);
 
 }  // namespace stackabilization

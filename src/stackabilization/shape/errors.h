@@ -30,7 +30,8 @@ class OutputError : public Error {
   using Error::Error;
 };
 
-/// Pictures and depth images cannot be made here: no OpenGL context, or the driver failed. Programs exit with status 3.
+/// Pictures and depth images cannot be made here: no OpenGL context, or the driver failed. Programs exit with
+/// status 3.
 class RenderError : public Error {
  public:
   using Error::Error;

@@ -12,7 +12,8 @@ namespace {
 
 mpz_class parse_integer(const std::string& text) {
   mpz_class integer;
-  if (text.empty() || integer.set_str(text, 10) != 0) throw UsageError("'" + text + "' is not a decimal integer");
+  if (text.empty() || integer.set_str(text, 10) != 0)
+    throw UsageError("'" + text + "' is not a decimal integer");
   return integer;
 }
 
@@ -52,9 +53,13 @@ Rational& Rational::operator=(Rational&& other) noexcept {
 
 Rational::~Rational() = default;
 
-std::string Rational::numerator() const { return number_->value.get_num().get_str(); }
+std::string Rational::numerator() const {
+  return number_->value.get_num().get_str();
+}
 
-std::string Rational::denominator() const { return number_->value.get_den().get_str(); }
+std::string Rational::denominator() const {
+  return number_->value.get_den().get_str();
+}
 
 double Rational::to_double() const {
   // GMP truncates towards zero; the nearest double is that one or its neighbour away from zero.
@@ -101,6 +106,8 @@ std::strong_ordering operator<=>(const Rational& a, const Rational& b) {
   return cmp(a.number_->value, b.number_->value) <=> 0;
 }
 
-bool operator==(const Rational& a, const Rational& b) { return a.number_->value == b.number_->value; }
+bool operator==(const Rational& a, const Rational& b) {
+  return a.number_->value == b.number_->value;
+}
 
 }  // namespace stackabilization

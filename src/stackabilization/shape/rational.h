@@ -12,7 +12,8 @@ class Rational {
   Rational();  ///< zero
   /// Exactly this double. Throws UsageError unless finite.
   explicit Rational(double value);
-  /// numerator / denominator, decimal integers. Throws UsageError on a malformed number or a zero denominator.
+  /// numerator / denominator, decimal integers. Throws UsageError on a malformed number or a zero
+  /// denominator.
   Rational(const std::string& numerator, const std::string& denominator);
   Rational(const Rational& other);
   Rational(Rational&& other) noexcept;

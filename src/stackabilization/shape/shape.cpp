@@ -41,8 +41,8 @@ void validate(const Shape& shape) {
     for (int corner = 0; corner < 3; ++corner) {
       const std::int32_t vertex = shape.triangles(t, corner);
       if (vertex < 0 || vertex >= shape.vertex_count())
-        throw InputError("triangle " + std::to_string(t) + " refers to vertex " + std::to_string(vertex) + " of " +
-                         std::to_string(shape.vertex_count()));
+        throw InputError("triangle " + std::to_string(t) + " refers to vertex " + std::to_string(vertex) +
+                         " of " + std::to_string(shape.vertex_count()));
       if (!shape.vertices.row(vertex).allFinite())
         throw InputError("vertex " + std::to_string(vertex) + " of triangle " + std::to_string(t) +
                          " has a coordinate that is not a finite number");
@@ -52,11 +52,13 @@ void validate(const Shape& shape) {
 
 namespace {
 
-/// The listed triangles with the vertices they use, renumbered in their old order; parts are left to the caller.
+/// The listed triangles with the vertices they use, renumbered in their old order; parts are left to the
+/// caller.
 Shape subset(const Shape& shape, const std::vector<Eigen::Index>& triangles) {
   std::vector<std::int32_t> renumbered(static_cast<std::size_t>(shape.vertex_count()), -1);
   for (const Eigen::Index t : triangles)
-    for (int corner = 0; corner < 3; ++corner) renumbered[static_cast<std::size_t>(shape.triangles(t, corner))] = 0;
+    for (int corner = 0; corner < 3; ++corner)
+      renumbered[static_cast<std::size_t>(shape.triangles(t, corner))] = 0;
   std::int32_t used = 0;
   for (std::int32_t& vertex : renumbered)
     if (vertex == 0) vertex = used++;
@@ -65,7 +67,8 @@ Shape subset(const Shape& shape, const std::vector<Eigen::Index>& triangles) {
   result.unit = shape.unit;
   result.vertices.resize(used, 3);
   for (std::size_t v = 0; v < renumbered.size(); ++v)
-    if (renumbered[v] >= 0) result.vertices.row(renumbered[v]) = shape.vertices.row(static_cast<Eigen::Index>(v));
+    if (renumbered[v] >= 0)
+      result.vertices.row(renumbered[v]) = shape.vertices.row(static_cast<Eigen::Index>(v));
   result.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (int corner = 0; corner < 3; ++corner)
@@ -117,26 +120,39 @@ Shape transformed(const Shape& shape, const Eigen::Matrix3d& linear, const Eigen
 
 double metres_per_unit(Unit unit) {
   switch (unit) {
-    case Unit::micrometre: return 0.000001;
-    case Unit::millimetre: return 0.001;
-    case Unit::centimetre: return 0.01;
-    case Unit::inch: return 0.0254;
-    case Unit::foot: return 0.3048;
+    case Unit::micrometre:
+      return 0.000001;
+    case Unit::millimetre:
+      return 0.001;
+    case Unit::centimetre:
+      return 0.01;
+    case Unit::inch:
+      return 0.0254;
+    case Unit::foot:
+      return 0.3048;
     case Unit::metre:
-    case Unit::unknown: break;
+    case Unit::unknown:
+      break;
   }
   return 1;
 }
 
 std::string unit_symbol(Unit unit) {
   switch (unit) {
-    case Unit::micrometre: return "um";
-    case Unit::millimetre: return "mm";
-    case Unit::centimetre: return "cm";
-    case Unit::inch: return "in";
-    case Unit::foot: return "ft";
-    case Unit::metre: return "m";
-    case Unit::unknown: break;
+    case Unit::micrometre:
+      return "um";
+    case Unit::millimetre:
+      return "mm";
+    case Unit::centimetre:
+      return "cm";
+    case Unit::inch:
+      return "in";
+    case Unit::foot:
+      return "ft";
+    case Unit::metre:
+      return "m";
+    case Unit::unknown:
+      break;
   }
   return "";
 }

@@ -18,18 +18,18 @@ enum class Unit { unknown, micrometre, millimetre, centimetre, metre, inch, foot
 
 /// A finite set of triangles with double coordinates, cut into named parts.
 ///
-/// It may be open, non-manifold, self-intersecting and inconsistently oriented: real models are. Nothing in this
-/// library merges, drops or reorders triangles of a Shape behind the caller's back.
+/// It may be open, non-manifold, self-intersecting and inconsistently oriented: real models are. Nothing in
+/// this library merges, drops or reorders triangles of a Shape behind the caller's back.
 ///
-/// Invariants (checked by `validate`): triangle entries are valid vertex rows; `triangle_part` has one entry per
-/// triangle, each a valid index into `part_names`; a shape with triangles has at least one part; every coordinate
-/// that a triangle uses is finite.
+/// Invariants (checked by `validate`): triangle entries are valid vertex rows; `triangle_part` has one entry
+/// per triangle, each a valid index into `part_names`; a shape with triangles has at least one part; every
+/// coordinate that a triangle uses is finite.
 struct Shape {
-  Points vertices;                           ///< n x 3, model units.
-  Triangles triangles;                       ///< m x 3.
-  std::vector<std::string> part_names;       ///< k names, in file order; unique and non-empty.
-  std::vector<std::int32_t> triangle_part;   ///< m entries in [0, k).
-  Unit unit = Unit::unknown;                 ///< Unit of `vertices`.
+  Points vertices;                          ///< n x 3, model units.
+  Triangles triangles;                      ///< m x 3.
+  std::vector<std::string> part_names;      ///< k names, in file order; unique and non-empty.
+  std::vector<std::int32_t> triangle_part;  ///< m entries in [0, k).
+  Unit unit = Unit::unknown;                ///< Unit of `vertices`.
 
   Eigen::Index vertex_count() const { return vertices.rows(); }
   Eigen::Index triangle_count() const { return triangles.rows(); }
@@ -44,18 +44,19 @@ struct Shape {
 /// Shape of one part named "part". Throws InputError when the invariants of Shape do not hold.
 Shape make_shape(Points vertices, Triangles triangles);
 
-/// Throws InputError, naming the first offending triangle, vertex or part, unless the invariants of Shape hold and
-/// there is at least one triangle.
+/// Throws InputError, naming the first offending triangle, vertex or part, unless the invariants of Shape
+/// hold and there is at least one triangle.
 void validate(const Shape& shape);
 
-/// The triangles of part `part` (index into `part_names`) with the vertices they use, in their order in `shape`.
+/// The triangles of part `part` (index into `part_names`) with the vertices they use, in their order in
+/// `shape`.
 Shape extract_part(const Shape& shape, Eigen::Index part);
 
 /// All triangles of both, parts of `b` renamed "NAME_2" and so on where a name is taken already.
 Shape concatenate(const Shape& a, const Shape& b);
 
-/// p -> rotation * p + translation for every vertex, each coordinate rounded to double. Throws UsageError when
-/// `linear` or `translation` is not finite.
+/// p -> rotation * p + translation for every vertex, each coordinate rounded to double. Throws UsageError
+/// when `linear` or `translation` is not finite.
 Shape transformed(const Shape& shape, const Eigen::Matrix3d& linear, const Eigen::Vector3d& translation);
 
 /// Metres per unit; 1 for `unknown`.

@@ -4,28 +4,34 @@
 /// constructions in double precision and choose defaults of options.
 namespace stackabilization::tolerance {
 
-/// Relative accuracy demanded of constructions in double precision (boxes, areas, centres), as a fraction of the
-/// bounding-box diagonal. It sits six decades above rounding for coordinates up to 1e4 diagonals from the origin.
+/// Relative accuracy demanded of constructions in double precision (boxes, areas, centres), as a fraction of
+/// the bounding-box diagonal. It sits six decades above rounding for coordinates up to 1e4 diagonals from the
+/// origin.
 inline constexpr double relative = 1e-9;
 
-/// Rounding allowance of constructions in double precision, as a fraction of the largest coordinate: two hull triangles
-/// whose corners lie within it of one plane are one face, and points closer than it are one corner of a polygon.
+/// Rounding allowance of constructions in double precision, as a fraction of the largest coordinate: two hull
+/// triangles whose corners lie within it of one plane are one face, and points closer than it are one corner
+/// of a polygon.
 inline constexpr double rounding = 1e-13;
 
-/// Default width of the contact band { f >= f_max - eps }, as a fraction of the extent h along the direction: wide enough
-/// that the ring of a cup modelled with facets hangs together, narrow enough that second contacts stay out.
+/// Default width of the contact band { f >= f_max - eps }, as a fraction of the extent h along the direction:
+/// wide enough that the ring of a cup modelled with facets hangs together, narrow enough that second contacts
+/// stay out.
 inline constexpr double contact_band = 0.0125;
 
-/// Width at which a certified enclosure of a separation stops tightening, as a fraction of the largest coordinate.
+/// Width at which a certified enclosure of a separation stops tightening, as a fraction of the largest
+/// coordinate.
 inline constexpr double enclosure_width = 1e-12;
 
-/// How far above and below an exact f_max a collision test must be free and colliding, as a fraction of the extent h.
+/// How far above and below an exact f_max a collision test must be free and colliding, as a fraction of the
+/// extent h.
 inline constexpr double collision_margin = 1e-9;
 
 /// Error of a sampled f_max, as a fraction of the extent h, from which on a reader deserves an explanation.
 inline constexpr double sampling_error = 1e-3;
 
-/// Angular step, in radians, at which a local direction search stops: moving by it changes S by about 1e-8 at most.
+/// Angular step, in radians, at which a local direction search stops: moving by it changes S by about 1e-8 at
+/// most.
 inline constexpr double direction_step = 1e-8;
 
 /// Two directions whose S differ by less are equally good: below it lies rounding.

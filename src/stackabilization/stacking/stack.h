@@ -69,8 +69,9 @@ Line box_axis(const Shape& shape, const Direction& direction, BoxModel boxes);
 /// is taken against the dilated shape (see separation_with_play).
 ///
 /// The increment is that of the endlessly repeated poses. It is exact to rounding for up to 64 poses without
-/// twist (largest mean over closed chains of contacts) and, over contacts of copies less than n apart, for one
-/// pose with twist; else it is the mean over the last period of the stack, over the stack if it has but one.
+/// twist (largest mean over closed chains of contacts) and, over contacts of copies less than n apart, for
+/// one pose with twist; else it is the mean over the last period of the stack, over the stack if it has but
+/// one.
 ///
 /// Throws UsageError on options outside their ranges or transforms that are not rigid, InputError when
 /// `validate(shape)` fails or V(M) = 0.
