@@ -15,8 +15,8 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <numbers>
 
+#include "common/lattice.h"
 #include "common/provenance.h"
 #include "speed/competitor.h"
 #include "stackabilization/envelope/height_field.h"
@@ -32,16 +32,6 @@ using namespace stackabilization;
 using namespace stackabilization::experiments;
 
 namespace {
-
-std::vector<Direction> lattice(int count) {
-  const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
-  std::vector<Direction> directions;
-  for (int i = 0; i < count; ++i) {
-    const double z = 1 - (i + 0.5) / count, radius = std::sqrt((1 - z) * (1 + z));
-    directions.emplace_back(radius * std::cos(golden_angle * i), radius * std::sin(golden_angle * i), z);
-  }
-  return directions;
-}
 
 Competitor exact(const Shape& shape) {
   Competitor result;
@@ -136,7 +126,7 @@ std::vector<Row> compare(const std::string& model, int count, int slow_count) {
   std::vector<double> reference;
   for (const Competitor& competitor : competitors(shape)) {
     const int runs = rows.size() < 2 ? count : std::min(count, slow_count);
-    const std::vector<Direction> directions = lattice(count);
+    const std::vector<Direction> directions = hemisphere_lattice(count);
     std::vector<double> times;
     double error = 0;
     for (int d = 0; d < runs; ++d) {
