@@ -53,7 +53,7 @@ class SeparationQuery {
         upper_nodes_(upper.nodes),
         lower_nodes_(&upper == &lower ? no_nodes : lower.nodes) {
     if (options.abandon_above) abandon_above_ = *options.abandon_above * scale_;
-    push(0, 0);
+    push(bounded(0, 0));
   }
 
   /// Runs until the bounds differ by at most `width` (heights). With width 0, until the exact value is known.
@@ -71,7 +71,7 @@ class SeparationQuery {
       if (task.triangles) {
         decide(task);
       } else {
-        expand(task);
+        descend(task);
       }
     }
   }
@@ -120,10 +120,14 @@ class SeparationQuery {
     return &upper_ == &lower_ ? upper_node(index) : lower_nodes_.get(index, projection_);
   }
 
-  void push(std::int32_t a, std::int32_t b) {
-    const DoubleDouble high = node_bound_(upper_node(a), lower_node(b), cut_);
-    if (hopeless(high)) return;
-    tasks_.push_back({high, a, b, false});
+  /// The pair of nodes with its bound: -inf where nothing above the cut is in it.
+  Task bounded(std::int32_t a, std::int32_t b) {
+    return {node_bound_(upper_node(a), lower_node(b), cut_), a, b, false};
+  }
+
+  void push(const Task& task) {
+    if (hopeless(task.high)) return;
+    tasks_.push_back(task);
     std::push_heap(tasks_.begin(), tasks_.end());
   }
 
@@ -131,18 +135,30 @@ class SeparationQuery {
     return node.x_high - node.x_low + node.y_high - node.y_low + node.h_high - node.h_low;
   }
 
-  void expand(const Task& task) {
-    const TreeNode& upper = upper_.nodes[task.upper];
-    const TreeNode& lower = lower_.nodes[task.lower];
-    if (upper.count > 0 && lower.count > 0) {
-      test_triangles(upper, lower);
-      return;
+  /// Expands a pair of nodes, and its better half as long as that would be the next of the queue anyway: most
+  /// pairs never enter the heap.
+  void descend(Task task) {
+    for (;;) {
+      const TreeNode& upper = upper_.nodes[task.upper];
+      const TreeNode& lower = lower_.nodes[task.lower];
+      if (upper.count > 0 && lower.count > 0) {
+        test_triangles(upper, lower);
+        return;
+      }
+      // Splitting the wider node only costs two bounds instead of four, and most halves drop out at once.
+      const bool split_upper = lower.count > 0 || (upper.count == 0 && width(upper_node(task.upper)) >=
+                                                                           width(lower_node(task.lower)));
+      Task first = split_upper ? bounded(upper.first, task.lower) : bounded(task.upper, lower.first);
+      Task second = split_upper ? bounded(upper.first + 1, task.lower) : bounded(task.upper, lower.first + 1);
+      if (first < second) std::swap(first, second);
+      push(second);
+      if (!tasks_.empty() && first < tasks_.front()) {
+        push(first);
+        return;
+      }
+      if (hopeless(first.high)) return;
+      task = first;
     }
-    // Splitting the wider node only costs two bounds instead of four, and most halves drop out at once.
-    const bool split_upper = lower.count > 0 || (upper.count == 0 && width(upper_node(task.upper)) >=
-                                                                         width(lower_node(task.lower)));
-    for (int child = 0; child < 2; ++child)
-      push(split_upper ? upper.first + child : task.upper, split_upper ? task.lower : lower.first + child);
   }
 
   void test_triangles(const TreeNode& upper, const TreeNode& lower) {
@@ -153,10 +169,8 @@ class SeparationQuery {
       const ProjectedTriangle upper_triangle(upper_.triangles[a], projection_);
       for (std::int32_t b = 0; b < lower.count; ++b) {
         const PairBounds bounds = bound_pair(upper_triangle, lower_triangles[b], projection_, cut_);
-        if (hopeless(bounds.high)) continue;
         if (!(bounds.low <= floor_)) raise_floor(bounds.low, false);
-        tasks_.push_back({bounds.high, a, lower.first + b, true});
-        std::push_heap(tasks_.begin(), tasks_.end());
+        push({bounds.high, a, lower.first + b, true});
       }
     }
   }
