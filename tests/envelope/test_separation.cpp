@@ -41,6 +41,10 @@ Shape moved(const Shape& shape, const Eigen::Vector3d& by) {
   return transformed(shape, Eigen::Matrix3d::Identity(), by);
 }
 
+Shape scaled(const Shape& shape, double factor) {
+  return transformed(shape, factor * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
+}
+
 const std::vector<Direction>& directions() {
   static const std::vector<Direction> list = {{0, 0, 1},      {0, 0, -2}, {1, 0, 0},    {0, -3, 0}, {1, 1, 0},
                                               {0.3, -0.2, 1}, {1, 2, 3},  {-1, 0.1, 0}, {2, -1, -2}};
@@ -242,11 +246,61 @@ TEST_CASE("huge and tiny shapes are measured alike") {
   const Shape shape = l_shape(4, 1);
   const Direction r(0.3, -0.2, 1);
   const Rational reference = f_max(shape, r);
-  for (const int exponent : {-300, -100, 100, 300}) {
+  for (const int exponent : {-190, -100, 100, 190}) {
     const double scale = std::ldexp(1.0, exponent);
-    const Shape scaled = transformed(shape, scale * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
-    CHECK(f_max(scaled, r) == reference * Rational(scale));
+    CHECK(f_max(scaled(shape, scale), r) == reference * Rational(scale));
   }
+  for (const int exponent : {-1000, -350, -260, -210, 200, 260, 350, 1000})
+    CHECK_THROWS_AS(SeparationTree(scaled(shape, std::ldexp(1.0, exponent))), InputError);
+}
+
+TEST_CASE("details far below the size of a shape count") {
+  // Products of their coordinates underflow.
+  const Shape detail = concatenate(box({0, 0, 0}, {1, 1, 0.5}), box({0.25, 0.25, 4}, {0.75, 0.75, 5}));
+  const Eigen::Vector3d shrink(std::ldexp(1.0, -540), std::ldexp(1.0, -540), 1);
+  const Shape shape = concatenate(transformed(detail, shrink.asDiagonal(), Eigen::Vector3d::Zero()),
+                                  box({1, 1, 0}, {2, 2, 1}));
+  CHECK(f_max(shape, z) == Rational(5.0));
+}
+
+TEST_CASE("a direction is slanted however little") {
+  // The wall x = 0 leans over the floor by less than its corners' coordinates resolve.
+  Points vertices(7, 3);
+  vertices << 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, -1, 0, 0, 1, 0, 0, 0, 1, 0;
+  Triangles triangles(3, 3);
+  triangles << 0, 1, 3, 0, 3, 2, 4, 5, 6;
+  const Shape shape = make_shape(vertices, triangles);
+  CHECK(f_max(shape, Direction(0, 0, 3)) == Rational(0.0));
+  for (const double slant : {1e-3, 1e-17, 1e-300, 5e-324}) {
+    const Direction r(slant, 0, 3);
+    CHECK(f_max(shape, r) == *oracle_separation(shape, shape, r));
+    CHECK(f_max(shape, r) > Rational(0.1));
+  }
+}
+
+TEST_CASE("the distance from the origin does not matter") {
+  const Direction r(0.3, -0.2, 1);
+  for (const double distance : {1e3, 1048576.0, -1e7})
+    for (const Shape& shape : {l_shape(4, 1), hook({}), random_soup(16, 9, 2)}) {
+      const Eigen::Vector3d offset(distance, 2 * distance, -distance);
+      const Shape far = moved(shape, offset);
+      const SeparationTree tree(shape), far_tree(far);
+      const Separation here = separation(tree, tree, r), there = separation(far_tree, far_tree, r);
+      REQUIRE(there.blocked);
+      CHECK(there.value == here.value);
+      const Witness& w = there.witness;
+      CHECK(there.value == *oracle_pair(far, w.upper_triangle, far, w.lower_triangle, r));
+      const Eigen::Vector3d lifted = w.lower_point + there.value.to_double() * r.vector();
+      CHECK((lifted - w.upper_point).norm() < 1e-15 * std::abs(distance));
+      CHECK((w.upper_point - offset).norm() < 20);
+      const Enclosure bounds = separation_enclosure(far_tree, far_tree, r);
+      CHECK(Rational(bounds.lower) <= here.value);
+      CHECK(Rational(bounds.upper) >= here.value);
+      CHECK(bounds.upper - bounds.lower < 1e-11);
+      // The gap between a shape and its far copy is that of the shape, less the shift along r.
+      const Direction along(offset);
+      CHECK(separation(tree, far_tree, along).value == f_max(shape, along) - Rational(1.0));
+    }
 }
 
 TEST_CASE("a tree refuses a shape without triangles") {

@@ -39,6 +39,8 @@ std::vector<BadFile> bad_files() {
       {"nan.obj", "v 0 0 0\nv nan 0 0\n", ":2:"},
       {"inf.obj", "v 0 -inf 0\n", ":1:"},
       {"overflow.obj", "v 0 0 1e999\n", ":1:"},
+      {"huge.obj", "v 0 0 0\nv 1e61 0 0\nv 0 1 0\nf 1 2 3\n", "vertex 1 of triangle 0"},
+      {"tiny.obj", "v 0 0 0\nv 1e-61 0 0\nv 0 1e-61 0\nf 1 2 3\n", "10^-60"},
       {"short.obj", "v 0 0\n", ":1:"},
       {"letters.obj", "v a b c\n", ":1:"},
       {"comma.obj", "v 0,5 0 0\n", ":1:"},

@@ -172,8 +172,11 @@ TEST_CASE("findings do not depend on the order of the faces, and reports name wh
 }
 
 TEST_CASE("extreme coordinates give no NaN") {
-  for (const double scale : {1e30, 1e200, 1e308}) {
-    const std::string text = report(inspect(cube(scale)));
-    CHECK(text.find("nan") == std::string::npos);
+  for (const double scale : {1e-60, 1e-30, 1e30, 1e60}) {
+    const Findings findings = inspect(cube(scale));
+    CHECK(report(findings).find("nan") == std::string::npos);
+    REQUIRE(findings.volume);
+    CHECK(*findings.volume > 0);
+    CHECK(std::isfinite(*findings.volume));
   }
 }

@@ -48,7 +48,7 @@ TEST_CASE("what cannot be written is refused and leaves nothing behind") {
   CHECK_THROWS_AS(write_shape(cube(), folder.path() / "a.gltf"), UsageError);
   CHECK_THROWS_AS(write_shape(cube(), "-"), UsageError);
   CHECK_THROWS_AS(write_shape(Shape(), folder.path() / "a.obj"), InputError);
-  CHECK_THROWS_AS(write_shape(cube(1e300), folder.path() / "a.stl"), OutputError);
+  CHECK_THROWS_AS(write_shape(cube(1e50), folder.path() / "a.stl"), OutputError);
   CHECK(entries(folder.path()) == 0);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stackabilization/envelope/exact_pair.h"
 #include "stackabilization/envelope/node_pair.h"
 
 namespace stackabilization::detail {
@@ -57,14 +58,6 @@ std::vector<Corner> common_polygon(const ProjectedTriangle& upper, const Project
     });
   for (Corner& corner : polygon) corner.lower = height_over(lower, corner.x, corner.y);
   return polygon;
-}
-
-double area(const std::vector<Corner>& polygon) {
-  double twice = 0;
-  for (std::size_t c = 2; c < polygon.size(); ++c)
-    twice += (polygon[c - 1].x - polygon[0].x) * (polygon[c].y - polygon[0].y) -
-             (polygon[c - 1].y - polygon[0].y) * (polygon[c].x - polygon[0].x);
-  return std::abs(twice) / 2;
 }
 
 /// All pairs of triangles that may reach the floor, by descending the tree against itself.
@@ -124,11 +117,17 @@ class ContactSearch {
     for (const Pair& pair : pairs_) {
       const ProjectedTriangle upper(tree_.triangles[pair.upper_at], projection_);
       const ProjectedTriangle lower(tree_.triangles[pair.lower_at], projection_);
-      if (bound_pair(upper, lower, projection_, cut_).high <= cut_) continue;
+      const PairBounds bounds = bound_pair(upper, lower, projection_, cut_);
+      if (bounds.high <= cut_) continue;
+      // Neighbours of a contact that only share an edge with it in projection would come as slivers of
+      // rounding.
+      const bool certain = bounds.low.high > -infinity;
+      if (!certain && !exact_maximum(tree_.triangles[pair.upper_at], tree_.triangles[pair.lower_at],
+                                     projection_.shear, projection_.semantics))
+        continue;
       const std::vector<Corner> polygon =
           clip(common_polygon(upper, lower), [this](const Corner& corner) { return corner.gap() - floor_; });
-      if (polygon.empty() || (projection_.semantics == Semantics::solid && !(area(polygon) > 0))) continue;
-      result.push_back(lift(pair, polygon));
+      if (!polygon.empty()) result.push_back(lift(pair, polygon));
     }
     return result;
   }
@@ -148,6 +147,7 @@ class ContactSearch {
     point[shear.i] = corner.x + height * shear.sx;
     point[shear.j] = corner.y + height * shear.sy;
     point[shear.k] = shear.sign * height;
+    for (int axis = 0; axis < 3; ++axis) point[axis] += tree_.origin[axis];
     return point;
   }
 

@@ -8,7 +8,8 @@
 namespace stackabilization::detail {
 
 /// Every polygon over which f >= floor, one per pair of triangles, in the order of the pairs (upper, lower).
-/// `floor` is a length in units of r. Polygons without area are kept in closed semantics only.
+/// `floor` is a length in units of r. In solid semantics, pairs whose
+/// projections only touch have none.
 std::vector<ContactPolygon> contact_polygons(const SeparationTree::Data& tree, const Direction& direction,
                                              Semantics semantics, double floor);
 

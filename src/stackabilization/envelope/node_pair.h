@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -10,8 +9,6 @@
 #include "stackabilization/envelope/triangle_pair.h"
 
 namespace stackabilization::detail {
-
-inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A node seen along a direction: ranges of its projection and heights, and its slab in those coordinates,
 ///   slab_low <= n_x x + n_y y + slope H <= slab_high.

@@ -1,7 +1,10 @@
 #include "stackabilization/envelope/separation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "stackabilization/envelope/exact_pair.h"
@@ -76,6 +79,12 @@ class SeparationQuery {
     }
   }
 
+  /// Of both shapes along the axis that serves as height.
+  double extent() {
+    const ProjectedNode &a = upper_node(0), &b = lower_node(0);
+    return std::max(a.h_high, b.h_high) - std::min(a.h_low, b.h_low);
+  }
+
   Enclosure enclosure() const {
     if (floor_.high == -infinity) return {};
     const auto widened = [this](double height, double towards) {
@@ -89,8 +98,7 @@ class SeparationQuery {
   Separation separation() const {
     Separation result;
     if (!best_) return result;
-    const TreeTriangle& upper = upper_.triangles[best_upper_];
-    const TreeTriangle& lower = lower_.triangles[best_lower_];
+    const TreeTriangle upper = upper_.in_file_axes(best_upper_), lower = lower_.in_file_axes(best_lower_);
     const ExactPoints points = exact_points(upper, lower, projection_.shear, projection_.semantics);
     result.blocked = true;
     result.value = *best_;
@@ -210,22 +218,45 @@ class SeparationQuery {
   std::int32_t decided_upper_ = -1, decided_lower_ = -1;  ///< last pair decided, as triangles of the shapes
 };
 
+/// Two trees in one frame: as they are if their origins agree, else built again in the file's axes.
+class CommonFrame {
+ public:
+  CommonFrame(const SeparationTree& below, const SeparationTree& above)
+      : below_(&below.data()), above_(&above.data()) {
+    if (below_->origin == above_->origin) return;
+    rebuilt_ = {below_->in_file_axes(), above_->in_file_axes()};
+    below_ = &rebuilt_[0];
+    above_ = &rebuilt_[1];
+  }
+  CommonFrame(const CommonFrame&) = delete;
+  CommonFrame& operator=(const CommonFrame&) = delete;
+
+  const SeparationTree::Data& below() const { return *below_; }
+  const SeparationTree::Data& above() const { return *above_; }
+
+ private:
+  const SeparationTree::Data* below_;
+  const SeparationTree::Data* above_;
+  std::array<SeparationTree::Data, 2> rebuilt_;
+};
+
 }  // namespace
 
 Separation separation(const SeparationTree& below, const SeparationTree& above, const Direction& direction,
                       const SeparationOptions& options) {
+  const CommonFrame frame(below, above);
   SeparationOptions exact = options;
   exact.abandon_above.reset();
-  SeparationQuery query(below.data(), above.data(), direction, exact);
+  SeparationQuery query(frame.below(), frame.above(), direction, exact);
   query.run(0);
   return query.separation();
 }
 
 Enclosure separation_enclosure(const SeparationTree& below, const SeparationTree& above,
                                const Direction& direction, const SeparationOptions& options) {
-  const double magnitude = std::max(below.data().magnitude, above.data().magnitude);
-  SeparationQuery query(below.data(), above.data(), direction, options);
-  query.run(tolerance::enclosure_width * magnitude);
+  const CommonFrame frame(below, above);
+  SeparationQuery query(frame.below(), frame.above(), direction, options);
+  query.run(tolerance::enclosure_width * query.extent());
   return query.enclosure();
 }
 

@@ -38,7 +38,7 @@ struct Separation {
   /// shapes pass each other at any height, and the other fields are meaningless.
   bool blocked = false;
   Rational value;     ///< in units of r: the translation is value * r
-  double length = 0;  ///< value * |r|, model units, within 2 ulp
+  double length = 0;  ///< value * |r|, model units, within 4 ulp
   Witness witness;
 };
 
@@ -58,6 +58,8 @@ struct SeparationOptions {
 
 /// Bounding-volume tree of a shape's triangles, built once and queried for any number of directions, by any
 /// number of threads at the same time. It keeps its own copy of the coordinates. O(m log m) to build.
+/// Two trees of which one lies far from the file's origin (several times its size) are built again for every
+/// query between them.
 class SeparationTree {
  public:
   /// Precondition: `validate(shape)` passes (InputError otherwise).
@@ -83,8 +85,8 @@ class SeparationTree {
 Separation separation(const SeparationTree& below, const SeparationTree& above, const Direction& direction,
                       const SeparationOptions& options = {});
 
-/// Same quantity as a certified enclosure, relative width about 1e-12 of the extent along r: what searches
-/// over directions use. Never slower than `separation`.
+/// Same quantity as a certified enclosure, about 1e-12 of the extent along the file axis next to r wide: what
+/// searches over directions use. Never slower than `separation`.
 Enclosure separation_enclosure(const SeparationTree& below, const SeparationTree& above,
                                const Direction& direction, const SeparationOptions& options = {});
 

@@ -2,10 +2,13 @@
 
 #include <tbb/parallel_invoke.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "stackabilization/envelope/shear.h"
 #include "stackabilization/envelope/triangle_pieces.h"
@@ -83,7 +86,7 @@ class TreeBuilder {
     Eigen::Matrix3d facing = Eigen::Matrix3d::Zero();
     for (std::int32_t t = first; t < last; ++t) {
       const Eigen::Vector3d normal = area_normal(triangles_[pieces_[t].triangle]);
-      const double length = normal.norm();
+      const double length = normal.stableNorm();
       if (length > 0) facing += normal * (normal / length).transpose();
     }
     return facing;
@@ -150,25 +153,77 @@ class TreeBuilder {
   std::vector<TreeNode>& nodes_;
 };
 
+/// A number that can be subtracted from everything in [low, high] without rounding, close to it if it is far
+/// from 0. By Sterbenz's lemma x - c is exact for c / 2 <= x <= 2 c.
+double exact_origin(double low, double high) {
+  const double size = high - low;
+  if (low > 4 * size) return low;
+  if (high < -4 * size) return high;
+  return 0;
+}
+
+std::vector<TreeTriangle> triangles_of(const Shape& shape) {
+  std::vector<TreeTriangle> triangles(static_cast<std::size_t>(shape.triangle_count()));
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    triangles[t].index = static_cast<std::int32_t>(t);
+    for (int c = 0; c < 3; ++c)
+      for (int axis = 0; axis < 3; ++axis)
+        triangles[t].corners[c][axis] = shape.vertices(shape.triangles(triangles[t].index, c), axis);
+  }
+  return triangles;
+}
+
+std::array<double, 3> exact_origin(const std::vector<TreeTriangle>& triangles) {
+  std::array<double, 3> low = triangles.front().corners[0], high = low;
+  for (const TreeTriangle& triangle : triangles)
+    for (const auto& corner : triangle.corners)
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], corner[axis]);
+        high[axis] = std::max(high[axis], corner[axis]);
+      }
+  return {exact_origin(low[0], high[0]), exact_origin(low[1], high[1]), exact_origin(low[2], high[2])};
+}
+
+/// Takes triangles in the file's axes.
+SeparationTree::Data build(std::vector<TreeTriangle> triangles, const std::array<double, 3>& origin) {
+  SeparationTree::Data data;
+  data.origin = origin;
+  for (TreeTriangle& triangle : triangles)
+    for (auto& corner : triangle.corners)
+      for (int axis = 0; axis < 3; ++axis) {
+        corner[axis] -= origin[axis];
+        data.magnitude = std::max(data.magnitude, std::abs(corner[axis]));
+      }
+  Pieces pieces = cut_into_pieces(triangles);
+  TreeBuilder(pieces, triangles, data);
+  return data;
+}
+
 }  // namespace
+
+TreeTriangle SeparationTree::Data::in_file_axes(std::int32_t triangle) const {
+  TreeTriangle result = triangles[static_cast<std::size_t>(triangle)];
+  for (auto& corner : result.corners)
+    for (int axis = 0; axis < 3; ++axis) corner[axis] += origin[axis];
+  return result;
+}
+
+SeparationTree::Data SeparationTree::Data::in_file_axes() const {
+  // Triangles that were cut occur several times.
+  std::vector<TreeTriangle> whole;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto index = static_cast<std::size_t>(triangles[t].index);
+    if (index >= whole.size()) whole.resize(index + 1);
+    whole[index] = in_file_axes(static_cast<std::int32_t>(t));
+  }
+  return build(std::move(whole), {});
+}
 
 SeparationTree::SeparationTree(const Shape& shape) {
   validate(shape);
-  auto data = std::make_unique<Data>();
-  std::vector<TreeTriangle> triangles(static_cast<std::size_t>(shape.triangle_count()));
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    TreeTriangle& triangle = triangles[t];
-    triangle.index = static_cast<std::int32_t>(t);
-    for (int c = 0; c < 3; ++c)
-      for (int axis = 0; axis < 3; ++axis) {
-        const double coordinate = shape.vertices(shape.triangles(triangle.index, c), axis);
-        triangle.corners[c][axis] = coordinate;
-        data->magnitude = std::max(data->magnitude, std::abs(coordinate));
-      }
-  }
-  Pieces pieces = cut_into_pieces(triangles);
-  TreeBuilder(pieces, triangles, *data);
-  data_ = std::move(data);
+  std::vector<TreeTriangle> triangles = triangles_of(shape);
+  const std::array<double, 3> origin = exact_origin(triangles);
+  data_ = std::make_unique<const Data>(build(std::move(triangles), origin));
 }
 
 SeparationTree::SeparationTree(SeparationTree&&) noexcept = default;

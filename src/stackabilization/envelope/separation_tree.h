@@ -8,7 +8,7 @@
 
 namespace stackabilization {
 
-/// Corners of one triangle, exactly as in the shape, and where it came from.
+/// Corners of one triangle, relative to the origin of the tree, and where it came from.
 struct TreeTriangle {
   std::array<std::array<double, 3>, 3> corners;
   std::int32_t index;
@@ -28,9 +28,17 @@ struct TreeNode {
 inline constexpr int leaf_size = 2;
 
 struct SeparationTree::Data {
+  /// Subtracted from all coordinates without rounding any: where a shape lies far from the file's origin, the
+  /// error bounds of the filters, which grow with the coordinates, would drown its features.
+  std::array<double, 3> origin{};
   std::vector<TreeTriangle> triangles;  ///< in tree order
   std::vector<TreeNode> nodes;          ///< nodes[0] is the root
-  double magnitude = 0;                 ///< largest absolute coordinate
+  double magnitude = 0;                 ///< largest absolute coordinate, relative to the origin
+
+  /// The triangle as in the shape, exactly.
+  TreeTriangle in_file_axes(std::int32_t triangle) const;
+  /// The same shape with the file's origin, built again.
+  Data in_file_axes() const;
 };
 
 }  // namespace stackabilization

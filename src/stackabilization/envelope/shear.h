@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cfloat>
 #include <cmath>
 #include <limits>
 
@@ -10,6 +11,15 @@ namespace stackabilization::detail {
 
 /// Half a unit in the last place of 1: the relative error of one rounded operation.
 inline constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
+#ifdef __FAST_MATH__
+#error \
+    "The error bounds of the filters and the exact differences need IEEE arithmetic: compile without -ffast-math."
+#endif
+static_assert(FLT_EVAL_METHOD == 0,
+              "The filters need doubles that are rounded after every operation, as with SSE2.");
 
 /// An unevaluated sum high + low of two doubles with |low| <= ulp(high) / 2: lexicographic order is numeric
 /// order. The difference of two doubles is exactly representable, which lets equal heights tie exactly.
@@ -53,9 +63,10 @@ struct Shear {
   double y(const double* p) const { return p[j] - height(p) * sy; }
 
   /// Bounds on |computed - exact| of x and y for points with |coordinates| <= magnitude; zero where no
-  /// rounding occurs.
-  double x_error(double magnitude) const { return sx == 0 ? 0 : 6 * unit_roundoff * magnitude; }
-  double y_error(double magnitude) const { return sy == 0 ? 0 : 6 * unit_roundoff * magnitude; }
+  /// rounding occurs. sx carries one rounding, the product and the difference one each, of numbers up to
+  /// magnitude, magnitude and 2 magnitude: 4 unit roundoffs and a margin.
+  double x_error(double magnitude) const { return r[i] == 0 ? 0 : 6 * unit_roundoff * magnitude; }
+  double y_error(double magnitude) const { return r[j] == 0 ? 0 : 6 * unit_roundoff * magnitude; }
 };
 
 }  // namespace stackabilization::detail

@@ -5,7 +5,9 @@
 namespace stackabilization::detail {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Far above what the few products of one bound can lose by underflow, far below all that counts in a shape
+/// (tolerance::smallest_shape).
+constexpr double underflow = std::numeric_limits<double>::min();
 
 /// A computed number and a bound on its error. Comparisons that involve NaN fall on the undecided side.
 struct Approximate {
@@ -17,10 +19,10 @@ struct Approximate {
   bool certainly_not_positive() const { return value <= -error; }
 };
 
-/// |p * q| plus what underflow may hide; zero only if a factor is zero.
-inline double product_bound(double p, double q) {
-  const double product = std::abs(p * q);
-  return product > 0 || p == 0 || q == 0 ? product : std::numeric_limits<double>::min();
+/// Bound on the error of p * q for factors that carry a few roundings each: relative, plus what underflow may
+/// hide; zero only if a factor is zero, whose products are exact.
+inline double product_error(double p, double q) {
+  return p == 0 || q == 0 ? 0 : 6 * unit_roundoff * std::abs(p * q) + underflow;
 }
 
 /// Twice the signed area of the projected points p, q, s: (q - p) x (s - p), with a bound on all rounding
@@ -28,7 +30,7 @@ inline double product_bound(double p, double q) {
 inline Approximate orientation(double px, double py, double qx, double qy, double sx, double sy,
                                const Projection& projection) {
   const double ax = qx - px, ay = qy - py, bx = sx - px, by = sy - py;
-  const double rounding = 6 * unit_roundoff * (product_bound(ax, by) + product_bound(ay, bx));
+  const double rounding = product_error(ax, by) + product_error(ay, bx);
   const double input = 2.5 * (projection.x_error * (std::abs(by) + std::abs(ay)) +
                               projection.y_error * (std::abs(ax) + std::abs(bx))) +
                        12 * projection.x_error * projection.y_error;
@@ -78,6 +80,7 @@ class MaximumBounds {
       : low_limit_(low_limit), high_limit_(high_limit) {}
 
   void take(double value, double error, bool certain) {
+    error += underflow;
     double low = value - error, high = value + error;
     if (!(low >= low_limit_)) low = low_limit_;
     if (!(high <= high_limit_)) high = high_limit_;
@@ -106,7 +109,8 @@ void take_corners(const ProjectedTriangle& point, const ProjectedTriangle& base,
       certain = certain && side.certainly_not_negative();
       const double difference = point.h[v] - base.h[e];
       weighted += side.value * difference;
-      weighted_error += (side.error + 5 * unit_roundoff * std::abs(side.value)) * std::abs(difference);
+      weighted_error +=
+          (side.error + 5 * unit_roundoff * std::abs(side.value)) * std::abs(difference) + underflow;
       weight += side.value;
       weight_error += side.error + 3 * unit_roundoff * std::abs(side.value);
     }

@@ -36,8 +36,8 @@ struct ProjectedTriangle {
 /// triangles. `low` is -inf unless the triangles certainly have common columns; `high` is -inf if they
 /// certainly have none.
 struct PairBounds {
-  DoubleDouble low{-std::numeric_limits<double>::infinity(), 0};
-  DoubleDouble high{-std::numeric_limits<double>::infinity(), 0};
+  DoubleDouble low{-infinity, 0};
+  DoubleDouble high{-infinity, 0};
 };
 
 /// Bounds for one pair. Cost: one or two comparisons for most pairs; pairs that cannot exceed `floor` return

@@ -138,7 +138,6 @@ class Inspector {
       const Eigen::Vector3d c = point(corners[2]) - centre;
       volume += a.dot(b.cross(c)) / 6;
     }
-    if (!std::isfinite(volume)) return;
     findings_.volume = volume;
     findings_.oriented_outward = volume > 0;
   }

@@ -47,6 +47,11 @@ Shape read_source(const Source& source, Format format, const Folder& folder, con
   if (up != Axis::z) turn_up_to_z(shape.vertices, up);
   if (options.unit) shape.unit = *options.unit;
   if (options.labels) shape = with_labels(std::move(shape), *options.labels);
+  try {
+    validate(shape);
+  } catch (const InputError& error) {
+    throw InputError(source.name + ": " + error.what());
+  }
   return shape;
 }
 

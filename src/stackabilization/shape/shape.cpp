@@ -5,6 +5,7 @@
 #include <set>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization {
 
@@ -33,20 +34,33 @@ void validate_parts(const Shape& shape) {
       throw InputError("triangle " + std::to_string(t) + " belongs to a part that does not exist");
 }
 
+/// Largest absolute coordinate of the vertex. `triangle` uses it.
+double checked_magnitude(const Shape& shape, std::int32_t vertex, Eigen::Index triangle) {
+  const auto fail = [&](const std::string& flaw) {
+    throw InputError("vertex " + std::to_string(vertex) + " of triangle " + std::to_string(triangle) + " " +
+                     flaw);
+  };
+  if (!shape.vertices.row(vertex).allFinite()) fail("has a coordinate that is not a finite number");
+  const double magnitude = shape.vertices.row(vertex).cwiseAbs().maxCoeff();
+  if (magnitude > tolerance::largest_coordinate) fail("has a coordinate beyond 10^60, choose another unit");
+  return magnitude;
+}
+
 }  // namespace
 
 void validate(const Shape& shape) {
   if (shape.triangle_count() == 0) throw InputError("the shape has no triangles");
+  double magnitude = 0;
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
     for (int corner = 0; corner < 3; ++corner) {
       const std::int32_t vertex = shape.triangles(t, corner);
       if (vertex < 0 || vertex >= shape.vertex_count())
         throw InputError("triangle " + std::to_string(t) + " refers to vertex " + std::to_string(vertex) +
                          " of " + std::to_string(shape.vertex_count()));
-      if (!shape.vertices.row(vertex).allFinite())
-        throw InputError("vertex " + std::to_string(vertex) + " of triangle " + std::to_string(t) +
-                         " has a coordinate that is not a finite number");
+      magnitude = std::max(magnitude, checked_magnitude(shape, vertex, t));
     }
+  if (magnitude > 0 && magnitude < tolerance::smallest_shape)
+    throw InputError("no coordinate of the shape exceeds 10^-60, choose another unit");
   validate_parts(shape);
 }
 

@@ -19,8 +19,8 @@ inline constexpr double rounding = 1e-13;
 /// stay out.
 inline constexpr double contact_band = 0.0125;
 
-/// Width at which a certified enclosure of a separation stops tightening, as a fraction of the largest
-/// coordinate.
+/// Width at which a certified enclosure of a separation stops tightening, as a fraction of the extent of the
+/// shapes along the file axis next to the direction.
 inline constexpr double enclosure_width = 1e-12;
 
 /// How far above and below an exact f_max a collision test must be free and colliding, as a fraction of the
@@ -36,6 +36,12 @@ inline constexpr double direction_step = 1e-8;
 
 /// Two directions whose S differ by less are equally good: below it lies rounding.
 inline constexpr double stackability = 1e-11;
+
+/// Coordinates of a shape lie within these, in any unit, so that volumes, inertia and squares of areas
+/// neither overflow nor underflow.
+inline constexpr double largest_coordinate = 1e60;
+inline constexpr double smallest_shape = 1e-60;  ///< of the largest coordinate, unless all are 0
+
 /// Height, as a fraction of the extent, of the slab whose points `inspect` takes as what a shape stands on.
 inline constexpr double support_slab = 1e-2;
 
