@@ -136,7 +136,7 @@ class NodePairBound {
   }
 
  private:
-  double rounding_;        ///< of n.p within the shapes
+  double rounding_;        ///< of n.p within the shapes: three products and their sums, n no longer than 1
   double plane_rounding_;  ///< of the difference of two planes within the shapes, for slopes up to 1
 };
 

@@ -26,7 +26,10 @@ inline double product_error(double p, double q) {
 }
 
 /// Twice the signed area of the projected points p, q, s: (q - p) x (s - p), with a bound on all rounding
-/// since the input.
+/// since the input. Each product carries the rounding of two differences and its own, and the last difference
+/// one more: 4 unit roundoffs. Each difference of coordinates is off by two input errors, which gives 2 for
+/// either factor and 8 for their product. What is above that covers second order terms and the rounding of
+/// the bound itself.
 inline Approximate orientation(double px, double py, double qx, double qy, double sx, double sy,
                                const Projection& projection) {
   const double ax = qx - px, ay = qy - py, bx = sx - px, by = sy - py;
@@ -97,7 +100,9 @@ class MaximumBounds {
 };
 
 /// Corners of `point` inside `base`: height of the corner minus height of the plane of `base` (times `sign`),
-/// as a barycentric combination of corner height differences.
+/// as a barycentric combination of corner height differences. A term carries the roundings of its difference,
+/// its product and two sums; a weight those of two sums. A quotient of w (1 + a) and v (1 + b) is off by less
+/// than (|a| + |b|) w / (v (1 - |b|)).
 void take_corners(const ProjectedTriangle& point, const ProjectedTriangle& base, const Sides& sides,
                   double sign, MaximumBounds& bounds) {
   for (int v = 0; v < 3; ++v) {
@@ -125,7 +130,8 @@ void take_corners(const ProjectedTriangle& point, const ProjectedTriangle& base,
   }
 }
 
-/// Position of the zero along an edge whose ends lie at signed distances p and q from a line.
+/// Position of the zero along an edge whose ends lie at signed distances p and q from a line: p / (p - q),
+/// known to twice the relative error of p - q where that is below a half.
 struct Crossing {
   double parameter = 0, error = infinity;
   bool possible = false, certain = false;
