@@ -64,13 +64,14 @@ class HullSupport {
   double resolution_ = 0;                    ///< tolerance::rounding in model units
 };
 
-/// Box of minimal volume over all orientations, invariant under rigid motions to 1e-9 relative. Found on the
-/// Gauss map of the hull: a minimal box has two adjacent faces that each contain a hull edge (O'Rourke 1985),
-/// so one of its normals runs on an arc between the normals of two neighbouring hull faces. Best-first branch
-/// and bound over these arcs; volumes along an arc are bounded by how fast a turning box must grow. The
-/// search is complete for hulls of up to some hundreds of faces; for larger ones (finely cut spheres) it
-/// stops, at the same place in every pose, after a fixed amount of work and returns the best box met, whose
-/// normal is at least locally optimal on its arc.
+/// Box of minimal volume over all orientations, its volume the same in every pose to 1e-9 relative. Looked
+/// for on the Gauss map of the hull: a minimal box has two adjacent faces that each contain a hull edge
+/// (O'Rourke 1985), so one of its normals runs on an arc between the normals of two neighbouring hull faces.
+/// Best-first search of these arcs: where a minimum can hide is estimated from how fast the boxes at both
+/// ends of an interval grow when they turn, and an interval below a hundredth of a radian is taken to have
+/// one minimum. So the result is the best box met, not proven minimal. For hulls of more than some hundreds
+/// of faces (finely cut spheres) the search stops, at the same place in every pose, after a fixed amount of
+/// work.
 OrientedBox minimal_oriented_box(const HullSupport& hull);
 
 /// The box of the file's axes.

@@ -38,8 +38,8 @@ struct Arc {
   Eigen::Vector3d normal(double angle) const { return start * std::cos(angle) + side * std::sin(angle); }
 };
 
-/// The smallest box at one place of an arc. Turning the normal by a small angle d changes its volume by a
-/// factor of at most 1 + d * rate: a box that turns grows by its other sides times d.
+/// The smallest box at one place of an arc. Turned by a small angle d it grows by a factor of at most
+/// 1 + d * rate, its other sides times d, to hold the shape again.
 struct Sample {
   double angle = 0, volume = 0, rate = 0;
 };
@@ -47,7 +47,7 @@ struct Sample {
 struct Interval {
   int arc;
   Sample low, high;
-  double bound;  ///< no box inside has a smaller volume
+  double bound;  ///< volume that boxes inside hardly go below: `rate` of both ends is taken for theirs
 
   double width() const { return high.angle - low.angle; }
   bool operator<(const Interval& other) const {  // smallest bound on top of a priority queue
