@@ -5,8 +5,8 @@
 namespace stackabilization::tolerance {
 
 /// Relative accuracy demanded of constructions in double precision (boxes, areas, centres), as a fraction of
-/// the bounding-box diagonal. It sits six decades above rounding for coordinates up to 1e4 diagonals from the
-/// origin.
+/// the bounding-box diagonal. It sits more than six decades above the rounding of coordinates near the
+/// origin, and more than two for coordinates 1e4 diagonals away.
 inline constexpr double relative = 1e-9;
 
 /// Rounding allowance of constructions in double precision, as a fraction of the largest coordinate: two hull
