@@ -53,7 +53,8 @@ Measurement measure_by_sampling(const StackabilitySolver& solver, const Directio
   measurement.method = method;
   measurement.options = solver.options();
   measurement.values = solver.measure(direction);
-  const double exact = measurement.values.f_max;
+  const Separation separation = solver.separation(direction);
+  const double exact = separation.blocked ? separation.length : 0;
   Sampling sampling{resolution, window.pixel_size, window.columns, window.rows, exact, f_max - exact, {}};
   if (resolution >= 2) {
     const Window coarse = window_around(shape, direction, resolution / 2);

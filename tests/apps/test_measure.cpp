@@ -2,6 +2,7 @@
 #include "stackabilization/shape/rational.h"
 #include "support/catch.h"
 #include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 using namespace stackabilization::apps;
@@ -96,6 +97,17 @@ TEST_CASE("measure by samples stays below the exact value and says how far") {
     const double ratio = result["stack_box_volume"].get<double>() / result["box_volume"].get<double>();
     CHECK(result["stackability"].get<double>() ==
           Approx(1 - result["f_max_over_height"].get<double>() * ratio).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("samples are set beside the same f_max, to the last bit, as the exact method gives") {
+  const TemporaryFolder folder;
+  const std::string model = folder.model("soup.obj", solids::triangle_soup({.seed = 4, .count = 40}));
+  for (const std::string x : {"0.1", "0.2", "0.3", "0.4", "0.5"}) {
+    std::vector<std::string> measure = {"measure", model, "--direction", x, "-0.2", "1", "--json", "-"};
+    const json exact = run_program(measure).json();
+    measure.insert(measure.end(), {"--method", "raster", "--resolution", "16"});
+    CHECK(run_program(measure).json()["sampling"]["exact_f_max"] == exact["f_max"]);
   }
 }
 
