@@ -74,6 +74,38 @@ TEST_CASE("a solid inside another overlaps it without touching", "[collision]") 
   CHECK_FALSE(interiors_overlap(large, small, up, Rational(20)));
 }
 
+TEST_CASE("a solid inside another overlaps it also where every ray along an axis meets an edge",
+          "[collision]") {
+  // Rays along x and z from the base of the tetrahedron, which lies at y = 5, leave through the edges there.
+  // Rays along y from the points (271 + 13 k, 5, 389 - 17 k) of that base leave through the diagonals.
+  Points around(12, 3);
+  for (int level = 0; level < 3; ++level) {
+    const double y = 100.0 * (level - 1) + 5;
+    around.row(4 * level) << 271 - 13 * 200, y, 389 + 17 * 200;
+    around.row(4 * level + 1) << 5000, y, 5000;
+    around.row(4 * level + 2) << 271 + 13 * 200, y, 389 - 17 * 200;
+    around.row(4 * level + 3) << -5000, y, -5000;
+  }
+  Triangles triangles(20, 3);
+  triangles.topRows(4) << 0, 2, 1, 0, 3, 2, 8, 9, 10, 8, 10, 11;
+  for (int level = 0; level < 2; ++level)
+    for (int k = 0; k < 4; ++k) {
+      const int a = 4 * level + k, b = 4 * level + (k + 1) % 4;
+      triangles.middleRows(4 + 2 * a, 2) << a, b, b + 4, a, b + 4, a + 4;
+    }
+  const Shape prism = make_shape(around, triangles);
+  Points corners(4, 3);
+  corners << 0, 5, 0, 997, 5, 0, 0, 5, 997, 1, 6, 1;
+  Triangles faces(4, 3);
+  faces << 0, 1, 2, 1, 0, 3, 2, 1, 3, 0, 2, 3;
+  const Shape tetrahedron = make_shape(corners, faces);
+  REQUIRE(CollisionTester(prism, tetrahedron).solids());
+  REQUIRE_FALSE(closed_contact(prism, tetrahedron, up, Rational(0)));
+  CHECK(interiors_overlap(prism, tetrahedron, up, Rational(0)));
+  CHECK(interiors_overlap(tetrahedron, prism, up, Rational(0)));
+  CHECK_FALSE(interiors_overlap(prism, tetrahedron, up, Rational(20000)));
+}
+
 TEST_CASE("a peg in a hole of its own width slides without overlap", "[collision]") {
   const Shape u = solids::u_shape(3, 1);  // slot [1, 2] x [0, 1] x [1, 3]
   const Shape peg = solids::box({1, 0, 0}, {2, 1, 1});

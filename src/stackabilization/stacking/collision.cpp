@@ -179,60 +179,76 @@ bool overlap_near(const Placed& a, std::int32_t in_a, const Placed& b, std::int3
 
 enum class Location { outside, inside, boundary, undecided };
 
-/// Crossing of the ray from p along a coordinate axis with triangle t: -1, 0, 1; or nothing when the ray
-/// meets the triangle's outline or p lies on the triangle.
+/// Crossing of the ray from p along (1, slope, slope^2) with triangle t: -1, 0, 1; or why it cannot be told:
+/// p lies on the triangle, or the ray meets its outline.
 struct RayCrossing {
   int winding = 0;
   Location trouble = Location::outside;
 };
 
-RayCrossing ray_crossing(const Point& p, int axis, const Corners& t) {
-  const auto flat = [axis](const Point& q) { return Exact::Point_2(q[(axis + 1) % 3], q[(axis + 2) % 3]); };
+RayCrossing ray_crossing(const Point& p, int slope, const Corners& t) {
+  const auto flat = [slope](const Point& q) {
+    return Exact::Point_2(q.y() - slope * q.x(), q.z() - slope * slope * q.x());
+  };
   const Exact::Point_2 a = flat(t[0]), b = flat(t[1]), c = flat(t[2]), q = flat(p);
   const std::array<int, 3> side = {CGAL::orientation(a, b, q), CGAL::orientation(b, c, q),
                                    CGAL::orientation(c, a, q)};
   if (on_both_sides(side)) return {};
-  if (side[0] * side[1] * side[2] == 0) return {0, Location::undecided};
+  if (side == std::array<int, 3>{0, 0, 0}) return {0, Location::undecided};  // the ray runs in the plane of t
   const int above_plane = CGAL::orientation(t[0], t[1], t[2], p);
   if (above_plane == 0) return {0, Location::boundary};
+  if (side[0] * side[1] * side[2] == 0) return {0, Location::undecided};
   // Seen against the ray the triangle turns counter-clockwise (side = 1): its normal goes along the ray, and
   // the ray meets it when it starts behind it.
   return above_plane * side[0] < 0 ? RayCrossing{side[0], Location::outside} : RayCrossing{};
 }
 
-bool ray_may_meet(const CGAL::Bbox_3& p, int axis, const CGAL::Bbox_3& box) {
+/// The ray never descends along an axis, and along y and z it only ascends when it has a slope.
+bool ray_may_meet(const CGAL::Bbox_3& p, int slope, const CGAL::Bbox_3& box) {
   for (int k = 0; k < 3; ++k)
-    if (p.min(k) > box.max(k) || (k != axis && p.max(k) < box.min(k))) return false;
+    if (p.min(k) > box.max(k) || (k > 0 && slope == 0 && p.max(k) < box.min(k))) return false;
   return true;
 }
 
-Location locate_along(const Point& p, int axis, const Placed& solid) {
+/// Where a point lies; for `boundary` also a triangle on which it does.
+struct Place {
+  Location location;
+  std::int32_t triangle = -1;
+};
+
+Place locate_along(const Point& p, int slope, const Placed& solid) {
   const CGAL::Bbox_3 at = p.bbox();
   int winding = 0;
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(solid.shape.triangle_count()); ++t) {
     const Corners corners = solid.corners(t);
-    if (!ray_may_meet(at, axis, corners[0].bbox() + corners[1].bbox() + corners[2].bbox())) continue;
-    const RayCrossing crossed = ray_crossing(p, axis, corners);
-    if (crossed.trouble != Location::outside) return crossed.trouble;
+    if (!ray_may_meet(at, slope, corners[0].bbox() + corners[1].bbox() + corners[2].bbox())) continue;
+    if (CGAL::collinear(corners[0], corners[1], corners[2])) continue;
+    const RayCrossing crossed = ray_crossing(p, slope, corners);
+    if (crossed.trouble != Location::outside) return {crossed.trouble, t};
     winding += crossed.winding;
   }
-  return winding == 0 ? Location::outside : Location::inside;
+  return {winding == 0 ? Location::outside : Location::inside};
 }
 
-/// Does some point of the relative interior of t, which the solid's surface does not cross, lie inside the
-/// solid?
-bool inside(const Corners& t, const Placed& solid) {
-  constexpr int attempts = 8;
-  for (int attempt = 0; attempt < attempts; ++attempt) {
-    // Weights without meaning, so that no axis-parallel ray meets an edge by design of the model.
-    const Number u = Number(271 + 13 * attempt) / 997, v = Number(389 - 17 * attempt) / 997;
-    const Point p = t[0] + u * (t[1] - t[0]) + v * (t[2] - t[0]);
-    for (int axis = 0; axis < 3; ++axis) {
-      const Location location = locate_along(p, axis, solid);
-      if (location != Location::undecided) return location == Location::inside;
-    }
+/// Ends: a plane through p and an edge of the solid holds (1, slope, slope^2) for two slopes at most.
+Place locate(const Point& p, const Placed& solid) {
+  for (int slope = 0;; ++slope) {
+    const Place place = locate_along(p, slope, solid);
+    if (place.location != Location::undecided) return place;
   }
-  return false;
+}
+
+/// Does the relative interior of t, which the solid's surface does not cross, run inside the solid? Looks at
+/// points of t on a parabola. Where t touches the solid without lying on it, it does so along lines and at
+/// points, of which the parabola meets each twice at most: so this ends.
+bool inside(const Corners& t, const Placed& solid) {
+  for (int attempt = 0;; ++attempt) {
+    const Number u = Number(271) / (997 + attempt);  // a weight that no model has by design
+    const Point p = t[0] + u * (t[1] - t[0]) + u * u * (t[2] - t[0]);
+    const Place place = locate(p, solid);
+    if (place.location != Location::boundary) return place.location == Location::inside;
+    if (sides(solid.corners(place.triangle), t) == std::array<int, 3>{0, 0, 0}) return false;
+  }
 }
 
 }  // namespace
