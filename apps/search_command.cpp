@@ -63,7 +63,7 @@ void add_search(Json& document, const SearchResult& result) {
 std::string search_text(const SearchResult& result) {
   TextTable table;
   table.add("Directions tried", std::to_string(result.evaluated),
-            std::to_string(result.abandoned) + " of them given up early, because they could not win");
+            std::to_string(result.abandoned) + " of them given up, too far below the best");
   for (std::size_t i = 1; i < std::min(result.optima.size(), listed_optima); ++i)
     table.add(i == 1 ? "Also good" : "", rounded(result.optima[i].stackability),
               "along " + point_text(result.optima[i].direction));

@@ -171,6 +171,26 @@ TEST_CASE("a search reports progress and can be ended") {
   CHECK(ended.best.value == solver.measure(Direction(ended.best.direction)).value);
 }
 
+TEST_CASE("a search can be ended between the steps of its last climbs") {
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  const StackabilitySolver solver(irregular());
+  bool late = false;  // in the last climbs
+  int asked = 0, end_after = 1000000;
+  SearchOptions options;
+  options.climbs = 2;
+  options.progress = [&](double fraction) { late = fraction > 0.9; };
+  options.cancelled = [&] { return late && ++asked > end_after; };
+  const SearchResult whole = best_direction(solver, options);
+  CHECK_FALSE(whole.cancelled);
+  CHECK(asked > 4);
+  asked = 0;
+  end_after = 3;
+  const SearchResult ended = best_direction(solver, options);
+  CHECK(ended.cancelled);
+  CHECK(ended.evaluated < whole.evaluated);
+  CHECK(ended.best.value <= whole.best.value + 1e-12);
+}
+
 TEST_CASE("a search refuses options that make no sense") {
   const StackabilitySolver solver(small_cup());
   const auto refused = [&](const SearchOptions& options) {

@@ -90,7 +90,10 @@ class Climber {
   Climb run(const ClimbOptions& options) {
     radius_ = options.first_step;
     start_chart();
-    for (int round = 0; round < most_rounds && radius_ > options.last_step; ++round) improve();
+    for (int round = 0; round < most_rounds && radius_ > options.last_step; ++round) {
+      if (options.cancelled && options.cancelled()) break;
+      improve();
+    }
     return climb_;
   }
 

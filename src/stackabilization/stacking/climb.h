@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 
 #include "stackabilization/stacking/direction_region.h"
 #include "stackabilization/stacking/stackability.h"
@@ -12,6 +13,7 @@ namespace stackabilization {
 struct ClimbOptions {
   double first_step = 0;
   double last_step = 0;
+  std::function<bool()> cancelled = {};  ///< asked before each step; true ends the climb where it is
 };
 
 /// A direction with its S, and what it took to find it.

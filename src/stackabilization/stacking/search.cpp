@@ -4,10 +4,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -75,7 +77,7 @@ class DirectionSearch {
   std::vector<Trial> around(const Sample& sample, double distance) const;
   std::vector<Sample> peaks(const std::vector<Sample>& samples, double distance) const;
   void climb_to_peaks();
-  std::vector<Sample> climb_from(std::vector<Sample> starts, const ClimbOptions& climbing);
+  std::vector<Sample> climb_from(std::vector<Sample> starts, double first_step, double last_step);
   void report(double fraction) const {
     if (options_.progress) options_.progress(fraction);
   }
@@ -211,15 +213,21 @@ void DirectionSearch::climb_to_peaks() {
   const double step = options_.spacing / (1 << halvings), small_step = step / 32;
   std::vector<Sample> tops = peaks(samples_, options_.spacing / 2);
   std::erase_if(tops, [&](const Sample& top) { return top.at.value < best_ - climbing_range; });
-  tops = peaks(climb_from(std::move(tops), {step, small_step}), step);
+  tops = peaks(climb_from(std::move(tops), step, small_step), step);
   report(0.95);
-  tops = peaks(climb_from(std::move(tops), {small_step, tolerance::direction_step}), step);
+  tops = peaks(climb_from(std::move(tops), small_step, tolerance::direction_step), step);
   result_.best = tops.front().at;
   for (const Sample& top : tops) result_.optima.push_back({top.at.direction, top.at.value});
 }
 
-std::vector<Sample> DirectionSearch::climb_from(std::vector<Sample> starts, const ClimbOptions& climbing) {
-  if (ended()) return starts;
+/// Only the calling thread asks whether to end; climbs in other threads learn it from what it heard.
+std::vector<Sample> DirectionSearch::climb_from(std::vector<Sample> starts, double first_step,
+                                                double last_step) {
+  std::atomic<bool> end_climbs = ended();
+  const ClimbOptions climbing{first_step, last_step, [&, caller = std::this_thread::get_id()] {
+                                if (std::this_thread::get_id() == caller && ended()) end_climbs = true;
+                                return end_climbs.load();
+                              }};
   std::vector<std::int64_t> evaluated(starts.size(), 0);
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
     const Climb end = climb(solver_, region_, starts[i].at, climbing);

@@ -23,7 +23,9 @@ struct SearchOptions {
   int climbs = 12;        ///< distinct local maxima that are refined at most, at least 1
   /// Called with the fraction done, in [0, 1], from the calling thread.
   std::function<void(double)> progress = {};
-  std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends the search early
+  /// Asked from the calling thread, between batches of samples and steps of a climb; true ends the search
+  /// early.
+  std::function<bool()> cancelled = {};
 };
 
 /// A direction at which S has a local maximum: of unit length unless it is a candidate of the options, signed
@@ -40,8 +42,10 @@ struct SearchResult {
   /// about 0.05 of it are looked for.
   std::vector<DirectionOptimum> optima;
   std::int64_t evaluated = 0;  ///< directions tried
-  std::int64_t abandoned = 0;  ///< of these given up before S was known, because they could not win
-  bool cancelled = false;      ///< ended early: the best of what was seen
+  /// Of these left out because S is certainly too far below the best (0.2 at first, then ever less) to be the
+  /// start of a climb, most of them before S was known.
+  std::int64_t abandoned = 0;
+  bool cancelled = false;  ///< ended early: the best of what was seen
 };
 
 /// The direction of largest S(M, r): S is sampled evenly and on great circles orthogonal to the main axes,
