@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/shape/errors.h"
@@ -27,6 +28,51 @@ std::vector<ContactRegion> contacts_along_z(const Shape& shape, double band) {
   ContactOptions options;
   options.band = band;
   return contacts(shape, Direction(0, 0, 1), options);
+}
+
+/// Areas are sums over a grid: a cell of it, 8 / 2^30 at most here, times the length of an outline.
+constexpr double grid_area = 3e-7;
+
+/// What does not depend on the frame.
+struct Summary {
+  int upper_part, lower_part, type;
+  double area;
+};
+
+/// In an order that does not depend on the frame either.
+std::vector<Summary> summaries(const std::vector<ContactRegion>& regions) {
+  std::vector<Summary> result;
+  for (const ContactRegion& region : regions)
+    result.push_back({region.upper_part, region.lower_part, static_cast<int>(region.type), region.area});
+  std::sort(result.begin(), result.end(), [](const Summary& a, const Summary& b) {
+    return std::tie(a.upper_part, a.lower_part, a.type, a.area) <
+           std::tie(b.upper_part, b.lower_part, b.type, b.area);
+  });
+  return result;
+}
+
+void check_same(const std::vector<Summary>& found, const std::vector<Summary>& expected) {
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    CHECK(found[k].upper_part == expected[k].upper_part);
+    CHECK(found[k].lower_part == expected[k].lower_part);
+    CHECK(found[k].type == expected[k].type);
+    CHECK(found[k].area == Approx(expected[k].area).margin(grid_area));
+  }
+}
+
+/// The identity and quarter turns about each axis and several: they round no coordinate.
+std::vector<Eigen::Matrix3d> quarter_turns() {
+  Eigen::Matrix3d about_x, about_z;
+  about_x << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  about_z << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  return {Eigen::Matrix3d::Identity(), about_x,           about_z,
+          about_x * about_z,           about_x * about_x, about_z * about_x * about_x * about_x};
+}
+
+/// Several parts; coordinates are multiples of 1/256, so that motions and midpoints are exact.
+Shape soup_on_grid() {
+  return triangle_soup({.seed = 3, .count = 60, .size = 1, .parts = 3, .grid_bits = 8});
 }
 
 double total_area(const std::vector<ContactRegion>& regions) {
@@ -63,15 +109,20 @@ TEST_CASE("four legs give four regions, each the foot of a leg") {
 }
 
 TEST_CASE("a cup touches in one ring, whose area is the band's") {
-  // Both walls are cones of one slope: f is constant along the wall, and on the band up to the knees f falls
-  // linearly.
+  // f is 4.25 at rho = 3, where the foot ends. It falls inwards with the inner wall, by 7.5 over 1; outwards
+  // by the difference of both walls, 0.5 over 1, to 4 at rho = 3.5, and then with the outer wall, by 8
+  // over 1.
   FrustumShell cup;
-  for (const int segments : {8, 64}) {
-    cup.segments = segments;
-    const std::vector<ContactRegion> regions = contacts_along_z(frustum_shell(cup), 0.001);
-    REQUIRE(regions.size() == 1);
-    CHECK(regions[0].type == ContactType::ring);
-  }
+  for (const int segments : {8, 64})
+    for (const double eps : {0.008, 0.1, 0.4}) {
+      cup.segments = segments;
+      const std::vector<ContactRegion> regions = contacts_along_z(frustum_shell(cup), eps / cup.height);
+      REQUIRE(regions.size() == 1);
+      CHECK(regions[0].type == ContactType::ring);
+      const double inner = 3 - eps / 7.5, outer = eps <= 0.25 ? 3 + 2 * eps : 3.5 + (eps - 0.25) / 8;
+      const double polygon = segments / 2.0 * std::sin(2 * std::numbers::pi / segments);
+      CHECK(regions[0].area == Approx(polygon * (outer * outer - inner * inner)).margin(grid_area));
+    }
 }
 
 TEST_CASE("the area of a union does not count overlaps twice") {
@@ -142,6 +193,29 @@ TEST_CASE("a contact without area is a point") {
   CHECK(regions[0].area < 1e-12);
   CHECK(regions[0].type == ContactType::dot);
   CHECK(regions[0].upper_centre.allFinite());
+}
+
+TEST_CASE("regions do not depend on where the shape lies, how it is turned or how it is triangulated") {
+  struct Example {
+    Shape shape;
+    Direction direction;
+    double band;
+  };
+  const std::vector<Example> examples = {
+      {solids::table({}), {0, 0, 1}, 0.01}, {frustum_shell({.segments = 8}), {0, 0, 1}, 0.001},
+      {box({1, 8, 1}), {0, 0, 1}, 0},       {l_shape(4, 1), {1, 0, 1}, 0.01},
+      {hook({}), {1, 2, 3}, 0.02},          {soup_on_grid(), {0.25, -0.5, 1}, 0.1}};
+  for (const Example& example : examples) {
+    const ContactOptions options{Semantics::solid, example.band};
+    const std::vector<Summary> expected = summaries(contacts(example.shape, example.direction, options));
+    REQUIRE(!expected.empty());
+    check_same(summaries(contacts(subdivided(example.shape), example.direction, options)), expected);
+    for (const Eigen::Matrix3d& turn : quarter_turns()) {
+      const Shape turned = transformed(example.shape, turn, Eigen::Vector3d(16, -8, 0.5));
+      const Direction direction(turn * example.direction.vector());
+      check_same(summaries(contacts(turned, direction, options)), expected);
+    }
+  }
 }
 
 TEST_CASE("contacts refuse a band outside [0, 1]") {
