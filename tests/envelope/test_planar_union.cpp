@@ -1,0 +1,76 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "stackabilization/envelope/planar_union.h"
+#include "support/catch.h"
+
+using namespace stackabilization::detail;
+
+namespace {
+
+Outline rectangle(double left, double bottom, double right, double top) {
+  return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
+}
+
+/// The square [0, 8]^2 without the square [2, 6]^2.
+std::vector<Outline> frame() {
+  return {rectangle(0, 0, 8, 2), rectangle(6, 1, 8, 7), rectangle(0, 6, 8, 8), rectangle(0, 1, 2, 7)};
+}
+
+/// Side of a cell of the bitmap over [0, 8]^2.
+constexpr double cell = 8.0 / 254;
+
+std::vector<Outline> turned(std::vector<Outline> outlines, double angle) {
+  const Eigen::Rotation2Dd rotation(angle);
+  for (Outline& outline : outlines)
+    for (Eigen::Vector2d& p : outline) p = rotation * p;
+  return outlines;
+}
+
+}  // namespace
+
+TEST_CASE("a union counts what outlines share once and holes not at all") {
+  CHECK(union_area({rectangle(0, 0, 2, 3)}) == Approx(6).epsilon(1e-8));
+  CHECK(union_area({rectangle(0, 0, 2, 2), rectangle(1, 1, 3, 3)}) == Approx(7).epsilon(1e-8));
+  CHECK(union_area({rectangle(0, 0, 9, 9), rectangle(1, 1, 3, 3)}) == Approx(81).epsilon(1e-8));
+  CHECK(union_area({rectangle(0, 0, 1, 1), rectangle(5, 0, 6, 1), rectangle(5, 0, 6, 1)}) ==
+        Approx(2).epsilon(1e-8));
+  CHECK(union_area(frame()) == Approx(48).epsilon(1e-8));
+  for (const double angle : {0.3, 1.0, 2.5})
+    CHECK(union_area(turned(frame(), angle)) == Approx(48).epsilon(1e-8));
+}
+
+TEST_CASE("a union does not care which way an outline runs, and gains nothing from segments and points") {
+  Outline clockwise = rectangle(1, 1, 3, 3);
+  std::reverse(clockwise.begin(), clockwise.end());
+  const Outline segment = {{0, 0}, {3, 3}}, point = {{0.5, 0.5}};
+  CHECK(union_area({rectangle(0, 0, 2, 2), clockwise, segment, point}) == Approx(7).epsilon(1e-8));
+  CHECK(union_area({segment, point}) == 0);
+  CHECK(union_area({point}) == 0);
+}
+
+TEST_CASE("the largest hole is the one inside a frame, to a cell of the bitmap") {
+  CHECK(largest_hole(frame()) <= 16);
+  CHECK(largest_hole(frame()) >= std::pow(4 - 2 * cell, 2));
+  for (const double angle : {0.3, 1.0, 2.5}) {
+    CHECK(largest_hole(turned(frame(), angle)) <= 16);
+    CHECK(largest_hole(turned(frame(), angle)) >= std::pow(4 - 6 * cell, 2));
+  }
+}
+
+TEST_CASE("of two holes the larger counts") {
+  std::vector<Outline> outlines = frame();
+  outlines.push_back(rectangle(3, 1, 4, 7));  // leaves [2, 3] x [2, 6] and [4, 6] x [2, 6]
+  CHECK(largest_hole(outlines) <= 8);
+  CHECK(largest_hole(outlines) >= (2 - 2 * cell) * (4 - 2 * cell));
+}
+
+TEST_CASE("bays, cracks and full patches are no holes") {
+  std::vector<Outline> bay = frame();
+  bay.pop_back();
+  CHECK(largest_hole(bay) == 0);
+  CHECK(largest_hole({rectangle(0, 0, 8, 4 - cell / 8), rectangle(0, 4 + cell / 8, 8, 8)}) == 0);
+  CHECK(largest_hole({rectangle(0, 0, 8, 8)}) == 0);
+  CHECK(largest_hole({Outline{{1, 1}}}) == 0);
+}
