@@ -230,6 +230,38 @@ TEST_CASE("the order and repetition of points do not change a bit") {
   CHECK(minimal_oriented_box(a).half_extents == minimal_oriented_box(b).half_extents);
 }
 
+TEST_CASE("where the points lie in memory does not change a bit") {
+  // Flat faces of many corners on a cup-like body: how quickhull cuts and orders them depends on addresses.
+  Points rings(96, 3);
+  for (int i = 0; i < 48; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / 48;
+    rings.row(i) << 3 * std::cos(angle), 3 * std::sin(angle), 0;
+    rings.row(48 + i) << 4 * std::cos(angle), 4 * std::sin(angle), 9;
+  }
+  const Points points = point_sets::moved(rings, Random(3).rotation(), {0.1, 0.2, 0.3});
+  const HullSupport first(points);
+  std::vector<std::vector<char>> ballast;
+  for (int run = 1; run <= 20; ++run) {
+    ballast.emplace_back(static_cast<std::size_t>(1000 * run + 17));
+    const HullSupport other(points);
+    CHECK(first.face_normals() == other.face_normals());
+    CHECK(first.face_areas() == other.face_areas());
+    CHECK(first.edges() == other.edges());
+    CHECK(minimal_oriented_box(first).half_extents == minimal_oriented_box(other).half_extents);
+  }
+}
+
+TEST_CASE("bodies about as thick as the resolution have a box") {
+  for (const double thickness : {1e-15, 1e-14, 5e-14, 1e-13, 2e-13, 1e-12}) {
+    const Points slab =
+        point_sets::moved(point_sets::box({2, 3, thickness}), Random(4).rotation(), {0, 0, 0});
+    const Eigen::Vector3d extents = 2 * minimal_oriented_box(HullSupport(slab)).half_extents;
+    CHECK(extents.allFinite());
+    CHECK(extents.maxCoeff() == Approx(3));
+    CHECK(extents.minCoeff() <= 2e-12);
+  }
+}
+
 TEST_CASE("flat, straight and single-point sets have boxes without volume") {
   Random random(10);
   for (int pose = 0; pose < 10; ++pose) {

@@ -5,6 +5,7 @@
 #include <CGAL/convex_hull_3.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace stackabilization {
@@ -40,14 +41,20 @@ TriangulatedHull triangulated_hull(const Points& points) {
     hull.points.row(static_cast<Eigen::Index>(i)) << p.x(), p.y(), p.z();
     row[vertices[i]] = static_cast<std::int32_t>(i);
   }
-  hull.triangles.resize(static_cast<Eigen::Index>(mesh.number_of_faces()), 3);
-  Eigen::Index t = 0;
+  // Quickhull keeps its facets in the order of their addresses, which is not the same in every run.
+  std::vector<std::array<std::int32_t, 3>> triangles;
   for (const Mesh::Face_index face : mesh.faces()) {
+    std::array<std::int32_t, 3> triangle;
     int corner = 0;
     for (const Mesh::Vertex_index v : CGAL::vertices_around_face(mesh.halfedge(face), mesh))
-      hull.triangles(t, corner++) = row[v];
-    ++t;
+      triangle[static_cast<std::size_t>(corner++)] = row[v];
+    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+    triangles.push_back(triangle);
   }
+  std::sort(triangles.begin(), triangles.end());
+  hull.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    hull.triangles.row(static_cast<Eigen::Index>(t)) << triangles[t][0], triangles[t][1], triangles[t][2];
   return hull;
 }
 

@@ -5,6 +5,8 @@
 #include <array>
 #include <map>
 #include <numeric>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "stackabilization/shape/convex_hull.h"
@@ -93,15 +95,19 @@ HullFaces flat_hull(const Points& points, const Spread& spread, double resolutio
   return hull;
 }
 
-/// Joins coplanar triangles of a hull to faces, and their common borders to edges.
+/// Joins coplanar triangles of a hull to faces, and their common borders to edges. The result does not depend
+/// on how flat faces were cut into triangles, not even by a rounding.
 class FaceMerger {
  public:
   FaceMerger(const TriangulatedHull& hull, double resolution) : hull_(hull), resolution_(resolution) {
     find_neighbours();
     grow_faces();
     collect_borders();
+    if (face_count_ > 1) measure_faces();
   }
 
+  int face_count() const { return face_count_; }
+  /// Precondition: there are several faces.
   HullFaces result() const;
 
  private:
@@ -117,9 +123,10 @@ class FaceMerger {
 
   void find_neighbours();
   void grow_faces();
-  Eigen::Vector3d grow_face(int seed, int face);
+  void grow_face(int seed, int face);
   void collect_borders();
-  std::array<int, 2> ends(const Border& border) const;
+  void measure_faces();
+  std::pair<int, int> ends(const Border& border) const;
   std::vector<int> list_faces(HullFaces& faces) const;
   void list_edges(const std::vector<int>& rank, HullFaces& faces) const;
 
@@ -127,7 +134,8 @@ class FaceMerger {
   double resolution_;
   std::vector<std::array<int, 3>> neighbours_;  ///< triangle across the side from corner k to k + 1
   std::vector<int> face_of_;                    ///< per triangle
-  std::vector<Eigen::Vector3d> area_vectors_;   ///< per face
+  int face_count_ = 0;
+  std::vector<Eigen::Vector3d> area_vectors_;  ///< per face
   std::map<std::array<int, 2>, Border> borders_;
 };
 
@@ -155,12 +163,12 @@ void FaceMerger::grow_faces() {
   std::stable_sort(seeds.begin(), seeds.end(), [&](int a, int b) { return areas[a] > areas[b]; });
   face_of_.assign(areas.size(), -1);
   for (const int seed : seeds)
-    if (face_of_[seed] < 0) area_vectors_.push_back(grow_face(seed, static_cast<int>(area_vectors_.size())));
+    if (face_of_[seed] < 0) grow_face(seed, face_count_++);
 }
 
 /// The plane is corrected with every triangle, so that a face of many small triangles is as flat as its whole
 /// extent.
-Eigen::Vector3d FaceMerger::grow_face(int seed, int face) {
+void FaceMerger::grow_face(int seed, int face) {
   const Eigen::Vector3d origin = corner(seed, 0);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   std::vector<int> waiting = {seed};
@@ -178,7 +186,6 @@ Eigen::Vector3d FaceMerger::grow_face(int seed, int face) {
       waiting.push_back(neighbour);
     }
   }
-  return sum;
 }
 
 void FaceMerger::collect_borders() {
@@ -193,8 +200,25 @@ void FaceMerger::collect_borders() {
     }
 }
 
+/// Area vectors from the borders, whose sides are added in the order of their corners.
+void FaceMerger::measure_faces() {
+  std::vector<std::vector<std::array<int, 2>>> sides(static_cast<std::size_t>(face_count_));
+  for (int t = 0; t < triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k)
+      if (face_of_[neighbours_[t][k]] != face_of_[t])
+        sides[face_of_[t]].push_back({hull_.triangles(t, k), hull_.triangles(t, (k + 1) % 3)});
+  const auto point = [&](int row) -> Eigen::Vector3d { return hull_.points.row(row).transpose(); };
+  for (auto& border : sides) {
+    std::sort(border.begin(), border.end());
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    const Eigen::Vector3d origin = point(border.front()[0]);
+    for (const auto& [from, to] : border) sum += (point(from) - origin).cross(point(to) - origin);
+    area_vectors_.push_back(sum / 2);
+  }
+}
+
 /// Two faces of a convex hull meet along one straight edge: its ends are the points farthest along it.
-std::array<int, 2> FaceMerger::ends(const Border& border) const {
+std::pair<int, int> FaceMerger::ends(const Border& border) const {
   const auto point = [&](int row) -> Eigen::Vector3d { return hull_.points.row(row).transpose(); };
   const auto farthest_from = [&](int row) {
     return *std::max_element(border.begin(), border.end(), [&](int a, int b) {
@@ -202,7 +226,7 @@ std::array<int, 2> FaceMerger::ends(const Border& border) const {
     });
   };
   const int first = farthest_from(border.front());
-  return {first, farthest_from(first)};
+  return std::minmax({first, farthest_from(first)});
 }
 
 HullFaces FaceMerger::result() const {
@@ -215,8 +239,10 @@ HullFaces FaceMerger::result() const {
 std::vector<int> FaceMerger::list_faces(HullFaces& faces) const {
   std::vector<int> order(area_vectors_.size()), rank(area_vectors_.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return area_vectors_[a].norm() > area_vectors_[b].norm(); });
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    const Eigen::Vector3d &p = area_vectors_[a], &q = area_vectors_[b];
+    return std::tuple(-p.norm(), p.x(), p.y(), p.z()) < std::tuple(-q.norm(), q.x(), q.y(), q.z());
+  });
   faces.normals.resize(static_cast<Eigen::Index>(order.size()), 3);
   faces.areas.resize(static_cast<Eigen::Index>(order.size()));
   for (std::size_t i = 0; i < order.size(); ++i) {
@@ -227,17 +253,22 @@ std::vector<int> FaceMerger::list_faces(HullFaces& faces) const {
   return rank;
 }
 
-/// Fills in the edges and the points at their ends.
+/// Fills in the edges, in the order of their ends, and the points there.
 void FaceMerger::list_edges(const std::vector<int>& rank, HullFaces& faces) const {
   std::vector<int> row(hull_.points.rows(), -1);
   faces.edges.resize(static_cast<Eigen::Index>(borders_.size()), 2);
   faces.edge_faces.resize(static_cast<Eigen::Index>(borders_.size()), 2);
-  Eigen::Index e = 0;
+  std::vector<std::array<int, 4>> edges;
   for (const auto& [pair, border] : borders_) {
     const auto [a, b] = ends(border);
-    faces.edges.row(e) << a, b;
-    faces.edge_faces.row(e++) << rank[pair[0]], rank[pair[1]];
+    const auto [left, right] = std::minmax({rank[pair[0]], rank[pair[1]]});
+    edges.push_back({a, b, left, right});
     row[a] = row[b] = 0;
+  }
+  std::sort(edges.begin(), edges.end());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    faces.edges.row(static_cast<Eigen::Index>(e)) << edges[e][0], edges[e][1];
+    faces.edge_faces.row(static_cast<Eigen::Index>(e)) << edges[e][2], edges[e][3];
   }
   std::vector<int> kept;
   for (int i = 0; i < static_cast<int>(row.size()); ++i)
@@ -258,7 +289,12 @@ HullFaces hull_faces(const Points& points, double resolution) {
   const Spread spread = spread_of(distinct, resolution);
   if (spread.dimension == 1) return straight_hull(distinct, spread);
   if (spread.dimension == 2) return flat_hull(distinct, spread, resolution);
-  if (spread.dimension == 3) return FaceMerger(triangulated_hull(distinct), resolution).result();
+  if (spread.dimension == 3) {
+    const TriangulatedHull hull = triangulated_hull(distinct);
+    const FaceMerger merger(hull, resolution);
+    // Faces of a body hardly thicker than the resolution may have run together.
+    return merger.face_count() < 4 ? flat_hull(distinct, spread, resolution) : merger.result();
+  }
   HullFaces single;
   single.points = distinct.topRows(1);
   return single;
