@@ -42,6 +42,19 @@ double best_of_map(const StackabilitySolver& solver, double step) {
 
 }  // namespace
 
+TEST_CASE("the search of a sheet ends where its copies coincide") {
+  // A funnel without thickness: every direction that sees it without folds has S = 1.
+  Points vertices(8, 3);
+  vertices << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, -0.2, -0.2, 1, 1.2, -0.2, 1, 1.2, 1.2, 1, -0.2, 1.2, 1;
+  Triangles triangles(10, 3);
+  triangles << 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7, 0, 3, 2, 0, 2, 1;
+  const SearchResult found = best_direction(StackabilitySolver(make_shape(vertices, triangles)));
+  CHECK(found.best.direction == Eigen::Vector3d(0, 0, 1));
+  CHECK(found.best.f_max == Approx(0).margin(1e-12));
+  CHECK(found.separation.value == Rational(0.0));
+  CHECK(found.evaluated < 500);
+}
+
 TEST_CASE("a cup stacks best along its axis, in any pose") {
   const Shape cup = small_cup();
   const SearchOptions quick{.spacing = 0.1, .climbs = 2};

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <optional>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -184,12 +186,10 @@ class SeparationQuery {
   }
 
   void decide(const Task& task) {
-    // Pieces of the same two triangles come one after the other.
-    const std::int32_t upper_index = upper_.triangles[task.upper].index,
-                       lower_index = lower_.triangles[task.lower].index;
-    if (upper_index == decided_upper_ && lower_index == decided_lower_) return;
-    decided_upper_ = upper_index;
-    decided_lower_ = lower_index;
+    // Triangles cut into pieces come up once for every two of their pieces.
+    const auto upper_index = static_cast<std::uint32_t>(upper_.triangles[task.upper].index),
+               lower_index = static_cast<std::uint32_t>(lower_.triangles[task.lower].index);
+    if (!decided_.insert(std::uint64_t{upper_index} << 32 | lower_index).second) return;
     std::optional<Rational> value = exact_maximum(upper_.triangles[task.upper], lower_.triangles[task.lower],
                                                   projection_.shear, projection_.semantics);
     if (!value || (best_ && *value <= *best_)) return;
@@ -214,8 +214,8 @@ class SeparationQuery {
   std::vector<Task> tasks_;                   ///< binary heap
   ProjectedNodes upper_nodes_, lower_nodes_;  ///< the second is empty where both shapes are one
   std::optional<Rational> best_;
-  std::int32_t best_upper_ = -1, best_lower_ = -1;        ///< in tree order
-  std::int32_t decided_upper_ = -1, decided_lower_ = -1;  ///< last pair decided, as triangles of the shapes
+  std::int32_t best_upper_ = -1, best_lower_ = -1;  ///< in tree order
+  std::unordered_set<std::uint64_t> decided_;       ///< pairs of triangles of the shapes
 };
 
 /// Two trees in one frame: as they are if their origins agree, else built again in the file's axes.

@@ -62,7 +62,7 @@ class DirectionSearch {
     const std::vector<Trial> evenly = trials();
     first_trials_ = evenly.size();
     measure(evenly, promising_range);
-    look_closer();
+    if (!perfect()) look_closer();
     climb_to_peaks();
     report(1);
     result_.separation = solver_.separation(Direction(result_.best.direction));
@@ -81,6 +81,9 @@ class DirectionSearch {
   void report(double fraction) const {
     if (options_.progress) options_.progress(fraction);
   }
+  /// No copy of a shape goes lower than the first, so that S is at most 1: sheets reach it in many
+  /// directions.
+  bool perfect() const { return best_ >= 1 - tolerance::stackability; }
   bool ended() {
     if (!result_.cancelled && options_.cancelled) result_.cancelled = options_.cancelled();
     return result_.cancelled;
@@ -116,7 +119,7 @@ std::vector<Trial> DirectionSearch::trials() const {
 /// Measures trials that may come within `range` of the best.
 void DirectionSearch::measure(const std::vector<Trial>& trials, double range) {
   for (std::size_t begin = 0; begin < trials.size(); begin += batch_size) {
-    if (!samples_.empty() && ended()) return;
+    if (!samples_.empty() && (ended() || perfect())) return;
     const std::size_t count = std::min(batch_size, trials.size() - begin);
     std::vector<std::optional<Stackability>> measured(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
@@ -213,9 +216,11 @@ void DirectionSearch::climb_to_peaks() {
   const double step = options_.spacing / (1 << halvings), small_step = step / 32;
   std::vector<Sample> tops = peaks(samples_, options_.spacing / 2);
   std::erase_if(tops, [&](const Sample& top) { return top.at.value < best_ - climbing_range; });
-  tops = peaks(climb_from(std::move(tops), step, small_step), step);
-  report(0.95);
-  tops = peaks(climb_from(std::move(tops), small_step, tolerance::direction_step), step);
+  if (!perfect()) {
+    tops = peaks(climb_from(std::move(tops), step, small_step), step);
+    report(0.95);
+    tops = peaks(climb_from(std::move(tops), small_step, tolerance::direction_step), step);
+  }
   result_.best = tops.front().at;
   for (const Sample& top : tops) result_.optima.push_back({top.at.direction, top.at.value});
 }
