@@ -17,6 +17,13 @@ add_test(NAME "install: a foreign project builds and runs"
 set_tests_properties("install: a foreign project builds and runs" PROPERTIES LABELS unit FIXTURES_REQUIRED installed
   PASS_REGULAR_EXPRESSION "f_max = 2\n" TIMEOUT 600)
 
+# Inside another project: the libraries only, and that project's own settings left alone.
+add_test(NAME "install: a project that includes this one keeps its settings"
+  COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR}/tests/subproject -B ${PROJECT_BINARY_DIR}/tests/subproject
+    -G ${CMAKE_GENERATOR} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -UCMAKE_BUILD_TYPE -USTACKABILIZATION_BUILD_*
+    -DSTACKABILIZATION_SOURCE=${PROJECT_SOURCE_DIR})
+set_tests_properties("install: a project that includes this one keeps its settings" PROPERTIES LABELS unit)
+
 add_test(NAME "sources: house rules"
   COMMAND ${PROJECT_SOURCE_DIR}/scripts/check_source.sh)
 set_tests_properties("sources: house rules" PROPERTIES LABELS unit)
