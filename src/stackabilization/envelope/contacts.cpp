@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "stackabilization/envelope/contact_polygons.h"
@@ -33,20 +32,10 @@ struct Setting {
   double reach;  ///< polygons this near to each other, in model units, touch
 };
 
-double extent_along(const Shape& shape, const Eigen::Vector3d& unit) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-    for (int c = 0; c < 3; ++c) {
-      const double height = unit.dot(shape.corner(t, c));
-      low = std::min(low, height);
-      high = std::max(high, height);
-    }
-  return high - low;
-}
-
 double diagonal(const Shape& shape) {
   Eigen::Vector3d extents;
-  for (int axis = 0; axis < 3; ++axis) extents[axis] = extent_along(shape, Eigen::Vector3d::Unit(axis));
+  for (int axis = 0; axis < 3; ++axis)
+    extents[axis] = range_along(shape, Eigen::Vector3d::Unit(axis)).length();
   return extents.norm();
 }
 
@@ -171,7 +160,7 @@ std::vector<ContactRegion> contact_regions(const Shape& shape, const SeparationT
     throw UsageError("the contact band must lie between 0 and 1");
   if (!separation.blocked) return {};
   const Setting setting{frame_of(direction), options, tolerance::relative * diagonal(shape)};
-  const double band = options.band * extent_along(shape, setting.frame.w) / direction.length();
+  const double band = options.band * range_along(shape, setting.frame.w).length() / direction.length();
   std::vector<ContactPolygon> polygons =
       contact_polygons(tree.data(), direction, options.semantics, separation.value.to_double() - band);
   if (polygons.empty()) polygons.push_back(witness_polygon(separation.witness));
