@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "stackabilization/envelope/contact_polygons.h"
 #include "stackabilization/envelope/planar_union.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
