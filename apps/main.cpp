@@ -3,6 +3,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <iostream>
 #include <new>
 #include <string>

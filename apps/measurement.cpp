@@ -39,7 +39,7 @@ Measurement measure_exactly(const StackabilitySolver& solver, const Direction& d
   ContactOptions options;
   options.semantics = solver.options().semantics;
   measurement.contacts =
-      contact_regions(solver.shape(), solver.tree(), direction, *measurement.separation, options);
+      contact_regions({solver.shape(), solver.tree(), direction, *measurement.separation}, options);
   return measurement;
 }
 

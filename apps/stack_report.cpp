@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include "apps/measurement.h"
 #include "apps/stack_run.h"

@@ -1,5 +1,7 @@
 #include "apps/stack_run.h"
 
+#include <utility>
+
 #include "stackabilization/shape/tolerances.h"
 #include "stackabilization/stacking/clearance.h"
 #include "stackabilization/stacking/stack_search.h"

@@ -1,4 +1,5 @@
 #include <memory>
+#include <utility>
 
 #include "apps/command.h"
 #include "apps/model.h"

@@ -8,6 +8,8 @@ find_package(TBB CONFIG REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(minizip REQUIRED IMPORTED_TARGET minizip)
+# What CGAL's numbers stand on.
+pkg_check_modules(gmp REQUIRED IMPORTED_TARGET gmpxx mpfr gmp)
 # tinygltf is header-only and parses with nlohmann-json.
 find_package(nlohmann_json 3.9 REQUIRED)
 

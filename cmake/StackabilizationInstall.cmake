@@ -9,8 +9,17 @@ list(FILTER libraries EXCLUDE REGEX "^stackabilization_rendering$")
 
 install(TARGETS ${libraries} EXPORT StackabilizationTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT StackabilizationTargets NAMESPACE stackabilization:: DESTINATION ${package_dir})
-# Headers that show third-party types stay at home; scripts/check_source.sh lets no others do so.
+# Headers that show third-party types stay at home; scripts/check_source.sh lets no others do so. So do those of
+# namespace detail.
 set(header_filter FILES_MATCHING PATTERN "*.h" PATTERN "formats" EXCLUDE PATTERN "rational_number.h" EXCLUDE)
+file(GLOB_RECURSE headers CONFIGURE_DEPENDS src/stackabilization/*.h)
+foreach(header ${headers})
+  file(STRINGS ${header} detail REGEX "^namespace stackabilization::detail" LIMIT_COUNT 1)
+  if(detail)
+    get_filename_component(name ${header} NAME)
+    list(APPEND header_filter PATTERN ${name} EXCLUDE)
+  endif()
+endforeach()
 if(rendering_libraries)
   install(TARGETS ${rendering_libraries} EXPORT StackabilizationRenderingTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})

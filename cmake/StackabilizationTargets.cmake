@@ -13,7 +13,7 @@ function(stackabilization_library name)
   # Header-only packages are compiled in: consumers of the installed library neither need nor see them. What CGAL's
   # numbers stand on is still linked.
   if("CGAL::CGAL" IN_LIST ARG_PRIVATE)
-    list(APPEND ARG_PRIVATE gmpxx mpfr gmp)
+    list(APPEND ARG_PRIVATE PkgConfig::gmp)
     if(CGAL_VERSION VERSION_GREATER_EQUAL 6)  # which renamed headers that CGAL 5.5 knows by their old names only
       target_compile_definitions(${target} PRIVATE CGAL_NO_DEPRECATION_WARNINGS)
     endif()
@@ -33,6 +33,6 @@ function(stackabilization_options target)
   if(STACKABILIZATION_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${STACKABILIZATION_SANITIZE}
       -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
-    target_link_options(${target} PUBLIC -fsanitize=${STACKABILIZATION_SANITIZE})
+    target_link_options(${target} PRIVATE -fsanitize=${STACKABILIZATION_SANITIZE})
   endif()
 endfunction()

@@ -4,15 +4,25 @@ add_test(NAME "install: into a prefix"
   COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${prefix})
 set_tests_properties("install: into a prefix" PROPERTIES LABELS unit FIXTURES_SETUP installed)
 
+if(STACKABILIZATION_SANITIZE)  # A program must carry the sanitizers of the libraries in it.
+  set(foreign_flags -DCMAKE_CXX_FLAGS=-fsanitize=${STACKABILIZATION_SANITIZE})
+endif()
 add_test(NAME "install: a foreign project builds and runs"
   COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${PROJECT_SOURCE_DIR}/tests/install
     ${PROJECT_BINARY_DIR}/tests/install/foreign
     --build-generator ${CMAKE_GENERATOR} --build-makeprogram ${CMAKE_MAKE_PROGRAM} --build-project Foreign
     --build-options -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
-      -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE}
+      -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} ${foreign_flags}
     --test-command foreign ${PROJECT_SOURCE_DIR}/tests/install/pyramid.obj)
 set_tests_properties("install: a foreign project builds and runs" PROPERTIES LABELS unit FIXTURES_REQUIRED installed
   PASS_REGULAR_EXPRESSION "f_max = 2\n" TIMEOUT 600)
+
+# Inside another project: the libraries only, and that project's own settings left alone.
+add_test(NAME "install: a project that includes this one keeps its settings"
+  COMMAND ${CMAKE_COMMAND} -S ${PROJECT_SOURCE_DIR}/tests/subproject -B ${PROJECT_BINARY_DIR}/tests/subproject
+    -G ${CMAKE_GENERATOR} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER} -UCMAKE_BUILD_TYPE -USTACKABILIZATION_BUILD_*
+    -DSTACKABILIZATION_SOURCE=${PROJECT_SOURCE_DIR})
+set_tests_properties("install: a project that includes this one keeps its settings" PROPERTIES LABELS unit)
 
 add_test(NAME "sources: house rules"
   COMMAND ${PROJECT_SOURCE_DIR}/scripts/check_source.sh)

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "revision.h"
 #include "stackabilization/shape/errors.h"
 
 namespace stackabilization::experiments {

@@ -81,7 +81,8 @@ TEST_CASE("the sheet of a measurement shows the shape, both envelopes, the conta
   const Direction up(0, 0, 1);
   const StackabilitySolver solver(cup);
   const Stackability measured = solver.measure(up);
-  const std::vector<ContactRegion> contacts = contact_regions(cup, solver.tree(), up, solver.separation(up));
+  const std::vector<ContactRegion> contacts =
+      contact_regions({cup, solver.tree(), up, solver.separation(up)});
   const PictureOptions options{800, 590, "cup.obj"};
   const Drawing sheet = measure_picture(cup, measured, contacts, options);
   check_nothing_clipped(sheet);

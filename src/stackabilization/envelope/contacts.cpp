@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
+#include <utility>
 
 #include "stackabilization/envelope/contact_polygons.h"
 #include "stackabilization/envelope/planar_union.h"
@@ -33,20 +33,10 @@ struct Setting {
   double reach;  ///< polygons this near to each other, in model units, touch
 };
 
-double extent_along(const Shape& shape, const Eigen::Vector3d& unit) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-    for (int c = 0; c < 3; ++c) {
-      const double height = unit.dot(shape.corner(t, c));
-      low = std::min(low, height);
-      high = std::max(high, height);
-    }
-  return high - low;
-}
-
 double diagonal(const Shape& shape) {
   Eigen::Vector3d extents;
-  for (int axis = 0; axis < 3; ++axis) extents[axis] = extent_along(shape, Eigen::Vector3d::Unit(axis));
+  for (int axis = 0; axis < 3; ++axis)
+    extents[axis] = range_along(shape, Eigen::Vector3d::Unit(axis)).length();
   return extents.norm();
 }
 
@@ -90,29 +80,33 @@ std::vector<Tile> tiles(const std::vector<Patch>& patches, const Shape& shape, c
   return result;
 }
 
-/// Centroids of the two lifted polygons, weighted by their area seen along r; equal weights where all areas
+struct Centres {
+  Eigen::Vector3d upper = Eigen::Vector3d::Zero();
+  Eigen::Vector3d lower = Eigen::Vector3d::Zero();
+};
+
+/// Centroids of the lifted polygons, weighted by their area seen along r; equal weights where all areas
 /// vanish.
-void set_centres(ContactRegion& region, const std::vector<const Patch*>& patches) {
-  region.upper_centre.setZero();
-  region.lower_centre.setZero();
+Centres centres_of(const std::vector<const Patch*>& patches) {
+  Centres centres;
   double total = 0;
   for (const bool by_area : {true, false}) {
     for (const Patch* patch : patches) {
       const auto centroid = outline_centroid(patch->outline);
       const double weight = by_area ? outline_area(patch->outline) : 1;
       if (!(weight > 0)) continue;
-      region.upper_centre += weight * (patch->polygon.upper_points.transpose() * centroid);
-      region.lower_centre += weight * (patch->polygon.lower_points.transpose() * centroid);
+      centres.upper += weight * (patch->polygon.upper_points.transpose() * centroid);
+      centres.lower += weight * (patch->polygon.lower_points.transpose() * centroid);
       total += weight;
     }
     if (total > 0) break;
   }
-  region.upper_centre /= total;
-  region.lower_centre /= total;
+  return {centres.upper / total, centres.lower / total};
 }
 
-/// Ring, line or dot, from the union of the outlines.
-void classify(ContactRegion& region, const std::vector<Outline>& outlines, const Setting& setting) {
+/// Area, long axis, and ring, line or dot, from the union of the outlines.
+ContactRegion classified(const std::vector<Outline>& outlines, const Setting& setting) {
+  ContactRegion region;
   region.area = union_area(outlines);
   const Elongation elongation = elongation_of(outlines);
   region.long_axis = setting.frame.u * elongation.axis.x() + setting.frame.v * elongation.axis.y();
@@ -121,20 +115,22 @@ void classify(ContactRegion& region, const std::vector<Outline>& outlines, const
   } else if (elongation.length > 0 && elongation.length >= setting.options.line_aspect * elongation.width) {
     region.type = ContactType::line;
   }
+  return region;
 }
 
 /// The region of the listed tiles; takes the polygons out of their patches.
 ContactRegion make_region(std::vector<Patch>& patches, const std::vector<Tile>& members,
                           const Setting& setting) {
-  ContactRegion region;
   std::vector<const Patch*> chosen;
   std::vector<Outline> outlines;
   for (const Tile& tile : members) {
     outlines.push_back(tile.outline);
     for (std::size_t p = tile.first; p < tile.last; ++p) chosen.push_back(&patches[p]);
   }
-  classify(region, outlines, setting);
-  set_centres(region, chosen);
+  ContactRegion region = classified(outlines, setting);
+  const Centres centres = centres_of(chosen);
+  region.upper_centre = centres.upper;
+  region.lower_centre = centres.lower;
   for (const Tile& tile : members)
     for (std::size_t p = tile.first; p < tile.last; ++p)
       region.polygons.push_back(std::move(patches[p].polygon));
@@ -164,14 +160,13 @@ bool comes_first(const ContactRegion& a, const ContactRegion& b) {
 
 }  // namespace
 
-std::vector<ContactRegion> contact_regions(const Shape& shape, const SeparationTree& tree,
-                                           const Direction& direction, const Separation& separation,
-                                           const ContactOptions& options) {
+std::vector<ContactRegion> contact_regions(const ContactQuery& query, const ContactOptions& options) {
+  const auto& [shape, tree, direction, separation] = query;
   if (!(options.band >= 0 && options.band <= 1))
     throw UsageError("the contact band must lie between 0 and 1");
   if (!separation.blocked) return {};
   const Setting setting{frame_of(direction), options, tolerance::relative * diagonal(shape)};
-  const double band = options.band * extent_along(shape, setting.frame.w) / direction.length();
+  const double band = options.band * range_along(shape, setting.frame.w).length() / direction.length();
   std::vector<ContactPolygon> polygons =
       contact_polygons(tree.data(), direction, options.semantics, separation.value.to_double() - band);
   if (polygons.empty()) polygons.push_back(witness_polygon(separation.witness));

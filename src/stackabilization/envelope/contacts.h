@@ -41,12 +41,18 @@ struct ContactOptions {
   double least_hole = 0.01;  ///< a ring's hole takes at least this share of the rectangle around the region
 };
 
-/// The contact regions { q : f(q) >= f_max - eps } of a shape stacked on itself along `direction`, as
+/// A shape stacked on itself.
+struct ContactQuery {
+  const Shape& shape;
+  const SeparationTree& tree;    ///< of `shape`
+  const Direction& direction;    ///< r, from the copy below to the copy above
+  const Separation& separation;  ///< the answer for the three, in the semantics of the options
+};
+
+/// The contact regions { q : f(q) >= f_max - eps } of a shape stacked on itself along r, as
 /// polygons lifted to both surfaces, grouped into connected regions per pair of parts, largest area first
-/// (ties by position). Constructions in double precision, within tolerance::relative of the diagonal.
-/// `separation` must be the answer for the same shape, direction and semantics.
-std::vector<ContactRegion> contact_regions(const Shape& shape, const SeparationTree& tree,
-                                           const Direction& direction, const Separation& separation,
-                                           const ContactOptions& options = {});
+/// (ties by position). Constructions in double precision, within tolerance::relative of the diagonal. Throws
+/// UsageError for a band outside [0, 1].
+std::vector<ContactRegion> contact_regions(const ContactQuery& query, const ContactOptions& options = {});
 
 }  // namespace stackabilization

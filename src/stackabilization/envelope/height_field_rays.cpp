@@ -10,9 +10,11 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "stackabilization/envelope/height_field.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization {
 
@@ -72,7 +74,7 @@ HeightRange heights_over(const LocalTriangle& corners, const Eigen::Vector3d& q)
   const double magnitude = std::max({corners[0].norm(), corners[1].norm(), corners[2].norm()});
   // Below this the sign of the area is the rounding of the frame coordinates: the triangle is vertical for
   // all we know.
-  if (std::abs(area) <= 16 * std::numeric_limits<double>::epsilon() * magnitude * span)
+  if (std::abs(area) <= tolerance::product_rounding * magnitude * span)
     return heights_of_vertical(corners, q);
   const double height = corners[0].z() + (cross2(aq, ac) * ab.z() + cross2(ab, aq) * ac.z()) / area;
   const auto [low, high] = std::minmax({corners[0].z(), corners[1].z(), corners[2].z()});

@@ -5,17 +5,15 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
+#include "stackabilization/shape/disjoint_sets.h"
 #include "stackabilization/shape/planar.h"
 
 namespace stackabilization::detail {
 namespace {
 
 namespace bp = boost::polygon;
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 struct Bounds {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
@@ -58,25 +56,6 @@ double separating_distance(const Outline& a, const Outline& b) {
   try_axis(Eigen::Vector2d::UnitY());
   return best;
 }
-
-/// Disjoint sets with path halving.
-class Components {
- public:
-  explicit Components(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-  std::size_t find(std::size_t item) {
-    while (parent_[item] != item) item = parent_[item] = parent_[parent_[item]];
-    return item;
-  }
-  void join(std::size_t a, std::size_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::size_t> parent_;
-};
 
 /// The outline on a grid of 2^30 cells across the longer side of the bounds, centred.
 class Grid {
@@ -211,7 +190,7 @@ std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outli
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return bounds[a].low.x() != bounds[b].low.x() ? bounds[a].low.x() < bounds[b].low.x() : a < b;
   });
-  Components components(outlines.size());
+  DisjointSets components(outlines.size());
   std::vector<std::size_t> active;
   for (const std::size_t o : order) {
     std::erase_if(active,
@@ -220,7 +199,7 @@ std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outli
       if (bounds[other].high.y() + reach < bounds[o].low.y() ||
           bounds[o].high.y() + reach < bounds[other].low.y())
         continue;
-      if (components.find(o) == components.find(other)) continue;
+      if (components.root(o) == components.root(other)) continue;
       if (separating_distance(outlines[o], outlines[other]) <= reach) components.join(o, other);
     }
     active.push_back(o);
@@ -228,7 +207,7 @@ std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outli
   std::vector<std::vector<std::size_t>> result;
   std::vector<std::size_t> place(outlines.size());
   for (std::size_t o = 0; o < outlines.size(); ++o) {
-    const std::size_t root = components.find(o);
+    const std::size_t root = components.root(o);
     if (root == o) {
       place[o] = result.size();
       result.emplace_back();

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "stackabilization/rendering/drawing.h"
+#include "stackabilization/shape/formats/formats.h"
 
 namespace stackabilization {
 namespace {
@@ -24,29 +25,6 @@ std::string hex(const Colour& colour) {
     text += digits[value % 16];
   }
   return text;
-}
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
 }
 
 std::string base64(const std::string& bytes) {
@@ -90,8 +68,8 @@ std::string element(const Text& text) {
          hex(text.colour) + "\" text-anchor=\"" +
          std::string(anchors[static_cast<std::size_t>(text.anchor)]) + "\"" +
          (text.bold ? " font-weight=\"bold\"" : "") +
-         (text.upwards ? " transform=\"rotate(-90 " + x + " " + y + ")\"" : "") + ">" + escaped(text.text) +
-         "</text>\n";
+         (text.upwards ? " transform=\"rotate(-90 " + x + " " + y + ")\"" : "") + ">" +
+         escaped_xml(text.text) + "</text>\n";
 }
 
 std::string element(const PlacedImage& placed) {

@@ -81,10 +81,6 @@ double NearestSample::value_at(const Eigen::Vector2d& point) const {
   return value;
 }
 
-struct Range {
-  double low, high;
-};
-
 Image disc_image(const std::vector<MapSample>& samples, const Range& range, int pixels) {
   const NearestSample nearest(samples);
   Image image(pixels, pixels, palette::white);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <utility>
 
 #include "stackabilization/rendering/depth_raster.h"
 #include "stackabilization/rendering/envelope_sheet.h"

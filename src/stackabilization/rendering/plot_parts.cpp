@@ -1,5 +1,6 @@
 #include "stackabilization/rendering/plot_parts.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>

@@ -1,9 +1,11 @@
 #include "stackabilization/rendering/scene.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "stackabilization/shape/errors.h"
 

@@ -5,6 +5,7 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace stackabilization {
 

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <cstdint>
+#include <string>
 
+#include "stackabilization/shape/disjoint_sets.h"
 #include "stackabilization/shape/exact_triangles.h"
 #include "stackabilization/shape/point_index.h"
 #include "stackabilization/shape/tolerances.h"
@@ -15,28 +17,6 @@ namespace stackabilization {
 namespace {
 
 using Corners = std::array<std::int32_t, 3>;
-
-/// Sets of connected points, by union and find with path halving.
-class Components {
- public:
-  explicit Components(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-
-  void join(std::int32_t a, std::int32_t b) { parent_[slot(root(a))] = root(b); }
-  std::int64_t count() const {
-    std::int64_t roots = 0;
-    for (std::size_t i = 0; i < parent_.size(); ++i) roots += parent_[i] == static_cast<std::int32_t>(i);
-    return roots;
-  }
-
- private:
-  static std::size_t slot(std::int32_t index) { return static_cast<std::size_t>(index); }
-  std::int32_t root(std::int32_t i) {
-    for (; parent_[slot(i)] != i; i = parent_[slot(i)]) parent_[slot(i)] = parent_[slot(parent_[slot(i)])];
-    return i;
-  }
-
-  std::vector<std::int32_t> parent_;
-};
 
 class Inspector {
  public:
@@ -83,15 +63,15 @@ class Inspector {
   }
 
   void count_faces() {
-    Components components(index_.points().size());
+    DisjointSets components(index_.points().size());
     std::vector<Corners> sorted = triangles_;
     for (Corners& corners : sorted) {
-      components.join(corners[0], corners[1]);
-      components.join(corners[0], corners[2]);
+      for (const std::size_t k : {1, 2})
+        components.join(static_cast<std::size_t>(corners[0]), static_cast<std::size_t>(corners[k]));
       findings_.degenerate_faces += are_collinear(point(corners[0]), point(corners[1]), point(corners[2]));
       std::sort(corners.begin(), corners.end());
     }
-    findings_.components = components.count();
+    findings_.components = static_cast<std::int64_t>(components.count());
     std::sort(sorted.begin(), sorted.end());
     findings_.duplicate_faces = sorted.end() - std::unique(sorted.begin(), sorted.end());
   }

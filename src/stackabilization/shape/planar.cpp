@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace stackabilization {
 
 namespace {
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Appends `index` to a chain that turns left only; the first `fixed` entries stay.
 void extend_chain(const Eigen::Matrix2Xd& points, int index, std::size_t fixed, std::vector<int>& chain) {

@@ -5,6 +5,11 @@
 
 namespace stackabilization {
 
+/// Signed area of the parallelogram a, b: positive when b lies counter-clockwise of a.
+inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 /// Columns of `points` (2 x n, n >= 1) that are the corners of their convex hull, counter-clockwise from the
 /// lexicographically smallest. Corners closer than `resolution` to the one before are left out; one or two
 /// columns come back for a point or a straight set. Andrew's monotone chain, O(n log n).

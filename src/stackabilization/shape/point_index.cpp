@@ -1,5 +1,6 @@
 #include "stackabilization/shape/point_index.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace stackabilization {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/rational_number.h"

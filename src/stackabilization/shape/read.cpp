@@ -1,5 +1,7 @@
 #include "stackabilization/shape/read.h"
 
+#include <utility>
+
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/formats/formats.h"
 #include "stackabilization/shape/labels.h"

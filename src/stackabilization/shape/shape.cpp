@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
@@ -92,6 +93,17 @@ Shape subset(const Shape& shape, const std::vector<Eigen::Index>& triangles) {
 }
 
 }  // namespace
+
+Range range_along(const Shape& shape, const Eigen::Vector3d& axis) {
+  Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    for (int corner = 0; corner < 3; ++corner) {
+      const double along = axis.dot(shape.corner(t, corner));
+      range.low = std::min(range.low, along);
+      range.high = std::max(range.high, along);
+    }
+  return range;
+}
 
 Shape extract_part(const Shape& shape, Eigen::Index part) {
   if (part < 0 || part >= shape.part_count()) throw UsageError("there is no part " + std::to_string(part));

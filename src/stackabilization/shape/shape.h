@@ -48,6 +48,16 @@ Shape make_shape(Points vertices, Triangles triangles);
 /// hold and there is at least one triangle.
 void validate(const Shape& shape);
 
+/// Two numbers, low <= high.
+struct Range {
+  double low, high;
+
+  double length() const { return high - low; }
+};
+
+/// Range of axis . p over the corners p of all triangles. Precondition: at least one triangle.
+Range range_along(const Shape& shape, const Eigen::Vector3d& axis);
+
 /// The triangles of part `part` (index into `part_names`) with the vertices they use, in their order in
 /// `shape`.
 Shape extract_part(const Shape& shape, Eigen::Index part);

@@ -14,6 +14,10 @@ inline constexpr double relative = 1e-9;
 /// of a polygon.
 inline constexpr double rounding = 1e-13;
 
+/// Bound, several times over, of the rounding of p . r or of a planar area, as a fraction of the sum of the
+/// magnitudes of its products: 16 units in the last place.
+inline constexpr double product_rounding = 0x1p-48;
+
 /// Default width of the contact band { f >= f_max - eps }, as a fraction of the extent h along the direction:
 /// wide enough that the ring of a cup modelled with facets hangs together, narrow enough that second contacts
 /// stay out.

@@ -1,5 +1,6 @@
 #include "stackabilization/shape/write.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 

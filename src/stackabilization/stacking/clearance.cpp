@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -10,35 +9,26 @@
 #include <tuple>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/planar.h"
+#include "stackabilization/shape/point_index.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization {
 
 namespace {
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// Used rows of equal coordinates get the same number, so that neighbours are found in files that repeat
-/// vertices.
+/// Per used row the first used one with the same coordinates, so that neighbours are found in files that
+/// repeat vertices.
 std::vector<std::int32_t> welded_vertices(const Shape& shape) {
-  const Points& points = shape.vertices;
-  std::vector<std::int32_t> order(shape.triangles.data(), shape.triangles.data() + shape.triangles.size());
-  const auto coordinates = [&](std::int32_t v) {
-    return std::array<double, 3>{points(v, 0), points(v, 1), points(v, 2)};
-  };
-  std::sort(order.begin(), order.end(), [&](std::int32_t a, std::int32_t b) {
-    const auto left = coordinates(a), right = coordinates(b);
-    return left != right ? left < right : a < b;
-  });
-  std::vector<std::int32_t> number(static_cast<std::size_t>(points.rows()), -1);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool repeats = i > 0 && coordinates(order[i]) == coordinates(order[i - 1]);
-    number[static_cast<std::size_t>(order[i])] =
-        repeats ? number[static_cast<std::size_t>(order[i - 1])] : order[i];
+  std::vector<std::int32_t> welded(static_cast<std::size_t>(shape.vertex_count()), -1);
+  std::vector<std::int32_t> first_rows;
+  PointIndex index;
+  for (const std::int32_t row : shape.triangles.reshaped<Eigen::RowMajor>()) {
+    const auto number = static_cast<std::size_t>(index.insert(shape.vertices.row(row).transpose()));
+    if (number == first_rows.size()) first_rows.push_back(row);
+    welded[static_cast<std::size_t>(row)] = first_rows[number];
   }
-  return number;
+  return welded;
 }
 
 /// The polygon P, counter-clockwise in the frame's u, v coordinates.

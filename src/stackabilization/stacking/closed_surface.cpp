@@ -1,10 +1,11 @@
 #include "stackabilization/stacking/closed_surface.h"
 
-#include <algorithm>
+#include <array>
 #include <map>
-#include <numeric>
-#include <tuple>
 #include <utility>
+
+#include "stackabilization/shape/disjoint_sets.h"
+#include "stackabilization/shape/point_index.h"
 
 namespace stackabilization {
 
@@ -14,31 +15,26 @@ using CornerIds = std::vector<std::array<std::int32_t, 3>>;
 
 enum class Welding { none, equal_coordinates, equal_coordinates_per_part };
 
+/// Vertex rows of all corners, or numbers that two corners share when they are welded.
 CornerIds corner_ids(const Shape& shape, Welding welding) {
   CornerIds ids(static_cast<std::size_t>(shape.triangle_count()));
-  std::map<std::tuple<std::int32_t, double, double, double>, std::int32_t> known;
+  const bool by_part = welding == Welding::equal_coordinates_per_part;
+  std::vector<PointIndex> indices(by_part ? static_cast<std::size_t>(shape.part_count()) : 1);
   for (std::size_t t = 0; t < ids.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::int32_t vertex = shape.triangles(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(k));
-      if (welding == Welding::none) {
-        ids[t][k] = vertex;
-        continue;
-      }
-      const std::int32_t part = welding == Welding::equal_coordinates ? 0 : shape.triangle_part[t];
-      const auto p = shape.vertices.row(vertex);
-      const auto next = static_cast<std::int32_t>(known.size());
-      ids[t][k] = known.try_emplace({part, p.x(), p.y(), p.z()}, next).first->second;
+      const auto triangle = static_cast<Eigen::Index>(t);
+      const auto part = by_part ? static_cast<std::size_t>(shape.triangle_part[t]) : 0;
+      ids[t][k] = welding == Welding::none
+                      ? shape.triangles(triangle, static_cast<Eigen::Index>(k))
+                      : indices[part].insert(shape.corner(triangle, static_cast<int>(k)));
     }
+  if (!by_part) return ids;
+  std::vector<std::int32_t> first(indices.size(), 0);
+  for (std::size_t part = 1; part < first.size(); ++part)
+    first[part] = first[part - 1] + static_cast<std::int32_t>(indices[part - 1].points().size());
+  for (std::size_t t = 0; t < ids.size(); ++t)
+    for (std::int32_t& id : ids[t]) id += first[static_cast<std::size_t>(shape.triangle_part[t])];
   return ids;
-}
-
-/// Root of a union-find forest, with path halving.
-std::int32_t root_of(std::vector<std::int32_t>& parent, std::int32_t t) {
-  while (parent[static_cast<std::size_t>(t)] != t) {
-    std::int32_t& above = parent[static_cast<std::size_t>(t)];
-    t = above = parent[static_cast<std::size_t>(above)];
-  }
-  return t;
 }
 
 bool has_equal_corners(const std::array<std::int32_t, 3>& ids) {
@@ -60,21 +56,19 @@ ClosedSurface connect(const Shape& shape, const CornerIds& ids) {
   }
   ClosedSurface surface;
   surface.opposite.resize(ids.size());
-  std::vector<std::int32_t> parent(ids.size());
-  std::iota(parent.begin(), parent.end(), 0);
+  DisjointSets components(ids.size());
   for (const auto& [edge, owner] : edges) {
     const auto reverse = edges.find({edge.second, edge.first});
     if (reverse == edges.end()) return {};
     const auto [neighbour, corner] = reverse->second;
     surface.opposite[static_cast<std::size_t>(owner.triangle)][static_cast<std::size_t>(owner.corner)] =
         shape.triangles(neighbour, (corner + 2) % 3);
-    const std::int32_t a = root_of(parent, owner.triangle), b = root_of(parent, neighbour);
-    parent[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+    components.join(static_cast<std::size_t>(owner.triangle), static_cast<std::size_t>(neighbour));
   }
   surface.component.assign(ids.size(), -1);
   for (std::size_t t = 0; t < ids.size(); ++t) {
     if (has_equal_corners(ids[t])) continue;
-    const auto root = static_cast<std::size_t>(root_of(parent, static_cast<std::int32_t>(t)));
+    const std::size_t root = components.root(t);
     if (root == t) {
       surface.component[t] = static_cast<std::int32_t>(surface.representatives.size());
       surface.representatives.push_back(static_cast<std::int32_t>(t));

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <limits>
 #include <string>
 
 #include "stackabilization/shape/errors.h"
@@ -10,25 +8,11 @@ namespace stackabilization {
 namespace {
 
 /// Lifts, in units of r, between which the shapes can meet at all.
-struct LiftRange {
-  double lowest, highest;
-};
-
-LiftRange possible_lifts(const Shape& below, const Shape& above, const Direction& direction) {
-  const auto extent = [&direction](const Shape& shape) {
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-      for (int corner = 0; corner < 3; ++corner) {
-        const double along = shape.corner(t, corner).dot(direction.vector());
-        low = std::min(low, along);
-        high = std::max(high, along);
-      }
-    return std::pair(low, high);
-  };
-  const auto [below_low, below_high] = extent(below);
-  const auto [above_low, above_high] = extent(above);
+Range possible_lifts(const Shape& below, const Shape& above, const Direction& direction) {
+  const Range below_range = range_along(below, direction.vector());
+  const Range above_range = range_along(above, direction.vector());
   const double squared = direction.vector().squaredNorm();
-  return {(below_low - above_high) / squared, (below_high - above_low) / squared};
+  return {(below_range.low - above_range.high) / squared, (below_range.high - above_range.low) / squared};
 }
 
 }  // namespace

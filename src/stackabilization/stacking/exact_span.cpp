@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "stackabilization/shape/tolerances.h"
+
 namespace stackabilization {
 
 namespace {
@@ -25,7 +27,7 @@ Rational exact_support(const Shape& shape, const Eigen::Vector3d& r) {
     most = std::max(most, p.dot(r));
     magnitude = std::max(magnitude, p.cwiseAbs().dot(r.cwiseAbs()));
   });
-  const double rounding = 16 * std::numeric_limits<double>::epsilon() * magnitude;
+  const double rounding = tolerance::product_rounding * magnitude;
   std::map<std::array<double, 3>, Rational> candidates;  // many triangles share the vertices at the top
   each_vertex([&](const Eigen::Vector3d& p) {
     if (p.dot(r) >= most - rounding) candidates.try_emplace({p.x(), p.y(), p.z()}, exact_dot(p, r));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/stacking/clearance.h"

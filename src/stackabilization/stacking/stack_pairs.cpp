@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/stacking/clearance.h"

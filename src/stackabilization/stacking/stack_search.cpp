@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"

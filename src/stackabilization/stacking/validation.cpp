@@ -4,7 +4,6 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
@@ -21,17 +20,6 @@ std::string short_number(double value) {
   return {text, end};
 }
 
-double extent_along(const Shape& shape, const Eigen::Vector3d& w) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-    for (int corner = 0; corner < 3; ++corner) {
-      const double along = w.dot(shape.corner(t, corner));
-      low = std::min(low, along);
-      high = std::max(high, along);
-    }
-  return high - low;
-}
-
 void check_options(const ValidationOptions& options) {
   if (options.resolutions.empty() || !std::is_sorted(options.resolutions.begin(), options.resolutions.end()))
     throw UsageError("validation needs an ascending list of resolutions");
@@ -46,7 +34,7 @@ class Validator {
     validate(shape);
     check_options(options);
     report_.direction = direction.vector();
-    report_.extent = extent_along(shape, direction.unit());
+    report_.extent = range_along(shape, direction.unit()).length();
   }
 
   ValidationReport run() {

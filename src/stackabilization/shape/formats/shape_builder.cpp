@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/formats/triangulate.h"

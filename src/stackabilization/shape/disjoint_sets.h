@@ -1,0 +1,37 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace stackabilization {
+
+/// A partition of 0, ..., count - 1 that starts as singletons. Union and find with path halving; the root of
+/// a set is its least member.
+class DisjointSets {
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+
+  std::size_t root(std::size_t member) {
+    while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
+    return member;
+  }
+
+  void join(std::size_t a, std::size_t b) {
+    a = root(a);
+    b = root(b);
+    parent_[std::max(a, b)] = std::min(a, b);
+  }
+
+  std::size_t count() const {
+    std::size_t roots = 0;
+    for (std::size_t i = 0; i < parent_.size(); ++i) roots += parent_[i] == i;
+    return roots;
+  }
+
+ private:
+  std::vector<std::size_t> parent_;
+};
+
+}  // namespace stackabilization
