@@ -3,11 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/read.h"
 #include "stackabilization/stacking/map.h"
 #include "stackabilization/stacking/search.h"
 #include "support/catch.h"
@@ -41,6 +43,18 @@ double best_of_map(const StackabilitySolver& solver, double step) {
 }
 
 }  // namespace
+
+TEST_CASE("a search climbs along cliffs") {
+  // The chair stacks best where its back legs just pass the back: S drops by half on one side of that.
+  const StackabilitySolver chair(
+      read_shape(std::filesystem::path(STACKABILIZATION_SOURCE_DIR) / "data" / "models" / "chair.obj"));
+  const double best = best_direction(chair).best.value;
+  for (const Eigen::Vector3d& axis : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.07, -0.07, 1)}) {
+    SearchOptions options;
+    options.cone = DirectionCone{axis, 8 * degree};
+    CHECK(best_direction(chair, options).best.value == Approx(best).margin(1e-8));
+  }
+}
 
 TEST_CASE("the search of a sheet ends where its copies coincide") {
   // A funnel without thickness: every direction that sees it without folds has S = 1.

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <thread>
@@ -38,6 +39,11 @@ constexpr std::size_t trials_per_promising = 6;
 /// After that, climbs start from peaks of the samples at most this much below the best.
 constexpr double climbing_range = 0.05;
 
+/// Looking around the winner: new climbs at most, and directions of each circle.
+constexpr int most_new_climbs = 20;
+constexpr int circle_points = 24;
+constexpr int circle_halvings = 10;
+
 /// A direction to try, with the normal of the great circle it was taken from, or zero.
 struct Trial {
   Eigen::Vector3d direction, circle_normal;
@@ -48,6 +54,18 @@ struct Sample {
   Stackability at;
   Eigen::Vector3d circle_normal;
 };
+
+/// The two largest of the values on a circle that no neighbour exceeds.
+std::vector<int> circle_peaks(const std::vector<double>& values) {
+  const auto count = static_cast<int>(values.size());
+  const auto at = [&](int i) { return values[static_cast<std::size_t>((i + count) % count)]; };
+  std::vector<int> peaks;
+  for (int i = 0; i < count; ++i)
+    if (at(i) > at(i - 1) && at(i) >= at(i + 1)) peaks.push_back(i);
+  std::stable_sort(peaks.begin(), peaks.end(), [&](int a, int b) { return at(a) > at(b); });
+  if (peaks.size() > 2) peaks.erase(peaks.begin() + 2, peaks.end());
+  return peaks;
+}
 
 class DirectionSearch {
  public:
@@ -78,6 +96,8 @@ class DirectionSearch {
   std::vector<Sample> peaks(const std::vector<Sample>& samples, double distance) const;
   void climb_to_peaks();
   std::vector<Sample> climb_from(std::vector<Sample> starts, double first_step, double last_step);
+  void look_around(Sample& top);
+  Sample best_on_circle(const Sample& top, double radius);
   void report(double fraction) const {
     if (options_.progress) options_.progress(fraction);
   }
@@ -220,6 +240,7 @@ void DirectionSearch::climb_to_peaks() {
     tops = peaks(climb_from(std::move(tops), step, small_step), step);
     report(0.95);
     tops = peaks(climb_from(std::move(tops), small_step, tolerance::direction_step), step);
+    look_around(tops.front());
   }
   result_.best = tops.front().at;
   for (const Sample& top : tops) result_.optima.push_back({top.at.direction, top.at.value});
@@ -241,6 +262,64 @@ std::vector<Sample> DirectionSearch::climb_from(std::vector<Sample> starts, doub
   });
   result_.evaluated = std::accumulate(evaluated.begin(), evaluated.end(), result_.evaluated);
   return starts;
+}
+
+/// S has cliffs, where walls begin to pass each other, and creases; a climb may end on one short of the peak.
+/// What is better nearby, at any distance down to the last step, is climbed from anew.
+void DirectionSearch::look_around(Sample& top) {
+  const double widest = options_.spacing / (1 << halvings);
+  int climbs_left = most_new_climbs;
+  for (double radius = widest; radius > tolerance::direction_step && !ended();) {
+    const Sample best = best_on_circle(top, radius);
+    if (best.at.value <= top.at.value + tolerance::stackability || climbs_left == 0) {
+      radius /= 4;
+      continue;
+    }
+    --climbs_left;
+    top = climb_from({best}, radius, tolerance::direction_step).front();
+    radius = std::min(widest, 4 * radius);
+  }
+}
+
+/// The best of a circle around `top`: of even samples, then between the best two peaks of these and their
+/// neighbours. Along a cliff only a narrow part of the circle, next to one of the two drops, is better than
+/// the centre.
+Sample DirectionSearch::best_on_circle(const Sample& top, double radius) {
+  const Frame frame = frame_of(Direction(top.at.direction));
+  Sample best = top;
+  best.at.value = -std::numeric_limits<double>::infinity();
+  const auto measure_at = [&](const std::vector<double>& angles) {
+    std::vector<double> values(angles.size(), -std::numeric_limits<double>::infinity());
+    std::vector<Stackability> measured(angles.size());
+    tbb::parallel_for(std::size_t{0}, angles.size(), [&](std::size_t i) {
+      const Eigen::Vector3d local(radius * std::cos(angles[i]), radius * std::sin(angles[i]), 1);
+      const auto direction = region_.nearest(frame.to_world(local));
+      if (!direction) return;
+      measured[i] = solver_.measure(Direction(*direction));
+      values[i] = measured[i].value;
+    });
+    result_.evaluated += static_cast<std::int64_t>(angles.size());
+    for (std::size_t i = 0; i < angles.size(); ++i)
+      if (values[i] > best.at.value) best.at = measured[i];
+    return values;
+  };
+  const double even_step = 2 * std::numbers::pi / circle_points;
+  std::vector<double> angles;
+  for (int i = 0; i < circle_points; ++i) angles.push_back(i * even_step);
+  const std::vector<double> values = measure_at(angles);
+  for (const int peak : circle_peaks(values)) {
+    double middle = angles[static_cast<std::size_t>(peak)], value = values[static_cast<std::size_t>(peak)],
+           step = even_step;
+    for (int halving = 0; halving < circle_halvings; ++halving) {
+      step /= 2;
+      const std::vector<double> sides = measure_at({middle - step, middle + step});
+      const int better = sides[0] >= sides[1] ? 0 : 1;
+      if (sides[static_cast<std::size_t>(better)] <= value) continue;
+      value = sides[static_cast<std::size_t>(better)];
+      middle += better == 0 ? -step : step;
+    }
+  }
+  return best;
 }
 
 }  // namespace
