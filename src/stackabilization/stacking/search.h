@@ -51,8 +51,8 @@ struct SearchResult {
 /// The direction of largest S(M, r): S is sampled evenly and on great circles orthogonal to the main axes,
 /// where symmetry planes are likely, and at candidates where it often has narrow peaks (axes of file, box and
 /// surface, normals of large faces and directions along two of them); from the best distinct ones it climbs
-/// to local maxima. Not proven global: a peak much narrower than `spacing` away from every candidate can be
-/// missed.
+/// to local maxima, the winner along the cliffs of S too. Not proven global: a peak much narrower than
+/// `spacing` away from every candidate can be missed.
 ///
 /// Among directions equal to tolerance::stackability the earliest wins: candidates of the options, then of
 /// the shape. Deterministic for any number of threads. Throws UsageError when an option is out of range or
