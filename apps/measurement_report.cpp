@@ -2,7 +2,9 @@
 #include <cmath>
 
 #include "apps/measurement.h"
+#include "apps/rendering.h"
 #include "apps/text.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::apps {
 
@@ -29,15 +31,28 @@ Json exact_json(const Separation& separation) {
   return to_json(separation.blocked ? separation.value : Rational());
 }
 
-void add_sampling_lines(TextTable& table, const Sampling& sampling, double height, Unit unit) {
+/// Why a sampled value lies above the exact one; empty when it does not.
+std::string excess_note(const Measurement& measurement) {
+  const bool depth_buffer = measurement.method == Method::gl_raster;
+  const double precision = depth_buffer ? depth_buffer_precision : tolerance::relative;
+  if (measurement.sampling->error <= precision * measurement.values.extent) return {};
+  return std::string("above the exact value: ") +
+         (depth_buffer ? depth_buffer_excess
+                       : "a sample lies on a wall along the direction, which only closed semantics count");
+}
+
+void add_sampling_lines(TextTable& table, const Measurement& measurement, Unit unit) {
+  const Sampling& sampling = *measurement.sampling;
+  const double height = measurement.values.extent;
   table.add("Samples", std::to_string(sampling.columns) + " x " + std::to_string(sampling.rows),
             "pixels of " + quantity(sampling.pixel_size, unit));
   table.add("Error", quantity(sampling.error, unit),
             "against the exact f_max of " + quantity(sampling.exact_f_max, unit) + "; " +
                 percent(sampling.error / height) + " of the height");
+  if (const std::string note = excess_note(measurement); !note.empty()) table.add("", "", note);
   if (!sampling.half_resolution_error) return;
-  const bool stuck = std::abs(sampling.error) > negligible_error * height &&
-                     std::abs(sampling.error) >= shrinks_below * std::abs(*sampling.half_resolution_error);
+  const bool stuck = sampling.error < -negligible_error * height &&
+                     -sampling.error >= shrinks_below * std::abs(*sampling.half_resolution_error);
   table.add("", quantity(*sampling.half_resolution_error, unit),
             stuck ? "at half the resolution: it does NOT shrink, thin parts slip between the samples"
                   : "at half the resolution");
@@ -115,7 +130,7 @@ std::string measurement_text(const Measurement& measurement, const Model& model)
             "of one copy, and " + quantity(values.stack_box_volume, unit, 3) +
                 " with a side along the direction (" + name_of(measurement.options.boxes) + ")");
   table.add("Stackability", rounded(values.value), "space saved in a tall stack: 1 is all of it, 0 none");
-  if (measurement.sampling) add_sampling_lines(table, *measurement.sampling, values.extent, unit);
+  if (measurement.sampling) add_sampling_lines(table, measurement, unit);
   if (measurement.separation) add_contact_lines(table, measurement, model);
   return table.text() + "Each further copy adds " + quantity(values.f_max, unit) +
          (unit == Unit::unknown ? " (model units)" : "") + " to the stack: " + percent(share) +

@@ -20,6 +20,11 @@ void require_rendering();
 HeightField depth_buffer_field(const Shape& shape, const Direction& direction, const Window& window);
 
 inline constexpr const char* depth_buffer_name = "OpenGL raster";
+/// Of its heights, as a fraction of the extent: 24 bits of depth in single precision.
+inline constexpr double depth_buffer_precision = 1e-5;
+/// Why its values may lie further above the exact one.
+inline constexpr const char* depth_buffer_excess =
+    "OpenGL moves corners by up to 1/256 of a pixel, which tilts steep triangles";
 
 /// The depth buffer as one of the checks of `validate`; without an OpenGL context, or without rendering, the
 /// reason.

@@ -10,9 +10,6 @@ namespace stackabilization::apps {
 
 namespace {
 
-/// Of heights, as a fraction of the extent: 24 bits of depth, and single precision across steep triangles.
-constexpr double depth_buffer_precision = 1e-5;
-
 void write(const PictureFile& file, const Drawing& drawing) {
   const DeferredInterrupts until_written;
   write_drawing(file.path, drawing);
@@ -33,7 +30,7 @@ DepthBufferMaker depth_buffer_maker(const Shape& shape) {
     const auto make = [rasterizer](const Shape&, const Direction& direction, const Window& window) {
       return rasterizer->height_field(direction, window);
     };
-    return {HeightFieldMaker{depth_buffer_name, make, depth_buffer_precision}, {}};
+    return {HeightFieldMaker{depth_buffer_name, make, depth_buffer_precision, depth_buffer_excess}, {}};
   } catch (const RenderError& error) {
     return {std::nullopt, error.what()};
   }

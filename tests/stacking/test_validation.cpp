@@ -150,6 +150,26 @@ TEST_CASE("a height field maker that exceeds the exact value is caught", "[valid
   CHECK(mentions(text, "DISAGREES"));
 }
 
+TEST_CASE("a height field maker that says why may exceed the exact value, and no other", "[validation]") {
+  ValidationOptions options;
+  options.resolutions = {8, 16};
+  const auto too_high = [](const Shape& shape, const Direction& direction, const Window& window) {
+    HeightField field = height_field_by_scanline(shape, direction, window);
+    field.upper.array() += 0.01;
+    return field;
+  };
+  options.further_rasters.push_back({"tilted", too_high, 1e-5, "corners move"});
+  const ValidationReport report = validate_translation(solids::box({1, 1, 1}), up, options);
+  CAPTURE(table(report));
+  CHECK(report.passed);
+  for (const std::string name : {"tilted 8", "tilted 16"}) {
+    CHECK(row_of(report, name).verdict == Verdict::within_sampling);
+    CHECK(row_of(report, name).note == "above the exact value: corners move");
+  }
+  options.further_rasters.push_back({"bound", too_high, 1e-5, ""});
+  CHECK_FALSE(validate_translation(solids::box({1, 1, 1}), up, options).passed);
+}
+
 TEST_CASE("a table has one line per check between heading and verdict", "[validation]") {
   ValidationOptions options;
   options.resolutions = {8};

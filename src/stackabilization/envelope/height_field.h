@@ -23,9 +23,9 @@ struct Window {
 
 /// Upper and lower envelope of a shape sampled at pixel centres. Heights run along the unit vector w = r /
 /// |r|. Exact at the samples up to double rounding when made by rays or scan conversion; single precision or
-/// 24-bit depth when made by a graphics card. Whatever made it, max over samples of u - l never exceeds the
-/// exact closed f_max by more than that precision: sampling is a lower bound. (The solid f_max ignores walls
-/// along r, a sample that falls on one does not.)
+/// 24-bit depth when made by a graphics card. By rays or scan conversion, max over samples of u - l is a
+/// lower bound of the exact closed f_max, up to rounding; a graphics card moves corners to a grid and gives
+/// none. (The solid f_max ignores walls along r, a sample that falls on one does not.)
 struct HeightField {
   Frame frame;  ///< w along r
   Window window;

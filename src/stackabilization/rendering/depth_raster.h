@@ -18,10 +18,11 @@ struct DepthRasterOptions {
 /// from above along -r and one from below, one sample per pixel centre, no multisampling.
 ///
 /// Heights carry the 24-bit depth: steps of (8/7) h(M, r) 2^-24, plus the card's single precision in
-/// interpolating steep triangles. Coverage follows the card's pixel-centre rule, in which edges are snapped
-/// to 1/256 pixel. Triangles parallel to r have no pixels. Needs no display. Throws RenderError when there is
-/// no OpenGL context, UsageError for a window that `empty_height_field` refuses or a tile size below 1, and
-/// InputError when the shape is not valid.
+/// interpolating steep triangles. Coverage follows the card's pixel-centre rule, in which corners are snapped
+/// to 1/256 pixel: triangles so steep that they span little more than that get heights beyond their own, so
+/// the largest gap is no lower bound of f_max. Triangles exactly parallel to r have no pixels. Needs no
+/// display. Throws RenderError when there is no OpenGL context, UsageError for a window that
+/// `empty_height_field` refuses or a tile size below 1, and InputError when the shape is not valid.
 HeightField height_field_by_depth_buffer(const Shape& shape, const Direction& direction, const Window& window,
                                          const DepthRasterOptions& options = {});
 

@@ -129,9 +129,9 @@ class Validator {
     if (report_.extent > 0) row.error = (*row.value - exact) / report_.extent;
   }
 
-  /// Never above the exact value; agreement, or the shortfall of sampling.
-  void judge_sampled(ValidationRow& row, double precision) const {
-    const double allowed = precision * report_.extent;
+  /// Agreement, or the shortfall of sampling; above the exact value only for a stated reason.
+  void judge_sampled(ValidationRow& row, const HeightFieldMaker& maker) const {
+    const double allowed = maker.precision * report_.extent;
     set_error(row, report_.solid.length);
     if (std::abs(*row.value - report_.solid.length) <= allowed) {
       row.verdict = Verdict::agrees;
@@ -140,6 +140,9 @@ class Validator {
     } else if (*row.value <= report_.closed.length + allowed) {
       row.verdict = Verdict::within_sampling;
       row.note = "a sample lies on a wall along the direction, which only closed semantics count";
+    } else if (!maker.excess.empty()) {
+      row.verdict = Verdict::within_sampling;
+      row.note = "above the exact value: " + maker.excess;
     } else {
       row.verdict = Verdict::disagrees;
       row.note = "samples may not exceed the exact value";
@@ -164,7 +167,7 @@ class Validator {
         if (found.column >= 0 && found.value <= report_.solid.length)
           sightings_.push_back({window.pixel_size, found.value});
       }
-      judge_sampled(row, tolerance::relative);
+      judge_sampled(row, rays);
       row.note += (row.note.empty() ? "" : "; ") + std::string("pixels down to ") +
                   short_number(window.pixel_size * factor);
     });
@@ -176,11 +179,11 @@ class Validator {
       const Window window = window_around(shape_, direction_, resolution);
       ValidationRow& row = timed(maker.name + " " + std::to_string(resolution), [&](ValidationRow& entry) {
         entry.value = maximum_gap(maker.make(shape_, direction_, window)).value;
-        judge_sampled(entry, maker.precision);
+        judge_sampled(entry, maker);
       });
       if (row.verdict == Verdict::within_sampling && row.note.empty())
         row.note = explain_shortfall(*row.value, window.pixel_size, previous);
-      previous = row.value;
+      if (row.value && *row.value <= report_.solid.length) previous = row.value;
     }
   }
 

@@ -18,6 +18,8 @@ struct HeightFieldMaker {
   std::string name;  ///< how rows of the report call it
   std::function<HeightField(const Shape&, const Direction&, const Window&)> make;
   double precision = tolerance::relative;  ///< of its heights, as a fraction of the extent h
+  /// Why it may exceed the exact value beyond its precision, as a note for such rows. Empty: it may not.
+  std::string excess = {};
 };
 
 struct ValidationOptions {
@@ -31,7 +33,7 @@ struct ValidationOptions {
 
 enum class Verdict {
   agrees,           ///< equal to the exact value, or the answer that the exact value demands
-  within_sampling,  ///< below the exact value, as a finite number of samples must be
+  within_sampling,  ///< off the exact value as this sampling may be: below it, or above with a note why
   skipped,          ///< the check does not apply to this shape; the note says why
   disagrees,        ///< the check contradicts the exact value
 };
@@ -55,10 +57,10 @@ struct ValidationReport {
 };
 
 /// Holds the exact f_max against methods that share no code with it:
-/// the height fields by rays and by scan conversion and those handed in, which must not exceed it and close
-/// in on it; rays zoomed in on the witness; collision tests just above and just below it; a search by
-/// collision tests from the top; for small closed solids the Minkowski sum, which must be the very same
-/// rational number.
+/// the height fields by rays and by scan conversion, which must not exceed it and close in on it, and those
+/// handed in, which must not exceed it either unless they say why they may; rays zoomed in on the witness;
+/// collision tests just above and just below it; a search by collision tests from the top; for small closed
+/// solids the Minkowski sum, which must be the very same rational number.
 ///
 /// Sampled values are held against the solid f_max; one between it and the closed f_max comes from a sample
 /// on a wall along r and is accepted with a note. For open shapes only "free above the closed f_max" is
