@@ -130,6 +130,38 @@ TEST_CASE("a projection without area is checked as far as it can be", "[validati
   CHECK(row_of(report, "exact, solid").verdict == Verdict::skipped);
 }
 
+TEST_CASE("a flat sheet across the direction is free as soon as it is lifted", "[validation]") {
+  Points points(4, 3);
+  points << 0, 0, 1, 8, 0, 1, 8, 8, 1, 0, 8, 1;
+  Triangles triangles(2, 3);
+  triangles << 0, 1, 2, 0, 2, 3;
+  const ValidationReport report = validate_translation(make_shape(points, triangles), up, coarse());
+  CAPTURE(table(report));
+  CHECK(report.passed);
+  CHECK(report.extent == 0);
+  CHECK(row_of(report, "no contact above closed f_max").verdict == Verdict::agrees);
+  CHECK(*row_of(report, "no contact above closed f_max").value > 0);
+  CHECK(row_of(report, "contact at closed f_max").verdict == Verdict::agrees);
+}
+
+TEST_CASE("contact is not asked for where triangles without area attain f_max", "[validation]") {
+  Triangles triangle(1, 3);
+  triangle << 0, 1, 2;
+  Points line(3, 3), point(3, 3);
+  line << 0, 0, 0, 1, 1, 1, 2, 2, 2;
+  point << 1, 1, 1, 1, 1, 1, 1, 1, 1;
+  const Shape needle =
+      make_shape((Points(3, 3) << 0.5, 0.5, 0, 0.5, 0.5, 3, 0.5, 0.5, 7).finished(), triangle);
+  for (const Shape& shape : {make_shape(line, triangle), make_shape(point, triangle),
+                             concatenate(solids::box({1, 1, 1}), needle)}) {
+    const ValidationReport report = validate_translation(shape, up, coarse());
+    CAPTURE(table(report));
+    CHECK(report.passed);
+    CHECK(row_of(report, "contact at closed f_max").verdict == Verdict::skipped);
+    CHECK(mentions(row_of(report, "contact at closed f_max").note, "without area"));
+  }
+}
+
 TEST_CASE("a height field maker that exceeds the exact value is caught", "[validation]") {
   ValidationOptions options;
   options.resolutions = {8};

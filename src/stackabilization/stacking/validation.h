@@ -25,7 +25,7 @@ struct HeightFieldMaker {
 struct ValidationOptions {
   std::vector<int> resolutions = {64, 128, 256, 512};  ///< samples along the longer side, ascending
   std::vector<HeightFieldMaker> further_rasters;       ///< run after the rays and the scan conversion
-  /// Collisions are tested this far above and below f_max, as a fraction of the extent h.
+  /// Collisions are tested this far above and below f_max, as a fraction of h, or of the width where h is 0.
   double collision_margin = tolerance::collision_margin;
   int bisection_steps = 64;                      ///< lifts tried on the way down from the top
   Eigen::Index max_collision_triangles = 50000;  ///< above this, collision tests are skipped
@@ -64,8 +64,8 @@ struct ValidationReport {
 ///
 /// Sampled values are held against the solid f_max; one between it and the closed f_max comes from a sample
 /// on a wall along r and is accepted with a note. For open shapes only "free above the closed f_max" is
-/// demanded of collisions, and contact at it. Throws InputError as `validate` does, UsageError for an empty
-/// or unsorted list of resolutions or a margin that is not positive.
+/// demanded of collisions, and contact at it where triangles with area attain it. Throws InputError as
+/// `validate` does, UsageError for an empty or unsorted list of resolutions or a margin that is not positive.
 ValidationReport validate_translation(const Shape& shape, const Direction& direction,
                                       const ValidationOptions& options = {});
 
