@@ -1,7 +1,6 @@
 #include <Eigen/Geometry>
 
 #include "stackabilization/rendering/envelope_sheet.h"
-#include "stackabilization/shape/errors.h"
 #include "support/catch.h"
 #include "support/solids.h"
 
@@ -15,6 +14,16 @@ double area(const Shape& shape) {
     sum +=
         (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0)).norm() / 2;
   return sum;
+}
+
+/// The walls of the unit cube without thickness, and a floor at this height.
+Shape sheet_bin(double height) {
+  Points points(12, 3);
+  points << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0, 0, height, 1, 0,
+      height, 1, 1, height, 0, 1, height;
+  Triangles triangles(10, 3);
+  triangles << 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7, 8, 9, 10, 8, 10, 11;
+  return make_shape(points, triangles);
 }
 
 Shape sheet(const Shape& shape, const Direction& direction, EnvelopeSide side) {
@@ -54,5 +63,22 @@ TEST_CASE("what passes behind something else is cut away") {
 TEST_CASE("a field that sees nothing gives no sheet") {
   const Shape box = solids::box({2, 3, 4});
   const HeightField aside = height_field_by_scanline(box, Direction(0, 0, 1), {10, 10, 0.1, 20, 20});
-  CHECK_THROWS_AS(envelope_sheet(box, aside, EnvelopeSide::upper), InputError);
+  CHECK(envelope_sheet(box, aside, EnvelopeSide::upper).triangle_count() == 0);
+}
+
+TEST_CASE("a floor between vertical walls is seen whatever rounding its samples carry") {
+  for (const double height : {0.0, 0.3, 1.0}) {
+    const Shape bin = sheet_bin(height);
+    const Window window = window_around(bin, Direction(0, 0, 1), 100);
+    for (const double noise : {0.0, 1e-7}) {
+      HeightField field = height_field_by_scanline(bin, Direction(0, 0, 1), window);
+      field.upper.array() += noise;
+      field.lower.array() -= noise;
+      for (const EnvelopeSide side : {EnvelopeSide::upper, EnvelopeSide::lower}) {
+        const Shape floor = envelope_sheet(bin, field, side);
+        CHECK(area(floor) == Approx(1));
+        CHECK(floor.vertices.col(2).minCoeff() == Approx(height).margin(1e-12));
+      }
+    }
+  }
 }

@@ -105,6 +105,35 @@ TEST_CASE("a sheet finds room for long names, flat shapes and slanted directions
   check_nothing_clipped(measure_picture(slab, measured, {}, {700, 520, std::string(200, 'W') + ".obj"}));
 }
 
+TEST_CASE("a sheet comes for shapes whose envelopes are flat or cannot be seen, and says so") {
+  const Shape box = solids::box({1, 1, 1});  // bottom, top, walls
+  Shape walls = box, bin = box;
+  const Direction up(0, 0, 1);
+  std::vector<Eigen::Index> upright, low;
+  for (Eigen::Index t = 0; t < box.triangle_count(); ++t) {
+    const double normal =
+        (box.corner(t, 1) - box.corner(t, 0)).cross(box.corner(t, 2) - box.corner(t, 0)).z();
+    if (normal == 0) upright.push_back(t);
+    if (normal <= 0) low.push_back(t);
+  }
+  walls.triangles = box.triangles(upright, Eigen::all).eval();
+  walls.triangle_part.resize(upright.size());
+  bin.triangles = box.triangles(low, Eigen::all).eval();
+  bin.triangle_part.resize(low.size());
+  for (const Shape& shape : {walls, bin}) {
+    StackabilityOptions stackability;
+    stackability.semantics = Semantics::closed;
+    const StackabilitySolver solver(shape, stackability);
+    ContactOptions band;
+    band.semantics = Semantics::closed;
+    const Drawing sheet = measure_picture(
+        shape, solver.measure(up), contact_regions({shape, solver.tree(), up, solver.separation(up)}, band),
+        {800, 590, {}});
+    check_nothing_clipped(sheet);
+    CHECK(says(sheet, "No envelope to show") == (shape.triangle_count() == 8));
+  }
+}
+
 TEST_CASE("a stack shows every copy in its shade and states the total height") {
   const Shape cup = solids::frustum_shell({});
   std::vector<Shape> copies;

@@ -137,6 +137,16 @@ TEST_CASE("contacts are red on the surface, and visible even as points") {
   CHECK(contact_marks({}, EnvelopeSide::upper, {0, 0, 0}).meshes.empty());
 }
 
+TEST_CASE("contacts without area are drawn as lines and dots") {
+  std::vector<ContactRegion> contacts = contact_on_top(0.5);
+  ContactPolygon& piece = contacts[0].polygons[0];
+  piece.upper_points = piece.lower_points = (Points(2, 3) << 0.2, 0.5, 1, 0.8, 0.5, 1).finished();
+  const Scene marks = contact_marks(contacts, EnvelopeSide::upper, {0, 0, 0.004});
+  CHECK(marks.meshes.empty());
+  REQUIRE(marks.lines.size() == 2);
+  CHECK(marks.lines[0].polylines.size() == 1);
+}
+
 TEST_CASE("parts take their colours in turn") {
   Scene scene;
   scene.add({concatenate(solids::box({1, 1, 1}), solids::box({2, 0, 0}, {3, 1, 1})),

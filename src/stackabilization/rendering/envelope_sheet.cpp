@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization {
 namespace {
@@ -20,14 +20,14 @@ struct SampleCount {
 /// Cuts triangles where the samples of a height field say that they pass behind others.
 class SheetCutter {
  public:
-  SheetCutter(const HeightField& field, EnvelopeSide side)
-      : field_(field), side_(side), slack_(slack(field)) {}
+  SheetCutter(const Shape& shape, const HeightField& field, EnvelopeSide side)
+      : field_(field), side_(side), slack_(slack(shape, field.frame)) {}
 
   /// Appends the visible pieces of one triangle, in window coordinates.
   std::vector<Corners> cut(const Corners& triangle) const;
 
  private:
-  static double slack(const HeightField& field);
+  static double slack(const Shape& shape, const Frame& frame);
   SampleCount count(const Corners& triangle) const;
   bool seen_near(const Corners& triangle) const;
   bool is_seen(int i, int j, double height, double tolerance) const;
@@ -37,18 +37,15 @@ class SheetCutter {
   double slack_;  ///< heights this close to the envelope count as on it
 };
 
-double SheetCutter::slack(const HeightField& field) {
-  constexpr double fraction = 0.003;  // of the height range: invisible in a picture, far above depth rounding
-  double low = 0, high = 0;
-  bool any = false;
-  for (Eigen::Index i = 0; i < field.upper.rows(); ++i)
-    for (Eigen::Index j = 0; j < field.upper.cols(); ++j)
-      if (field.covered(static_cast<int>(i), static_cast<int>(j))) {
-        low = any ? std::min(low, field.lower(i, j)) : field.lower(i, j);
-        high = any ? std::max(high, field.upper(i, j)) : field.upper(i, j);
-        any = true;
-      }
-  return fraction * (high - low);
+/// Of the whole shape, walls too: what is seen may all lie at one height, and still carries rounding.
+double SheetCutter::slack(const Shape& shape, const Frame& frame) {
+  constexpr double fraction = 0.003;  // of the height: invisible in a picture, far above depth rounding
+  const Range u = range_along(shape, frame.u), v = range_along(shape, frame.v),
+              w = range_along(shape, frame.w);
+  double farthest = 0;
+  for (const Range& range : {u, v, w})
+    farthest = std::max({farthest, std::abs(range.low), std::abs(range.high)});
+  return std::max(fraction * w.length(), tolerance::relative * farthest);
 }
 
 bool SheetCutter::is_seen(int i, int j, double height, double tolerance) const {
@@ -129,7 +126,7 @@ bool is_wall(const Corners& t, double pixel_size) {
 }  // namespace
 
 Shape envelope_sheet(const Shape& shape, const HeightField& field, EnvelopeSide side) {
-  const SheetCutter cutter(field, side);
+  const SheetCutter cutter(shape, field, side);
   const Window& window = field.window;
   std::vector<Eigen::Vector3d> corners;
   Shape sheet;
@@ -150,8 +147,6 @@ Shape envelope_sheet(const Shape& shape, const HeightField& field, EnvelopeSide 
       sheet.triangle_part.push_back(shape.triangle_part[static_cast<std::size_t>(t)]);
     }
   }
-  if (corners.empty())
-    throw InputError("no surface is seen along the direction at the samples of the height field");
   sheet.vertices.resize(static_cast<Eigen::Index>(corners.size()), 3);
   sheet.triangles.resize(static_cast<Eigen::Index>(corners.size() / 3), 3);
   for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -3,7 +3,6 @@
 #include <limits>
 #include <utility>
 
-#include "stackabilization/rendering/depth_raster.h"
 #include "stackabilization/rendering/envelope_sheet.h"
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/rendering/plot_parts.h"
@@ -57,7 +56,7 @@ Scene contact_scene(const Subject& s) {
 }
 
 /// The lower envelope belongs to the copy above, so it floats over the upper envelope of the copy below; thin
-/// lines join the places that will touch.
+/// lines join the places that will touch. Empty when there is no envelope to see.
 Scene envelope_scene(const Subject& s) {
   double top = -std::numeric_limits<double>::infinity(), bottom = -top;
   const HeightField& field = s.field;
@@ -70,12 +69,12 @@ Scene envelope_scene(const Subject& s) {
   // Wide shapes need more distance, because the view from above lays them over each other.
   const double breadth = std::max(field.window.columns, field.window.rows) * field.window.pixel_size;
   const Eigen::Vector3d lift = (top - bottom + 0.1 * s.measured.extent + 0.25 * breadth) * s.up;
+  const Shape upper = envelope_sheet(s.shape, field, EnvelopeSide::upper);
+  const Shape lower = envelope_sheet(s.shape, field, EnvelopeSide::lower);
   Scene scene;
-  scene.add({envelope_sheet(s.shape, field, EnvelopeSide::upper), {palette::upper}, 1, Finish::smooth});
-  scene.add({moved(envelope_sheet(s.shape, field, EnvelopeSide::lower), lift),
-             {palette::lower},
-             1,
-             Finish::smooth});
+  if (upper.triangle_count() == 0 || lower.triangle_count() == 0) return scene;
+  scene.add({upper, {palette::upper}, 1, Finish::smooth});
+  scene.add({moved(lower, lift), {palette::lower}, 1, Finish::smooth});
   scene.add(contact_marks(s.contacts, EnvelopeSide::upper, s.mark_lift()));
   scene.add(contact_marks(s.contacts, EnvelopeSide::lower, lift + s.mark_lift()));
   SceneLines links{{}, palette::faint, 1};
@@ -89,6 +88,16 @@ Scene envelope_scene(const Subject& s) {
   }
   if (!links.polylines.empty()) scene.add(std::move(links));
   return scene;
+}
+
+/// Says in the middle of a panel why it is empty.
+Elements no_envelope(const Rectangle& place, double text_size) {
+  return detail::paragraph(
+      {{place.x, place.y + place.height / 2},
+       "No envelope to show: every face is parallel to r, or nearly so, or slips between the samples.",
+       text_size,
+       palette::faint},
+      place.width);
 }
 
 /// Two copies from the side, with h at the left of the lower one and f_max at the right, from rim to rim.
@@ -214,7 +223,7 @@ Drawing measure_picture(const Shape& shape, const Stackability& measured,
       measured,
       contacts,
       direction,
-      height_field_by_depth_buffer(shape, direction, window_around(shape, direction, gap_samples)),
+      height_field_by_scanline(shape, direction, window_around(shape, direction, gap_samples)),
       direction.unit(),
       size};
   Drawing drawing{options.width, options.height, {}};
@@ -235,7 +244,9 @@ Drawing measure_picture(const Shape& shape, const Stackability& measured,
   drawing.add(picture_of(touching, fit_view(touching, direction, view_of(panel(0))), panel(0)));
   drawing.add(caption({"1  The shape", "Red: where two stacked copies touch or nearly touch."},
                       below(panel(0)), size));
-  drawing.add(picture_of(apart, fit_view(apart, direction, view_of(panel(1))), panel(1)));
+  drawing.add(apart.meshes.empty()
+                  ? no_envelope(panel(1), size)
+                  : picture_of(apart, fit_view(apart, direction, view_of(panel(1))), panel(1)));
   drawing.add(caption(
       {"2  Its envelopes, pulled apart",
        "Blue: all that is seen from above, u. Orange: all that is seen from below, l, of the next copy."},

@@ -113,7 +113,9 @@ Scene contact_marks(const std::vector<ContactRegion>& regions, EnvelopeSide side
     }
   Scene scene;
   if (polygons.empty()) return scene;
-  scene.add({fans(polygons, shift), {palette::contact}, 1, Finish::plain});
+  const bool has_area = std::any_of(polygons.begin(), polygons.end(),
+                                    [](const Points* polygon) { return polygon->rows() > 2; });
+  if (has_area) scene.add({fans(polygons, shift), {palette::contact}, 1, Finish::plain});
   scene.add(std::move(outlines));
   scene.add(std::move(dots));
   return scene;
