@@ -182,6 +182,55 @@ TEST_CASE("a gap picture has one sharp cell per sample and names the largest val
   CHECK(compared >= 5);
 }
 
+TEST_CASE("the colour bar beside a thin image keeps its labels apart") {
+  const Shape rail = solids::box({1000, 1, 1});
+  const Direction up(0, 0, 1);
+  const Drawing drawing = gap_picture(height_field_by_scanline(rail, up, window_around(rail, up, 400)));
+  check_nothing_clipped(drawing);
+  std::vector<double> levels;
+  for (const DrawingElement& element : drawing.elements)
+    if (const auto* text = std::get_if<Text>(&element);
+        text != nullptr && text->text.find_first_not_of("0123456789.") == std::string::npos)
+      levels.push_back(text->at.y());
+  REQUIRE(levels.size() >= 3);
+  for (std::size_t k = 1; k < levels.size(); ++k) CHECK(levels[k - 1] - levels[k] >= 20);
+}
+
+TEST_CASE("rounding does not colour a gap image") {
+  const Shape box = solids::box({1, 1, 1});
+  const Direction up(0, 0, 1);
+  HeightField field = height_field_by_scanline(box, up, window_around(box, up, 10));
+  for (int i = 0; i < 10; ++i)
+    for (int j = 0; j < 10; ++j) {
+      field.upper(i, j) = 0.1 * i;  // a sheet with steps
+      field.lower(i, j) = 0.1 * i - 1e-8 * j;
+    }
+  for (const DrawingElement& element : gap_picture(field).elements)
+    if (const auto* image = std::get_if<PlacedImage>(&element); image != nullptr && image->image.width == 10)
+      for (int x = 0; x < 10; ++x)
+        for (int y = 0; y < 10; ++y) CHECK(image->image.pixel(x, y) == bytes_of(viridis(0)));
+  field.lower = field.upper;
+  CHECK(says(gap_picture(field), "f = 0 throughout"));
+  field.lower.setConstant(std::numeric_limits<double>::infinity());
+  CHECK(says(gap_picture(field), "none meets the shape"));
+}
+
+TEST_CASE("the caption of a dimension stays clear of its ticks, however short") {
+  for (const Anchor side : {Anchor::left, Anchor::right}) {
+    const double size = 20;
+    const detail::Elements elements = detail::vertical_dimension({100, 50.2, 50, "total height", side}, size);
+    double first = 1e9, last = -1e9, caption = 0;
+    for (const DrawingElement& element : elements) {
+      if (const auto* line = std::get_if<Polyline>(&element)) {
+        first = std::min(first, line->points.col(0).minCoeff());
+        last = std::max(last, line->points.col(0).maxCoeff());
+      }
+      if (const auto* text = std::get_if<Text>(&element)) caption = text->at.x();
+    }
+    CHECK((caption + 0.25 * size < first || caption - 0.8 * size > last));
+  }
+}
+
 TEST_CASE("a map gives every direction the colour of the nearest sample") {
   StackabilityMap map;
   for (int k = 0; k < 300; ++k) {  // spiral over the hemisphere

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
@@ -17,6 +18,20 @@ FilledPolygon arrow_head(const Eigen::Vector2d& tip, double direction, double si
   points << tip.x(), tip.y(), tip.x() - 0.38 * size, tip.y() - direction * size, tip.x() + 0.38 * size,
       tip.y() - direction * size;
   return {points, palette::ink};
+}
+
+/// What the brightest colour of a gap image stands for: the largest gap, but no less than a small part of the
+/// height, so that rounding does not show.
+double colour_ceiling(const HeightField& field, double largest_gap) {
+  constexpr double fraction = 0.001;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int i = 0; i < field.window.columns; ++i)
+    for (int j = 0; j < field.window.rows; ++j)
+      if (field.covered(i, j)) {
+        low = std::min(low, field.lower(i, j));
+        high = std::max(high, field.upper(i, j));
+      }
+  return low <= high ? std::max(largest_gap, fraction * (high - low)) : 0;
 }
 
 /// Image of the gap with v upwards; white where nothing is covered.
@@ -181,7 +196,9 @@ Elements vertical_dimension(const Dimension& d, double text_size) {
                     Polyline{segment(d.x - tick, low, d.x + tick, low), palette::ink, line_width},
                     Polyline{segment(d.x - tick, high, d.x + tick, high), palette::ink, line_width},
                     arrow_head({d.x, low}, 1, head), arrow_head({d.x, high}, -1, head)};
-  const double offset = d.side == Anchor::left ? -0.5 * text_size : 1.2 * text_size;
+  // The caption may be longer than the dimension: it stays clear of the ticks, ascenders and descenders too.
+  const double clear = tick + 0.45 * text_size;
+  const double offset = d.side == Anchor::left ? -clear : clear + 0.8 * text_size;
   elements.emplace_back(
       Text{{d.x + offset, (low + high) / 2}, d.caption, text_size, palette::ink, Anchor::centre, true, true});
   return elements;
@@ -198,22 +215,29 @@ Elements gap_panel(const Rectangle& place, const HeightField& field, double text
   const double scale =
       std::min((place.width - bar_room) / window.columns, (place.height - foot - head) / window.rows);
   const Rectangle image{place.x, place.y + head, scale * window.columns, scale * window.rows};
-  Elements elements{PlacedImage{image, gap_image(gap(field), peak.value), Sampling::cells}};
-  if (peak.column >= 0) {
+  const double ceiling = colour_ceiling(field, peak.value);
+  Elements elements{PlacedImage{image, gap_image(gap(field), ceiling), Sampling::cells}};
+  if (peak.value > 0) {
     const Eigen::Vector2d at(image.x + (peak.column + 0.5) * scale,
                              image.bottom() - (peak.row + 0.5) * scale);
     const Elements mark = ring_mark(at, 0.45 * text_size, palette::contact);
     elements.insert(elements.end(), mark.begin(), mark.end());
   }
   const std::string symbol = unit_symbol(field.unit);
-  const Elements bar = colour_bar({image.right() + 1.2 * text_size, image.y, 1.2 * text_size, image.height},
-                                  {0, peak.value, symbol.empty() ? "f" : "f in " + symbol}, text_size);
-  elements.insert(elements.end(), bar.begin(), bar.end());
-  elements.emplace_back(
-      Text{{image.x, place.bottom() - 0.6 * text_size},
-           std::to_string(window.columns) + " x " + std::to_string(window.rows) + " samples",
-           text_size,
-           palette::faint});
+  const double bar_height = std::max(image.height, std::min(10 * text_size, place.height - foot - head));
+  if (ceiling > 0) {
+    const Elements bar = colour_bar({image.right() + 1.2 * text_size, image.y, 1.2 * text_size, bar_height},
+                                    {0, ceiling, symbol.empty() ? "f" : "f in " + symbol}, text_size);
+    elements.insert(elements.end(), bar.begin(), bar.end());
+  }
+  elements.emplace_back(Text{{image.x, place.bottom() - 0.6 * text_size},
+                             std::to_string(window.columns) + " x " + std::to_string(window.rows) +
+                                 " samples" +
+                                 (peak.column < 0  ? ": none meets the shape"
+                                  : peak.value > 0 ? ""
+                                                   : ": f = 0 throughout"),
+                             text_size,
+                             palette::faint});
   return elements;
 }
 
