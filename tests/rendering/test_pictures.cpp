@@ -215,6 +215,18 @@ TEST_CASE("rounding does not colour a gap image") {
   CHECK(says(gap_picture(field), "none meets the shape"));
 }
 
+TEST_CASE("contacts cover a plate however thin") {
+  for (const double thickness : {1e-2, 1e-6}) {
+    const Shape plate = solids::box({1, 1, thickness});
+    const Direction up(0, 0, 1);
+    const StackabilitySolver solver(plate);
+    const Drawing sheet =
+        measure_picture(plate, solver.measure(up),
+                        contact_regions({plate, solver.tree(), up, solver.separation(up)}), {800, 590, {}});
+    CHECK(pixels_of(rasterize(sheet), palette::contact) > 20000);
+  }
+}
+
 TEST_CASE("the caption of a dimension stays clear of its ticks, however short") {
   for (const Anchor side : {Anchor::left, Anchor::right}) {
     const double size = 20;

@@ -29,7 +29,10 @@ struct Subject {
   double text_size;
 
   /// Far enough off the surface to be seen, too little to be noticed.
-  Eigen::Vector3d mark_lift() const { return 0.004 * measured.extent * up; }
+  Eigen::Vector3d mark_lift() const { return std::max(0.004 * measured.extent, 0.001 * breadth()) * up; }
+  double breadth() const {
+    return std::max(field.window.columns, field.window.rows) * field.window.pixel_size;
+  }
 };
 
 Shape moved(const Shape& shape, const Eigen::Vector3d& shift) {
@@ -67,8 +70,7 @@ Scene envelope_scene(const Subject& s) {
         bottom = std::min(bottom, field.lower(i, j));
       }
   // Wide shapes need more distance, because the view from above lays them over each other.
-  const double breadth = std::max(field.window.columns, field.window.rows) * field.window.pixel_size;
-  const Eigen::Vector3d lift = (top - bottom + 0.1 * s.measured.extent + 0.25 * breadth) * s.up;
+  const Eigen::Vector3d lift = (top - bottom + 0.1 * s.measured.extent + 0.25 * s.breadth()) * s.up;
   const Shape upper = envelope_sheet(s.shape, field, EnvelopeSide::upper);
   const Shape lower = envelope_sheet(s.shape, field, EnvelopeSide::lower);
   Scene scene;
