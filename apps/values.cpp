@@ -86,6 +86,7 @@ void add_direction(CLI::App& command, const std::string& name, std::optional<Eig
   command.add_option_function<std::vector<std::string>>(name, take, description)
       ->type_size(3)
       ->expected(1)
+      ->allow_extra_args(false)
       ->type_name("X Y Z");
 }
 

@@ -60,6 +60,25 @@ TEST_CASE("measure finds f_max of a cup in closed form and says where it is atta
   CHECK(result["contacts"][0]["centre"].size() == 3);
 }
 
+TEST_CASE("the model may follow a vector, which takes three numbers and no more") {
+  const TemporaryFolder folder;
+  const std::string model = folder.model("cup.obj", solids::frustum_shell(cup));
+  const std::vector<std::string> tail = {"--json", "-", "--no-timing"};
+  const auto run = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.end(), tail.begin(), tail.end());
+    return run_program(arguments);
+  };
+  const Outcome before = run({"measure", model, "--direction", "0", "-1", "2"});
+  CHECK(before.status == 0);
+  CHECK(run_program({"measure", "--json", "-", "--no-timing", "--direction", "0", "-1", "2", model}).out ==
+        before.out);
+  CHECK(run({"measure", "--direction", "0", "-1", "2", model}).out == before.out);
+  CHECK(run({"validate", "--direction", "0", "0", "1", model}).status == 0);
+  CHECK(run({"stack", "--direction", "0", "0", "1", model}).status == 0);
+  CHECK(run({"search", "--cone-degrees", "1", "--plane", "1", "0", "0", "--direction", "0", "0", "1", model})
+            .status == 0);
+}
+
 TEST_CASE("measure takes +z when no direction is given, and frame boxes when asked") {
   const TemporaryFolder folder;
   const std::string model = folder.model("box.off", solids::box({1, 2, 3}));

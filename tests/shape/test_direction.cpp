@@ -16,6 +16,14 @@ TEST_CASE("a direction refuses what is not a direction") {
   CHECK_THROWS_AS(Direction(1e-300, 0, 0), UsageError);
 }
 
+TEST_CASE("a direction takes numbers from 1e-150 to 1e150") {
+  for (const double size : {1e-150, 1e150}) {
+    const Direction direction(0, size, 0);
+    CHECK(direction.length() == Approx(size).epsilon(1e-15));
+    CHECK((direction.unit() - Eigen::Vector3d::UnitY()).norm() <= 1e-15);
+  }
+}
+
 TEST_CASE("the frame of a direction is the minimal rotation of z") {
   for (const Eigen::Vector3d& r :
        {Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(0.3, -0.2, 1), Eigen::Vector3d(1, 2, -3),

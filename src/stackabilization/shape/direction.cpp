@@ -10,7 +10,11 @@ Direction::Direction(const Eigen::Vector3d& vector) : vector_(vector) {
   if (!vector.allFinite()) throw UsageError("a direction needs three finite numbers");
   const double squared = vector.squaredNorm();
   if (vector.isZero(0)) throw UsageError("a direction cannot be (0, 0, 0)");
-  if (!std::isnormal(squared)) throw UsageError("the length of the direction is outside the range of double");
+  if (!std::isnormal(squared))
+    throw UsageError(
+        "a direction needs numbers whose squares neither overflow nor underflow: the largest from about "
+        "1e-150 "
+        "to 1e150");
 }
 
 double Direction::length() const {
