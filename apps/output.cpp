@@ -63,17 +63,29 @@ void check_place(const OutputRequest& request) {
                       " is write-protected");
 }
 
+/// An output may go where the input came from when that is a terminal or a pipe.
+void check_against_inputs(const OutputRequest& request, const std::vector<InputFile>& inputs) {
+  const std::string& path = *request.path;
+  if (path == "-" || is_device(path)) return;
+  for (const InputFile& input : inputs)
+    if (same_file(path, input.path))
+      throw UsageError(request.option + " would replace " + input.what + " " + input.path);
+}
+
 }  // namespace
 
-void check_outputs(const CommonOptions& common, const std::vector<OutputRequest>& requests) {
+void check_outputs(const CommonOptions& common, const std::vector<OutputRequest>& requests,
+                   const std::vector<InputFile>& further_inputs) {
+  std::vector<InputFile> inputs = {{"the model", common.model}};
+  if (common.read.labels) inputs.push_back({"the labels", common.read.labels->string()});
+  inputs.insert(inputs.end(), further_inputs.begin(), further_inputs.end());
   std::vector<OutputRequest> asked = {{"--json", common.json, OutputKind::text}};
   asked.insert(asked.end(), requests.begin(), requests.end());
   std::erase_if(asked, [](const OutputRequest& request) { return !request.path; });
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const std::string& path = *asked[i].path;
     if (path.empty()) throw UsageError(asked[i].option + " expects a file name, found an empty one");
-    if (path != "-" && !is_device(path) && same_file(path, common.model))
-      throw UsageError(asked[i].option + " would replace the model " + common.model);
+    check_against_inputs(asked[i], inputs);
     for (std::size_t j = 0; j < i; ++j)
       if (!is_device(path) && same_file(path, *asked[j].path))
         throw UsageError(asked[j].option + " and " + asked[i].option + " name the same output, " + path);

@@ -20,10 +20,18 @@ struct OutputRequest {
   OutputKind kind = OutputKind::text;
 };
 
+/// A file that the command reads.
+struct InputFile {
+  std::string what;  ///< "the model"
+  std::string path;
+};
+
 /// Fails before a long computation instead of after it: throws UsageError when two outputs name one file, an
-/// output would replace the model, or an extension is not one that can be written, and OutputError when the
-/// folder of a file is missing or closed to us. The JSON of `common` is checked too.
-void check_outputs(const CommonOptions& common, const std::vector<OutputRequest>& requests = {});
+/// output would replace the model, its labels or one of `further_inputs`, or an extension is not one that can
+/// be written, and OutputError when the folder of a file is missing or closed to us. The JSON of `common` is
+/// checked too.
+void check_outputs(const CommonOptions& common, const std::vector<OutputRequest>& requests = {},
+                   const std::vector<InputFile>& further_inputs = {});
 
 /// Prints `text`, or writes it to a file, whole or not at all. Throws OutputError.
 void write_output(const std::string& path, std::string_view text);

@@ -23,8 +23,12 @@ double length_in(const char* option, const std::optional<Length>& length, Unit u
 }  // namespace
 
 void check(const StackCommandOptions& options) {
-  check_outputs(options.common, {{"--output", options.output, OutputKind::mesh},
-                                 {"--picture", options.picture, OutputKind::picture}});
+  std::vector<InputFile> container;
+  if (options.into) container.push_back({"the container", *options.into});
+  check_outputs(
+      options.common,
+      {{"--output", options.output, OutputKind::mesh}, {"--picture", options.picture, OutputKind::picture}},
+      container);
   if (options.picture) require_rendering();
   refuse(options.picture && options.copy_count() > most_drawn_copies, "--picture",
          "draws at most 200 copies");

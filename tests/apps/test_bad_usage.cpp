@@ -110,3 +110,22 @@ TEST_CASE("outputs that cannot be written are refused before the work") {
   for (const auto& [arguments, word] : cases) check_refused(folder, arguments, word);
   CHECK(bytes_of(box) == bytes_of(folder.model("again.obj", solids::box({1, 2, 3}))));
 }
+
+TEST_CASE("no output replaces a file that the command reads, however it is spelled") {
+  const BoxFolder folder;
+  const std::string cup = folder.model("cup.obj", solids::box({9, 9, 1}));
+  const std::string labels = folder.file("labels.txt", "a\na\na\na\na\na\nb\nb\nb\nb\nb\nb\n");
+  const std::string detour = folder.path().string() + "/./" + "cup.obj", link = folder / "link.obj";
+  std::filesystem::create_symlink(cup, link);
+  const std::string cup_bytes = bytes_of(cup), label_bytes = bytes_of(labels);
+  REQUIRE(run_program({"measure", folder.box, "--labels", labels}).status == 0);
+  REQUIRE(run_program({"stack", folder.box, "--into", cup}).status == 0);
+  for (const std::string& output : {cup, detour, link})
+    for (const std::string option : {"-o", "--json"})
+      check_refused(folder, {"stack", folder.box, "--into", cup, option, output}, "replace the container");
+  for (const std::string command : {"inspect", "measure", "search", "map", "stack", "validate"})
+    check_refused(folder, {command, folder.box, "--labels", labels, "--json", labels}, "replace the labels");
+  check_refused(folder, {"map", folder.box, "--labels", labels, "-o", labels}, "replace the labels");
+  CHECK(bytes_of(cup) == cup_bytes);
+  CHECK(bytes_of(labels) == label_bytes);
+}
