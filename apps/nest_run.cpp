@@ -102,7 +102,7 @@ int run_nest(const CLI::App& command, const StackCommandOptions& options) {
   document["lateral_clearance"] = play.lateral;
   add_nest(document, options, result, boxes);
   add_document_tail(document, options.common, content, watch);
-  if (options.output) write_mesh_output(*options.output, both);
+  if (options.output) write_mesh_output(options.common, *options.output, both);
   if (options.picture) {
     const std::string note = "nesting saves " + quantity(result.saving, content.shape.unit) + " of height";
     write_stack_picture({*options.picture, title_of(content) + " in " + title_of(container)},

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <iostream>
 
 #include "apps/interrupt.h"
 #include "stackabilization/shape/errors.h"
@@ -63,6 +64,12 @@ void check_place(const OutputRequest& request) {
                       " is write-protected");
 }
 
+/// The unit in which readers of a format take numbers of an unknown unit; unknown: none.
+Unit unit_by_format(Format format) {
+  if (format == Format::three_mf) return Unit::millimetre;
+  return format == Format::gltf ? Unit::metre : Unit::unknown;
+}
+
 /// An output may go where the input came from when that is a terminal or a pipe.
 void check_against_inputs(const OutputRequest& request, const std::vector<InputFile>& inputs) {
   const std::string& path = *request.path;
@@ -100,10 +107,14 @@ void write_output(const std::string& path, std::string_view text) {
   if (until_written.requested()) throw Interrupted();
 }
 
-void write_mesh_output(const std::string& path, const Shape& shape) {
+void write_mesh_output(const CommonOptions& common, const std::string& path, const Shape& shape) {
   const DeferredInterrupts until_written;
   write_shape(shape, path);
   if (until_written.requested()) throw Interrupted();
+  const Unit taken = shape.unit == Unit::unknown ? unit_by_format(format_of_extension(path)) : Unit::unknown;
+  if (taken == Unit::unknown || common.quiet) return;
+  std::cerr << "stackabilize: the unit of the model is not known, so its numbers count as " +
+                   unit_symbol(taken) + " in " + path + ": say which unit they have with --unit\n";
 }
 
 void deliver(const CommonOptions& common, const Json& document, const std::string& text) {

@@ -36,8 +36,9 @@ void check_outputs(const CommonOptions& common, const std::vector<OutputRequest>
 /// Prints `text`, or writes it to a file, whole or not at all. Throws OutputError.
 void write_output(const std::string& path, std::string_view text);
 
-/// Writes a mesh file in the format of its extension. Throws OutputError.
-void write_mesh_output(const std::string& path, const Shape& shape);
+/// Writes a mesh file in the format of its extension, and unless quiet says on standard error which unit a
+/// shape without one gets by it. Throws OutputError.
+void write_mesh_output(const CommonOptions& common, const std::string& path, const Shape& shape);
 
 /// The last step of every command: the JSON where asked for, then `text` on standard output unless the JSON
 /// is there.

@@ -44,6 +44,36 @@ TEST_CASE("stack puts copies f_max apart and writes them as a mesh") {
   CHECK(stack.vertices.col(2).maxCoeff() - stack.vertices.col(2).minCoeff() == Approx(height).epsilon(1e-12));
 }
 
+TEST_CASE("meshes are written in the units of their formats, and a unit that is guessed is named") {
+  const CupFolder folder;
+  struct Case {
+    std::vector<std::string> options;
+    std::string extension;
+    double factor;
+    std::string named;
+  };
+  const std::vector<Case> cases = {{{"--unit", "mm"}, ".glb", 1e-3, ""}, {{}, ".glb", 1, " m in "},
+                                   {{"--unit", "ft"}, ".3mf", 1, ""},    {{}, ".3mf", 1, " mm in "},
+                                   {{"--quiet"}, ".3mf", 1, ""},         {{}, ".obj", 1, ""}};
+  for (const Case& wanted : cases) {
+    const std::string mesh = folder / ("stack" + wanted.extension);
+    INFO(mesh << " " << wanted.named);
+    std::vector<std::string> arguments = {"stack", folder.cup_file, "-n", "3", "-o", mesh};
+    arguments.insert(arguments.end(), wanted.options.begin(), wanted.options.end());
+    const Outcome outcome = run_program(arguments);
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.empty() == wanted.named.empty());
+    if (!wanted.named.empty()) {
+      CHECK(is_one_sentence(outcome.err));
+      CHECK(outcome.err.find(wanted.named + mesh) != std::string::npos);
+    }
+    const Shape stack = read_shape(mesh);
+    const double height = stack.vertices.col(2).maxCoeff() - stack.vertices.col(2).minCoeff();
+    CHECK(height ==
+          Approx(wanted.factor * (cup.height + 2 * solids::frustum_shell_f_max(cup))).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("clearances lift the copies") {
   const CupFolder folder;
   const auto increment = [&](const std::vector<std::string>& more) {

@@ -34,6 +34,23 @@ TEST_CASE("GLB keeps floats, parts and the z axis") {
   CHECK(same_parts(back, shape));
 }
 
+TEST_CASE("GLB counts in metres, whatever the unit of the shape") {
+  const std::vector<std::pair<Unit, double>> metres = {
+      {Unit::unknown, 1},       {Unit::metre, 1},     {Unit::centimetre, 1e-2}, {Unit::millimetre, 1e-3},
+      {Unit::micrometre, 1e-6}, {Unit::inch, 0.0254}, {Unit::foot, 0.3048}};
+  for (const auto& [unit, factor] : metres) {
+    Shape shape = transformed(cube(250), Eigen::Matrix3d::Identity(), {5, 6, 7.25});
+    shape.unit = unit;
+    const Shape back = round_trip(shape, Format::gltf);
+    CHECK(back.unit == Unit::metre);
+    REQUIRE(back.triangle_count() == shape.triangle_count());
+    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+      for (int k = 0; k < 3; ++k)
+        CHECK((back.corner(t, k) - factor * shape.corner(t, k)).norm() <=
+              1e-6 * factor * shape.corner(t, k).norm());
+  }
+}
+
 TEST_CASE("glTF applies the transforms of its nodes and turns y up to z up") {
   const Shape shape =
       read_text(Format::gltf,

@@ -22,9 +22,9 @@ struct WriteOptions {
 ///
 /// What survives: OBJ, PLY and 3MF keep parts; OBJ, OFF, PLY, ascii STL, 3MF and VTP keep every double;
 /// binary STL and GLB hold single precision. 3MF keeps the unit (`unknown` becomes millimetre, its default,
-/// and so on reading back) and gives every part its own vertices. GLB turns z up into y up as its
-/// specification wants and converts nothing else: its metre is the model unit. VTP carries the part index as
-/// cell data "part".
+/// and so on reading back) and gives every part its own vertices. GLB turns z up into y up and lengths into
+/// metres, as its specification wants; numbers of an `unknown` unit stay as they are. VTP carries the part
+/// index as cell data "part".
 ///
 /// Throws InputError when `shape` is invalid, UsageError when the format is missing or unknown, and
 /// OutputError when the file cannot be written or a coordinate does not fit the format.

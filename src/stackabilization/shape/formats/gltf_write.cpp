@@ -54,9 +54,11 @@ class GlbWriter {
     const std::size_t start = bytes_.size();
     Eigen::Array3d lower = Eigen::Array3d::Constant(std::numeric_limits<double>::infinity());
     Eigen::Array3d upper = -lower;
+    const double metres = metres_per_unit(shape.unit);
     for (const std::int32_t v : part.vertices) {
       // z up becomes y up.
-      const Eigen::Array3d turned(shape.vertices(v, 0), shape.vertices(v, 2), 0 - shape.vertices(v, 1));
+      const Eigen::Array3d turned =
+          metres * Eigen::Array3d(shape.vertices(v, 0), shape.vertices(v, 2), 0 - shape.vertices(v, 1));
       const Eigen::Array3f point(to_single(turned.x(), "GLB"), to_single(turned.y(), "GLB"),
                                  to_single(turned.z(), "GLB"));
       for (const float coordinate : point) append_little(bytes_, coordinate);
