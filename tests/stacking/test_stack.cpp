@@ -144,6 +144,18 @@ TEST_CASE("a post that its column clears in time is no conflict") {
   CHECK(stack.copies[2].rests_on == 1);
 }
 
+TEST_CASE("a conflict is more than rounding") {
+  for (const double excess : {1e-14, 1e-12}) {
+    const StackResult stack = stack_copies(stair(2 + excess), up, half_turns(6));
+    CHECK(stack.conflicts.empty());
+    CHECK(stack.conflict_height == 0);
+    CHECK(stack.copies[2].offset > Rational(2));
+  }
+  const StackResult stack = stack_copies(stair(2 + 1e-6), up, half_turns(6));
+  CHECK(stack.conflicts.size() == 4);
+  CHECK(stack.conflict_height == Approx(2e-6).epsilon(1e-6));
+}
+
 TEST_CASE("copies that pass each other stand on one floor") {
   const Shape post = solids::box({1.5, -0.5, 2}, {2.5, 0.5, 5});
   StackOptions options = half_turns(5);

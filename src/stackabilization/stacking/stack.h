@@ -36,7 +36,8 @@ struct StackedCopy {
 };
 
 /// A conflict that looking at neighbours only would miss: copies `below` and `above`, above - below >= 2,
-/// overlap by `overlap` along r (model units) when every copy rests on the one just below it.
+/// overlap by `overlap` along r (model units) when every copy rests on the one just below it. Overlaps up to
+/// tolerance::relative of the copy's extent are none: that is how well poses are known.
 struct StackConflict {
   int below = 0;
   int above = 0;

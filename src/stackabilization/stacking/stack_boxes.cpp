@@ -41,7 +41,8 @@ StackResult build_stack(StackPairs& pairs, const std::vector<int>& sequence, int
   stack.stackability = 1 - stack.stack_volume / (copies * stack.box_volume);
   stack.conflicts = find_conflicts(pairs, sequence, neighbours);
   for (StackConflict& conflict : stack.conflicts) conflict.overlap *= unit;
-  stack.conflict_height = stack.height - placed_height(pairs, sequence, neighbours) * unit;
+  if (!stack.conflicts.empty())
+    stack.conflict_height = stack.height - placed_height(pairs, sequence, neighbours) * unit;
   return stack;
 }
 

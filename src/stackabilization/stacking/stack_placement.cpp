@@ -105,8 +105,10 @@ std::vector<StackConflict> find_conflicts(StackPairs& pairs, const std::vector<i
     const auto copy = static_cast<std::size_t>(k);
     const Stop by_neighbour{neighbours.lifts[copy], neighbours.approximate[copy], k - 1};
     const Stop stop = k < 2 ? by_neighbour : descent.lowest_position(k, {k - 2, 0}, by_neighbour);
-    if (stop.rests_on != k - 1)
-      conflicts.push_back({stop.rests_on, k, (stop.lift - neighbours.lifts[copy]).to_double()});
+    const double overlap = (stop.lift - neighbours.lifts[copy]).to_double();
+    const Span& span = pairs.span(pose_of(sequence, k));
+    if (overlap > tolerance::relative * (span.approximate_top - span.approximate_bottom))
+      conflicts.push_back({stop.rests_on, k, overlap});
     descent.push(by_neighbour);
   }
   return conflicts;
