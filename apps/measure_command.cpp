@@ -20,6 +20,10 @@ struct Options {
   std::optional<std::string> picture;
 };
 
+std::string essential(const Stackability& values) {
+  return (values.box_volume > 0 ? exact_digits(values.value) : "undefined") + "\n";
+}
+
 int run(const CLI::App& command, const Options& options) {
   const Stopwatch watch;
   check_outputs(options.common, {{"--picture", options.picture, OutputKind::picture}});
@@ -29,6 +33,8 @@ int run(const CLI::App& command, const Options& options) {
   const Model model = load_model(options.common);
   const StackabilitySolver solver =
       named(model, [&] { return StackabilitySolver(model.shape, options.stackability); });
+  if (options.picture && !(solver.box_volume() > 0))
+    throw InputError(display_name(model) + ": the shape is flat, and --picture draws shapes with volume");
   const Measurement measurement =
       options.method == Method::exact
           ? measure_exactly(solver, direction)
@@ -40,8 +46,7 @@ int run(const CLI::App& command, const Options& options) {
   if (options.picture)
     write_measurement_picture({*options.picture, title_of(model)}, model.shape, measurement);
   deliver(options.common, document,
-          options.common.quiet ? exact_digits(measurement.values.value) + "\n"
-                               : measurement_text(measurement, model));
+          options.common.quiet ? essential(measurement.values) : measurement_text(measurement, model));
   return status_done;
 }
 
@@ -49,6 +54,7 @@ int run(const CLI::App& command, const Options& options) {
 
 Command make_measure_command(CLI::App& program) {
   const auto options = std::make_shared<Options>();
+  options->stackability.flat_shapes = FlatShapes::measure;
   CLI::App* const command =
       add_command(program, "measure", "Measure how well a shape stacks along one direction",
                   "stackabilize measure chair.obj --direction 0 0 1 --picture chair.png");

@@ -12,7 +12,8 @@ namespace {
 /// Eq. 3 with a given f_max.
 void set_f_max(Stackability& values, double f_max) {
   values.f_max = f_max;
-  values.value = 1 - f_max / values.extent * (values.stack_box_volume / values.box_volume);
+  if (values.box_volume > 0)
+    values.value = 1 - f_max / values.extent * (values.stack_box_volume / values.box_volume);
 }
 
 HeightField sampled_field(const Shape& shape, const Direction& direction, Method method,

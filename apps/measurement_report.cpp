@@ -31,6 +31,22 @@ Json exact_json(const Separation& separation) {
   return to_json(separation.blocked ? separation.value : Rational());
 }
 
+/// f_max / h, where there is a height.
+std::optional<double> share_of_height(const Stackability& values) {
+  return values.extent > 0 ? std::optional(values.f_max / values.extent) : std::nullopt;
+}
+
+void add_box_lines(TextTable& table, const Measurement& measurement, Unit unit) {
+  const Stackability& values = measurement.values;
+  table.add("Boxes", quantity(values.box_volume, unit, 3),
+            "of one copy, and " + quantity(values.stack_box_volume, unit, 3) +
+                " with a side along the direction (" + name_of(measurement.options.boxes) + ")");
+  if (values.box_volume > 0)
+    table.add("Stackability", rounded(values.value), "space saved in a tall stack: 1 is all of it, 0 none");
+  else
+    table.add("Stackability", "not defined", "the shape is flat: its box has no volume");
+}
+
 /// Why a sampled value lies above the exact one; empty when it does not.
 std::string excess_note(const Measurement& measurement) {
   const bool depth_buffer = measurement.method == Method::gl_raster;
@@ -47,8 +63,8 @@ void add_sampling_lines(TextTable& table, const Measurement& measurement, Unit u
   table.add("Samples", std::to_string(sampling.columns) + " x " + std::to_string(sampling.rows),
             "pixels of " + quantity(sampling.pixel_size, unit));
   table.add("Error", quantity(sampling.error, unit),
-            "against the exact f_max of " + quantity(sampling.exact_f_max, unit) + "; " +
-                percent(sampling.error / height) + " of the height");
+            "against the exact f_max of " + quantity(sampling.exact_f_max, unit) +
+                (height > 0 ? "; " + percent(sampling.error / height) + " of the height" : ""));
   if (const std::string note = excess_note(measurement); !note.empty()) table.add("", "", note);
   if (!sampling.half_resolution_error) return;
   const bool stuck = sampling.error < -negligible_error * height &&
@@ -103,8 +119,8 @@ void add_measurement(Json& document, const Measurement& measurement, const Model
   document["boxes"] = name_of(measurement.options.boxes);
   document["f_max"] = values.f_max;
   document["height"] = values.extent;
-  document["f_max_over_height"] = values.f_max / values.extent;
-  document["stackability"] = values.value;
+  document["f_max_over_height"] = to_json(share_of_height(values));
+  document["stackability"] = values.box_volume > 0 ? Json(values.value) : Json(nullptr);
   document["nesting_increment"] = values.f_max;
   document["box_volume"] = values.box_volume;
   document["stack_box_volume"] = values.stack_box_volume;
@@ -118,23 +134,21 @@ void add_measurement(Json& document, const Measurement& measurement, const Model
 std::string measurement_text(const Measurement& measurement, const Model& model) {
   const Stackability& values = measurement.values;
   const Unit unit = model.shape.unit;
-  const double share = values.f_max / values.extent;
+  const std::optional<double> share = share_of_height(values);
   TextTable table;
   add_model_line(table, model);
   table.add("Direction", vector_text(values.direction), "copies are lifted along it");
   table.add("Height", quantity(values.extent, unit), "of one copy along the direction");
   table.add("f_max", quantity(values.f_max, unit),
-            "smallest lift that sets a copy free, " + percent(share) + " of the height (" +
-                name_of(measurement.method) + ", " + name_of(measurement.options.semantics) + ")");
-  table.add("Boxes", quantity(values.box_volume, unit, 3),
-            "of one copy, and " + quantity(values.stack_box_volume, unit, 3) +
-                " with a side along the direction (" + name_of(measurement.options.boxes) + ")");
-  table.add("Stackability", rounded(values.value), "space saved in a tall stack: 1 is all of it, 0 none");
+            "smallest lift that sets a copy free" +
+                (share ? ", " + percent(*share) + " of the height (" : " (") + name_of(measurement.method) +
+                ", " + name_of(measurement.options.semantics) + ")");
+  add_box_lines(table, measurement, unit);
   if (measurement.sampling) add_sampling_lines(table, measurement, unit);
   if (measurement.separation) add_contact_lines(table, measurement, model);
   return table.text() + "Each further copy adds " + quantity(values.f_max, unit) +
-         (unit == Unit::unknown ? " (model units)" : "") + " to the stack: " + percent(share) +
-         " of the height.\n";
+         (unit == Unit::unknown ? " (model units)" : "") + " to the stack" +
+         (share ? ": " + percent(*share) + " of the height.\n" : ".\n");
 }
 
 }  // namespace stackabilization::apps

@@ -99,7 +99,9 @@ TEST_CASE("files that are not there, folders and bad labels end with 3") {
 TEST_CASE("a flat shape has no stackability, and every command that needs one says so") {
   const TemporaryFolder folder;
   const std::string sheet = folder.file("sheet.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  for (const std::string command : {"measure", "search", "map", "stack"})
+  for (const std::string command : {"search", "map", "stack"}) {
     check_unusable(folder, {command, sheet}, "sheet.obj");
-  CHECK(run_program({"inspect", sheet}).status == 0);
+    check_unusable(folder, {command, sheet}, "no volume");
+  }
+  for (const std::string command : {"inspect", "measure"}) CHECK(run_program({command, sheet}).status == 0);
 }

@@ -79,6 +79,46 @@ TEST_CASE("the model may follow a vector, which takes three numbers and no more"
             .status == 0);
 }
 
+TEST_CASE("measure gives all of a flat shape but its stackability") {
+  const TemporaryFolder folder;
+  const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n";
+  const std::string wall = "v 0 0 0\nv 1 0 0\nv 1 0 2\nv 0 0 2\nf 1 2 3 4\n";
+  struct Case {
+    std::string name, obj, semantics;
+    double f_max, height;
+    std::size_t contacts;
+  };
+  const std::vector<Case> cases = {{"square.obj", square, "solid", 0, 0, 1},
+                                   {"square.obj", square, "closed", 0, 0, 1},
+                                   {"wall.obj", wall, "solid", 0, 2, 0},
+                                   {"wall.obj", wall, "closed", 2, 2, 1},
+                                   {"point.obj", "v 1 2 3\nv 1 2 3\nv 1 2 3\nf 1 2 3\n", "solid", 0, 0, 0},
+                                   {"line.obj", "v 0 0 0\nv 1 1 1\nv 2 2 2\nf 1 2 3\n", "solid", 0, 2, 0}};
+  for (const Case& flat : cases) {
+    INFO(flat.name << " " << flat.semantics);
+    const std::vector<std::string> measure = {"measure", folder.file(flat.name, flat.obj), "--semantics",
+                                              flat.semantics};
+    const auto with = [&](std::vector<std::string> more) {
+      more.insert(more.begin(), measure.begin(), measure.end());
+      return run_program(more);
+    };
+    const Outcome outcome = with({"--json", "-"});
+    REQUIRE(outcome.status == 0);
+    const json result = outcome.json();
+    CHECK(result["f_max"] == flat.f_max);
+    CHECK(result["height"] == flat.height);
+    CHECK(result["f_max_over_height"].is_null() == (flat.height == 0));
+    CHECK(result["stackability"].is_null());
+    CHECK(result["box_volume"] == 0);
+    CHECK(result["contacts"].size() == flat.contacts);
+    const Outcome text = with({});
+    CHECK(text.out.find("not defined") != std::string::npos);
+    CHECK(text.out.find("nan") == std::string::npos);
+    CHECK(with({"--quiet"}).out == "undefined\n");
+    CHECK(with({"--method", "rays", "--resolution", "16"}).status == 0);
+  }
+}
+
 TEST_CASE("measure takes +z when no direction is given, and frame boxes when asked") {
   const TemporaryFolder folder;
   const std::string model = folder.model("box.off", solids::box({1, 2, 3}));

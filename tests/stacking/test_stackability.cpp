@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/stacking/map.h"
+#include "stackabilization/stacking/search.h"
 #include "stackabilization/stacking/stackability.h"
 #include "support/catch.h"
 #include "support/solids.h"
@@ -165,4 +167,15 @@ TEST_CASE("a flat shape has no stackability") {
   CHECK_THROWS_AS(StackabilitySolver(transformed(flat, solids::random_rotation(1), Eigen::Vector3d::Ones())),
                   InputError);
   CHECK_THROWS_AS(StackabilitySolver(Shape{}), InputError);
+
+  StackabilityOptions options;
+  options.flat_shapes = FlatShapes::measure;
+  const StackabilitySolver solver(flat, options);
+  const Stackability measured = solver.measure(Direction(0, 0, 1));
+  CHECK(solver.box_volume() == 0);
+  CHECK(measured.f_max == 0);
+  CHECK(measured.extent == 1);
+  CHECK(std::isnan(measured.value));
+  CHECK_THROWS_AS(best_direction(solver), UsageError);
+  CHECK_THROWS_AS(stackability_map(solver), UsageError);
 }

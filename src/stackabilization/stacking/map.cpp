@@ -57,6 +57,7 @@ std::vector<MapSample> directions(double step) {
 StackabilityMap stackability_map(const StackabilitySolver& solver, const MapOptions& options) {
   if (!(options.step_degrees >= 0.1) || options.step_degrees > 90)
     throw UsageError("the step of a map must be between 0.1 and 90 degrees");
+  if (!(solver.box_volume() > 0)) throw UsageError("a map needs a shape whose stackability is defined");
   StackabilityMap map;
   map.step_degrees = options.step_degrees;
   map.samples = directions(options.step_degrees);

@@ -33,7 +33,8 @@ struct StackabilityMap {
 
 /// S on rings of latitude `step_degrees` apart, from the pole to the equator, with samples about as far apart
 /// along each ring, a multiple of four per ring; 1 degree gives 20,969 directions. Directions on the axes are
-/// exact. Deterministic for any number of threads. Throws UsageError when the step is out of range.
+/// exact. Deterministic for any number of threads. Throws UsageError when the step is out of range
+/// or S is undefined.
 StackabilityMap stackability_map(const StackabilitySolver& solver, const MapOptions& options = {});
 
 }  // namespace stackabilization

@@ -74,6 +74,7 @@ class DirectionSearch {
     if (!(options.spacing > 0) || options.spacing > 1)
       throw UsageError("the spacing of sampled directions must be above 0 and at most 1 radian");
     if (options.climbs < 1) throw UsageError("a search needs at least one climb");
+    if (!(solver.box_volume() > 0)) throw UsageError("a search needs a shape whose stackability is defined");
   }
 
   SearchResult run() {

@@ -55,9 +55,9 @@ struct SearchResult {
 /// `spacing` away from every candidate can be missed.
 ///
 /// Among directions equal to tolerance::stackability the earliest wins: candidates of the options, then of
-/// the shape. Deterministic for any number of threads. Throws UsageError when an option is out of range or
-/// cone and plane have no direction in common. Source: section 4.3 of the paper samples uniformly and takes
-/// the best sample.
+/// the shape. Deterministic for any number of threads. Throws UsageError when an option is out of range, S
+/// is undefined, or cone and plane have no direction in common. Source: section 4.3 of the paper samples
+/// uniformly and takes the best sample.
 SearchResult best_direction(const StackabilitySolver& solver, const SearchOptions& options = {});
 
 }  // namespace stackabilization

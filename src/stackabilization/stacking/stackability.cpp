@@ -11,15 +11,15 @@ namespace stackabilization {
 
 struct StackabilitySolver::Data {
   Data(const Shape& given, const StackabilityOptions& chosen)
-      : shape(given), options(chosen), tree(shape), hull(shape), box_volume(measure_box().volume()) {}
+      : shape(given), options(chosen), tree(shape), hull(shape), box_volume(measure_volume()) {}
 
-  OrientedBox measure_box() const {
+  double measure_volume() const {
     const OrientedBox box =
         options.boxes == BoxModel::oriented ? minimal_oriented_box(hull) : axis_aligned_box(hull.points());
     const double thinnest = 2 * box.half_extents.minCoeff(), largest = hull.points().cwiseAbs().maxCoeff();
-    if (!(thinnest > tolerance::rounding * largest))
-      throw InputError("the shape is flat: its box has no volume, so its stackability is undefined");
-    return box;
+    if (thinnest > tolerance::rounding * largest) return box.volume();
+    if (options.flat_shapes == FlatShapes::measure) return 0;
+    throw InputError("the shape is flat: its box has no volume, so its stackability is undefined");
   }
 
   /// V(M, r) / h(M, r)
@@ -102,7 +102,8 @@ std::optional<Stackability> StackabilitySolver::measure_if_above(const Direction
   result.extent = data_->hull.extent(direction);
   result.box_volume = data_->box_volume;
   result.stack_box_volume = result.extent * area;
-  result.value = 1 - result.f_max * area / data_->box_volume;
+  result.value = data_->box_volume > 0 ? 1 - result.f_max * area / data_->box_volume
+                                       : std::numeric_limits<double>::quiet_NaN();
   if (result.value < threshold) return std::nullopt;
   return result;
 }

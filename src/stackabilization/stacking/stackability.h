@@ -16,19 +16,27 @@ enum class BoxModel {
   frame,     ///< V(M) the file's axis-aligned box, V(M, r) axis-aligned after the minimal rotation of z to r
 };
 
+/// What to do with a shape of V(M) = 0: flat, straight or a point.
+enum class FlatShapes {
+  refuse,
+  measure,  ///< all but S, which is undefined
+};
+
 struct StackabilityOptions {
   Semantics semantics = Semantics::solid;
   BoxModel boxes = BoxModel::oriented;
+  FlatShapes flat_shapes = FlatShapes::refuse;
 };
 
 /// Everything that Eq. 2 and 3 need, for one direction.
 struct Stackability {
   Eigen::Vector3d direction;    ///< r as given
   double f_max = 0;             ///< minimal stacking translation, model units
-  double extent = 0;            ///< h(M, r), model units, > 0
+  double extent = 0;            ///< h(M, r), model units; > 0 unless V(M) = 0
   double box_volume = 0;        ///< V(M)
   double stack_box_volume = 0;  ///< V(M, r)
-  double value = 0;             ///< S(M, r) = 1 - (f_max / h) V(M, r) / V(M), Eq. 3; may be negative
+  double value = 0;             ///< S(M, r) = 1 - (f_max / h) V(M, r) / V(M), Eq. 3; may be negative; NaN
+                                ///< if V(M) = 0
 };
 
 /// A shape prepared for measurements in many directions: separation tree, hull and V(M), built once. Queries
@@ -36,7 +44,7 @@ struct Stackability {
 class StackabilitySolver {
  public:
   /// Throws InputError when the shape has no volume to speak of (V(M) = 0: flat, straight or a point), since
-  /// S is then undefined, or when `validate(shape)` fails.
+  /// S is then undefined, unless the options ask to measure the rest, or when `validate(shape)` fails.
   explicit StackabilitySolver(const Shape& shape, const StackabilityOptions& options = {});
   StackabilitySolver(StackabilitySolver&&) noexcept;
   StackabilitySolver& operator=(StackabilitySolver&&) noexcept;
@@ -46,7 +54,7 @@ class StackabilitySolver {
   const SeparationTree& tree() const;
   const HullSupport& hull() const;
   const StackabilityOptions& options() const;
-  double box_volume() const;  ///< V(M)
+  double box_volume() const;  ///< V(M); 0 only if the options allow it
 
   /// Exact f_max with witness.
   Separation separation(const Direction& direction) const;
