@@ -67,7 +67,7 @@ std::string search_text(const SearchResult& result) {
             std::to_string(result.abandoned) + " of them given up, too far below the best");
   for (std::size_t i = 1; i < std::min(result.optima.size(), listed_optima); ++i)
     table.add(i == 1 ? "Also good" : "", rounded(result.optima[i].stackability),
-              "along " + point_text(result.optima[i].direction));
+              "along " + vector_text(result.optima[i].direction));
   return table.text();
 }
 

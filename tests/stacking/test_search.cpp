@@ -35,6 +35,15 @@ Shape irregular() {
   return solids::triangle_soup({.seed = 8, .count = 30});
 }
 
+/// Walls of sheets swept along (1, 2, 3), exactly parallel to it.
+Shape slanted_sheets() {
+  Points vertices(8, 3);
+  vertices << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 1, 2, 3, 2, 2, 3, 2, 3, 3, 1, 3, 3;
+  Triangles triangles(8, 3);
+  triangles << 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7;
+  return make_shape(vertices, triangles);
+}
+
 double best_of_map(const StackabilitySolver& solver, double step) {
   double best = -1e300;
   for (const MapSample& sample : stackability_map(solver, {.step_degrees = step}).samples)
@@ -153,14 +162,32 @@ TEST_CASE("a plane is respected, alone and with a cone") {
 }
 
 TEST_CASE("a peak of one single direction is found when it is a candidate") {
-  // Walls of sheets swept along (1, 2, 3), exactly parallel to it.
-  Points vertices(8, 3);
-  vertices << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 1, 2, 3, 2, 2, 3, 2, 3, 3, 1, 3, 3;
-  Triangles triangles(8, 3);
-  triangles << 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7;
-  const StackabilitySolver solver(make_shape(vertices, triangles));
+  const StackabilitySolver solver(slanted_sheets());
   const SearchResult found = best_direction(solver, {.candidates = {{-1, -2, -3}}, .climbs = 1});
   CHECK(found.best.direction == Eigen::Vector3d(1, 2, 3));
+  CHECK(found.best.value == 1);
+}
+
+TEST_CASE("the axis of the cone is tried, exactly as given") {
+  const StackabilitySolver solver(slanted_sheets());
+  for (const double half : {1 * degree, 40 * degree}) {
+    const SearchResult found =
+        best_direction(solver, {.cone = DirectionCone{{-1, -2, -3}, half}, .climbs = 1});
+    CHECK(found.best.direction == Eigen::Vector3d(-1, -2, -3));
+    CHECK(found.best.value == 1);
+  }
+}
+
+TEST_CASE("a peak where the plane meets a face is found") {
+  // Two ragged sheets in planes x = 0 and x = 1: nothing blocks along directions in these planes.
+  Points vertices(8, 3);
+  vertices << 0, 0, 0, 0, 1, 0.3, 0, 1.2, 1, 0, 0.1, 1.1, 1, 0, 0, 1, 1, 0.3, 1, 1.2, 1, 1, 0.1, 1.1;
+  Triangles triangles(4, 3);
+  triangles << 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7;
+  const SearchResult found =
+      best_direction(StackabilitySolver(make_shape(vertices, triangles)), {.plane_normal = {{1, 2, 3}}});
+  CHECK(found.best.direction.x() == 0);
+  CHECK(found.best.direction.cross(Eigen::Vector3d(0, -3, 2).normalized()).norm() < 1e-12);
   CHECK(found.best.value == 1);
 }
 

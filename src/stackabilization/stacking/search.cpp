@@ -119,14 +119,31 @@ class DirectionSearch {
   SearchResult result_;
 };
 
+/// What a candidate says about a plane of directions: where the plane meets the one orthogonal to the
+/// candidate, and what in the plane is nearest to the candidate.
+std::vector<Eigen::Vector3d> lines_in_plane(const Eigen::Vector3d& plane_normal,
+                                            const Eigen::Vector3d& candidate) {
+  const Eigen::Vector3d normal = plane_normal.normalized(), unit = candidate.normalized();
+  const Eigen::Vector3d across = normal.cross(unit);
+  if (across.norm() <= tolerance::relative) return {};
+  return {across.normalized(), across.cross(normal).normalized()};
+}
+
 std::vector<Trial> DirectionSearch::trials() const {
   CandidateDirections candidates = candidate_directions(solver_);
   candidates.main.insert(candidates.main.begin(), options_.candidates.begin(), options_.candidates.end());
   const Eigen::Vector3d none = options_.plane_normal.value_or(Eigen::Vector3d::Zero());
   std::vector<Trial> trials;
+  if (options_.cone)
+    if (const auto axis = region_.member(options_.cone->axis)) trials.push_back({*axis, none});
   for (const auto* directions : {&candidates.main, &candidates.others})
     for (const Eigen::Vector3d& direction : *directions)
       if (const auto member = region_.member(direction)) trials.push_back({*member, none});
+  if (options_.plane_normal)
+    for (const auto* directions : {&candidates.main, &candidates.others})
+      for (const Eigen::Vector3d& direction : *directions)
+        for (const Eigen::Vector3d& line : lines_in_plane(*options_.plane_normal, direction))
+          if (const auto member = region_.member(line)) trials.push_back({*member, none});
   for (const Eigen::Vector3d& direction : region_.samples(options_.spacing))
     trials.push_back({direction, none});
   if (!options_.plane_normal)

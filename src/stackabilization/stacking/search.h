@@ -49,15 +49,16 @@ struct SearchResult {
 };
 
 /// The direction of largest S(M, r): S is sampled evenly and on great circles orthogonal to the main axes,
-/// where symmetry planes are likely, and at candidates where it often has narrow peaks (axes of file, box and
-/// surface, normals of large faces and directions along two of them); from the best distinct ones it climbs
-/// to local maxima, the winner along the cliffs of S too. Not proven global: a peak much narrower than
-/// `spacing` away from every candidate can be missed.
+/// where symmetry planes are likely, and at candidates where it often has narrow peaks (axes of cone, file,
+/// box and surface, normals of large faces and directions along two of them; for a plane also where the
+/// planes orthogonal to these meet it); from the best distinct ones it climbs to local maxima, the winner
+/// along the cliffs of S too. Not proven global: a peak much narrower than `spacing` away from every
+/// candidate can be missed.
 ///
-/// Among directions equal to tolerance::stackability the earliest wins: candidates of the options, then of
-/// the shape. Deterministic for any number of threads. Throws UsageError when an option is out of range, S
-/// is undefined, or cone and plane have no direction in common. Source: section 4.3 of the paper samples
-/// uniformly and takes the best sample.
+/// Among directions equal to tolerance::stackability the earliest wins: the axis of the cone, candidates of
+/// the options, then of the shape. Deterministic for any number of threads. Throws UsageError when an option
+/// is out of range, S is undefined, or cone and plane have no direction in common. Source: section 4.3 of the
+/// paper samples uniformly and takes the best sample.
 SearchResult best_direction(const StackabilitySolver& solver, const SearchOptions& options = {});
 
 }  // namespace stackabilization
