@@ -12,12 +12,15 @@ namespace {
 constexpr std::size_t listed_offsets = 6;
 constexpr std::size_t listed_conflicts = 3;
 
-Json copies_json(const StackResult& result) {
+/// What takes the model to its place as each copy: x -> rotation x + translation, lift included.
+Json copies_json(const StackResult& result, const Direction& direction) {
   Json copies = Json::array();
-  for (const StackedCopy& copy : result.copies)
+  for (const StackedCopy& copy : result.copies) {
+    const Eigen::Vector3d lift = copy.offset.to_double() * direction.vector();
     copies.push_back({{"rotation", to_json(copy.transform.rotation)},
-                      {"translation", to_json(copy.transform.translation)},
+                      {"translation", to_json(Eigen::Vector3d(copy.transform.translation + lift))},
                       {"rests_on", copy.rests_on < 0 ? Json(nullptr) : Json(copy.rests_on)}});
+  }
   return copies;
 }
 
@@ -113,7 +116,7 @@ void add_stack(Json& document, const StackRun& run, const Direction& direction) 
   document["lateral_clearance"] = run.options.play;
   document["offsets"] = std::move(offsets);
   document["exact_offsets"] = std::move(exact_offsets);
-  document["copies"] = copies_json(result);
+  document["copies"] = copies_json(result, direction);
   document["copy_height"] = run.extent;
   document["height"] = result.height;
   document["nesting_increment"] = result.increment;

@@ -1,6 +1,7 @@
 #include "apps/run_program.h"
 #include "stackabilization/shape/rational.h"
 #include "stackabilization/shape/read.h"
+#include "stackabilization/stacking/rigid_transform.h"
 #include "support/catch.h"
 #include "support/solids.h"
 
@@ -42,6 +43,28 @@ TEST_CASE("stack puts copies f_max apart and writes them as a mesh") {
   const Shape stack = read_shape(mesh);
   CHECK(stack.part_count() == 5);
   CHECK(stack.vertices.col(2).maxCoeff() - stack.vertices.col(2).minCoeff() == Approx(height).epsilon(1e-12));
+}
+
+TEST_CASE("the transforms in the JSON put the copies where the mesh has them") {
+  const CupFolder folder;
+  const std::string mesh = folder / "stack.obj";
+  const json result = run_program({"stack", folder.cup_file, "-n", "3", "--direction", "0.3", "0", "2",
+                                   "--twist-degrees", "20", "-o", mesh, "--json", "-"})
+                          .json();
+  const Shape model = read_shape(folder.cup_file), stack = read_shape(mesh);
+  REQUIRE(stack.triangle_count() == 3 * model.triangle_count());
+  REQUIRE(result["offsets"][2] > 0);
+  for (int k = 0; k < 3; ++k) {
+    const json& copy = result["copies"][k];
+    RigidTransform place;
+    for (int i = 0; i < 3; ++i) {
+      place.translation[i] = copy["translation"][i];
+      for (int j = 0; j < 3; ++j) place.rotation(i, j) = copy["rotation"][i][j];
+    }
+    const Shape placed = transformed(model, place);
+    for (Eigen::Index t = 0; t < model.triangle_count(); ++t)
+      CHECK((placed.corner(t, 0) - stack.corner(k * model.triangle_count() + t, 0)).norm() < 1e-12);
+  }
 }
 
 TEST_CASE("meshes are written in the units of their formats, and a unit that is guessed is named") {
