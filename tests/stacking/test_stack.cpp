@@ -156,6 +156,20 @@ TEST_CASE("a conflict is more than rounding") {
   CHECK(stack.conflict_height == Approx(2e-6).epsilon(1e-6));
 }
 
+TEST_CASE("a clearance beside which the shape drowns in rounding is refused") {
+  const Shape cube = solids::box({1, 1, 1});
+  for (const BoxModel boxes : {BoxModel::oriented, BoxModel::frame}) {
+    StackOptions options = copies(3);
+    options.boxes = boxes;
+    options.clearance = 1e9;
+    CHECK(stack_copies(cube, up, options).stack_volume == Approx(2e9 + 3).epsilon(1e-12));
+    for (const double clearance : {1e15, 1e40, 1e60, 1e61, 1e308}) {
+      options.clearance = clearance;
+      CHECK_THROWS_AS(stack_copies(cube, up, options), UsageError);
+    }
+  }
+}
+
 TEST_CASE("copies that pass each other stand on one floor") {
   const Shape post = solids::box({1.5, -0.5, 2}, {2.5, 0.5, 5});
   StackOptions options = half_turns(5);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/tolerances.h"
 #include "stackabilization/stacking/clearance.h"
 #include "stackabilization/stacking/exact_span.h"
 
@@ -12,8 +13,8 @@ namespace stackabilization {
 
 NestResult nest(const Shape& container, const Shape& content, const Direction& direction,
                 const NestOptions& options) {
-  if (!std::isfinite(options.clearance) || options.clearance < 0)
-    throw UsageError("the clearance must be a finite length of at least 0");
+  if (!(options.clearance >= 0 && options.clearance <= tolerance::largest_coordinate))
+    throw UsageError("the clearance must be a length from 0 to 1e60");
   validate(container);
   validate(content);
   const double unit = direction.length();

@@ -8,7 +8,7 @@ namespace stackabilization {
 
 struct NestOptions {
   Semantics semantics = Semantics::solid;
-  double clearance = 0;   ///< air added along r where they touch, model units, >= 0
+  double clearance = 0;   ///< air added along r where they touch, model units, in [0, 1e60]
   double play = 0;        ///< lateral play that must remain possible, model units, >= 0
   int play_corners = 16;  ///< see DilationOptions
 };

@@ -23,7 +23,7 @@ struct StackOptions {
   /// Poses repeated with period K, or as many as copies for a free choice; empty means K = 1, the shape as it
   /// is. At most 1000 different ones. T^k for every copy: powers(T, n).
   std::vector<RigidTransform> poses;
-  double clearance = 0;   ///< air added along r to each contact, model units, >= 0
+  double clearance = 0;   ///< air added along r to each contact, model units, in [0, 1e60]
   double play = 0;        ///< lateral play that every contact must allow, model units, >= 0
   int play_corners = 16;  ///< see DilationOptions
 };
@@ -74,8 +74,8 @@ Line box_axis(const Shape& shape, const Direction& direction, BoxModel boxes);
 /// one pose with twist; else it is the mean over the last period of the stack, over the stack if it has but
 /// one.
 ///
-/// Throws UsageError on options outside their ranges or transforms that are not rigid, InputError when
-/// `validate(shape)` fails or V(M) = 0.
+/// Throws UsageError on options outside their ranges, transforms that are not rigid or a clearance beside
+/// which the shape drowns in rounding, InputError when `validate(shape)` fails or V(M) = 0.
 StackResult stack_copies(const Shape& shape, const Direction& direction, const StackOptions& options);
 
 /// All copies as one shape, the parts of copy k (counted from 1) named "copyK/NAME". Throws UsageError when

@@ -1,6 +1,7 @@
 #include "stackabilization/stacking/stack_boxes.h"
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization {
 
@@ -13,8 +14,11 @@ StackBoxes::StackBoxes(const Shape& shape, const Direction& direction, BoxModel 
 }
 
 double StackBoxes::stack_volume(const Points& points) const {
-  return model_ == BoxModel::oriented ? minimal_oriented_box(HullSupport(points)).volume()
-                                      : box_along(points).volume();
+  const OrientedBox box =
+      model_ == BoxModel::oriented ? minimal_oriented_box(HullSupport(points)) : box_along(points);
+  if (!(box.half_extents.minCoeff() > tolerance::rounding * box.half_extents.maxCoeff()))
+    throw UsageError("the stack is too high for its width to be measured: choose a smaller clearance");
+  return box.volume();
 }
 
 OrientedBox StackBoxes::box_along(const Points& points) const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/tolerances.h"
 #include "stackabilization/stacking/clearance.h"
 
 namespace stackabilization {
@@ -19,8 +20,8 @@ constexpr std::size_t most_poses = 1000;
 void check(const StackOptions& options) {
   if (options.copies < 1 || options.copies > largest_stack)
     throw UsageError("a stack needs from 1 to " + std::to_string(largest_stack) + " copies");
-  if (!std::isfinite(options.clearance) || options.clearance < 0)
-    throw UsageError("the clearance must be a finite length of at least 0");
+  if (!(options.clearance >= 0 && options.clearance <= tolerance::largest_coordinate))
+    throw UsageError("the clearance must be a length from 0 to 1e60");
   if (options.axis_point && !options.axis_point->allFinite())
     throw UsageError("the point of the twist axis needs three finite coordinates");
 }
