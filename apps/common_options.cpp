@@ -53,11 +53,9 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
       ->type_name("FILE");
   command.add_flag("--quiet", common.quiet, "Print the essential numbers only");
   command.add_flag("--no-timing", common.no_timing, "Leave the field seconds out of the JSON");
-  command.add_option("--threads", common.threads, "Threads to use (default: all); never changes a result")
-      ->type_name("N")
-      ->check(CLI::Range(1, most_threads));
-  command.add_option("--seed", common.seed, "Accepted for scripts: nothing here depends on chance")
-      ->type_name("N");
+  add_count(command, {"--threads", "Threads to use (default: all); never changes a result", 1, most_threads},
+            common.threads);
+  add_count(command, {"--seed", "Accepted for scripts: nothing here depends on chance"}, common.seed);
 }
 
 void add_semantics_option(CLI::App& command, Semantics& semantics) {

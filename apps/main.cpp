@@ -29,6 +29,11 @@ int complain(std::string sentence, int status) {
 int guarded(const std::function<int()>& body) {
   try {
     return body();
+  } catch (const CLI::ConversionError& error) {
+    // Values are converted by this program; what is left to the parser are flags, "--quiet=x".
+    const std::string text = error.what();
+    return complain("an option that takes no value was given one: " + text.substr(text.find(": ") + 2),
+                    status_usage);
   } catch (const CLI::Error& error) {
     return complain(error.what(), status_usage);
   } catch (const UsageError& error) {

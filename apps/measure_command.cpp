@@ -67,9 +67,8 @@ Command make_measure_command(CLI::App& program) {
                                    {"gl-raster", Method::gl_raster}};
   add_choice(*command, "--method", options->method, methods,
              "How f_max is found; all but exact sample the surface (default: exact)");
-  command->add_option("--resolution", options->resolution, "Samples along the longer side (default: 1024)")
-      ->type_name("N")
-      ->check(CLI::Range(1, max_resolution));
+  add_count(*command, {"--resolution", "Samples along the longer side (default: 1024)", 1, max_resolution},
+            options->resolution);
   add_semantics_option(*command, options->stackability.semantics);
   add_boxes_option(*command, options->stackability.boxes);
   command->add_option("--picture", options->picture, "Draw envelopes, contacts and gap (.png or .svg)")

@@ -66,7 +66,7 @@ std::string search_text(const SearchResult& result) {
   table.add("Directions tried", std::to_string(result.evaluated),
             std::to_string(result.abandoned) + " of them given up, too far below the best");
   for (std::size_t i = 1; i < std::min(result.optima.size(), listed_optima); ++i)
-    table.add(i == 1 ? "Also good" : "", rounded(result.optima[i].stackability),
+    table.add(i == 1 ? "Also good" : "", stackability_text(result.optima[i].stackability),
               "along " + vector_text(result.optima[i].direction));
   return table.text();
 }

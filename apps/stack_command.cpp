@@ -62,20 +62,15 @@ Command make_stack_command(CLI::App& program) {
       add_command(program, "stack", "Stack copies of a shape, or put it into another one",
                   "stackabilize stack chair.obj -n 10 --unit m --within 2m -o stack.3mf");
   add_common_options(*command, options->common);
-  command->add_option("-n", options->copies, "Number of copies (default: 2)")
-      ->type_name("N")
-      ->check(CLI::Range(1, 10000));
+  add_count(*command, {"-n", "Number of copies (default: 2)", 1, 10000}, options->copies);
   command->add_option("--into", options->into, "Lower MODEL into this container instead of stacking copies")
       ->type_name("CONTAINER");
   add_direction(*command, "--direction", options->direction, "Stacking direction (default: 0 0 1)");
   add_semantics_option(*command, options->stackability.semantics);
   add_boxes_option(*command, options->stackability.boxes);
   add_twist_option(*command, *options);
-  command
-      ->add_option("--period", options->period,
-                   "Turn or flip copies in a cycle of this length, the best one found")
-      ->type_name("K")
-      ->check(CLI::Range(1, 5));
+  add_count(*command, {"--period", "Turn or flip copies in a cycle of this length, the best one found", 1, 5},
+            options->period);
   add_length(*command, "--clearance", options->clearance,
              "Air between copies along the direction, as 0.5 or 2mm");
   add_length(*command, "--lateral-clearance", options->lateral_clearance,

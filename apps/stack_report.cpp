@@ -59,7 +59,7 @@ void add_pose_lines(TextTable& table, const StackRun& run) {
   if (run.options.twist_degrees != 0 || run.untwisted_stackability)
     table.add("Twist", rounded(run.options.twist_degrees) + " degrees",
               run.untwisted_stackability ? "per copy, the best one found; without it the stackability is " +
-                                               rounded(*run.untwisted_stackability)
+                                               stackability_text(*run.untwisted_stackability)
                                          : "per copy");
   if (run.poses.empty()) return;
   std::string poses;
@@ -141,7 +141,7 @@ std::string stack_text(const StackRun& run, const Model& model, const Direction&
   table.add("Boxes", quantity(result.stack_volume, unit, 3),
             "of the stack, and " + quantity(result.box_volume, unit, 3) + " of one copy (" +
                 name_of(run.options.boxes) + ")");
-  table.add("Stackability", rounded(result.stackability),
+  table.add("Stackability", stackability_text(result.stackability),
             "space saved by this stack: 1 is all of it, 0 none");
   add_conflict_lines(table, run, unit);
   if (run.wish) add_wish_lines(table, run, unit);
@@ -153,7 +153,7 @@ std::string stack_text(const StackRun& run, const Model& model, const Direction&
 std::vector<std::string> stack_notes(const StackRun& run, Unit unit) {
   return {std::to_string(run.options.copies) + " copies, " + quantity(run.result.height, unit) + " high",
           "each further copy adds " + quantity(run.result.increment, unit),
-          "stackability " + rounded(run.result.stackability)};
+          "stackability " + stackability_text(run.result.stackability)};
 }
 
 }  // namespace stackabilization::apps

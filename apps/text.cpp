@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "stackabilization/shape/tolerances.h"
+
 namespace stackabilization::apps {
 
 namespace {
@@ -42,8 +44,13 @@ std::string quantity(double value, Unit unit, int power) {
   return text;
 }
 
+std::string stackability_text(double value) {
+  return rounded(std::abs(value) < tolerance::stackability ? 0 : value);
+}
+
 std::string percent(double fraction) {
-  return chars(100 * fraction, std::chars_format::fixed, 1) + " %";
+  const std::string number = chars(100 * fraction, std::chars_format::fixed, 1);
+  return (number == "-0.0" ? "0.0" : number) + " %";
 }
 
 std::string vector_text(const Eigen::Vector3d& vector) {

@@ -13,6 +13,8 @@ namespace stackabilization::apps {
 std::string rounded(double value);
 /// As many digits as bring the double back.
 std::string exact_digits(double value);
+/// A stackability for reading: 0 where it is known no better than that.
+std::string stackability_text(double value);
 /// "0.412 m", "0.06 m^3"; without the unit where it is unknown.
 std::string quantity(double value, Unit unit, int power = 1);
 /// "50.9 %"

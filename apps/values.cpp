@@ -41,6 +41,16 @@ double parse_number(const std::string& option, const std::string& text) {
   return leading.value;
 }
 
+std::uint64_t parse_count(const Count& count, const std::string& text) {
+  std::uint64_t value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end || value < count.least || value > count.most)
+    throw UsageError(count.name + " expects a whole number from " + std::to_string(count.least) + " to " +
+                     std::to_string(count.most) + ", found '" + text + "'");
+  return value;
+}
+
 std::optional<Unit> unit_of_symbol(const std::string& symbol) {
   for (const auto& [name, unit] : unit_symbols())
     if (name == symbol) return unit;

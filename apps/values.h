@@ -2,6 +2,8 @@
 
 #include <CLI/App.hpp>
 #include <Eigen/Core>
+#include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,6 +33,22 @@ Length parse_length(const std::string& option, const std::string& text);
 
 /// Names of the units on the command line: um, mm, cm, m, in, ft.
 std::optional<Unit> unit_of_symbol(const std::string& symbol);
+
+/// An option that takes a whole number.
+struct Count {
+  std::string name, description;
+  std::uint64_t least = 0, most = std::numeric_limits<std::uint64_t>::max();
+};
+std::uint64_t parse_count(const Count& count, const std::string& text);
+
+/// `target` is a whole number or std::optional of one.
+template <class Target>
+void add_count(CLI::App& command, const Count& count, Target& target) {
+  const auto take = [count, &target](const std::string& text) {
+    target = static_cast<decltype(std::optional(target))::value_type>(parse_count(count, text));
+  };
+  command.add_option_function<std::string>(count.name, take, count.description)->type_name("N");
+}
 
 void add_number(CLI::App& command, const std::string& name, std::optional<double>& target,
                 const std::string& description);

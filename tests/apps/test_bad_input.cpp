@@ -1,3 +1,5 @@
+#include <tuple>
+
 #include "apps/run_program.h"
 #include "support/catch.h"
 #include "support/solids.h"
@@ -81,6 +83,26 @@ TEST_CASE("files that are no usable mesh end with 3 and one sentence that names 
   const auto files = bad_files();
   REQUIRE(files.size() >= 30);
   for (const auto& [name, bytes] : files) check_unusable(folder, {"measure", folder.file(name, bytes)}, name);
+}
+
+TEST_CASE("what is wrong with a file is said in plain words") {
+  const TemporaryFolder folder;
+  std::string utf16 = "\xff\xfe";
+  for (const char c : std::string("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")) utf16 += {c, '\0'};
+  const std::vector<std::tuple<std::string, std::string, std::string>> cases = {
+      {"utf16.obj", utf16, "holds no mesh: it is not text, but binary or UTF-16"},
+      {"binary.obj", with_zeros("a header", 80) + with_zeros("solid", 60), "it is not text"},
+      {"cut.gltf", "{ \"asset\":\n {", "its JSON is malformed at line 2, column "},
+      {"empty.gltf", "", "it is too short"}};
+  for (const auto& [name, bytes, words] : cases) {
+    const Outcome outcome = run_program({"inspect", folder.file(name, bytes)});
+    INFO(outcome.err);
+    CHECK(outcome.status == 3);
+    CHECK(outcome.err.find(words) != std::string::npos);
+    CHECK(outcome.err.find("exception") == std::string::npos);
+  }
+  CHECK(run_program({"inspect", ""}).err ==
+        "stackabilize: expected the name of a mesh file, found an empty one\n");
 }
 
 TEST_CASE("files that are not there, folders and bad labels end with 3") {

@@ -1,3 +1,6 @@
+#include <cmath>
+#include <sstream>
+
 #include "apps/run_program.h"
 #include "stackabilization/shape/rational.h"
 #include "support/catch.h"
@@ -117,6 +120,30 @@ TEST_CASE("measure gives all of a flat shape but its stackability") {
     CHECK(with({"--quiet"}).out == "undefined\n");
     CHECK(with({"--method", "rays", "--resolution", "16"}).status == 0);
   }
+}
+
+TEST_CASE("a stackability of rounding size reads 0 and keeps its digits in the JSON") {
+  const TemporaryFolder folder;
+  int with_digits = 0;
+  for (int seed = 0; seed < 8; ++seed) {
+    const Eigen::Matrix3d rotation = solids::random_rotation(seed);
+    const std::string model =
+        folder.model("box.obj", transformed(solids::box({1, 2, 3}), rotation, {1, 2, 3}));
+    std::vector<std::string> measure = {"measure", model, "--direction"};
+    for (int i = 0; i < 3; ++i) {
+      std::ostringstream digits;
+      digits.precision(17);
+      digits << rotation(i, 2);
+      measure.push_back(digits.str());
+    }
+    const std::string text = run_program(measure).out;
+    CHECK(text.find("\nStackability  0 ") != std::string::npos);
+    measure.insert(measure.end(), {"--json", "-"});
+    const double value = run_program(measure).json()["stackability"];
+    CHECK(std::abs(value) < 1e-11);
+    if (value != 0) ++with_digits;
+  }
+  CHECK(with_digits > 0);
 }
 
 TEST_CASE("measure takes +z when no direction is given, and frame boxes when asked") {

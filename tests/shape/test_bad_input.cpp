@@ -47,7 +47,7 @@ std::vector<BadFile> bad_files() {
       {"two.obj", v + "f 1 2\n", ":4:"},
       {"slash.obj", v + "f 1 /2 3\n", ":4:"},
       {"html.obj", "<html><body>404</body></html>\n", "no faces"},
-      {"zeros.obj", std::string(1000, '\0'), "no faces"},
+      {"zeros.obj", std::string(1000, '\0'), "not text"},
       {"empty.off", "", ":1:"},
       {"binary.off", "OFF BINARY\n", "binary"},
       {"keyword.off", "MESH\n", ":1:"},

@@ -27,6 +27,18 @@ TEST_CASE("every format is written and read by its extension, in either case") {
   CHECK(entries(folder.path()) == 6);
 }
 
+TEST_CASE("a written file keeps the permissions of the one it replaces") {
+  const ScratchFolder folder("permissions");
+  const std::filesystem::path file = folder.path() / "a.txt";
+  for (const unsigned mode : {0600u, 0644u, 0755u}) {
+    std::ofstream(file) << "old";
+    std::filesystem::permissions(file, static_cast<std::filesystem::perms>(mode));
+    write_file_atomically(file, "new");
+    CHECK(static_cast<unsigned>(std::filesystem::status(file).permissions()) == mode);
+    CHECK(read_file(file) == "new");
+  }
+}
+
 TEST_CASE("a written file replaces the old one whole, through links too") {
   const ScratchFolder folder("replace");
   const std::filesystem::path file = folder.path() / "a.txt";

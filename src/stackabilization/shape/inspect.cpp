@@ -174,7 +174,9 @@ class Inspector {
     for (const Eigen::Index axis : {0, 1, 2})
       percents += std::string(axis == 0 ? "" : ", ") + "xyz"[axis] + " " +
                   std::to_string(std::lround(100 * supports[axis])) + " %";
-    findings_.up_reason = "share of the footprint that the lowest points span under the centre: " + percents;
+    findings_.up_reason =
+        "part of the floor plan that it would stand on with this axis up, 0 % if it would tip over: " +
+        percents;
     Eigen::Vector3d others = supports;
     others[best] = 0;
     if (others.maxCoeff() < tolerance::clear_lead * most) findings_.likely_up = static_cast<Axis>(best);

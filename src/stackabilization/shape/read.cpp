@@ -60,6 +60,7 @@ Shape read_source(const Source& source, Format format, const Folder& folder, con
 }  // namespace
 
 Shape read_shape(const std::filesystem::path& path, const ReadOptions& options) {
+  if (path.empty()) throw InputError("expected the name of a mesh file, found an empty one");
   const bool is_standard_input = path == "-";
   // The extension is judged before the content, so that a wrong name costs nothing.
   std::optional<Format> format = options.format;

@@ -58,7 +58,10 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
   temporary += ".tmp";
   std::FILE* const file = std::fopen(temporary.c_str(), "wbx");
   if (!file) fail(path.string(), std::strerror(errno));
+  error.clear();
+  if (std::filesystem::exists(status)) std::filesystem::permissions(temporary, status.permissions(), error);
   std::string reason = write_all(file, bytes);
+  if (reason.empty() && error) reason = error.message();
   if (reason.empty()) {
     std::filesystem::rename(temporary, target, error);
     if (error) reason = error.message();

@@ -68,6 +68,17 @@ Callbacks file_callbacks(const Folder& folder) {
   return callbacks;
 }
 
+/// What the JSON reader says, in words for people.
+std::string plain_reason(std::string error) {
+  if (error.find("too short") != std::string::npos) return "it is too short";
+  if (const std::size_t place = error.find("line "); error.find("json.exception") != std::string::npos)
+    return "its JSON is malformed" +
+           (place == std::string::npos ? "" : " at " + error.substr(place, error.find(':', place) - place));
+  std::replace(error.begin(), error.end(), '\n', ' ');
+  error.erase(error.find_last_not_of(' ') + 1);
+  return error.empty() ? "it cannot be parsed" : error;
+}
+
 }  // namespace
 
 tinygltf::Model parse_gltf(const Source& source, const Folder& folder) {
@@ -92,10 +103,7 @@ tinygltf::Model parse_gltf(const Source& source, const Folder& folder) {
                                         base)
           : loader.LoadASCIIFromString(&model, &error, &warning, source.bytes.data(), length, base);
   if (good) return model;
-  std::replace(error.begin(), error.end(), '\n', ' ');
-  error.erase(error.find_last_not_of(' ') + 1);
-  throw InputError(source.name + ": expected a glTF 2.0 file with its buffers: " +
-                   (error.empty() ? "it cannot be parsed" : error));
+  throw InputError(source.name + ": expected a glTF 2.0 file with its buffers: " + plain_reason(error));
 }
 
 }  // namespace stackabilization

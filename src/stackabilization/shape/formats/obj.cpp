@@ -3,6 +3,7 @@
 #include <limits>
 #include <vector>
 
+#include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/formats/formats.h"
 #include "stackabilization/shape/formats/shape_builder.h"
 
@@ -13,7 +14,10 @@ namespace {
 class ObjReader {
  public:
   explicit ObjReader(const Source& source)
-      : cursor_(source, TextCursor::Backslash::continues_line), builder_(source.name) {}
+      : bytes_(source.bytes),
+        name_(source.name),
+        cursor_(source, TextCursor::Backslash::continues_line),
+        builder_(source.name) {}
 
   Shape read() {
     while (cursor_.next_line()) {
@@ -28,6 +32,9 @@ class ObjReader {
         open_object();
     }
     check_forward_references();
+    const bool has_faces = !corners_.empty();  // those of the last one
+    if (!has_faces && bytes_.find('\0') != std::string_view::npos)
+      throw InputError(name_ + " holds no mesh: it is not text, but binary or UTF-16");
     return builder_.finish();
   }
 
@@ -94,6 +101,8 @@ class ObjReader {
     builder_.continue_part(object_.empty() || object_ == name ? name : object_ + "/" + name);
   }
 
+  std::string_view bytes_;
+  std::string name_;
   TextCursor cursor_;
   ShapeBuilder builder_;
   std::string object_;
