@@ -13,8 +13,7 @@ Direction::Direction(const Eigen::Vector3d& vector) : vector_(vector) {
   if (!std::isnormal(squared))
     throw UsageError(
         "a direction needs numbers whose squares neither overflow nor underflow: the largest from about "
-        "1e-150 "
-        "to 1e150");
+        "10^-150 to 10^150");
 }
 
 double Direction::length() const {

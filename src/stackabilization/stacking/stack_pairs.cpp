@@ -21,7 +21,7 @@ void check(const StackOptions& options) {
   if (options.copies < 1 || options.copies > largest_stack)
     throw UsageError("a stack needs from 1 to " + std::to_string(largest_stack) + " copies");
   if (!(options.clearance >= 0 && options.clearance <= tolerance::largest_coordinate))
-    throw UsageError("the clearance must be a length from 0 to 1e60");
+    throw UsageError("the clearance must be a length from 0 to 10^60");
   if (options.axis_point && !options.axis_point->allFinite())
     throw UsageError("the point of the twist axis needs three finite coordinates");
 }
