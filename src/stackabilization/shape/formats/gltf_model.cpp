@@ -58,6 +58,10 @@ Callbacks file_callbacks(const Folder& folder) {
       return false;
     }
   };
+  // Newer versions take the callbacks only when all are set.
+  callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) {
+    return false;
+  };
   if constexpr (requires { callbacks.GetFileSizeInBytes; })
     callbacks.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string& path, void*) {
       std::error_code error;
