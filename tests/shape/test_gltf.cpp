@@ -1,6 +1,7 @@
 #include <fstream>
 
 #include "shape/meshes.h"
+#include "stackabilization/shape/formats/bytes.h"
 #include "support/catch.h"
 
 using namespace stackabilization;
@@ -90,6 +91,19 @@ TEST_CASE("glTF finds buffers beside the file, and only there") {
   CHECK(same_shape(read_shape(path), inside));
   CHECK(refusal(Format::gltf, gltf(R"([{"mesh":0}])", "t.bin"))
             .starts_with("bad.file: expected a glTF 2.0 file"));
+}
+
+TEST_CASE("GLB is read although its JSON ends off a word") {
+  std::string bytes = shape_bytes(cube(), Format::gltf);
+  const auto json_size = load<std::uint32_t>(bytes.data() + 12, std::endian::little);
+  for (std::uint32_t spaces = 1; spaces <= 3; ++spaces) {
+    std::string header = bytes.substr(0, 8);
+    append_little(header, static_cast<std::uint32_t>(bytes.size()) + spaces);
+    append_little(header, json_size + spaces);
+    const std::string longer =
+        header + bytes.substr(16, 4 + json_size) + std::string(spaces, ' ') + bytes.substr(20 + json_size);
+    CHECK(same_shape(read_text(Format::gltf, longer), read_text(Format::gltf, bytes)));
+  }
 }
 
 TEST_CASE("glTF refuses what is damaged, with file and place") {

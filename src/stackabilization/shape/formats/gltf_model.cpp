@@ -39,6 +39,28 @@ std::string_view json_of(std::string_view bytes) {
   return bytes.substr(start, load<std::uint32_t>(bytes.data() + 12, std::endian::little));
 }
 
+/// The same GLB with its JSON padded by spaces to whole words, as the standard asks for and newer versions of
+/// tinygltf insist on, but some writers forget.
+std::string padded_glb(std::string_view bytes) {
+  constexpr std::size_t start = 20;
+  const std::size_t json = json_of(bytes).size(), missing = (4 - json % 4) % 4;
+  std::string padded(bytes.substr(0, 8));
+  append_little(padded, static_cast<std::uint32_t>(bytes.size() + missing));
+  append_little(padded, static_cast<std::uint32_t>(json + missing));
+  padded += bytes.substr(16, start - 16 + json);
+  padded.append(missing, ' ');
+  padded += bytes.substr(start + json);
+  return padded;
+}
+
+/// Is the JSON of a GLB followed by anything that starts off a word?
+bool needs_padding(std::string_view bytes) {
+  constexpr std::size_t start = 20;
+  if (!bytes.starts_with("glTF") || bytes.size() < start) return false;
+  const std::size_t stated = load<std::uint32_t>(bytes.data() + 12, std::endian::little);
+  return stated % 4 != 0 && stated <= bytes.size() - start;
+}
+
 /// File access for tinygltf; the user pointer is the folder of the file.
 template <class Callbacks>
 Callbacks file_callbacks(const Folder& folder) {
@@ -90,6 +112,8 @@ tinygltf::Model parse_gltf(const Source& source, const Folder& folder) {
     throw InputError(source.name + ": glTF files hold at most 4 GiB");
   if (is_deeply_nested(json_of(source.bytes)))
     throw InputError(source.name + ": its JSON is nested without end");
+  const std::string padded = needs_padding(source.bytes) ? padded_glb(source.bytes) : "";
+  const std::string_view bytes = padded.empty() ? source.bytes : padded;
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
                            const unsigned char*, int, void*) { return true; },
@@ -99,13 +123,12 @@ tinygltf::Model parse_gltf(const Source& source, const Folder& folder) {
   std::string error;
   std::string warning;
   const std::string base = folder ? folder->string() : "";
-  const auto length = static_cast<unsigned>(source.bytes.size());
+  const auto length = static_cast<unsigned>(bytes.size());
   const bool good =
-      source.bytes.starts_with("glTF")
+      bytes.starts_with("glTF")
           ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                        reinterpret_cast<const unsigned char*>(source.bytes.data()), length,
-                                        base)
-          : loader.LoadASCIIFromString(&model, &error, &warning, source.bytes.data(), length, base);
+                                        reinterpret_cast<const unsigned char*>(bytes.data()), length, base)
+          : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), length, base);
   if (good) return model;
   throw InputError(source.name + ": expected a glTF 2.0 file with its buffers: " + plain_reason(error));
 }
