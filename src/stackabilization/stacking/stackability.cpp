@@ -1,7 +1,10 @@
 #include "stackabilization/stacking/stackability.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
@@ -10,13 +13,15 @@
 namespace stackabilization {
 
 struct StackabilitySolver::Data {
-  Data(const Shape& given, const StackabilityOptions& chosen)
-      : shape(given), options(chosen), tree(shape), hull(shape), box_volume(measure_volume()) {}
+  Data(const Shape& given, const StackabilityOptions& chosen) : shape(given), options(chosen) {
+    tbb::parallel_invoke([this] { tree.emplace(shape); }, [this] { hull.emplace(shape); });
+    box_volume = measure_volume();
+  }
 
   double measure_volume() const {
     const OrientedBox box =
-        options.boxes == BoxModel::oriented ? minimal_oriented_box(hull) : axis_aligned_box(hull.points());
-    const double thinnest = 2 * box.half_extents.minCoeff(), largest = hull.points().cwiseAbs().maxCoeff();
+        options.boxes == BoxModel::oriented ? minimal_oriented_box(*hull) : axis_aligned_box(hull->points());
+    const double thinnest = 2 * box.half_extents.minCoeff(), largest = hull->points().cwiseAbs().maxCoeff();
     if (thinnest > tolerance::rounding * largest) return box.volume();
     if (options.flat_shapes == FlatShapes::measure) return 0;
     throw InputError("the shape is flat: its box has no volume, so its stackability is undefined");
@@ -24,20 +29,20 @@ struct StackabilitySolver::Data {
 
   /// V(M, r) / h(M, r)
   double base_area(const Direction& direction) const {
-    if (options.boxes == BoxModel::oriented) return hull.minimal_rectangle_area(direction);
-    const OrientedBox box = frame_box(hull.points(), direction);
+    if (options.boxes == BoxModel::oriented) return hull->minimal_rectangle_area(direction);
+    const OrientedBox box = frame_box(hull->points(), direction);
     return 4 * box.half_extents.x() * box.half_extents.y();
   }
 
   Enclosure enclosure(const Direction& direction, std::optional<double> abandon_above) const {
-    return separation_enclosure(tree, tree, direction, {options.semantics, abandon_above});
+    return separation_enclosure(*tree, *tree, direction, {options.semantics, abandon_above});
   }
 
   Shape shape;
   StackabilityOptions options;
-  SeparationTree tree;
-  HullSupport hull;
-  double box_volume;
+  std::optional<SeparationTree> tree;
+  std::optional<HullSupport> hull;
+  double box_volume = 0;
 };
 
 namespace {
@@ -63,10 +68,10 @@ const Shape& StackabilitySolver::shape() const {
   return data_->shape;
 }
 const SeparationTree& StackabilitySolver::tree() const {
-  return data_->tree;
+  return *data_->tree;
 }
 const HullSupport& StackabilitySolver::hull() const {
-  return data_->hull;
+  return *data_->hull;
 }
 const StackabilityOptions& StackabilitySolver::options() const {
   return data_->options;
@@ -76,7 +81,7 @@ double StackabilitySolver::box_volume() const {
 }
 
 Separation StackabilitySolver::separation(const Direction& direction) const {
-  return stackabilization::separation(data_->tree, data_->tree, direction,
+  return stackabilization::separation(*data_->tree, *data_->tree, direction,
                                       {data_->options.semantics, std::nullopt});
 }
 
@@ -99,7 +104,7 @@ std::optional<Stackability> StackabilitySolver::measure_if_above(const Direction
   Stackability result;
   result.direction = direction.vector();
   result.f_max = translation(enclosure, direction);
-  result.extent = data_->hull.extent(direction);
+  result.extent = data_->hull->extent(direction);
   result.box_volume = data_->box_volume;
   result.stack_box_volume = result.extent * area;
   result.value = data_->box_volume > 0 ? 1 - result.f_max * area / data_->box_volume
