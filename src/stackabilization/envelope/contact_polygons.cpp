@@ -1,7 +1,12 @@
 #include "stackabilization/envelope/contact_polygons.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "stackabilization/envelope/exact_pair.h"
 #include "stackabilization/envelope/node_pair.h"
@@ -113,23 +118,30 @@ class ContactSearch {
     // Pieces of one triangle bring the same pair several times.
     std::sort(pairs_.begin(), pairs_.end());
     pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+    std::vector<std::optional<ContactPolygon>> found(pairs_.size());
+    tbb::parallel_for(std::size_t{0}, pairs_.size(),
+                      [&](std::size_t p) { found[p] = polygon_of(pairs_[p]); });
     std::vector<ContactPolygon> result;
-    for (const Pair& pair : pairs_) {
-      const ProjectedTriangle upper(tree_.triangles[pair.upper_at], projection_);
-      const ProjectedTriangle lower(tree_.triangles[pair.lower_at], projection_);
-      const PairBounds bounds = bound_pair(upper, lower, projection_, cut_);
-      if (bounds.high <= cut_) continue;
-      // Neighbours of a contact that only share an edge with it in projection would come as slivers of
-      // rounding.
-      const bool certain = bounds.low.high > -infinity;
-      if (!certain && !exact_maximum(tree_.triangles[pair.upper_at], tree_.triangles[pair.lower_at],
-                                     projection_.shear, projection_.semantics))
-        continue;
-      const std::vector<Corner> polygon =
-          clip(common_polygon(upper, lower), [this](const Corner& corner) { return corner.gap() - floor_; });
-      if (!polygon.empty()) result.push_back(lift(pair, polygon));
-    }
+    for (std::optional<ContactPolygon>& polygon : found)
+      if (polygon) result.push_back(std::move(*polygon));
     return result;
+  }
+
+  std::optional<ContactPolygon> polygon_of(const Pair& pair) const {
+    const ProjectedTriangle upper(tree_.triangles[pair.upper_at], projection_);
+    const ProjectedTriangle lower(tree_.triangles[pair.lower_at], projection_);
+    const PairBounds bounds = bound_pair(upper, lower, projection_, cut_);
+    if (bounds.high <= cut_) return std::nullopt;
+    // Neighbours of a contact that only share an edge with it in projection would come as slivers of
+    // rounding.
+    const bool certain = bounds.low.high > -infinity;
+    if (!certain && !exact_maximum(tree_.triangles[pair.upper_at], tree_.triangles[pair.lower_at],
+                                   projection_.shear, projection_.semantics))
+      return std::nullopt;
+    const std::vector<Corner> polygon =
+        clip(common_polygon(upper, lower), [this](const Corner& corner) { return corner.gap() - floor_; });
+    if (polygon.empty()) return std::nullopt;
+    return lift(pair, polygon);
   }
 
   ContactPolygon lift(const Pair& pair, const std::vector<Corner>& polygon) const {
