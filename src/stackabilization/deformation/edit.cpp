@@ -1,0 +1,66 @@
+#include "stackabilization/deformation/edit.h"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "stackabilization/shape/errors.h"
+
+namespace stackabilization {
+
+namespace {
+
+std::string text(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6).ptr;
+  return {buffer, end};
+}
+
+std::string text(const Eigen::Vector3d& v) {
+  return "(" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + ")";
+}
+
+std::string name_of(const Handle& handle, const std::vector<std::string>& part_names) {
+  const std::string number = std::to_string(handle.index);
+  const auto of_part = [&] { return " of " + part_names.at(static_cast<std::size_t>(handle.part)); };
+  switch (handle.kind) {
+    case HandleKind::part: return part_names.at(static_cast<std::size_t>(handle.part));
+    case HandleKind::face: return "face " + number + of_part();
+    case HandleKind::corner: return "corner " + number + of_part();
+    case HandleKind::section: return "cross-section " + number + of_part();
+    case HandleKind::point: return "point " + number;
+    case HandleKind::wire: return "wire " + number;
+    case HandleKind::shape: return "the shape";
+  }
+  return {};
+}
+
+bool is_axis(const Eigen::Vector3d& v) { return v.allFinite() && v.norm() > 0; }
+
+}  // namespace
+
+void validate(const Edit& edit) {
+  if (const auto* move = std::get_if<Move>(&edit.operation)) {
+    if (!move->by.allFinite()) throw UsageError("a move needs a finite translation");
+  } else if (const auto* rotate = std::get_if<Rotate>(&edit.operation)) {
+    if (!is_axis(rotate->axis)) throw UsageError("a rotation needs a finite axis that is not zero");
+    if (!std::isfinite(rotate->radians)) throw UsageError("a rotation needs a finite angle");
+  } else {
+    const Scale& scale = std::get<Scale>(edit.operation);
+    if (!std::isfinite(scale.factor) || !(scale.factor > 0))
+      throw UsageError("a scaling needs a positive factor, found " + text(scale.factor));
+    if (scale.along && !is_axis(*scale.along)) throw UsageError("a scaling along an axis needs one that is not zero");
+  }
+}
+
+std::string describe(const Edit& edit, const std::vector<std::string>& part_names) {
+  const std::string name = name_of(edit.handle, part_names);
+  if (const auto* move = std::get_if<Move>(&edit.operation)) return "move " + name + " by " + text(move->by);
+  if (const auto* rotate = std::get_if<Rotate>(&edit.operation))
+    return "rotate " + name + " by " + text(rotate->radians * 180 / std::numbers::pi) + " degrees about " +
+           text(rotate->axis);
+  const Scale& scale = std::get<Scale>(edit.operation);
+  return "scale " + name + " by " + text(scale.factor) + (scale.along ? " along " + text(*scale.along) : "");
+}
+
+}  // namespace stackabilization

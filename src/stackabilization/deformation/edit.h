@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "stackabilization/shape/direction.h"
+
+namespace stackabilization {
+
+/// What a user or a search takes hold of. `part` and `index` are used as said.
+enum class HandleKind {
+  part,     ///< `part` as a whole
+  face,     ///< face `index` (0 to 5) of the cuboid of `part`
+  corner,   ///< corner `index` (0 to 7) of the cuboid of `part`
+  section,  ///< cross-section `index` of the generalized cylinder of `part`
+  point,    ///< vertex `index` of the shape, with the surface around it
+  wire,     ///< feature curve `index`
+  shape,    ///< everything
+};
+
+struct Handle {
+  HandleKind kind = HandleKind::part;
+  int part = 0;
+  int index = 0;
+
+  bool operator==(const Handle&) const = default;
+};
+
+/// Translation, model units.
+struct Move {
+  Eigen::Vector3d by = Eigen::Vector3d::Zero();
+};
+
+/// Rotation about the handle's centre.
+struct Rotate {
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< not zero
+  double radians = 0;
+};
+
+/// Scaling about the handle's centre: of a cross-section its radius, of a face within its plane, of the rest in all
+/// directions or along one.
+struct Scale {
+  double factor = 1;                     ///< > 0
+  std::optional<Eigen::Vector3d> along;  ///< not zero; only for parts and shapes
+};
+
+using Operation = std::variant<Move, Rotate, Scale>;
+
+/// One operation on one handle.
+struct Edit {
+  Handle handle;
+  Operation operation;
+};
+
+/// Throws UsageError unless factors are positive, axes are not zero and every number is finite.
+void validate(const Edit& edit);
+
+/// "move face 3 of leg by (0.1, 0, 0)"; `part_names` are those of the shape. Precondition: the handle's part is one of
+/// them, where its kind needs one.
+std::string describe(const Edit& edit, const std::vector<std::string>& part_names);
+
+/// What no edit may change.
+struct DeformationConstraints {
+  /// The extent h(M, r) along this direction is kept, to tolerance::relative of it.
+  std::optional<Direction> keep_extent;
+  /// The three sides of the axis-aligned box of the shape may change by this fraction at most.
+  std::optional<double> box_tolerance;
+  std::vector<int> fixed_parts;               ///< parts that stay as they are
+  std::vector<Eigen::Vector3d> fixed_points;  ///< points of the surface that stay: the nearest ones to these
+};
+
+}  // namespace stackabilization
