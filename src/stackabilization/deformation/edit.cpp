@@ -17,7 +17,9 @@ std::string text(double value) {
 }
 
 std::string text(const Eigen::Vector3d& v) {
-  return "(" + text(v.x()) + ", " + text(v.y()) + ", " + text(v.z()) + ")";
+  std::string out = "(";
+  for (int k = 0; k < 3; ++k) out += (k > 0 ? ", " : "") + text(v(k));
+  return out += ')';
 }
 
 std::string name_of(const Handle& handle, const std::vector<std::string>& part_names) {
