@@ -52,4 +52,8 @@ inline constexpr double support_slab = 1e-2;
 /// `inspect` names an up axis only when every other axis fits less than this fraction as well.
 inline constexpr double clear_lead = 0.9;
 
+/// Least thickness of a cuboid, as a fraction of its diagonal: thinner ones are thickened to it, for mean value coordinates
+/// in a cage without volume are undefined.
+inline constexpr double least_thickness = 1e-3;
+
 }  // namespace stackabilization::tolerance

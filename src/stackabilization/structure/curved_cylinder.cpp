@@ -1,0 +1,194 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "stackabilization/shape/direction.h"
+#include "stackabilization/structure/cylinder_sections.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+constexpr int sample_count = 2048;    ///< of the surface, to find middle and radii by
+constexpr int rounds = 6;             ///< of moving the curve to the middle
+constexpr int smoothing = 2;          ///< passes over a curve that was moved
+constexpr int fewest_samples = 8;     ///< that tell where the middle of a section is
+constexpr double least_radius = 0.01;  ///< of the largest: pointed ends keep a circle that can be scaled
+
+Eigen::Index piece_count(const Curve& curve) { return curve.points.rows() - (curve.closed ? 0 : 1); }
+
+Eigen::RowVector3d piece(const Curve& curve, Eigen::Index i) {
+  return curve.points.row((i + 1) % curve.points.rows()) - curve.points.row(i);
+}
+
+/// n points at even arc lengths, ends kept.
+Curve resampled(const Curve& curve, int n) {
+  std::vector<double> reached{0};
+  for (Eigen::Index i = 0; i < piece_count(curve); ++i) reached.push_back(reached.back() + piece(curve, i).norm());
+  Curve even{Points(n, 3), curve.closed};
+  const int pieces = curve.closed ? n : n - 1;
+  for (int k = 0; k < n; ++k) {
+    const double wanted = reached.back() * k / pieces;
+    const auto after = std::upper_bound(reached.begin() + 1, reached.end() - 1, wanted);
+    const auto i = static_cast<std::size_t>(after - reached.begin()) - 1;
+    const double length = reached[i + 1] - reached[i];
+    const double t = length > 0 ? std::clamp((wanted - reached[i]) / length, 0.0, 1.0) : 0;
+    even.points.row(k) =
+        curve.points.row(static_cast<Eigen::Index>(i)) + t * piece(curve, static_cast<Eigen::Index>(i));
+  }
+  return even;
+}
+
+/// Each point moved halfway to the middle of its neighbours.
+Curve smoothed(const Curve& curve) {
+  Curve smooth = curve;
+  const Eigen::Index n = curve.points.rows();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!curve.closed && (i == 0 || i == n - 1)) continue;
+    smooth.points.row(i) = curve.points.row(i) / 2 +
+                           (curve.points.row((i + n - 1) % n) + curve.points.row((i + 1) % n)) / 4;
+  }
+  return smooth;
+}
+
+/// Where on a curve a surface point belongs.
+struct Foot {
+  double at;        ///< sections from the first: 2.5 is halfway between the third and the fourth
+  double distance;  ///< from the curve
+  double beyond;    ///< how far past an open end, along its tangent; 0 elsewhere
+};
+
+Foot foot_of(const Curve& curve, const Eigen::RowVector3d& point) {
+  Foot best{0, std::numeric_limits<double>::infinity(), 0};
+  for (Eigen::Index i = 0; i < piece_count(curve); ++i) {
+    const Eigen::RowVector3d step = piece(curve, i), from = point - curve.points.row(i);
+    const double free = step.dot(from) / step.squaredNorm(), t = std::clamp(free, 0.0, 1.0);
+    const double distance = (from - t * step).norm();
+    if (distance >= best.distance) continue;
+    const bool end = !curve.closed && ((i == 0 && free < 0) || (i == piece_count(curve) - 1 && free > 1));
+    best = {static_cast<double>(i) + t, distance, end ? std::abs(free - t) * step.norm() : 0};
+  }
+  return best;
+}
+
+/// Surface points around one section, how much each counts, and how far they are from the curve.
+struct Ring {
+  std::vector<Eigen::RowVector3d> points;
+  std::vector<double> weights, distances;
+};
+
+class Fit {
+ public:
+  Fit(const PartSurface& part, const Curve& curve, int sections)
+      : samples_(surface_samples(part.shape, sample_count).points), curve_(resampled(curve, sections)) {}
+
+  void refine() {
+    assign();
+    if (!curve_.closed) extend();
+    Curve moved = curve_;
+    for (Eigen::Index i = 0; i < curve_.points.rows(); ++i) moved.points.row(i) += offset(i);
+    for (int pass = 0; pass < smoothing; ++pass) moved = smoothed(moved);
+    curve_ = resampled(moved, static_cast<int>(moved.points.rows()));
+  }
+
+  std::optional<GeneralizedCylinder> sections() {
+    assign();
+    const Eigen::Index n = curve_.points.rows();
+    GeneralizedCylinder cylinder{.centres = curve_.points, .radii = Eigen::VectorXd::Zero(n), .closed = curve_.closed};
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Ring& ring = rings_[static_cast<std::size_t>(i)];
+      double sum = 0, weight = 0;
+      for (std::size_t k = 0; k < ring.points.size(); ++k) {
+        sum += ring.weights[k] * ring.distances[k];
+        weight += ring.weights[k];
+      }
+      cylinder.radii(i) = weight > 0 ? sum / weight : i > 0 ? cylinder.radii(i - 1) : 0;
+    }
+    const double largest = cylinder.radii.maxCoeff();
+    if (!(largest > 0) || !cylinder.centres.allFinite()) return std::nullopt;
+    cylinder.radii = cylinder.radii.cwiseMax(least_radius * largest);
+    for (Eigen::Index i = 0; i < piece_count(curve_); ++i)
+      if (!(piece(curve_, i).norm() > 0)) return std::nullopt;
+    return cylinder;
+  }
+
+ private:
+  /// Deals the samples to the two sections next to their feet.
+  void assign() {
+    const Eigen::Index n = curve_.points.rows();
+    rings_.assign(static_cast<std::size_t>(n), {});
+    beyond_first_ = beyond_last_ = 0;
+    for (const auto& point : samples_.rowwise()) {
+      const Foot foot = foot_of(curve_, point);
+      if (foot.beyond > 0) {
+        double& beyond = foot.at < 1 ? beyond_first_ : beyond_last_;
+        beyond = std::max(beyond, foot.beyond);
+        continue;
+      }
+      const double below = std::floor(foot.at), share = foot.at - below;
+      for (const int side : {0, 1}) {
+        Ring& ring = rings_[static_cast<std::size_t>((static_cast<Eigen::Index>(below) + side) % n)];
+        ring.points.push_back(point);
+        ring.weights.push_back(side == 0 ? 1 - share : share);
+        ring.distances.push_back(foot.distance);
+      }
+    }
+  }
+
+  void extend() {
+    const Eigen::Index last = curve_.points.rows() - 1;
+    const Eigen::RowVector3d first_step = piece(curve_, 0).normalized(), last_step = piece(curve_, last - 1).normalized();
+    curve_.points.row(0) -= beyond_first_ * first_step;
+    curve_.points.row(last) += beyond_last_ * last_step;
+  }
+
+  /// From a section to the centre of the circle through its ring, least squares (Kasa 1976), at most a radius away.
+  Eigen::RowVector3d offset(Eigen::Index i) const {
+    const Ring& ring = rings_[static_cast<std::size_t>(i)];
+    const auto count = static_cast<Eigen::Index>(ring.points.size());
+    if (count < fewest_samples) return Eigen::RowVector3d::Zero();
+    const Frame frame = frame_of(Direction(tangent(i).transpose()));
+    Eigen::MatrixX3d rows(count, 3);
+    Eigen::VectorXd right(count);
+    double radius = 0;
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const Eigen::Vector2d place =
+          frame.to_local((ring.points[at] - curve_.points.row(i)).transpose()).head<2>();
+      const double weight = std::sqrt(ring.weights[at]);
+      rows.row(k) << weight * place.x(), weight * place.y(), weight;
+      right(k) = weight * place.squaredNorm() / 2;
+      radius += ring.distances[at] / static_cast<double>(count);
+    }
+    const Eigen::Vector3d solution = rows.completeOrthogonalDecomposition().solve(right);
+    Eigen::Vector2d centre = solution.head<2>();
+    if (!centre.allFinite()) return Eigen::RowVector3d::Zero();
+    if (centre.norm() > radius) centre *= radius / centre.norm();
+    return (frame.u * centre.x() + frame.v * centre.y()).transpose();
+  }
+
+  Eigen::RowVector3d tangent(Eigen::Index i) const {
+    const Eigen::Index n = curve_.points.rows();
+    if (!curve_.closed && i == 0) return piece(curve_, 0);
+    if (!curve_.closed && i == n - 1) return piece(curve_, n - 2);
+    const Eigen::RowVector3d chord = curve_.points.row((i + 1) % n) - curve_.points.row((i + n - 1) % n);
+    return chord.norm() > 0 ? chord : piece(curve_, i);
+  }
+
+  Points samples_;
+  Curve curve_;
+  std::vector<Ring> rings_;
+  double beyond_first_ = 0, beyond_last_ = 0;
+};
+
+}  // namespace
+
+std::optional<GeneralizedCylinder> curved_cylinder(const PartSurface& part, const Curve& curve, int sections) {
+  Fit fit(part, curve, sections);
+  for (int round = 0; round < rounds; ++round) fit.refine();
+  return fit.sections();
+}
+
+}  // namespace stackabilization::detail

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <optional>
+
+#include "stackabilization/structure/curve_skeleton.h"
+#include "stackabilization/structure/fit_error.h"
+#include "stackabilization/structure/primitive.h"
+#include "stackabilization/structure/revolution_axis.h"
+
+namespace stackabilization::detail {
+
+/// What a circle across a straight axis takes from the outline of the part there.
+enum class SectionRadius {
+  outermost,  ///< the distance of its farthest point: right for bodies of revolution, however finely cut
+  mean        ///< the mean over all directions of the outermost distance: right for other outlines
+};
+
+/// Circles at even heights along `axis` from one end of the part to the other; of a hollow body its outer wall. Nothing
+/// when the part has no extent along or across the axis.
+std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Axis& axis, int sections,
+                                                     SectionRadius radius);
+
+/// A closed one around the axis of a body of revolution, through the middle of its profile. Nothing when the profile
+/// reaches the axis.
+std::optional<GeneralizedCylinder> ring_cylinder(const PartSurface& part, const Axis& axis, int sections);
+
+/// Circles at even arc lengths of a curve that is first moved to the middle of the part and, when open, extended to its
+/// ends; the radius is the mean distance of the surface whose nearest point of the curve is there. Nothing when the
+/// curve leaves the part.
+std::optional<GeneralizedCylinder> curved_cylinder(const PartSurface& part, const Curve& curve, int sections);
+
+}  // namespace stackabilization::detail

@@ -1,0 +1,120 @@
+#include "stackabilization/structure/fitting.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/structure/closed_part.h"
+#include "stackabilization/structure/curve_skeleton.h"
+#include "stackabilization/structure/cylinder_sections.h"
+#include "stackabilization/structure/fit_error.h"
+#include "stackabilization/structure/part_box.h"
+#include "stackabilization/structure/revolution_axis.h"
+
+namespace stackabilization {
+
+namespace {
+
+constexpr int fewest_sections = 4;
+
+/// Error, as a fraction of the diagonal, up to which a part counts as held by a box or along a straight axis, so that
+/// its skeleton has nothing to add.
+constexpr double held = 0.01;
+
+/// A cylinder along a less simple curve has to be better by this factor.
+constexpr double simplicity = 0.9;
+
+struct FittedCylinder {
+  GeneralizedCylinder cylinder;
+  double error = 0;  ///< model units
+  std::string note;
+};
+
+/// Tries cylinders, the simplest curves first.
+class CylinderFit {
+ public:
+  CylinderFit(const detail::PartSurface& part, const OrientedBox& box, int sections)
+      : part_(part), box_(box), sections_(sections) {}
+
+  std::optional<FittedCylinder> best(double box_error) {
+    const double enough = held * 2 * box_.half_extents.norm();
+    if (const std::optional<detail::Axis> axis = detail::revolution_axis(part_)) {
+      offer(detail::straight_cylinder(part_.shape, *axis, sections_, detail::SectionRadius::outermost),
+            "along its axis of revolution");
+      offer(detail::ring_cylinder(part_, *axis, sections_), "a ring about its axis of revolution");
+      if (best_) return std::move(best_);
+    }
+    for (const int k : axes_by_length())
+      offer(detail::straight_cylinder(part_.shape, {box_.centre, box_.axes.col(k)}, sections_,
+                                      detail::SectionRadius::mean),
+            "along an axis of its box");
+    if (box_error > enough && !(best_ && best_->error <= enough)) follow_skeleton();
+    return std::move(best_);
+  }
+
+ private:
+  void offer(std::optional<GeneralizedCylinder> cylinder, const std::string& note) {
+    if (!cylinder) return;
+    const double error = detail::fit_error(*cylinder, part_);
+    if (best_ && !(error < simplicity * best_->error)) return;
+    best_ = FittedCylinder{std::move(*cylinder), error, note};
+  }
+
+  void follow_skeleton() {
+    const std::optional<detail::ClosedPart> closed = detail::closed_part(part_.shape);
+    const std::optional<detail::Skeleton> skeleton =
+        closed ? detail::curve_skeleton(closed->surface) : std::nullopt;
+    const std::optional<detail::Curve> curve = skeleton ? detail::main_curve(*skeleton) : std::nullopt;
+    if (!curve) {
+      if (best_) best_->note += ", for it has no curve skeleton";
+      return;
+    }
+    offer(detail::curved_cylinder(part_, *curve, sections_),
+          closed->wrapped ? "along the curve skeleton of a surface wrapped around it" : "along its curve skeleton");
+  }
+
+  std::array<int, 3> axes_by_length() const {
+    std::array<int, 3> axes{0, 1, 2};
+    std::stable_sort(axes.begin(), axes.end(),
+                     [&](int a, int b) { return box_.half_extents(a) > box_.half_extents(b); });
+    return axes;
+  }
+
+  const detail::PartSurface& part_;
+  const OrientedBox& box_;
+  int sections_;
+  std::optional<FittedCylinder> best_;
+};
+
+}  // namespace
+
+FittedPrimitive fit_primitive(const Shape& part, const FitOptions& options) {
+  if (options.sections < fewest_sections)
+    throw UsageError("a generalized cylinder needs at least 4 cross-sections, not " + std::to_string(options.sections));
+  const detail::PartSurface surface(part);
+  const detail::PartBox box = detail::part_box(surface);
+  const double diagonal = 2 * box.box.half_extents.norm();
+
+  FittedPrimitive fitted{.primitive = cuboid_of(box.box), .fit = {}};
+  const double box_error = detail::fit_error(box.box, surface);
+  fitted.fit.cuboid_error = box_error / diagonal;
+  std::optional<FittedCylinder> cylinder;
+  if (!box.flat) cylinder = CylinderFit(surface, box.box, options.sections).best(box_error);
+  if (cylinder) fitted.fit.cylinder_error = cylinder->error / diagonal;
+
+  if (options.kind == PrimitiveKind::cylinder && !cylinder)
+    throw UsageError("a flat part has no generalized cylinder: it has no extent across its plane");
+  const bool round = options.kind ? options.kind == PrimitiveKind::cylinder : cylinder && cylinder->error < box_error;
+  if (round) {
+    fitted.primitive = std::move(cylinder->cylinder);
+    fitted.fit.note = cylinder->note;
+  } else if (box.thickened) {
+    fitted.fit.note = "thickened to a thousandth of its diagonal";
+  }
+  return fitted;
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include "stackabilization/structure/curve_skeleton.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Share of the length of a skeleton from which on its loop stands for it.
+constexpr double loop_share = 0.5;
+
+class Graph {
+ public:
+  explicit Graph(const Skeleton& skeleton) : skeleton_(skeleton) {
+    neighbours_.resize(static_cast<std::size_t>(skeleton.points.rows()));
+    for (const auto& [a, b] : skeleton.edges) {
+      neighbours_[static_cast<std::size_t>(a)].push_back(b);
+      neighbours_[static_cast<std::size_t>(b)].push_back(a);
+    }
+  }
+
+  /// The loop that is left when all branches are cut back, in its order; empty unless there is exactly one.
+  std::vector<int> loop() const {
+    std::vector<int> degree;
+    for (const auto& list : neighbours_) degree.push_back(static_cast<int>(list.size()));
+    std::vector<int> leaves;
+    for (int v = 0; v < static_cast<int>(degree.size()); ++v)
+      if (degree[at(v)] == 1) leaves.push_back(v);
+    while (!leaves.empty()) {
+      const int leaf = leaves.back();
+      leaves.pop_back();
+      degree[at(leaf)] = 0;
+      for (const int next : neighbours_[at(leaf)])
+        if (degree[at(next)] > 0 && --degree[at(next)] == 1) leaves.push_back(next);
+    }
+    const auto first = std::find_if(degree.begin(), degree.end(), [](int d) { return d > 0; });
+    if (first == degree.end() || *std::max_element(degree.begin(), degree.end()) > 2) return {};
+    std::vector<int> ring{static_cast<int>(first - degree.begin())};
+    for (int before = -1;;) {
+      const int here = ring.back();
+      const auto& around = neighbours_[at(here)];
+      const auto next = std::find_if(around.begin(), around.end(),
+                                     [&](int v) { return degree[at(v)] > 0 && v != before; });
+      if (next == around.end() || *next == ring.front()) break;
+      before = here;
+      ring.push_back(*next);
+    }
+    const auto left = std::count_if(degree.begin(), degree.end(), [](int d) { return d > 0; });
+    return static_cast<std::ptrdiff_t>(ring.size()) == left && left >= 3 ? ring : std::vector<int>{};
+  }
+
+  /// The shortest path from `start` to the vertex farthest from it.
+  std::vector<int> farthest_path(int start) const {
+    std::vector<double> length(neighbours_.size(), std::numeric_limits<double>::infinity());
+    std::vector<int> before(neighbours_.size(), -1);
+    std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> open;
+    length[at(start)] = 0;
+    open.emplace(0.0, start);
+    int last = start;
+    while (!open.empty()) {
+      const auto [distance, here] = open.top();
+      open.pop();
+      if (distance > length[at(here)]) continue;
+      last = here;
+      for (const int next : neighbours_[at(here)]) {
+        const double reached = distance + edge_length(here, next);
+        if (reached >= length[at(next)]) continue;
+        length[at(next)] = reached;
+        before[at(next)] = here;
+        open.emplace(reached, next);
+      }
+    }
+    std::vector<int> path;
+    for (int v = last; v != -1; v = before[at(v)]) path.push_back(v);
+    return path;
+  }
+
+  double edge_length(int a, int b) const { return (skeleton_.points.row(a) - skeleton_.points.row(b)).norm(); }
+
+  double total_length() const {
+    double sum = 0;
+    for (const auto& [a, b] : skeleton_.edges) sum += edge_length(a, b);
+    return sum;
+  }
+
+ private:
+  static std::size_t at(int v) { return static_cast<std::size_t>(v); }
+
+  const Skeleton& skeleton_;
+  std::vector<std::vector<int>> neighbours_;
+};
+
+Curve curve_through(const Skeleton& skeleton, const std::vector<int>& rows, bool closed) {
+  Curve curve{Points(static_cast<Eigen::Index>(rows.size()), 3), closed};
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    curve.points.row(static_cast<Eigen::Index>(k)) = skeleton.points.row(rows[k]);
+  return curve;
+}
+
+}  // namespace
+
+std::optional<Curve> main_curve(const Skeleton& skeleton) {
+  if (skeleton.edges.empty()) return std::nullopt;
+  const Graph graph(skeleton);
+  const std::vector<int> ring = graph.loop();
+  double length = 0;
+  for (std::size_t k = 0; k < ring.size(); ++k) length += graph.edge_length(ring[k], ring[(k + 1) % ring.size()]);
+  if (length > loop_share * graph.total_length()) return curve_through(skeleton, ring, true);
+
+  std::vector<int> path = graph.farthest_path(graph.farthest_path(skeleton.edges.front()[0]).front());
+  if (path.size() < 2) return std::nullopt;
+  const auto place = [&](int row) {
+    const auto p = skeleton.points.row(row);
+    return std::make_tuple(p.z(), p.y(), p.x());
+  };
+  if (place(path.back()) < place(path.front())) std::reverse(path.begin(), path.end());
+  return curve_through(skeleton, path, false);
+}
+
+}  // namespace stackabilization::detail
