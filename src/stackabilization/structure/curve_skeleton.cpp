@@ -1,9 +1,22 @@
 #include "stackabilization/structure/curve_skeleton.h"
 
+#include <CGAL/memory.h>
+
+#include "stackabilization/structure/creation_order_allocator.h"
+
+// The skeletonization collapses edges of a Polyhedron_3 in the order of their addresses. Only the default of that class
+// template takes the allocator named here.
+#undef CGAL_ALLOCATOR
+#define CGAL_ALLOCATOR(T) stackabilization::detail::CreationOrderAllocator<T>
+#include <CGAL/Polyhedron_3_fwd.h>
+#undef CGAL_ALLOCATOR
+#define CGAL_ALLOCATOR(T) std::allocator<T>
+
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/extract_mean_curvature_flow_skeleton.h>
 
+#include <cstddef>
 #include <exception>
 
 namespace stackabilization::detail {
@@ -12,6 +25,9 @@ namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+/// Several times what the skeleton of some thousand triangles takes; untouched memory costs nothing.
+constexpr std::size_t memory = std::size_t{1} << 27;
+
 using Skeletonization = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
 
 Mesh to_mesh(const Shape& shape) {
@@ -25,6 +41,7 @@ Mesh to_mesh(const Shape& shape) {
 }  // namespace
 
 std::optional<Skeleton> curve_skeleton(const Shape& closed_surface) {
+  const CreationOrderMemory creation_order(memory);
   Skeletonization::Skeleton graph;
   try {
     CGAL::extract_mean_curvature_flow_skeleton(to_mesh(closed_surface), graph);

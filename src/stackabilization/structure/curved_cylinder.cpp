@@ -13,8 +13,9 @@ namespace {
 
 constexpr int sample_count = 2048;    ///< of the surface, to find middle and radii by
 constexpr int rounds = 6;             ///< of moving the curve to the middle
-constexpr int smoothing = 2;          ///< passes over a curve that was moved
+constexpr int smoothing = 2;          ///< passes over the skeleton, and over how far the curve moves
 constexpr int fewest_samples = 8;     ///< that tell where the middle of a section is
+constexpr double end_wall = 0.7;      ///< |cosine| of curve and normal from which on a sample lies on an end, not around
 constexpr double least_radius = 0.01;  ///< of the largest: pointed ends keep a circle that can be scaled
 
 Eigen::Index piece_count(const Curve& curve) { return curve.points.rows() - (curve.closed ? 0 : 1); }
@@ -41,15 +42,12 @@ Curve resampled(const Curve& curve, int n) {
   return even;
 }
 
-/// Each point moved halfway to the middle of its neighbours.
-Curve smoothed(const Curve& curve) {
-  Curve smooth = curve;
-  const Eigen::Index n = curve.points.rows();
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (!curve.closed && (i == 0 || i == n - 1)) continue;
-    smooth.points.row(i) = curve.points.row(i) / 2 +
-                           (curve.points.row((i + n - 1) % n) + curve.points.row((i + 1) % n)) / 4;
-  }
+/// Each row moved halfway to the middle of its neighbours, ends kept.
+Points smoothed(const Points& rows, bool closed) {
+  Points smooth = rows;
+  const Eigen::Index n = rows.rows();
+  for (Eigen::Index i = closed ? 0 : 1; i < (closed ? n : n - 1); ++i)
+    smooth.row(i) = rows.row(i) / 2 + (rows.row((i + n - 1) % n) + rows.row((i + 1) % n)) / 4;
   return smooth;
 }
 
@@ -82,15 +80,19 @@ struct Ring {
 class Fit {
  public:
   Fit(const PartSurface& part, const Curve& curve, int sections)
-      : samples_(surface_samples(part.shape, sample_count).points), curve_(resampled(curve, sections)) {}
+      : samples_(surface_samples(part.shape, sample_count)), curve_(resampled(curve, sections)) {
+    for (int pass = 0; pass < smoothing; ++pass) curve_.points = smoothed(curve_.points, curve_.closed);
+  }
 
+  /// Moves are smoothed, not places: smoothing a bent curve would draw it inward, off the middle.
   void refine() {
     assign();
+    Points moves(curve_.points.rows(), 3);
+    for (Eigen::Index i = 0; i < moves.rows(); ++i) moves.row(i) = offset(i);
+    for (int pass = 0; pass < smoothing; ++pass) moves = smoothed(moves, curve_.closed);
     if (!curve_.closed) extend();
-    Curve moved = curve_;
-    for (Eigen::Index i = 0; i < curve_.points.rows(); ++i) moved.points.row(i) += offset(i);
-    for (int pass = 0; pass < smoothing; ++pass) moved = smoothed(moved);
-    curve_ = resampled(moved, static_cast<int>(moved.points.rows()));
+    curve_.points += moves;
+    curve_ = resampled(curve_, static_cast<int>(moves.rows()));
   }
 
   std::optional<GeneralizedCylinder> sections() {
@@ -120,7 +122,8 @@ class Fit {
     const Eigen::Index n = curve_.points.rows();
     rings_.assign(static_cast<std::size_t>(n), {});
     beyond_first_ = beyond_last_ = 0;
-    for (const auto& point : samples_.rowwise()) {
+    for (Eigen::Index k = 0; k < samples_.points.rows(); ++k) {
+      const Eigen::RowVector3d point = samples_.points.row(k);
       const Foot foot = foot_of(curve_, point);
       if (foot.beyond > 0) {
         double& beyond = foot.at < 1 ? beyond_first_ : beyond_last_;
@@ -128,6 +131,8 @@ class Fit {
         continue;
       }
       const double below = std::floor(foot.at), share = foot.at - below;
+      const auto first = std::min(static_cast<Eigen::Index>(below), piece_count(curve_) - 1);
+      if (std::abs(piece(curve_, first).normalized().dot(samples_.normals.row(k))) > end_wall) continue;
       for (const int side : {0, 1}) {
         Ring& ring = rings_[static_cast<std::size_t>((static_cast<Eigen::Index>(below) + side) % n)];
         ring.points.push_back(point);
@@ -177,7 +182,7 @@ class Fit {
     return chord.norm() > 0 ? chord : piece(curve_, i);
   }
 
-  Points samples_;
+  SurfaceSamples samples_;
   Curve curve_;
   std::vector<Ring> rings_;
   double beyond_first_ = 0, beyond_last_ = 0;

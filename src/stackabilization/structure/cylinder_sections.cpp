@@ -22,6 +22,14 @@ constexpr double least_radius = 0.01;
 
 using Segment = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
 
+/// The same line, directed up: toward z, of horizontal ones toward y, else x.
+Axis upward(const Axis& axis) {
+  for (const int k : {2, 1, 0})
+    if (std::abs(axis.direction(k)) > tolerance::relative)
+      return {axis.point, axis.direction(k) > 0 ? axis.direction : Eigen::Vector3d(-axis.direction)};
+  return axis;
+}
+
 /// The segments that the plane third coordinate = height cuts out of the triangles, seen from the axis.
 class Sections {
  public:
@@ -97,10 +105,22 @@ void fill_gaps(Eigen::VectorXd& radii) {
   if (known >= 0) radii.tail(radii.size() - known - 1).setConstant(radii(known));
 }
 
+/// Slanted and rounded ends cut a tip at most: there the wall, continued straight but not wider, counts as well.
+void hold_ends(Eigen::VectorXd& radii) {
+  const Eigen::Index n = radii.size();
+  const auto held = [&](Eigen::Index end, Eigen::Index next, Eigen::Index after) {
+    return std::max(radii(end), std::min(radii(next), 2 * radii(next) - radii(after)));
+  };
+  const double first = held(0, 1, 2), last = held(n - 1, n - 2, n - 3);
+  radii(0) = first;
+  radii(n - 1) = last;
+}
+
 }  // namespace
 
-std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Axis& axis, int sections,
+std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Axis& line, int sections,
                                                      SectionRadius radius) {
+  const Axis axis = upward(line);
   const Range range = range_along(part, axis.direction);
   const double offset = axis.direction.dot(axis.point);
   std::vector<double> heights;
@@ -120,6 +140,7 @@ std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Ax
     cylinder.radii(i) = radius == SectionRadius::outermost ? cuts.outermost(row) : cuts.mean(row);
   }
   fill_gaps(cylinder.radii);
+  hold_ends(cylinder.radii);
   const double largest = cylinder.radii.maxCoeff();
   if (!(range.length() > 0) || !(largest > 0)) return std::nullopt;
   cylinder.radii = cylinder.radii.cwiseMax(least_radius * largest);

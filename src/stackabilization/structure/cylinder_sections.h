@@ -15,7 +15,7 @@ enum class SectionRadius {
   mean        ///< the mean over all directions of the outermost distance: right for other outlines
 };
 
-/// Circles at even heights along `axis` from one end of the part to the other; of a hollow body its outer wall. Nothing
+/// Circles at even heights along `axis` from the lower end of the part (by z, y, x) to the other; of a hollow body its outer wall. Nothing
 /// when the part has no extent along or across the axis.
 std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Axis& axis, int sections,
                                                      SectionRadius radius);

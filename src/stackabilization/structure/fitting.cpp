@@ -24,8 +24,14 @@ constexpr int fewest_sections = 4;
 /// its skeleton has nothing to add.
 constexpr double held = 0.01;
 
-/// A cylinder along a less simple curve has to be better by this factor.
-constexpr double simplicity = 0.9;
+/// Error, as a fraction of the one so far, that the next cylinder has to stay below: hardly less will do for another
+/// straight axis than the longest, a less simple curve has to be clearly better.
+constexpr double other_axis = 0.95;
+constexpr double other_curve = 0.8;
+
+/// Least length of a cylinder along another axis of the box than the longest, as a fraction of its largest radius: flatter
+/// ones are plates, which a box holds as well.
+constexpr double least_length = 0.5;
 
 struct FittedCylinder {
   GeneralizedCylinder cylinder;
@@ -43,36 +49,48 @@ class CylinderFit {
     const double enough = held * 2 * box_.half_extents.norm();
     if (const std::optional<detail::Axis> axis = detail::revolution_axis(part_)) {
       offer(detail::straight_cylinder(part_.shape, *axis, sections_, detail::SectionRadius::outermost),
-            "along its axis of revolution");
-      offer(detail::ring_cylinder(part_, *axis, sections_), "a ring about its axis of revolution");
+            other_axis, "along its axis of revolution");
+      offer(detail::ring_cylinder(part_, *axis, sections_), other_curve, "a ring about its axis of revolution");
       if (best_) return std::move(best_);
     }
-    for (const int k : axes_by_length())
-      offer(detail::straight_cylinder(part_.shape, {box_.centre, box_.axes.col(k)}, sections_,
-                                      detail::SectionRadius::mean),
-            "along an axis of its box");
+    for (const int k : axes_by_length()) offer_straight(k);
     if (box_error > enough && !(best_ && best_->error <= enough)) follow_skeleton();
     return std::move(best_);
   }
 
  private:
-  void offer(std::optional<GeneralizedCylinder> cylinder, const std::string& note) {
+  void offer(std::optional<GeneralizedCylinder> cylinder, double share, const std::string& note) {
     if (!cylinder) return;
     const double error = detail::fit_error(*cylinder, part_);
-    if (best_ && !(error < simplicity * best_->error)) return;
+    if (best_ && !(error < share * best_->error)) return;
     best_ = FittedCylinder{std::move(*cylinder), error, note};
   }
 
+  void offer_straight(int k) {
+    auto cylinder = detail::straight_cylinder(part_.shape, {box_.centre, box_.axes.col(k)}, sections_,
+                                              detail::SectionRadius::mean);
+    if (cylinder && best_ && 2 * box_.half_extents(k) < least_length * cylinder->radii.maxCoeff()) return;
+    offer(std::move(cylinder), other_axis, "along an axis of its box");
+  }
+
+  /// In the frame of the box, longest axis first: what depends on the pose of a part (wrapping does) shall not tell equal
+  /// parts of a model apart.
   void follow_skeleton() {
-    const std::optional<detail::ClosedPart> closed = detail::closed_part(part_.shape);
+    Eigen::Matrix3d axes;
+    const std::array<int, 3> order = axes_by_length();
+    for (int k = 0; k < 3; ++k) axes.col(k) = box_.axes.col(order[static_cast<std::size_t>(k)]);
+    if (axes.determinant() < 0) axes.col(2) *= -1;
+    const std::optional<detail::ClosedPart> closed =
+        detail::closed_part(transformed(part_.shape, axes.transpose(), -axes.transpose() * box_.centre));
     const std::optional<detail::Skeleton> skeleton =
         closed ? detail::curve_skeleton(closed->surface) : std::nullopt;
-    const std::optional<detail::Curve> curve = skeleton ? detail::main_curve(*skeleton) : std::nullopt;
+    std::optional<detail::Curve> curve = skeleton ? detail::main_curve(*skeleton) : std::nullopt;
     if (!curve) {
       if (best_) best_->note += ", for it has no curve skeleton";
       return;
     }
-    offer(detail::curved_cylinder(part_, *curve, sections_),
+    curve->points = (curve->points * axes.transpose()).rowwise() + box_.centre.transpose();
+    offer(detail::curved_cylinder(part_, *curve, sections_), other_curve,
           closed->wrapped ? "along the curve skeleton of a surface wrapped around it" : "along its curve skeleton");
   }
 
