@@ -1,11 +1,10 @@
-#include "stackabilization/structure/fitting.h"
-
 #include <cmath>
 #include <numbers>
 #include <variant>
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
+#include "stackabilization/structure/fitting.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/variants.h"
@@ -41,7 +40,8 @@ double length_of(const GeneralizedCylinder& cylinder) {
   return reached(reached.size() - 1);
 }
 
-/// A tube of circles of radius `tube` around an arc of radius `ring` in the plane (x, z), from angle 0, capped.
+/// A tube of circles of radius `tube` around an arc of radius `ring` in the plane (x, z), from angle 0,
+/// capped.
 Shape arc_tube(double ring, double tube, double angle) {
   const int around = 16, along = 64;
   Shape shape;
@@ -51,7 +51,8 @@ Shape arc_tube(double ring, double tube, double angle) {
     const Eigen::Vector3d out(std::cos(a), 0, std::sin(a));
     for (int k = 0; k < around; ++k) {
       const Eigen::Vector2d circle = tube * solids::circle_point(k, around);
-      shape.vertices.row(i * around + k) = ((ring + circle.x()) * out + circle.y() * Eigen::Vector3d::UnitY()).transpose();
+      shape.vertices.row(i * around + k) =
+          ((ring + circle.x()) * out + circle.y() * Eigen::Vector3d::UnitY()).transpose();
     }
     if (i == 0) shape.vertices.row(around * (along + 1)) = ring * out.transpose();
     if (i == along) shape.vertices.row(around * (along + 1) + 1) = ring * out.transpose();
@@ -68,7 +69,8 @@ Shape arc_tube(double ring, double tube, double angle) {
     triangles.emplace_back(around * (along + 1) + 1, around * along + next, around * along + k);
   }
   Triangles rows(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) rows.row(static_cast<Eigen::Index>(t)) = triangles[t].transpose();
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    rows.row(static_cast<Eigen::Index>(t)) = triangles[t].transpose();
   return make_shape(shape.vertices, rows);
 }
 
@@ -88,8 +90,10 @@ Shape moved(const Shape& shape, std::uint64_t seed, double scale) {
 }  // namespace
 
 TEST_CASE("the cuboid of a box is the box, corner by corner, in any place and size") {
-  for (const Eigen::Vector3d& size : {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(8, 8, 0.5), Eigen::Vector3d(2, 2, 2)}) {
-    const FittedPrimitive fitted = fit_primitive(solids::box({10, 20, 30}, Eigen::Vector3d(10, 20, 30) + size));
+  for (const Eigen::Vector3d& size :
+       {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(8, 8, 0.5), Eigen::Vector3d(2, 2, 2)}) {
+    const FittedPrimitive fitted =
+        fit_primitive(solids::box({10, 20, 30}, Eigen::Vector3d(10, 20, 30) + size));
     const Cuboid& cuboid = cuboid_in(fitted);
     for (int k = 0; k < 8; ++k)
       for (int a = 0; a < 3; ++a)
@@ -103,7 +107,8 @@ TEST_CASE("the cuboid of a box is the box, corner by corner, in any place and si
 
 TEST_CASE("the box of a turned box has its corners, and the axes nearest to the file's") {
   const Eigen::Vector3d size(1, 2, 5);
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   const FittedPrimitive fitted = fit_primitive(transformed(solids::box(size), 100 * turn, {1, 2, 3}));
   const Cuboid& cuboid = cuboid_in(fitted);
   for (int k = 0; k < 8; ++k) {
@@ -123,7 +128,6 @@ TEST_CASE("round and square parts get boxes along the file's axes, whatever thei
   CHECK(axes_aligned(solids::cylinder(2, 0.5, 16)));
   CHECK(axes_aligned(solids::cylinder(1, 9, 64)));
   CHECK(axes_aligned(solids::sphere(1, 2)));
-
 }
 
 TEST_CASE("the radii of a cylinder are those of its corners, along its whole length") {
@@ -141,8 +145,8 @@ TEST_CASE("the radii of a cylinder are those of its corners, along its whole len
 }
 
 TEST_CASE("the radii of a cone frustum grow evenly") {
-  const GeneralizedCylinder cylinder =
-      cylinder_of(fit_primitive(solids::surface_of_revolution({{0, 0}, {1, 0}, {2, 6}, {0, 6}}, 24), {.kind = {}, .sections = 7}));
+  const GeneralizedCylinder cylinder = cylinder_of(fit_primitive(
+      solids::surface_of_revolution({{0, 0}, {1, 0}, {2, 6}, {0, 6}}, 24), {.kind = {}, .sections = 7}));
   REQUIRE(cylinder.radii.size() == 7);
   for (int i = 0; i < 7; ++i) {
     const double height = cylinder.centres(i, 2);
@@ -202,7 +206,8 @@ TEST_CASE("open and torn tubes are wrapped and say so") {
   holds(part_where(tube, [](Eigen::Index t) { return t % 130 < 128; }));  // without its end caps
   holds(part_where(tube, [](Eigen::Index t) { return t % 7 != 0; }));
   Shape soup = part_where(tube, [](Eigen::Index t) { return t % 7 != 0; });
-  for (Eigen::Index t = 0; t < soup.triangle_count(); t += 3) std::swap(soup.triangles(t, 0), soup.triangles(t, 1));
+  for (Eigen::Index t = 0; t < soup.triangle_count(); t += 3)
+    std::swap(soup.triangles(t, 0), soup.triangles(t, 1));
   holds(soup);
 }
 
@@ -257,8 +262,9 @@ TEST_CASE("the kind that holds a part better is chosen, unless the user says oth
 }
 
 TEST_CASE("a part of several shells is one part") {
-  const Shape dumbbell = concatenate(concatenate(solids::cylinder(1, 2, 24), solids::cylinder(0.25, 8, 24)),
-                                     transformed(solids::cylinder(1, 2, 24), Eigen::Matrix3d::Identity(), {0, 0, 6}));
+  const Shape dumbbell =
+      concatenate(concatenate(solids::cylinder(1, 2, 24), solids::cylinder(0.25, 8, 24)),
+                  transformed(solids::cylinder(1, 2, 24), Eigen::Matrix3d::Identity(), {0, 0, 6}));
   const GeneralizedCylinder cylinder = cylinder_of(fit_primitive(dumbbell));
   for (Eigen::Index i = 0; i < cylinder.radii.size(); ++i) {
     const double height = cylinder.centres(i, 2);

@@ -105,7 +105,8 @@ std::optional<ClosedPart> closed_part(const Shape& part) {
     Mesh mesh;
     if (count <= most_triangles) mesh = as_closed(soup);
     const bool wrapped = mesh.is_empty();
-    if (wrapped) CGAL::alpha_wrap_3(soup.points, soup.polygons, diagonal / wrap_alpha, diagonal / wrap_offset, mesh);
+    if (wrapped)
+      CGAL::alpha_wrap_3(soup.points, soup.polygons, diagonal / wrap_alpha, diagonal / wrap_offset, mesh);
     remesh(mesh);
     if (mesh.is_empty() || !CGAL::is_closed(mesh)) return std::nullopt;
     return ClosedPart{to_shape(mesh), wrapped};

@@ -37,8 +37,8 @@ class CreationOrderMemory {
   static inline thread_local CreationOrderMemory* current_ = nullptr;
 };
 
-/// What is allocated later lies higher. Algorithms that visit elements in the order of their addresses so visit them in
-/// the order of their creation, and give the same result in every run.
+/// What is allocated later lies higher. Algorithms that visit elements in the order of their addresses so
+/// visit them in the order of their creation, and give the same result in every run.
 template <class T>
 struct CreationOrderAllocator {
   using value_type = T;
@@ -47,7 +47,9 @@ struct CreationOrderAllocator {
   template <class U>
   CreationOrderAllocator(const CreationOrderAllocator<U>&) {}  // implicit, as allocators convert
 
-  T* allocate(std::size_t count) { return static_cast<T*>(CreationOrderMemory::take(count * sizeof(T), alignof(T))); }
+  T* allocate(std::size_t count) {
+    return static_cast<T*>(CreationOrderMemory::take(count * sizeof(T), alignof(T)));
+  }
   void deallocate(T*, std::size_t) {}
 
   bool operator==(const CreationOrderAllocator&) const { return true; }

@@ -4,8 +4,8 @@
 
 #include "stackabilization/structure/creation_order_allocator.h"
 
-// The skeletonization collapses edges of a Polyhedron_3 in the order of their addresses. Only the default of that class
-// template takes the allocator named here.
+// The skeletonization collapses edges of a Polyhedron_3 in the order of their addresses. Only the default of
+// that class template takes the allocator named here.
 #undef CGAL_ALLOCATOR
 #define CGAL_ALLOCATOR(T) stackabilization::detail::CreationOrderAllocator<T>
 #include <CGAL/Polyhedron_3_fwd.h>

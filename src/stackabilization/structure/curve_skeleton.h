@@ -20,12 +20,14 @@ struct Skeleton {
   std::vector<std::array<int, 2>> edges;
 };
 
-/// Mean curvature flow skeleton (Tagliasacchi, Alhashim, Olson, Zhang: Mean curvature skeletons, SGP 2012) of a closed,
-/// connected, outward oriented surface of even triangles. Nothing when it collapses to a point or fails.
+/// Mean curvature flow skeleton (Tagliasacchi, Alhashim, Olson, Zhang: Mean curvature skeletons, SGP 2012) of
+/// a closed, connected, outward oriented surface of even triangles. Nothing when it collapses to a point or
+/// fails.
 std::optional<Skeleton> curve_skeleton(const Shape& closed_surface);
 
-/// What of a skeleton a generalized cylinder follows: its loop, when it has one that makes up half of its length;
-/// else the longest of the shortest paths in it, from its lower end (by z, y, x). Nothing for a skeleton without edges.
+/// What of a skeleton a generalized cylinder follows: its loop, when it has one that makes up half of its
+/// length; else the longest of the shortest paths in it, from its lower end (by z, y, x). Nothing for a
+/// skeleton without edges.
 std::optional<Curve> main_curve(const Skeleton& skeleton);
 
 }  // namespace stackabilization::detail

@@ -11,14 +11,17 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr int sample_count = 2048;    ///< of the surface, to find middle and radii by
-constexpr int rounds = 6;             ///< of moving the curve to the middle
-constexpr int smoothing = 2;          ///< passes over the skeleton, and over how far the curve moves
-constexpr int fewest_samples = 8;     ///< that tell where the middle of a section is
-constexpr double end_wall = 0.7;      ///< |cosine| of curve and normal from which on a sample lies on an end, not around
+constexpr int sample_count = 2048;  ///< of the surface, to find middle and radii by
+constexpr int rounds = 6;           ///< of moving the curve to the middle
+constexpr int smoothing = 2;        ///< passes over the skeleton, and over how far the curve moves
+constexpr int fewest_samples = 8;   ///< that tell where the middle of a section is
+constexpr double end_wall =
+    0.7;  ///< |cosine| of curve and normal from which on a sample lies on an end, not around
 constexpr double least_radius = 0.01;  ///< of the largest: pointed ends keep a circle that can be scaled
 
-Eigen::Index piece_count(const Curve& curve) { return curve.points.rows() - (curve.closed ? 0 : 1); }
+Eigen::Index piece_count(const Curve& curve) {
+  return curve.points.rows() - (curve.closed ? 0 : 1);
+}
 
 Eigen::RowVector3d piece(const Curve& curve, Eigen::Index i) {
   return curve.points.row((i + 1) % curve.points.rows()) - curve.points.row(i);
@@ -27,7 +30,8 @@ Eigen::RowVector3d piece(const Curve& curve, Eigen::Index i) {
 /// n points at even arc lengths, ends kept.
 Curve resampled(const Curve& curve, int n) {
   std::vector<double> reached{0};
-  for (Eigen::Index i = 0; i < piece_count(curve); ++i) reached.push_back(reached.back() + piece(curve, i).norm());
+  for (Eigen::Index i = 0; i < piece_count(curve); ++i)
+    reached.push_back(reached.back() + piece(curve, i).norm());
   Curve even{Points(n, 3), curve.closed};
   const int pieces = curve.closed ? n : n - 1;
   for (int k = 0; k < n; ++k) {
@@ -55,7 +59,7 @@ Points smoothed(const Points& rows, bool closed) {
 struct Foot {
   double at;        ///< sections from the first: 2.5 is halfway between the third and the fourth
   double distance;  ///< from the curve
-  double beyond;    ///< how far past an open end, along its tangent; 0 elsewhere
+  double overhang;  ///< along the curve past the nearer end of its piece; negative between the ends
 };
 
 Foot foot_of(const Curve& curve, const Eigen::RowVector3d& point) {
@@ -65,8 +69,7 @@ Foot foot_of(const Curve& curve, const Eigen::RowVector3d& point) {
     const double free = step.dot(from) / step.squaredNorm(), t = std::clamp(free, 0.0, 1.0);
     const double distance = (from - t * step).norm();
     if (distance >= best.distance) continue;
-    const bool end = !curve.closed && ((i == 0 && free < 0) || (i == piece_count(curve) - 1 && free > 1));
-    best = {static_cast<double>(i) + t, distance, end ? std::abs(free - t) * step.norm() : 0};
+    best = {static_cast<double>(i) + t, distance, (std::abs(free - 0.5) - 0.5) * step.norm()};
   }
   return best;
 }
@@ -95,10 +98,18 @@ class Fit {
     curve_ = resampled(curve_, static_cast<int>(moves.rows()));
   }
 
+  /// Finite, and neighbouring sections at different places?
+  bool usable() const {
+    for (Eigen::Index i = 0; i < piece_count(curve_); ++i)
+      if (!(piece(curve_, i).norm() > 0)) return false;
+    return curve_.points.allFinite();
+  }
+
   std::optional<GeneralizedCylinder> sections() {
     assign();
     const Eigen::Index n = curve_.points.rows();
-    GeneralizedCylinder cylinder{.centres = curve_.points, .radii = Eigen::VectorXd::Zero(n), .closed = curve_.closed};
+    GeneralizedCylinder cylinder{
+        .centres = curve_.points, .radii = Eigen::VectorXd::Zero(n), .closed = curve_.closed};
     for (Eigen::Index i = 0; i < n; ++i) {
       const Ring& ring = rings_[static_cast<std::size_t>(i)];
       double sum = 0, weight = 0;
@@ -109,10 +120,8 @@ class Fit {
       cylinder.radii(i) = weight > 0 ? sum / weight : i > 0 ? cylinder.radii(i - 1) : 0;
     }
     const double largest = cylinder.radii.maxCoeff();
-    if (!(largest > 0) || !cylinder.centres.allFinite()) return std::nullopt;
+    if (!(largest > 0)) return std::nullopt;
     cylinder.radii = cylinder.radii.cwiseMax(least_radius * largest);
-    for (Eigen::Index i = 0; i < piece_count(curve_); ++i)
-      if (!(piece(curve_, i).norm() > 0)) return std::nullopt;
     return cylinder;
   }
 
@@ -121,15 +130,15 @@ class Fit {
   void assign() {
     const Eigen::Index n = curve_.points.rows();
     rings_.assign(static_cast<std::size_t>(n), {});
-    beyond_first_ = beyond_last_ = 0;
+    beyond_first_ = -piece(curve_, 0).norm() / 2;
+    beyond_last_ = -piece(curve_, piece_count(curve_) - 1).norm() / 2;
+    const double last = static_cast<double>(n - 1);
     for (Eigen::Index k = 0; k < samples_.points.rows(); ++k) {
       const Eigen::RowVector3d point = samples_.points.row(k);
       const Foot foot = foot_of(curve_, point);
-      if (foot.beyond > 0) {
-        double& beyond = foot.at < 1 ? beyond_first_ : beyond_last_;
-        beyond = std::max(beyond, foot.beyond);
-        continue;
-      }
+      if (!curve_.closed && foot.at < 0.5) beyond_first_ = std::max(beyond_first_, foot.overhang);
+      if (!curve_.closed && foot.at > last - 0.5) beyond_last_ = std::max(beyond_last_, foot.overhang);
+      if (!curve_.closed && (foot.at <= 0 || foot.at >= last)) continue;
       const double below = std::floor(foot.at), share = foot.at - below;
       const auto first = std::min(static_cast<Eigen::Index>(below), piece_count(curve_) - 1);
       if (std::abs(piece(curve_, first).normalized().dot(samples_.normals.row(k))) > end_wall) continue;
@@ -142,14 +151,17 @@ class Fit {
     }
   }
 
+  /// To the ends of the part, also back to them.
   void extend() {
     const Eigen::Index last = curve_.points.rows() - 1;
-    const Eigen::RowVector3d first_step = piece(curve_, 0).normalized(), last_step = piece(curve_, last - 1).normalized();
+    const Eigen::RowVector3d first_step = piece(curve_, 0).normalized(),
+                             last_step = piece(curve_, last - 1).normalized();
     curve_.points.row(0) -= beyond_first_ * first_step;
     curve_.points.row(last) += beyond_last_ * last_step;
   }
 
-  /// From a section to the centre of the circle through its ring, least squares (Kasa 1976), at most a radius away.
+  /// From a section to the centre of the circle through its ring, least squares (Kasa 1976), at most a radius
+  /// away.
   Eigen::RowVector3d offset(Eigen::Index i) const {
     const Ring& ring = rings_[static_cast<std::size_t>(i)];
     const auto count = static_cast<Eigen::Index>(ring.points.size());
@@ -185,15 +197,17 @@ class Fit {
   SurfaceSamples samples_;
   Curve curve_;
   std::vector<Ring> rings_;
-  double beyond_first_ = 0, beyond_last_ = 0;
+  double beyond_first_ = 0,
+         beyond_last_ = 0;  ///< how far the part goes on past the ends; negative: ends before
 };
 
 }  // namespace
 
-std::optional<GeneralizedCylinder> curved_cylinder(const PartSurface& part, const Curve& curve, int sections) {
+std::optional<GeneralizedCylinder> curved_cylinder(const PartSurface& part, const Curve& curve,
+                                                   int sections) {
   Fit fit(part, curve, sections);
-  for (int round = 0; round < rounds; ++round) fit.refine();
-  return fit.sections();
+  for (int round = 0; round < rounds && fit.usable(); ++round) fit.refine();
+  return fit.usable() ? fit.sections() : std::nullopt;
 }
 
 }  // namespace stackabilization::detail

@@ -23,7 +23,7 @@ constexpr double least_radius = 0.01;
 using Segment = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
 
 /// The same line, directed up: toward z, of horizontal ones toward y, else x.
-Axis upward(const Axis& axis) {
+AxisLine upward(const AxisLine& axis) {
   for (const int k : {2, 1, 0})
     if (std::abs(axis.direction(k)) > tolerance::relative)
       return {axis.point, axis.direction(k) > 0 ? axis.direction : Eigen::Vector3d(-axis.direction)};
@@ -33,8 +33,10 @@ Axis upward(const Axis& axis) {
 /// The segments that the plane third coordinate = height cuts out of the triangles, seen from the axis.
 class Sections {
  public:
-  Sections(const Shape& part, const Axis& axis, std::vector<double> heights)
-      : frame_(frame_of(Direction(axis.direction))), heights_(std::move(heights)), segments_(heights_.size()) {
+  Sections(const Shape& part, const AxisLine& axis, std::vector<double> heights)
+      : frame_(frame_of(Direction(axis.direction))),
+        heights_(std::move(heights)),
+        segments_(heights_.size()) {
     for (Eigen::Index t = 0; t < part.triangle_count(); ++t) {
       Eigen::Matrix3d local;
       for (int k = 0; k < 3; ++k) local.col(k) = frame_.to_local(part.corner(t, k) - axis.point);
@@ -48,7 +50,8 @@ class Sections {
   /// Farthest distance from the axis; NaN where nothing is cut.
   double outermost(std::size_t section) const {
     double farthest = std::numeric_limits<double>::quiet_NaN();
-    for (const auto& [a, b] : segments_[section]) farthest = std::fmax(farthest, std::fmax(a.norm(), b.norm()));
+    for (const auto& [a, b] : segments_[section])
+      farthest = std::fmax(farthest, std::fmax(a.norm(), b.norm()));
     return farthest;
   }
 
@@ -105,7 +108,8 @@ void fill_gaps(Eigen::VectorXd& radii) {
   if (known >= 0) radii.tail(radii.size() - known - 1).setConstant(radii(known));
 }
 
-/// Slanted and rounded ends cut a tip at most: there the wall, continued straight but not wider, counts as well.
+/// Slanted and rounded ends cut a tip at most: there the wall, continued straight but not wider, counts as
+/// well.
 void hold_ends(Eigen::VectorXd& radii) {
   const Eigen::Index n = radii.size();
   const auto held = [&](Eigen::Index end, Eigen::Index next, Eigen::Index after) {
@@ -118,17 +122,18 @@ void hold_ends(Eigen::VectorXd& radii) {
 
 }  // namespace
 
-std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Axis& line, int sections,
+std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const AxisLine& line, int sections,
                                                      SectionRadius radius) {
-  const Axis axis = upward(line);
+  const AxisLine axis = upward(line);
   const Range range = range_along(part, axis.direction);
   const double offset = axis.direction.dot(axis.point);
   std::vector<double> heights;
   for (int i = 0; i < sections; ++i) {
     const double t = i / static_cast<double>(sections - 1);
     // A plane through an end misses it as often as not: the outermost two pass just inside.
-    heights.push_back(std::lerp(range.low, range.high, std::clamp(t, tolerance::relative, 1 - tolerance::relative)) -
-                      offset);
+    heights.push_back(
+        std::lerp(range.low, range.high, std::clamp(t, tolerance::relative, 1 - tolerance::relative)) -
+        offset);
   }
   const Sections cuts(part, axis, heights);
   GeneralizedCylinder cylinder{.centres = Points(sections, 3), .radii = Eigen::VectorXd(sections)};
@@ -147,7 +152,8 @@ std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Ax
   return cylinder;
 }
 
-std::optional<GeneralizedCylinder> ring_cylinder(const PartSurface& part, const Axis& axis, int sections) {
+std::optional<GeneralizedCylinder> ring_cylinder(const PartSurface& part, const AxisLine& axis,
+                                                 int sections) {
   const Frame frame = frame_of(Direction(axis.direction));
   const auto profile = [&](const auto& row) -> Eigen::Vector2d {
     const Eigen::Vector3d local = frame.to_local(row.transpose() - axis.point);
@@ -170,12 +176,14 @@ std::optional<GeneralizedCylinder> ring_cylinder(const PartSurface& part, const 
   radius /= static_cast<double>(part.samples.points.rows());
   if (!(radius < middle.x())) return std::nullopt;
 
-  GeneralizedCylinder ring{.centres = Points(sections, 3), .radii = Eigen::VectorXd::Constant(sections, radius)};
+  GeneralizedCylinder ring{.centres = Points(sections, 3),
+                           .radii = Eigen::VectorXd::Constant(sections, radius)};
   ring.closed = true;
   // It starts toward the file axis that stands most upright on its own, so that equal rings start alike.
   Eigen::Index start = 0;
   axis.direction.cwiseAbs().minCoeff(&start);
-  const Eigen::Vector3d u = (Eigen::Vector3d::Unit(start) - axis.direction(start) * axis.direction).normalized();
+  const Eigen::Vector3d u =
+      (Eigen::Vector3d::Unit(start) - axis.direction(start) * axis.direction).normalized();
   const Eigen::Vector3d v = axis.direction.cross(u), centre = axis.point + middle.y() * axis.direction;
   for (int i = 0; i < sections; ++i) {
     const double angle = i * 2 * std::numbers::pi / sections;

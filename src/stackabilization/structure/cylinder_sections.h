@@ -15,18 +15,18 @@ enum class SectionRadius {
   mean        ///< the mean over all directions of the outermost distance: right for other outlines
 };
 
-/// Circles at even heights along `axis` from the lower end of the part (by z, y, x) to the other; of a hollow body its outer wall. Nothing
-/// when the part has no extent along or across the axis.
-std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Axis& axis, int sections,
+/// Circles at even heights along `axis` from the lower end of the part (by z, y, x) to the other; of a hollow
+/// body its outer wall. Nothing when the part has no extent along or across the axis.
+std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const AxisLine& axis, int sections,
                                                      SectionRadius radius);
 
-/// A closed one around the axis of a body of revolution, through the middle of its profile. Nothing when the profile
-/// reaches the axis.
-std::optional<GeneralizedCylinder> ring_cylinder(const PartSurface& part, const Axis& axis, int sections);
+/// A closed one around the axis of a body of revolution, through the middle of its profile. Nothing when the
+/// profile reaches the axis.
+std::optional<GeneralizedCylinder> ring_cylinder(const PartSurface& part, const AxisLine& axis, int sections);
 
-/// Circles at even arc lengths of a curve that is first moved to the middle of the part and, when open, extended to its
-/// ends; the radius is the mean distance of the surface whose nearest point of the curve is there. Nothing when the
-/// curve leaves the part.
+/// Circles at even arc lengths of a curve that is first moved to the middle of the part and, when open,
+/// extended to its ends; the radius is the mean distance of the surface whose nearest point of the curve is
+/// there. Nothing when the curve leaves the part.
 std::optional<GeneralizedCylinder> curved_cylinder(const PartSurface& part, const Curve& curve, int sections);
 
 }  // namespace stackabilization::detail

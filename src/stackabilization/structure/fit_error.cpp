@@ -12,7 +12,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Enough that the errors of cuboid and cylinder differ by more than their sampling where a person sees a difference.
+/// Enough that the errors of cuboid and cylinder differ by more than their sampling where a person sees a
+/// difference.
 constexpr int sample_count = 768;
 
 /// Distance in a half plane (height, distance from the axis) to the segment from a to b.
@@ -42,8 +43,8 @@ Eigen::Index frustum_count(const GeneralizedCylinder& cylinder) {
   return cylinder.centres.rows() - (cylinder.closed ? 0 : 1);
 }
 
-/// Points spread evenly over discs and frusta: the radical inverse of the golden ratio runs across, the golden angle
-/// around.
+/// Points spread evenly over discs and frusta: the radical inverse of the golden ratio runs across, the
+/// golden angle around.
 struct Spiral {
   int k = 0;
 
@@ -56,7 +57,9 @@ Eigen::Vector3d around_axis(const Eigen::Vector3d& axis, double angle) {
   return frame.u * std::cos(angle) + frame.v * std::sin(angle);
 }
 
-int share(double area, double total) { return static_cast<int>(std::ceil(sample_count * area / total)); }
+int share(double area, double total) {
+  return static_cast<int>(std::ceil(sample_count * area / total));
+}
 
 Points surface_points(const GeneralizedCylinder& cylinder) {
   const Eigen::Index n = frustum_count(cylinder);
@@ -84,7 +87,8 @@ Points surface_points(const GeneralizedCylinder& cylinder) {
       }
     }
   Points rows(static_cast<Eigen::Index>(points.size()), 3);
-  for (std::size_t k = 0; k < points.size(); ++k) rows.row(static_cast<Eigen::Index>(k)) = points[k].transpose();
+  for (std::size_t k = 0; k < points.size(); ++k)
+    rows.row(static_cast<Eigen::Index>(k)) = points[k].transpose();
   return rows;
 }
 
@@ -119,7 +123,8 @@ double two_sided(const Solid& solid, const PartSurface& part) {
     const double distance = part.index.nearest(point.transpose()).distance;
     back += distance * distance;
   }
-  return std::sqrt((mean_square_to(solid, part.samples.points) + back / static_cast<double>(points.rows())) / 2);
+  return std::sqrt((mean_square_to(solid, part.samples.points) + back / static_cast<double>(points.rows())) /
+                   2);
 }
 
 }  // namespace
@@ -143,7 +148,8 @@ double distance_to_surface(const GeneralizedCylinder& cylinder, const Eigen::Vec
     const Eigen::Vector2d low(0, piece.low), high(piece.height, piece.high);
     least = std::min(least, distance_to_segment(place, low, high));
     if (i == 0 && !cylinder.closed) least = std::min(least, distance_to_segment(place, {0, 0}, low));
-    if (i == n - 1 && !cylinder.closed) least = std::min(least, distance_to_segment(place, {piece.height, 0}, high));
+    if (i == n - 1 && !cylinder.closed)
+      least = std::min(least, distance_to_segment(place, {piece.height, 0}, high));
   }
   return least;
 }
@@ -152,8 +158,12 @@ double distance_to_surface(const OrientedBox& box, const PartSurface& part) {
   return std::sqrt(mean_square_to(box, part.samples.points));
 }
 
-double fit_error(const OrientedBox& box, const PartSurface& part) { return two_sided(box, part); }
+double fit_error(const OrientedBox& box, const PartSurface& part) {
+  return two_sided(box, part);
+}
 
-double fit_error(const GeneralizedCylinder& cylinder, const PartSurface& part) { return two_sided(cylinder, part); }
+double fit_error(const GeneralizedCylinder& cylinder, const PartSurface& part) {
+  return two_sided(cylinder, part);
+}
 
 }  // namespace stackabilization::detail

@@ -22,15 +22,16 @@ struct PartSurface {
 /// Distance of a point, inside or outside, from the surface of a box, model units.
 double distance_to_surface(const OrientedBox& box, const Eigen::Vector3d& point);
 
-/// Distance of a point, inside or outside, from the cone frusta between neighbouring circles and from the two end
-/// discs of an open cylinder, model units.
+/// Distance of a point, inside or outside, from the cone frusta between neighbouring circles and from the two
+/// end discs of an open cylinder, model units.
 double distance_to_surface(const GeneralizedCylinder& cylinder, const Eigen::Vector3d& point);
 
 /// Root mean square distance from the surface of the part to the box's, model units.
 double distance_to_surface(const OrientedBox& box, const PartSurface& part);
 
-/// Two-sided distance of the surfaces, model units: root of the mean of both mean squares, part to primitive and
-/// primitive to part, both by area. One side alone would call a frame well held by the box around its hole.
+/// Two-sided distance of the surfaces, model units: root of the mean of both mean squares, part to primitive
+/// and primitive to part, both by area. One side alone would call a frame well held by the box around its
+/// hole.
 double fit_error(const OrientedBox& box, const PartSurface& part);
 double fit_error(const GeneralizedCylinder& cylinder, const PartSurface& part);
 

@@ -20,17 +20,17 @@ namespace {
 
 constexpr int fewest_sections = 4;
 
-/// Error, as a fraction of the diagonal, up to which a part counts as held by a box or along a straight axis, so that
-/// its skeleton has nothing to add.
+/// Error, as a fraction of the diagonal, up to which a part counts as held by a box or along a straight axis,
+/// so that its skeleton has nothing to add.
 constexpr double held = 0.01;
 
-/// Error, as a fraction of the one so far, that the next cylinder has to stay below: hardly less will do for another
-/// straight axis than the longest, a less simple curve has to be clearly better.
+/// Error, as a fraction of the one so far, that the next cylinder has to stay below: hardly less will do for
+/// another straight axis than the longest, a less simple curve has to be clearly better.
 constexpr double other_axis = 0.95;
 constexpr double other_curve = 0.8;
 
-/// Least length of a cylinder along another axis of the box than the longest, as a fraction of its largest radius: flatter
-/// ones are plates, which a box holds as well.
+/// Least length of a cylinder along another axis of the box than the longest, as a fraction of its largest
+/// radius: flatter ones are plates, which a box holds as well.
 constexpr double least_length = 0.5;
 
 struct FittedCylinder {
@@ -47,10 +47,11 @@ class CylinderFit {
 
   std::optional<FittedCylinder> best(double box_error) {
     const double enough = held * 2 * box_.half_extents.norm();
-    if (const std::optional<detail::Axis> axis = detail::revolution_axis(part_)) {
+    if (const std::optional<detail::AxisLine> axis = detail::revolution_axis(part_)) {
       offer(detail::straight_cylinder(part_.shape, *axis, sections_, detail::SectionRadius::outermost),
             other_axis, "along its axis of revolution");
-      offer(detail::ring_cylinder(part_, *axis, sections_), other_curve, "a ring about its axis of revolution");
+      offer(detail::ring_cylinder(part_, *axis, sections_), other_curve,
+            "a ring about its axis of revolution");
       if (best_) return std::move(best_);
     }
     for (const int k : axes_by_length()) offer_straight(k);
@@ -73,8 +74,8 @@ class CylinderFit {
     offer(std::move(cylinder), other_axis, "along an axis of its box");
   }
 
-  /// In the frame of the box, longest axis first: what depends on the pose of a part (wrapping does) shall not tell equal
-  /// parts of a model apart.
+  /// In the frame of the box, longest axis first: what depends on the pose of a part (wrapping does) shall
+  /// not tell equal parts of a model apart.
   void follow_skeleton() {
     Eigen::Matrix3d axes;
     const std::array<int, 3> order = axes_by_length();
@@ -91,7 +92,8 @@ class CylinderFit {
     }
     curve->points = (curve->points * axes.transpose()).rowwise() + box_.centre.transpose();
     offer(detail::curved_cylinder(part_, *curve, sections_), other_curve,
-          closed->wrapped ? "along the curve skeleton of a surface wrapped around it" : "along its curve skeleton");
+          closed->wrapped ? "along the curve skeleton of a surface wrapped around it"
+                          : "along its curve skeleton");
   }
 
   std::array<int, 3> axes_by_length() const {
@@ -111,7 +113,8 @@ class CylinderFit {
 
 FittedPrimitive fit_primitive(const Shape& part, const FitOptions& options) {
   if (options.sections < fewest_sections)
-    throw UsageError("a generalized cylinder needs at least 4 cross-sections, not " + std::to_string(options.sections));
+    throw UsageError("a generalized cylinder needs at least 4 cross-sections, not " +
+                     std::to_string(options.sections));
   const detail::PartSurface surface(part);
   const detail::PartBox box = detail::part_box(surface);
   const double diagonal = 2 * box.box.half_extents.norm();
@@ -125,7 +128,8 @@ FittedPrimitive fit_primitive(const Shape& part, const FitOptions& options) {
 
   if (options.kind == PrimitiveKind::cylinder && !cylinder)
     throw UsageError("a flat part has no generalized cylinder: it has no extent across its plane");
-  const bool round = options.kind ? options.kind == PrimitiveKind::cylinder : cylinder && cylinder->error < box_error;
+  const bool round =
+      options.kind ? options.kind == PrimitiveKind::cylinder : cylinder && cylinder->error < box_error;
   if (round) {
     fitted.primitive = std::move(cylinder->cylinder);
     fitted.fit.note = cylinder->note;

@@ -42,8 +42,8 @@ OrientedBox box_with_axes(const Points& points, const Eigen::Matrix3d& axes) {
   return {origin.transpose() + axes * (low + high) / 2, axes, (high - low) / 2};
 }
 
-/// The frame with its third axis along `pole` that lies nearest to the file's: the file axis that stands most upright on
-/// the pole gives the first.
+/// The frame with its third axis along `pole` that lies nearest to the file's: the file axis that stands most
+/// upright on the pole gives the first.
 Eigen::Matrix3d turned_to_file(const Eigen::Vector3d& pole) {
   Eigen::Index upright = 0;
   for (Eigen::Index k = 1; k < 3; ++k)
@@ -84,8 +84,7 @@ SurfaceMoments surface_moments(const Shape& part) {
   for (Eigen::Index t = 0; t < part.triangle_count(); ++t) {
     Eigen::Matrix3d corners;
     for (int k = 0; k < 3; ++k) corners.col(k) = part.corner(t, k) - origin;
-    const double area =
-        (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm() / 2;
+    const double area = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm() / 2;
     const Eigen::Vector3d sum = corners.rowwise().sum();
     moments.area += area;
     first += area / 3 * sum;

@@ -19,16 +19,17 @@ SurfaceMoments surface_moments(const Shape& part);
 
 /// The cuboid's box of a part.
 struct PartBox {
-  OrientedBox box;  ///< every half extent at least `tolerance::least_thickness` of the diagonal, halved
-  bool flat = false;       ///< without extent across some direction: no cylinder holds it
+  OrientedBox box;    ///< every half extent at least `tolerance::least_thickness` of the diagonal, halved
+  bool flat = false;  ///< without extent across some direction: no cylinder holds it
   bool thickened = false;  ///< some half extent was raised to the least one
 };
 
-/// The minimal oriented box, or another one that is as good to the eye and better placed: in this order the box of the
-/// file's axes, boxes around the axis of inertia that stands out, boxes around an axis of the minimal one, each turned
-/// as the file's axes demand; and the minimal one itself. As good: at most 5 % more volume, and at most 20 % more root
-/// mean square distance from the surface. So round and square parts of a model get boxes alike, and tapered ones
-/// symmetric boxes. Axes are ordered and signed to lie nearest to the file's.
+/// The minimal oriented box, or another one that is as good to the eye and better placed: in this order the
+/// box of the file's axes, boxes around the axis of inertia that stands out, boxes around an axis of the
+/// minimal one, each turned as the file's axes demand; and the minimal one itself. As good: at most 5 % more
+/// volume, and at most 20 % more root mean square distance from the surface. So round and square parts of a
+/// model get boxes alike, and tapered ones symmetric boxes. Axes are ordered and signed to lie nearest to the
+/// file's.
 PartBox part_box(const PartSurface& part);
 
 }  // namespace stackabilization::detail

@@ -13,11 +13,12 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Root mean square miss of a turned part, as a fraction of its largest radius, up to which it is round: a regular
-/// octagon misses itself by 0.035, a hexagon by 0.06, a square by 0.12.
+/// Root mean square miss of a turned part, as a fraction of its largest radius, up to which it is round: a
+/// regular octagon misses itself by 0.035, a hexagon by 0.06, a square by 0.12.
 constexpr double roundness = 0.04;
 
-/// Least-squares residuals of axis directions, relative to the extent squared, below which they are all axes: a sphere.
+/// Least-squares residuals of axis directions, relative to the extent squared, below which they are all axes:
+/// a sphere.
 constexpr double any_axis = 0.001;
 
 /// Quadratic form of (direction, moment) of a line: how far, over the surface, the normals pass it.
@@ -31,14 +32,15 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   return matrix;
 }
 
-/// With n the normal at p, the lines (n, p x n) and (l, m) meet when n . m + (p x n) . l = 0. Coordinates are relative
-/// to `origin` and `scale`.
+/// With n the normal at p, the lines (n, p x n) and (l, m) meet when n . m + (p x n) . l = 0. Coordinates are
+/// relative to `origin` and `scale`.
 NormalComplex normal_complex(const Shape& part, const Eigen::Vector3d& origin, double scale) {
   NormalComplex sum;
   for (Eigen::Index t = 0; t < part.triangle_count(); ++t) {
     Eigen::Matrix3d corners;
     for (int k = 0; k < 3; ++k) corners.col(k) = (part.corner(t, k) - origin) / scale;
-    const Eigen::Vector3d double_area = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
+    const Eigen::Vector3d double_area =
+        (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
     const double area = double_area.norm() / 2;
     if (!(area > 0)) continue;
     const Eigen::Vector3d n = double_area / (2 * area), total = corners.rowwise().sum();
@@ -74,7 +76,7 @@ Eigen::Vector3d least_direction(const Eigen::Matrix3d& residual, double area) {
 }
 
 /// Root mean square distance from the part to itself turned about the axis.
-double miss_when_turned(const PartSurface& part, const Axis& axis) {
+double miss_when_turned(const PartSurface& part, const AxisLine& axis) {
   const Eigen::Index stride = 4;
   double sum = 0, count = 0;
   for (int turn = 1; turn <= 3; ++turn) {
@@ -91,14 +93,14 @@ double miss_when_turned(const PartSurface& part, const Axis& axis) {
 
 }  // namespace
 
-std::optional<Axis> revolution_axis(const PartSurface& part) {
+std::optional<AxisLine> revolution_axis(const PartSurface& part) {
   const SurfaceMoments moments = surface_moments(part.shape);
   const double scale = std::sqrt(moments.covariance.trace());
   const NormalComplex complex = normal_complex(part.shape, moments.centre, scale);
   const Eigen::Matrix3d elimination = -pseudo_inverse(complex.moments) * complex.mixed.transpose();
   const Eigen::Matrix3d residual = complex.directions + complex.mixed * elimination;
 
-  Axis axis;
+  AxisLine axis;
   axis.direction = least_direction((residual + residual.transpose()) / 2, complex.moments.trace());
   axis.point = moments.centre + scale * axis.direction.cross(elimination * axis.direction);
   if (!axis.point.allFinite() || !axis.direction.allFinite()) return std::nullopt;

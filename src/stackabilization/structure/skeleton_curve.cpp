@@ -44,8 +44,8 @@ class Graph {
     for (int before = -1;;) {
       const int here = ring.back();
       const auto& around = neighbours_[at(here)];
-      const auto next = std::find_if(around.begin(), around.end(),
-                                     [&](int v) { return degree[at(v)] > 0 && v != before; });
+      const auto next =
+          std::find_if(around.begin(), around.end(), [&](int v) { return degree[at(v)] > 0 && v != before; });
       if (next == around.end() || *next == ring.front()) break;
       before = here;
       ring.push_back(*next);
@@ -80,7 +80,9 @@ class Graph {
     return path;
   }
 
-  double edge_length(int a, int b) const { return (skeleton_.points.row(a) - skeleton_.points.row(b)).norm(); }
+  double edge_length(int a, int b) const {
+    return (skeleton_.points.row(a) - skeleton_.points.row(b)).norm();
+  }
 
   double total_length() const {
     double sum = 0;
@@ -109,7 +111,8 @@ std::optional<Curve> main_curve(const Skeleton& skeleton) {
   const Graph graph(skeleton);
   const std::vector<int> ring = graph.loop();
   double length = 0;
-  for (std::size_t k = 0; k < ring.size(); ++k) length += graph.edge_length(ring[k], ring[(k + 1) % ring.size()]);
+  for (std::size_t k = 0; k < ring.size(); ++k)
+    length += graph.edge_length(ring[k], ring[(k + 1) % ring.size()]);
   if (length > loop_share * graph.total_length()) return curve_through(skeleton, ring, true);
 
   std::vector<int> path = graph.farthest_path(graph.farthest_path(skeleton.edges.front()[0]).front());
