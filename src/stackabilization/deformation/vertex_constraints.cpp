@@ -1,16 +1,14 @@
 #include "stackabilization/deformation/vertex_constraints.h"
 
-#include <Eigen/QR>
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 
+#include "stackabilization/deformation/places.h"
 #include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/point_index.h"
 #include "stackabilization/shape/tolerances.h"
 #include "stackabilization/structure/surface_index.h"
 
@@ -24,28 +22,13 @@ std::string text(double value) {
   return {buffer, end};
 }
 
-/// Corners of `triangle` that carry `point` of it.
+/// Corners of the triangle that carry the point.
 std::vector<std::int32_t> carriers(const Shape& shape, const SurfacePoint& at) {
-  const Eigen::Vector3d a = shape.corner(at.triangle, 0);
-  Eigen::Matrix<double, 3, 2> sides;
-  sides << shape.corner(at.triangle, 1) - a, shape.corner(at.triangle, 2) - a;
-  const Eigen::Vector2d w = sides.colPivHouseholderQr().solve(at.point - a);
-  const std::array<double, 3> weights{1 - w(0) - w(1), w(0), w(1)};
+  const Eigen::Vector3d weights = corner_weights(shape, at);
   std::vector<std::int32_t> rows;
   for (int k = 0; k < 3; ++k)
-    if (!(weights[static_cast<std::size_t>(k)] <= tolerance::relative))
-      rows.push_back(shape.triangles(at.triangle, k));
+    if (!(weights(k) <= tolerance::relative)) rows.push_back(shape.triangles(at.triangle, k));
   return rows;
-}
-
-/// For every used vertex its point, numbered as in a PointIndex; -1 for vertices that no triangle uses.
-std::vector<std::int32_t> point_of_vertex(const Shape& shape) {
-  std::vector<std::int32_t> point(static_cast<std::size_t>(shape.vertex_count()), -1);
-  PointIndex points;
-  for (const std::int32_t v : shape.triangles.reshaped<Eigen::RowMajor>())
-    if (point[static_cast<std::size_t>(v)] < 0)
-      point[static_cast<std::size_t>(v)] = points.insert(shape.vertices.row(v).transpose());
-  return point;
 }
 
 struct Box {
@@ -76,7 +59,7 @@ class Check {
 
   std::optional<Refusal> finite(const Points& vertices) const {
     for (const std::int32_t v : rest_.triangles.reshaped<Eigen::RowMajor>())
-      if (!vertices.row(v).allFinite())
+      if (!(vertices.row(v).cwiseAbs().maxCoeff() <= tolerance::largest_coordinate))
         return Refusal{"the edit takes vertex " + std::to_string(v) + " out of the range of numbers", {}, 0};
     return {};
   }
@@ -202,13 +185,13 @@ std::vector<std::int32_t> fixed_vertices(const Shape& rest, const DeformationCon
     }
   }
   if (rows.empty()) return rows;
-  const std::vector<std::int32_t> point = point_of_vertex(rest);
-  std::vector<bool> is_fixed(point.size());
+  const std::vector<std::int32_t> place = places_of(rest).of_vertex;
+  std::vector<bool> is_fixed(place.size());
   for (const std::int32_t v : rows)
-    is_fixed[static_cast<std::size_t>(point[static_cast<std::size_t>(v)])] = true;
+    is_fixed[static_cast<std::size_t>(place[static_cast<std::size_t>(v)])] = true;
   rows.clear();
-  for (std::size_t v = 0; v < point.size(); ++v)
-    if (point[v] >= 0 && is_fixed[static_cast<std::size_t>(point[v])])
+  for (std::size_t v = 0; v < place.size(); ++v)
+    if (place[v] >= 0 && is_fixed[static_cast<std::size_t>(place[v])])
       rows.push_back(static_cast<std::int32_t>(v));
   return rows;
 }

@@ -18,6 +18,14 @@ inline constexpr double rounding = 1e-13;
 /// magnitudes of its products: 16 units in the last place.
 inline constexpr double product_rounding = 0x1p-48;
 
+/// Least weight of an edge in as-rigid-as-possible deformation, and one over the greatest. Cotangents of ordinary
+/// triangles lie well within; needles and obtuse pairs would make the system indefinite or useless.
+inline constexpr double edge_weight = 1e-3;
+
+/// Fraction of a slice's height by which a vertex may lie below it and still be counted in: rings of vertices on the
+/// border of two slices are not torn apart by the rounding of coordinates and axis.
+inline constexpr double slice_slack = 1e-2;
+
 /// Default width of the contact band { f >= f_max - eps }, as a fraction of the extent h along the direction:
 /// wide enough that the ring of a cup modelled with facets hangs together, narrow enough that second contacts
 /// stay out.
