@@ -52,11 +52,16 @@ struct MapPictureOptions {
 /// UsageError when there is no sample, a direction is zero or a value is not finite.
 Drawing map_picture(const StackabilityMap& map, const MapPictureOptions& options = {});
 
+struct StructurePictureOptions {
+  int width = 1600, height = 1040;  ///< pixels
+  std::string title;                ///< heading; may be empty
+};
+
 /// The structure of a shape, as in the paper's Fig. 7: its parts, those that are symmetric to each other in one colour,
 /// with frames for the symmetries of the whole; beside them the cuboids and the circles of the generalized cylinders,
 /// point joints as green balls and line joints as red bars. z points up. Throws InputError when `validate(structured)`
 /// fails, RenderError when there is no OpenGL context.
-Drawing structure_picture(const StructuredShape& structured, const PictureOptions& options = {1600, 1040, {}});
+Drawing structure_picture(const StructuredShape& structured, const StructurePictureOptions& options = {});
 
 struct DeformationPictureOptions {
   int width = 1200, height = 760;  ///< pixels

@@ -154,7 +154,7 @@ struct Panel {
 
 }  // namespace
 
-Drawing structure_picture(const StructuredShape& structured, const PictureOptions& options) {
+Drawing structure_picture(const StructuredShape& structured, const StructurePictureOptions& options) {
   validate(structured);
   const double size = options.width / 76.0, margin = 1.5 * size, captions = 9.5 * size;
   Drawing drawing{options.width, options.height, {}};

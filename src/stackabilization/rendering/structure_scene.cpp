@@ -27,7 +27,7 @@ constexpr std::array<Colour, 6> quiet_hues{{{0.82, 0.76, 0.63},
                                             {0.71, 0.77, 0.65},
                                             {0.81, 0.69, 0.66},
                                             {0.71, 0.67, 0.78},
-                                            {0.62, 0.62, 0.61}}}};
+                                            {0.62, 0.62, 0.61}}};
 
 /// Colour k of a list without end: each further round is paler.
 template <std::size_t Count>
