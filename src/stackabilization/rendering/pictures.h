@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "stackabilization/deformation/deformation_model.h"
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/envelope/height_field.h"
 #include "stackabilization/rendering/drawing.h"
@@ -10,6 +11,7 @@
 #include "stackabilization/shape/shape.h"
 #include "stackabilization/stacking/map.h"
 #include "stackabilization/stacking/stackability.h"
+#include "stackabilization/structure/structure.h"
 
 namespace stackabilization {
 
@@ -49,6 +51,29 @@ struct MapPictureOptions {
 /// the nearest sample; the best sample, the first of equal ones, is marked. Needs no OpenGL. Throws
 /// UsageError when there is no sample, a direction is zero or a value is not finite.
 Drawing map_picture(const StackabilityMap& map, const MapPictureOptions& options = {});
+
+struct StructurePictureOptions {
+  int width = 1600, height = 1040;  ///< pixels
+  std::string title;                ///< heading; may be empty
+};
+
+/// The structure of a shape, as in the paper's Fig. 7: its parts, those that are symmetric to each other in one colour,
+/// with frames for the symmetries of the whole; beside them the cuboids and the circles of the generalized cylinders,
+/// point joints as green balls and line joints as red bars. z points up. Throws InputError when `validate(structured)`
+/// fails, RenderError when there is no OpenGL context.
+Drawing structure_picture(const StructuredShape& structured, const StructurePictureOptions& options = {});
+
+struct DeformationPictureOptions {
+  int width = 1200, height = 760;  ///< pixels
+  std::string title;               ///< heading; may be empty
+  std::vector<std::string> notes;  ///< lines under the heading, such as the edits and what they moved
+};
+
+/// A shape before (yellow) and after (green) edits, side by side from one viewpoint and in one scale, with the edited
+/// handles in red where they can be shown; z points up. Throws UsageError when the edits were refused, RenderError
+/// when there is no OpenGL context. Precondition: `result` comes from `rest`.
+Drawing deformation_picture(const StructuredShape& rest, const DeformationResult& result,
+                            const std::vector<Handle>& handles, const DeformationPictureOptions& options = {});
 
 /// The sampled gap function f = u - l with colour bar and the place of its maximum. Needs no OpenGL.
 Drawing gap_picture(const HeightField& field, const PictureOptions& options = {1000, 860, {}});
