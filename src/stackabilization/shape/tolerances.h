@@ -52,4 +52,14 @@ inline constexpr double support_slab = 1e-2;
 /// `inspect` names an up axis only when every other axis fits less than this fraction as well.
 inline constexpr double clear_lead = 0.9;
 
+/// Symmetries that take the same part to places nearer than this, as a fraction of the bounding-box diagonal of the
+/// shape, or whose planes meet within this many radians of a simple angle, are meant to be one, or to meet at that
+/// angle.
+inline constexpr double same_symmetry = 0.01;
+
+/// How exactly primitives satisfy symmetries after they were made symmetric, as a fraction of the diagonal or of the
+/// largest coordinate, whichever is larger: 100 times below what is promised for edits, 10 times above what rounding
+/// leaves.
+inline constexpr double idealised = 1e-13;
+
 }  // namespace stackabilization::tolerance
