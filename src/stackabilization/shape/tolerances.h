@@ -63,5 +63,14 @@ inline constexpr double clear_lead = 0.9;
 /// Least thickness of a cuboid, as a fraction of its diagonal: thinner ones are thickened to it, for mean value coordinates
 /// in a cage without volume are undefined.
 inline constexpr double least_thickness = 1e-3;
+/// Symmetries that take the same part to places nearer than this, as a fraction of the bounding-box diagonal of the
+/// shape, or whose planes meet within this many radians of a simple angle, are meant to be one, or to meet at that
+/// angle.
+inline constexpr double same_symmetry = 0.01;
+
+/// How exactly primitives satisfy symmetries after they were made symmetric, as a fraction of the diagonal or of the
+/// largest coordinate, whichever is larger: 100 times below what is promised for edits, 10 times above what rounding
+/// leaves.
+inline constexpr double idealised = 1e-13;
 
 }  // namespace stackabilization::tolerance

@@ -1,0 +1,185 @@
+#include "stackabilization/structure/consistent_symmetries.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "stackabilization/shape/disjoint_sets.h"
+#include "stackabilization/shape/tolerances.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+constexpr double angle_tolerance = tolerance::same_symmetry;
+
+bool is_symmetry(const Relation& relation) {
+  return relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry;
+}
+
+/// The different symmetries of a structure, global ones first, each corrected against those before it.
+class SymmetrySet {
+ public:
+  explicit SymmetrySet(Structure& structure) : structure_(structure), orbits_(structure.parts.size()) {
+    for (const Relation& relation : structure.relations)
+      if (relation.type == RelationType::symmetry)
+        orbits_.join(static_cast<std::size_t>(relation.parts[0]), static_cast<std::size_t>(relation.parts[1]));
+    for (Symmetry& symmetry : structure.symmetries) {
+      symmetry.axis.normalize();
+      members_.push_back({symmetry, {}});
+    }
+    for (std::size_t r = 0; r < structure.relations.size(); ++r)
+      if (is_symmetry(structure.relations[r])) collect(r);
+  }
+
+  void correct() {
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      correct_direction(i);
+      correct_place(i);
+    }
+  }
+
+  void write_back() const {
+    for (std::size_t k = 0; k < structure_.symmetries.size(); ++k) structure_.symmetries[k] = members_[k].symmetry;
+    for (std::size_t r = 0; r < member_of_.size(); ++r)
+      if (member_of_[r]) structure_.relations[r].symmetry = members_[*member_of_[r]].symmetry;
+  }
+
+ private:
+  struct Member {
+    Symmetry symmetry;
+    std::vector<std::size_t> orbits;  ///< of the parts it relates
+  };
+
+  void collect(std::size_t r) {
+    Relation& relation = structure_.relations[r];
+    relation.symmetry.axis.normalize();
+    const auto part = static_cast<std::size_t>(relation.parts[0]);
+    std::optional<std::size_t> best;
+    double least = tolerance::same_symmetry * structure_.diagonal;
+    for (std::size_t i = 0; i < members_.size(); ++i) {
+      const Symmetry& other = members_[i].symmetry;
+      if (other.kind != relation.symmetry.kind || isometry_order(other) != isometry_order(relation.symmetry)) continue;
+      const double miss = difference(relation.symmetry, other, structure_.parts[part].primitive);
+      if (miss > least || (best && miss == least)) continue;
+      least = miss;
+      best = i;
+    }
+    if (!best) {
+      best = members_.size();
+      members_.push_back({relation.symmetry, {}});
+    }
+    members_[*best].orbits.push_back(orbits_.root(part));
+    member_of_.resize(structure_.relations.size());
+    member_of_[r] = best;
+  }
+
+  static int isometry_order(const Symmetry& symmetry) {
+    return symmetry.kind == SymmetryKind::rotation ? symmetry.order : 2;
+  }
+
+  bool meet(std::size_t i, std::size_t j) const {
+    const std::vector<std::size_t>&a = members_[i].orbits, &b = members_[j].orbits;
+    return std::any_of(a.begin(), a.end(), [&](std::size_t orbit) { return std::count(b.begin(), b.end(), orbit) > 0; });
+  }
+
+  /// Perpendicular to those it is nearly perpendicular to; at the nearest simple angle to the first of the others.
+  void correct_direction(std::size_t i) {
+    Eigen::Vector3d& axis = members_[i].symmetry.axis;
+    std::vector<Eigen::Vector3d> across;
+    std::optional<Eigen::Vector3d> oblique;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!meet(i, j)) continue;
+      const Eigen::Vector3d& other = members_[j].symmetry.axis;
+      if (std::abs(axis.dot(other)) > angle_tolerance) {
+        if (!oblique) oblique = other;
+        continue;
+      }
+      Eigen::Vector3d rest = other;
+      for (const Eigen::Vector3d& earlier : across) rest -= earlier.dot(rest) * earlier;
+      if (rest.norm() > angle_tolerance) across.push_back(rest.normalized());
+    }
+    if (across.size() < 3)
+      for (const Eigen::Vector3d& other : across) axis = (axis - other.dot(axis) * other).normalized();
+    if (oblique && across.size() < 2) axis = at_simple_angle(axis, *oblique);
+  }
+
+  static Eigen::Vector3d at_simple_angle(const Eigen::Vector3d& axis, const Eigen::Vector3d& other) {
+    const Eigen::Vector3d across = axis - other.dot(axis) * other;
+    const double angle = std::atan2(across.norm(), other.dot(axis));
+    for (int n = 1; n <= 8; ++n) {
+      const double simple = std::round(angle * n / std::numbers::pi) * std::numbers::pi / n;
+      if (std::abs(angle - simple) > angle_tolerance) continue;
+      if (n == 1) return std::copysign(1.0, other.dot(axis)) * other;
+      return std::cos(simple) * other + std::sin(simple) * across.normalized();
+    }
+    return axis;
+  }
+
+  /// An axis of rotation in a mirror plane, and the third plane through a line, go exactly there when they nearly do.
+  void correct_place(std::size_t i) {
+    Symmetry& symmetry = members_[i].symmetry;
+    const bool is_plane = symmetry.kind == SymmetryKind::reflection;
+    std::optional<std::size_t> first;
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!meet(i, j)) continue;
+      const Symmetry& other = members_[j].symmetry;
+      const bool other_is_plane = other.kind == SymmetryKind::reflection;
+      if (!is_plane && other_is_plane && std::abs(symmetry.axis.dot(other.axis)) < angle_tolerance)
+        shift_onto(symmetry.point, other);
+      if (is_plane && !other_is_plane && std::abs(symmetry.axis.dot(other.axis)) < angle_tolerance)
+        pass_through(symmetry, other.point);
+      if (!is_plane || !other_is_plane) continue;
+      if (first) share_line(symmetry, members_[*first].symmetry, other);
+      else first = j;
+    }
+  }
+
+  void shift_onto(Eigen::Vector3d& point, const Symmetry& plane) const {
+    const double height = plane.axis.dot(point - plane.point);
+    if (std::abs(height) <= tolerance::same_symmetry * structure_.diagonal) point -= height * plane.axis;
+  }
+
+  void pass_through(Symmetry& plane, const Eigen::Vector3d& point) const {
+    const double height = plane.axis.dot(point - plane.point);
+    if (std::abs(height) <= tolerance::same_symmetry * structure_.diagonal) plane.point += height * plane.axis;
+  }
+
+  void share_line(Symmetry& plane, const Symmetry& a, const Symmetry& b) const {
+    const Eigen::Vector3d line = a.axis.cross(b.axis);
+    if (line.norm() < angle_tolerance || std::abs(line.normalized().dot(plane.axis)) > tolerance::relative) return;
+    Eigen::Matrix3d normals;
+    normals << a.axis.transpose(), b.axis.transpose(), line.transpose();
+    const Eigen::Vector3d heights(a.axis.dot(a.point), b.axis.dot(b.point), line.dot(plane.point));
+    pass_through(plane, normals.inverse() * heights);
+  }
+
+  Structure& structure_;
+  DisjointSets orbits_;
+  std::vector<Member> members_;
+  std::vector<std::optional<std::size_t>> member_of_;  ///< per relation
+};
+
+}  // namespace
+
+double difference(const Symmetry& a, const Symmetry& b, const Primitive& primitive) {
+  const Eigen::Isometry3d to_a = isometry_of(a), to_b = isometry_of(b);
+  const Points points = control_points(primitive);
+  double most = 0;
+  for (const auto& row : points.rowwise()) {
+    const Eigen::Vector3d p = row.transpose();
+    most = std::max(most, (to_a * p - to_b * p).norm());
+  }
+  return most;
+}
+
+void make_consistent(Structure& structure) {
+  SymmetrySet symmetries(structure);
+  symmetries.correct();
+  symmetries.write_back();
+}
+
+}  // namespace stackabilization::detail

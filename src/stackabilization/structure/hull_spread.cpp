@@ -1,0 +1,100 @@
+#include "stackabilization/structure/hull_spread.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "stackabilization/shape/convex_hull.h"
+#include "stackabilization/shape/hull_faces.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+struct Triangle {
+  std::array<Eigen::Vector3d, 3> corners;
+
+  double area() const { return (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2; }
+};
+
+/// The boundary of a solid hull, a flat one cut from its middle to its sides, nothing for straight ones. Sums over the
+/// triangles do not depend on how they are cut.
+std::vector<Triangle> triangles_of(const HullFaces& hull) {
+  std::vector<Triangle> triangles;
+  if (hull.normals.rows() > 2) {
+    const TriangulatedHull solid = triangulated_hull(hull.points);
+    for (const auto& t : solid.triangles.rowwise())
+      triangles.push_back({{solid.points.row(t(0)).transpose(), solid.points.row(t(1)).transpose(),
+                            solid.points.row(t(2)).transpose()}});
+    return triangles;
+  }
+  const Eigen::Vector3d middle = hull.points.colwise().mean().transpose();
+  for (const auto& side : hull.edges.rowwise())
+    triangles.push_back({{middle, hull.points.row(side(0)).transpose(), hull.points.row(side(1)).transpose()}});
+  return triangles;
+}
+
+/// Second moment of a triangle about `centre`.
+Eigen::Matrix3d moment(const Triangle& triangle, const Eigen::Vector3d& centre) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& corner : triangle.corners) {
+    sum += corner - centre;
+    squares += (corner - centre) * (corner - centre).transpose();
+  }
+  return triangle.area() / 12 * (squares + sum * sum.transpose());
+}
+
+/// A direction by itself: its largest component is positive.
+Eigen::Vector3d oriented(const Eigen::Vector3d& axis) {
+  Eigen::Index largest = 0;
+  axis.cwiseAbs().maxCoeff(&largest);
+  return axis(largest) < 0 ? Eigen::Vector3d(-axis) : axis;
+}
+
+HullSpread with_ranges(HullSpread spread, const Points& points) {
+  const Points along = (points.rowwise() - spread.centre.transpose()) * spread.axes;
+  std::array<int, 3> order = {0, 1, 2};
+  const Eigen::RowVector3d low = along.colwise().minCoeff(), high = along.colwise().maxCoeff();
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return high(a) - low(a) > high(b) - low(b); });
+  const Eigen::Matrix3d axes = spread.axes;
+  for (int k = 0; k < 3; ++k) {
+    const int from = order[static_cast<std::size_t>(k)];
+    spread.axes.col(k) = axes.col(from);
+    spread.ranges.row(k) << low(from), high(from);
+  }
+  return spread;
+}
+
+}  // namespace
+
+HullSpread hull_spread(const Points& points, double resolution) {
+  const HullFaces hull = hull_faces(points, resolution);
+  const std::vector<Triangle> triangles = triangles_of(hull);
+  HullSpread spread;
+  double area = 0;
+  for (const Triangle& t : triangles) {
+    area += t.area();
+    spread.centre += t.area() / 3 * (t.corners[0] + t.corners[1] + t.corners[2]);
+  }
+  if (!(area > 0)) {
+    spread.centre = hull.points.colwise().mean().transpose();
+    const Eigen::Vector3d along = (hull.points.bottomRows(1) - hull.points.topRows(1)).transpose();
+    spread.axes.col(0) = along.norm() > 0 ? oriented(along.normalized()) : Eigen::Vector3d::UnitX();
+    spread.axes.col(1) = spread.axes.col(0).unitOrthogonal();
+    spread.axes.col(2) = spread.axes.col(0).cross(spread.axes.col(1));
+    return with_ranges(spread, hull.points);
+  }
+  spread.centre /= area;
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (const Triangle& t : triangles) sum += moment(t, spread.centre);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
+  for (int k = 0; k < 3; ++k) spread.axes.col(k) = oriented(solver.eigenvectors().col(2 - k));
+  return with_ranges(spread, hull.points);
+}
+
+}  // namespace stackabilization::detail

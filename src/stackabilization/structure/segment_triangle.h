@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace stackabilization::detail {
+
+using Segment = std::array<Eigen::Vector3d, 2>;
+using Corners = std::array<Eigen::Vector3d, 3>;
+
+/// Point of a triangle nearest to `point` (Ericson 2005, section 5.1.5). Precondition: positive area.
+Eigen::Vector3d nearest_on_triangle(const Eigen::Vector3d& point, const Corners& triangle);
+
+/// Where a segment comes nearest to a triangle.
+struct Approach {
+  double distance = 0;
+  double low = 0, high = 0;  ///< from here to there, in [0, 1] along the segment, it is as near, up to `resolution`
+};
+
+/// Precondition: segment of positive length, triangle of positive area. `resolution` is in model units.
+Approach approach(const Segment& segment, const Corners& triangle, double resolution);
+
+}  // namespace stackabilization::detail
