@@ -51,6 +51,17 @@ Shape half_ring() {
   return solids::extruded_profile(profile, 1);
 }
 
+GeneralizedCylinder half_ring_curve() {
+  GeneralizedCylinder cylinder;
+  cylinder.centres.resize(17, 3);
+  cylinder.radii.setConstant(17, 0.5);
+  for (int k = 0; k <= 16; ++k) {
+    const Eigen::Vector2d p = 2.5 * solids::circle_point(k, 32);
+    cylinder.centres.row(k) << p.y(), 0.5, p.x();
+  }
+  return cylinder;
+}
+
 }  // namespace
 
 TEST_CASE("a leg flush under a plate has a point joint at the middle of its top, however fine the mesh") {
@@ -111,7 +122,9 @@ TEST_CASE("a rail under a plate has a line joint along its middle, and the ends 
 TEST_CASE("a handle on a body has two point joints, flush or grown into it") {
   for (const double depth : {0.0, 0.25}) {
     const Shape shape = assembled({solids::box({-4, -1, -5}, {depth, 2, 5}), half_ring()});
-    const std::vector<Relation> joints = joints_of(shape);
+    std::vector<Part> parts = boxes_around(shape);
+    parts[1].primitive = half_ring_curve();
+    const std::vector<Relation> joints = find_joints(shape, parts);
     REQUIRE(joints.size() == 2);
     for (int k = 0; k < 2; ++k) {
       CHECK(joints[static_cast<std::size_t>(k)].type == RelationType::point_joint);
@@ -120,6 +133,25 @@ TEST_CASE("a handle on a body has two point joints, flush or grown into it") {
     CHECK(joints[0].points(0, 2) == Approx(-joints[1].points(0, 2)));
     if (depth == 0) CHECK(std::abs(joints[0].points(0, 2)) == Approx(2.5));
   }
+}
+
+TEST_CASE("a cuboid that hangs on pegs has a line joint, a bar between two arms has two points") {
+  const Shape plate = solids::box({-10, -10, 0}, {10, 10, 1}), rail = solids::box({-6, 2, -3}, {6, 3, -2});
+  const Shape pegs = assembled({solids::box({-5, 2, -2}, {-4, 3, 0.5}), solids::box({4, 2, -2}, {5, 3, 0.5}), rail});
+  const Shape hung = assembled({plate, make_shape(pegs.vertices, pegs.triangles)});
+  const std::vector<Relation> line = joints_of(hung);
+  REQUIRE(line.size() == 1);
+  CHECK(line[0].type == RelationType::line_joint);
+  check_points(line[0], {{-5, 2.5, 0.25}, {5, 2.5, 0.25}}, 1e-9);
+
+  const Shape arms = assembled({solids::box({-7, 0, 0}, {-6, 1, 8}), solids::box({6, 0, 0}, {7, 1, 8}),
+                                solids::box({-7, 0, -1}, {7, 1, 0})});
+  const Shape held = assembled({make_shape(arms.vertices, arms.triangles), solids::box({-6, 0, 5}, {6, 1, 6})});
+  const std::vector<Relation> points = joints_of(held);
+  REQUIRE(points.size() == 2);
+  CHECK(points[0].type == RelationType::point_joint);
+  check_points(points[0], {{-6, 0.5, 5.5}}, 1e-9);
+  check_points(points[1], {{6, 0.5, 5.5}}, 1e-9);
 }
 
 TEST_CASE("open surfaces meet as well") {
@@ -138,18 +170,34 @@ TEST_CASE("open surfaces meet as well") {
   check_points(joints[0], {{1.5, 1.5, 4}}, 1e-9);
 }
 
+TEST_CASE("bars that overlap inside a leg are joined to the leg alone") {
+  const Shape leg = solids::box({0, 0, 0}, {2, 2, 10}), along_x = solids::box({0.5, 0.5, 4}, {9, 1.5, 5});
+  const Shape along_y = solids::box({0.5, 0.5, 4}, {1.5, 9, 5});
+  const std::vector<Relation> joints = joints_of(assembled({leg, along_x, along_y}));
+  REQUIRE(joints.size() == 2);
+  CHECK(joints[0].parts == std::vector<int>{0, 1});
+  CHECK(joints[1].parts == std::vector<int>{0, 2});
+  check_points(joints[0], {{1.25, 1, 4.5}}, 1e-9);
+  CHECK(joints_of(assembled({along_x, along_y})).size() == 1);
+}
+
 TEST_CASE("joints move with the shape, in any pose and at any scale") {
   solids::Random random(11);
   const Shape shape = assembled({solids::box({-4, -1, -5}, {0.25, 2, 5}), finer(half_ring(), 1),
                                  solids::box({-4, -8, 5}, {0, 8, 5.5}), solids::box({-3, -9, -5}, {-2, -1, -4})});
-  const std::vector<Relation> rest = joints_of(shape);
+  const auto joints_with_handle = [](const Shape& one) {
+    std::vector<Part> parts = boxes_around(one);
+    parts[1].primitive = half_ring_curve();  // of closed surfaces only the kind matters
+    return find_joints(one, parts);
+  };
+  const std::vector<Relation> rest = joints_with_handle(shape);
   REQUIRE(rest.size() == 4);
   for (int round = 0; round < 8; ++round) {
     const double scale = std::pow(10, random.uniform(-4, 4));
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(random.uniform(-3, 3), random.on_sphere()).toRotationMatrix();
     const Eigen::Vector3d shift = 30 * scale * random.in_cube();
     const Shape posed = transformed(shape, scale * turn, shift);
-    const std::vector<Relation> found = joints_of(posed);
+    const std::vector<Relation> found = joints_with_handle(posed);
     REQUIRE(found.size() == rest.size());
     for (const Relation& joint : found) {
       double nearest = 1e9;

@@ -274,15 +274,23 @@ class ContactFinder {
     return result;
   }
 
+  /// What comes not quite as near as the nearest points counts when it makes the region longer or wider. Elsewhere it
+  /// would only tell how the surfaces beside the contact are cut into triangles.
   ContactSpot place_of(const Region& region) const {
-    ContactSpot spot;
-    spot.gap = *std::min_element(region.gaps.begin(), region.gaps.end());
+    const double slack = place_share * options_.reach;
+    const double gap = *std::min_element(region.gaps.begin(), region.gaps.end());
+    const HullSpread nearest = spread_within(region, gap + resolution_), near = spread_within(region, gap + slack);
+    const bool is_all = ((near.deviations - nearest.deviations).array() <= slack).all();
+    return {is_all ? nearest : near, gap};
+  }
+
+  HullSpread spread_within(const Region& region, double most) const {
     std::vector<Eigen::Vector3d> kept;
     for (std::size_t k = 0; k < region.points.size(); ++k)
-      if (region.gaps[k] <= spot.gap + place_share * options_.reach) kept.push_back(region.points[k]);
-    spot.points.resize(static_cast<Eigen::Index>(kept.size()), 3);
-    for (std::size_t k = 0; k < kept.size(); ++k) spot.points.row(static_cast<Eigen::Index>(k)) = kept[k].transpose();
-    return spot;
+      if (region.gaps[k] <= most) kept.push_back(region.points[k]);
+    Points points(static_cast<Eigen::Index>(kept.size()), 3);
+    for (std::size_t k = 0; k < kept.size(); ++k) points.row(static_cast<Eigen::Index>(k)) = kept[k].transpose();
+    return hull_spread(points, resolution_);
   }
 
   std::array<const PartSurface*, 2> surfaces_;

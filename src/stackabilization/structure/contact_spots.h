@@ -2,15 +2,16 @@
 
 #include <vector>
 
+#include "stackabilization/structure/hull_spread.h"
 #include "stackabilization/structure/part_surface.h"
 
 namespace stackabilization::detail {
 
 /// A connected region in which two parts meet.
 struct ContactSpot {
-  /// k x 3 points whose convex hull stands for the region: where the surfaces cross, where edges and corners of one lie on
-  /// the other or nearest to it (midway between both), and corners of one inside the other.
-  Points points;
+  /// Hull of where the surfaces cross, where edges and corners of one lie on the other or nearest to it (midway between
+  /// both), and of corners of one inside the other.
+  HullSpread region;
   double gap = 0;  ///< least distance between the surfaces, model units; 0 where they touch or cross
 };
 

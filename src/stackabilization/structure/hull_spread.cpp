@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <vector>
 
 #include "stackabilization/shape/convex_hull.h"
@@ -56,17 +55,9 @@ Eigen::Vector3d oriented(const Eigen::Vector3d& axis) {
   return axis(largest) < 0 ? Eigen::Vector3d(-axis) : axis;
 }
 
-HullSpread with_ranges(HullSpread spread, const Points& points) {
-  const Points along = (points.rowwise() - spread.centre.transpose()) * spread.axes;
-  std::array<int, 3> order = {0, 1, 2};
-  const Eigen::RowVector3d low = along.colwise().minCoeff(), high = along.colwise().maxCoeff();
-  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return high(a) - low(a) > high(b) - low(b); });
-  const Eigen::Matrix3d axes = spread.axes;
-  for (int k = 0; k < 3; ++k) {
-    const int from = order[static_cast<std::size_t>(k)];
-    spread.axes.col(k) = axes.col(from);
-    spread.ranges.row(k) << low(from), high(from);
-  }
+HullSpread with_ranges(HullSpread spread) {
+  const Points along = (spread.hull.rowwise() - spread.centre.transpose()) * spread.axes;
+  spread.ranges << along.colwise().minCoeff().transpose(), along.colwise().maxCoeff().transpose();
   return spread;
 }
 
@@ -76,6 +67,7 @@ HullSpread hull_spread(const Points& points, double resolution) {
   const HullFaces hull = hull_faces(points, resolution);
   const std::vector<Triangle> triangles = triangles_of(hull);
   HullSpread spread;
+  spread.hull = hull.points;
   double area = 0;
   for (const Triangle& t : triangles) {
     area += t.area();
@@ -87,14 +79,18 @@ HullSpread hull_spread(const Points& points, double resolution) {
     spread.axes.col(0) = along.norm() > 0 ? oriented(along.normalized()) : Eigen::Vector3d::UnitX();
     spread.axes.col(1) = spread.axes.col(0).unitOrthogonal();
     spread.axes.col(2) = spread.axes.col(0).cross(spread.axes.col(1));
-    return with_ranges(spread, hull.points);
+    spread.deviations.x() = along.norm() / std::sqrt(12.0);
+    return with_ranges(spread);
   }
   spread.centre /= area;
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Triangle& t : triangles) sum += moment(t, spread.centre);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
-  for (int k = 0; k < 3; ++k) spread.axes.col(k) = oriented(solver.eigenvectors().col(2 - k));
-  return with_ranges(spread, hull.points);
+  for (int k = 0; k < 3; ++k) {
+    spread.axes.col(k) = oriented(solver.eigenvectors().col(2 - k));
+    spread.deviations(k) = std::sqrt(std::max(0.0, solver.eigenvalues()(2 - k) / area));
+  }
+  return with_ranges(spread);
 }
 
 }  // namespace stackabilization::detail

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -10,7 +11,6 @@
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
 #include "stackabilization/structure/contact_spots.h"
-#include "stackabilization/structure/hull_spread.h"
 #include "stackabilization/structure/part_surface.h"
 
 namespace stackabilization {
@@ -18,6 +18,9 @@ namespace stackabilization {
 namespace {
 
 using detail::PartSurface;
+
+/// Share of a region, about its centre, that a third part must hold to hide it.
+constexpr double kept_share = 0.95;
 
 void check(const JointOptions& options) {
   if (!(options.reach > 0) || !std::isfinite(options.reach)) throw UsageError("the reach of joints must be positive");
@@ -37,6 +40,7 @@ class JointFinder {
  public:
   JointFinder(const Shape& shape, const std::vector<Part>& parts, const JointOptions& options)
       : options_(options), size_(size_of(shape)), surfaces_(parts.size()) {
+    for (const Part& part : parts) is_cuboid_.push_back(std::holds_alternative<Cuboid>(part.primitive));
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
       surfaces_[k].emplace(extract_part(shape, static_cast<Eigen::Index>(k)), parts[k]);
     });
@@ -47,54 +51,117 @@ class JointFinder {
     for (std::size_t a = 0; a < surfaces_.size(); ++a)
       for (std::size_t b = a + 1; b < surfaces_.size(); ++b)
         if (may_meet(*surfaces_[a], *surfaces_[b])) pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
-    std::vector<std::vector<Relation>> found(pairs.size());
+    std::vector<std::vector<Joint>> found(pairs.size());
     tbb::parallel_for(std::size_t{0}, pairs.size(),
                       [&](std::size_t k) { found[k] = joints_between(pairs[k].first, pairs[k].second); });
-    std::vector<Relation> joints;
-    for (std::vector<Relation>& some : found) joints.insert(joints.end(), some.begin(), some.end());
-    return joints;
+    std::vector<Joint> joints;
+    for (const std::vector<Joint>& some : found) joints.insert(joints.end(), some.begin(), some.end());
+    return without_hidden(joints);
   }
 
  private:
+  struct Joint {
+    Relation relation;
+    detail::HullSpread region;
+  };
+
   bool may_meet(const PartSurface& a, const PartSurface& b) const {
     const double reach = options_.reach * size_;
     return (a.lowest().array() - reach <= b.highest().array()).all() &&
            (b.lowest().array() - reach <= a.highest().array()).all();
   }
 
-  std::vector<Relation> joints_between(int a, int b) const {
-    const PartSurface &first = *surfaces_[static_cast<std::size_t>(a)], &second = *surfaces_[static_cast<std::size_t>(b)];
+  std::vector<Joint> joints_between(int a, int b) const {
+    const PartSurface &first = surface(a), &second = surface(b);
     const double smaller = std::min(first.size(), second.size());
     // Parts far smaller than the reach would meet everything around them.
     const double reach = std::min(options_.reach * size_, options_.separate * smaller);
-    std::vector<Relation> joints;
-    for (const detail::ContactSpot& spot : contact_spots(first, second, {reach, options_.separate * smaller}))
-      joints.push_back(joint_at(spot, {a, b}, smaller));
-    std::sort(joints.begin(), joints.end(), [](const Relation& one, const Relation& other) {
-      return std::lexicographical_compare(one.points.data(), one.points.data() + one.points.size(), other.points.data(),
-                                          other.points.data() + other.points.size());
+    std::vector<detail::ContactSpot> spots = contact_spots(first, second, {reach, options_.separate * smaller});
+    if (const auto line = seam(spots, {a, b}, reach)) spots = {*line};
+    std::vector<Joint> joints;
+    for (const detail::ContactSpot& spot : spots) joints.push_back({joint_at(spot, {a, b}, smaller), spot.region});
+    std::sort(joints.begin(), joints.end(), [](const Joint& one, const Joint& other) {
+      const Points &p = one.relation.points, &q = other.relation.points;
+      return std::lexicographical_compare(p.data(), p.data() + p.size(), q.data(), q.data() + q.size());
     });
     return joints;
   }
 
+  /// Several spots in a row along the side of a cuboid are the seam that the cuboid has with the other part: a rail that
+  /// hangs on two pegs. The other part must be there between them; a bar between two arms has none.
+  std::optional<detail::ContactSpot> seam(const std::vector<detail::ContactSpot>& spots, const std::array<int, 2>& parts,
+                                          double reach) const {
+    const int bar = surface(parts[0]).size() < surface(parts[1]).size() ? 0 : 1;
+    if (spots.size() < 2 || !is_cuboid_[static_cast<std::size_t>(parts[static_cast<std::size_t>(bar)])]) return std::nullopt;
+    detail::ContactSpot all = spots[0];
+    Points corners = spots[0].region.hull;
+    for (std::size_t k = 1; k < spots.size(); ++k) {
+      const Eigen::Index old = corners.rows();
+      corners.conservativeResize(old + spots[k].region.hull.rows(), 3);
+      corners.bottomRows(spots[k].region.hull.rows()) = spots[k].region.hull;
+      all.gap = std::min(all.gap, spots[k].gap);
+    }
+    all.region = detail::hull_spread(corners, tolerance::relative * size_);
+    if (!is_line(all.region, surface(parts[static_cast<std::size_t>(bar)]).size())) return std::nullopt;
+    const PartSurface& other = surface(parts[static_cast<std::size_t>(1 - bar)]);
+    constexpr int steps = 16;
+    for (int k = 0; k <= steps; ++k) {
+      const double place = all.region.ranges(0, 0) + all.region.length(0) * k / steps;
+      const Eigen::Vector3d point = all.region.centre + place * all.region.axes.col(0);
+      if (!other.contains(point) && other.distance(point) > reach) return std::nullopt;
+    }
+    return all;
+  }
+
+  bool is_line(const detail::HullSpread& region, double smaller) const {
+    return region.length(0) >= options_.line_aspect * region.length(1) && region.length(0) > 0 &&
+           region.length(0) >= options_.least_line * smaller;
+  }
+
+  const PartSurface& surface(int part) const { return *surfaces_[static_cast<std::size_t>(part)]; }
+
+  /// Two bars that end in one leg overlap there, but it is the leg that holds them.
+  std::vector<Relation> without_hidden(const std::vector<Joint>& joints) const {
+    const auto meet = [&](int a, int b) {
+      return std::any_of(joints.begin(), joints.end(), [&](const Joint& joint) {
+        return joint.relation.parts == std::vector<int>{std::min(a, b), std::max(a, b)};
+      });
+    };
+    std::vector<Relation> kept;
+    for (const auto& [relation, region] : joints) {
+      const int a = relation.parts[0], b = relation.parts[1];
+      bool hidden = false;
+      for (int part = 0; part < static_cast<int>(surfaces_.size()) && !hidden; ++part)
+        hidden = part != a && part != b && meet(a, part) && meet(b, part) &&
+                 holds(surface(part), region);
+      if (!hidden) kept.push_back(relation);
+    }
+    return kept;
+  }
+
+  static bool holds(const PartSurface& surface, const detail::HullSpread& region) {
+    for (const auto& row : region.hull.rowwise())
+      if (!surface.contains(region.centre + kept_share * (row.transpose() - region.centre))) return false;
+    return surface.contains(region.centre);
+  }
+
   Relation joint_at(const detail::ContactSpot& spot, std::vector<int> parts, double smaller) const {
-    const detail::HullSpread spread = detail::hull_spread(spot.points, tolerance::relative * size_);
+    const detail::HullSpread& region = spot.region;
+    const bool line = is_line(region, smaller);
     Relation joint;
+    joint.type = line ? RelationType::line_joint : RelationType::point_joint;
     joint.parts = std::move(parts);
-    joint.residual = spot.gap / size_;
-    const bool is_line = spread.length(0) >= options_.line_aspect * spread.length(1) &&
-                         spread.length(0) >= options_.least_line * smaller && spread.length(0) > 0;
-    joint.type = is_line ? RelationType::line_joint : RelationType::point_joint;
-    joint.points.resize(is_line ? 2 : 1, 3);
+    joint.points.resize(line ? 2 : 1, 3);
     for (int k = 0; k < joint.points.rows(); ++k)
-      joint.points.row(k) =
-          (spread.centre + (is_line ? spread.ranges(0, k) : 0) * spread.axes.col(0)).transpose();
+      joint.points.row(k) = (region.centre + (line ? region.ranges(0, k) : 0) * region.axes.col(0)).transpose();
+    joint.residual = spot.gap / size_;
     return joint;
   }
 
   JointOptions options_;
   double size_;
   std::vector<std::optional<PartSurface>> surfaces_;
+  std::vector<bool> is_cuboid_;  ///< per part
 };
 
 }  // namespace

@@ -20,7 +20,10 @@ struct JointOptions {
 /// Point and line joints of every pair of parts. Regions of contact are where the surfaces come within reach and what one
 /// part has inside the other: compact regions give a point joint at their centroid, elongated ones a line joint between
 /// their ends, separate ones a joint each. Whether a point is inside is decided by the part's surface where that is
-/// closed, else by its primitive, where that fits well.
+/// closed, else by its primitive, where that fits well. A joint inside a third part that both parts meet is left out: two
+/// bars that end in one leg are held by the leg. Several regions in a row along a cuboid, with the other part there between
+/// them, are one line joint, as the primitives would have it (a rail hung on pegs); a handle, which is a cylinder, keeps its
+/// two points.
 ///
 /// The regions are found from edges and faces, without sampling; they are the same in every pose and at every scale, up
 /// to rounding and to the order of the joints of one pair, which is by their coordinates. Relation::residual is the gap

@@ -9,12 +9,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/point_index.h"
 #include "stackabilization/structure/nearest_box.h"
+#include "stackabilization/structure/segment_triangle.h"
 
 namespace stackabilization::detail {
 
@@ -115,6 +117,15 @@ bool PartSurface::contains(const Eigen::Vector3d& point) const {
   for (const Kernel::Vector_3& direction : directions)
     odd += tree_->tree.number_of_intersected_primitives(Kernel::Ray_3(to_cgal(point), direction)) % 2 != 0;
   return odd >= 2;
+}
+
+double PartSurface::distance(const Eigen::Vector3d& point) const {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [a, b, c] : triangles_) {
+    const auto corner = [&](int row) { return points_[static_cast<std::size_t>(row)]; };
+    least = std::min(least, (nearest_on_triangle(point, {corner(a), corner(b), corner(c)}) - point).norm());
+  }
+  return least;
 }
 
 double enclosing_diameter(const std::vector<Eigen::Vector3d>& points) {

@@ -37,6 +37,9 @@ class PartSurface {
   /// For closed surfaces whether a ray from `point` meets the surface oddly often, the majority of three rays.
   bool contains(const Eigen::Vector3d& point) const;
 
+  /// Distance from `point` to the surface, model units; looks at every triangle.
+  double distance(const Eigen::Vector3d& point) const;
+
  private:
   struct Tree;
   void collect_edges();
