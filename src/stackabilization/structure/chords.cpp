@@ -32,7 +32,7 @@ Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}
 
 /// Share of the half space in front of a place that is not barred by the shape, from which on the place is in the open,
 /// and up to which it is in a hollow.
-constexpr double open_air = 0.6, hollow = 0.3;
+constexpr double open_air = 0.9, hollow = 0.5;
 
 /// Directions of the upper half space, each standing for the same solid angle: a spiral.
 std::vector<Eigen::Vector3d> half_space(int count) {

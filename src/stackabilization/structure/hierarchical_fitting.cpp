@@ -21,10 +21,10 @@ namespace {
 constexpr int patch_count = 240, chord_count = 2400;
 
 /// Emptiness that one union may add, root mean square over the whole surface, fraction of the bounding-box diagonal.
-constexpr double tolerated_emptiness = 0.02;
+constexpr double tolerated_emptiness = 0.018;
 
 /// How many times more a union costs across an edge of 90 degrees, concave or more so, than across a flat one.
-constexpr double concave_factor = 3;
+constexpr double concave_factor = 6;
 
 /// Weight of the growth of the spread, beside emptiness: decides between unions that fit equally well.
 constexpr double compactness = 0.0001;

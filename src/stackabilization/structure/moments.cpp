@@ -119,7 +119,8 @@ Eigen::Matrix3d Moments::second() const {
 Moments triangle_moments(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector3d& normal) {
   // Six points, exact up to degree four (Strang and Fix 1973).
   constexpr double weight[2] = {0.223381589678011, 0.109951743655322};
-  constexpr double place[2] = {0.445948490915965, 0.091576213509771};
+  constexpr double near_edge = 0.091576213509771;
+  constexpr double place[2] = {0.445948490915965, near_edge};
   Moments moments;
   const double area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2;
   for (int ring = 0; ring < 2; ++ring)

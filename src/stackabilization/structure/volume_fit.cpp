@@ -152,10 +152,7 @@ struct Revolution {
   /// Length of the solid from `p` along the unit vector `d`; how far `p` is off the surface when it is outside.
   double exit(const Eigen::Vector3d& p, const Eigen::Vector3d& d) const {
     const double c = excess(p);
-    if (c >= 0) {
-      const double radius = std::sqrt(std::max(0.0, squared_radius(p.z())));
-      return std::min({p.head<2>().norm() - radius, std::abs(high - p.z()), std::abs(p.z() - low)});
-    }
+    if (c >= 0) return p.head<2>().norm() - std::sqrt(std::max(0.0, squared_radius(p.z())));
     const double a = d.head<2>().squaredNorm() - profile(2) * d.z() * d.z();
     const double b = 2 * p.head<2>().dot(d.head<2>()) - d.z() * (profile(1) + 2 * profile(2) * p.z());
     double length = d.z() > 0 ? (high - p.z()) / d.z() : d.z() < 0 ? (low - p.z()) / d.z() : none;
@@ -170,12 +167,15 @@ struct Revolution {
   }
 };
 
+/// Of a chord through the wall of a vessel the end on its outside.
+const Eigen::Vector3d& outer_end(const Chord& chord) { return chord.openness >= 0.5 ? chord.start : chord.end; }
+
 double VolumeFit::revolution(const Eigen::Matrix3d& frame) const {
   std::vector<Eigen::Vector2d> side;
   std::vector<double> weights;
   for (const Chord* c : chords_)
     if (std::abs(c->normal.dot(frame.col(2))) <= side_cosine) {
-      side.push_back((frame.transpose() * c->start).head<2>());
+      side.push_back((frame.transpose() * outer_end(*c)).head<2>());
       weights.push_back(c->area);
     }
   if (side.size() < 3) return none;
@@ -190,18 +190,15 @@ double VolumeFit::revolution(const Eigen::Matrix3d& frame) const {
   Revolution solid{Eigen::Vector3d::Zero(), none, -none};
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  double outer = 0;
   for (const Chord* c : chords_) {
     const Eigen::Vector3d p = local(c->start), n = frame.transpose() * c->normal, q = local(c->end);
     solid.low = std::min({solid.low, p.z(), q.z()});
     solid.high = std::max({solid.high, p.z(), q.z()});
-    if (std::abs(n.z()) > side_cosine || n.head<2>().dot(p.head<2>()) <= 0) continue;
-    const Eigen::Vector3d row(1, p.z(), p.z() * p.z());
+    if (std::abs(n.z()) > side_cosine) continue;
+    const Eigen::Vector3d wall = local(outer_end(*c)), row(1, wall.z(), wall.z() * wall.z());
     normal += c->area * row * row.transpose();
-    right += c->area * row * p.head<2>().squaredNorm();
-    outer += c->area;
+    right += c->area * row * wall.head<2>().squaredNorm();
   }
-  if (!(outer > 0)) return none;
   solid.profile = Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d>(normal).solve(right);
   double sum = 0;
   for (const Chord* c : chords_) {
