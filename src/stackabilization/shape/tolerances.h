@@ -72,5 +72,27 @@ inline constexpr double same_symmetry = 0.01;
 /// largest coordinate, whichever is larger: 100 times below what is promised for edits, 10 times above what rounding
 /// leaves.
 inline constexpr double idealised = 1e-13;
+/// A relation holds when it is off by no more than this, as a fraction of the bounding-box diagonal.
+inline constexpr double relation = 1e-6;
+
+/// Constraints of a deformation are solved until they are off by no more than this, as a fraction of the
+/// bounding-box diagonal: far below what `relation` demands, still above the rounding of coordinates.
+inline constexpr double solve = 1e-12;
+
+/// A constraint whose share of the normal equations is below this fraction of the largest repeats others:
+/// the symmetric copy of a joint, a joint between parts that move as one.
+inline constexpr double redundant = 1e-10;
+
+/// Step of forward differences, relative to the size of what is varied: near the square root of the unit
+/// roundoff, where truncation and rounding balance.
+inline constexpr double difference_step = 0x1p-24;
+
+/// Eigenvalues below this belong to the null space of a sum of (G - 1)^T (G - 1) over isometries G of finite
+/// order; the others are at least 4 sin^2(pi / order), far above.
+inline constexpr double invariance = 1e-6;
+
+/// Smallest factor by which a deformation may shrink a radius, a piece of a curve or the volume at a corner
+/// of a cuboid: what is smaller has collapsed.
+inline constexpr double collapse = 1e-3;
 
 }  // namespace stackabilization::tolerance

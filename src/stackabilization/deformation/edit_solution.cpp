@@ -1,0 +1,301 @@
+#include "stackabilization/deformation/edit_solution.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "stackabilization/deformation/primitive_validity.h"
+#include "stackabilization/deformation/propagation.h"
+#include "stackabilization/deformation/relation_residual.h"
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/structure/surface_index.h"
+
+namespace stackabilization {
+
+namespace {
+
+/// How much the part that carries the handle resists corrections of what the edit left open of it: length of its columns
+/// relative to those of other parts.
+constexpr double kStiffness = 0.3;
+/// Rounds in which vertices that a solve made outermost are held as well.
+constexpr int kExtentRounds = 10;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+std::string fraction(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 3).ptr;
+  return {buffer, end};
+}
+
+std::string name_of(const Relation& relation, const Structure& structure) {
+  std::string name = "the " + name_of(relation.type) + " of '" + structure.parts[at(relation.parts.front())].name + "'";
+  if (relation.parts.size() > 1) name += " and '" + structure.parts[at(relation.parts.back())].name + "'";
+  return name;
+}
+
+Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(tolerance::relative);
+  solver.compute(matrix);
+  return solver.pseudoInverse();
+}
+
+/// `primitive` with its control values changed, and turned where it can be.
+Primitive changed(Primitive primitive, const PartEdit& edit) {
+  const auto change = [&](auto& points, Eigen::VectorXd* radii) {
+    const auto count = static_cast<int>(3 * points.rows());
+    for (std::size_t i = 0; i < edit.values.size(); ++i) {
+      const int value = edit.values[i];
+      const double by = edit.changes(static_cast<Eigen::Index>(i));
+      if (value < count)
+        points(value / 3, value % 3) += by;
+      else
+        (*radii)(value - count) += by;
+    }
+  };
+  if (auto* cuboid = std::get_if<Cuboid>(&primitive)) {
+    change(cuboid->corners, nullptr);
+  } else {
+    auto& cylinder = std::get<GeneralizedCylinder>(primitive);
+    change(cylinder.centres, &cylinder.radii);
+    cylinder.rotation = edit.rotation * cylinder.rotation;
+  }
+  return primitive;
+}
+
+class EditSolution {
+ public:
+  EditSolution(const Rig& rig, const RiggedMesh& mesh, const EditTask& task)
+      : rig_(rig),
+        mesh_(mesh),
+        task_(task),
+        class_(rig.space.class_of(task.part)),
+        progress_(at(rig.space.class_count()), Progress::open),
+        bases_(rig.bases),
+        watch_(mesh.by_part, extent_bounds(task.shape, task.constraints)) {}
+
+  EditOutcome run() {
+    fix_parts();
+    if (const bool nothing = task_.wanted.changes.isZero(0) && task_.wanted.rotation.vec().isZero(0); nothing)
+      return {std::nullopt, task_.now};
+    start_ = rig_.space.states(task_.now);
+    state_.controls = start_;
+    if (auto refusal = prescribe()) return refused(std::move(*refusal));
+    progress_[at(class_)] = Progress::modified;
+    state_.controls = propagated(rig_, std::move(state_.controls), progress_);
+    solve();
+    primitives_ = current_primitives();
+    if (auto refusal = broken()) return refused(std::move(*refusal));
+    return {std::nullopt, std::move(primitives_)};
+  }
+
+ private:
+  EditOutcome refused(Refusal refusal) const { return {std::move(refusal), task_.now}; }
+
+  double diagonal() const { return rig_.rest.diagonal; }
+
+  const std::string& part_name(int part) const { return rig_.rest.parts[at(part)].name; }
+
+  void fix_parts() {
+    for (const int part : task_.constraints.fixed_parts) {
+      if (part < 0 || at(part) >= rig_.rest.parts.size())
+        throw UsageError("there is no part " + std::to_string(part) + " to fix");
+      const int c = rig_.space.class_of(part);
+      progress_[at(c)] = Progress::settled;
+      bases_[at(c)].resize(bases_[at(c)].rows(), 0);
+    }
+  }
+
+  /// Rows of the prescribed values of the edited part, given columns of changes of its class.
+  Eigen::MatrixXd handle_rows(const Eigen::MatrixXd& columns) const {
+    const auto count = static_cast<int>(3 * control_points(task_.now[at(task_.part)]).rows());
+    Eigen::MatrixXd rows(static_cast<Eigen::Index>(task_.wanted.values.size()), columns.cols());
+    for (std::size_t i = 0; i < task_.wanted.values.size(); ++i) {
+      const int value = task_.wanted.values[i];
+      const auto row = static_cast<Eigen::Index>(i);
+      if (value < count)
+        rows.row(row) = rig_.space.point_rows(task_.part, value / 3, columns).row(value % 3);
+      else
+        rows.row(row) = rig_.space.radius_row(task_.part, value - count, columns);
+    }
+    return rows;
+  }
+
+  bool whole() const { return static_cast<Eigen::Index>(task_.wanted.values.size()) == bases_[at(class_)].rows(); }
+
+  /// Gives the edited class what the edit prescribes, within its symmetries, and leaves its basis what keeps that.
+  std::optional<Refusal> prescribe() {
+    if (progress_[at(class_)] == Progress::settled)
+      return Refusal{"'" + part_name(task_.part) + "' is fixed, or symmetric to a part that is", std::nullopt, 0};
+    return whole() ? prescribe_whole() : prescribe_handle();
+  }
+
+  std::optional<Refusal> prescribe_whole() {
+    const ControlState wanted =
+        rig_.space.state_of(task_.part, changed(task_.now[at(task_.part)], task_.wanted));
+    ControlState& state = state_.controls[at(class_)];
+    state = rig_.space.invariant(class_, wanted);
+    bases_[at(class_)].resize(bases_[at(class_)].rows(), 0);
+    const double miss = (wanted.values - state.values).cwiseAbs().maxCoeff() / diagonal();
+    const double turn = wanted.rotation.angularDistance(state.rotation);
+    if (miss > tolerance::relative) return missed(miss, "of the diagonal");
+    if (turn > tolerance::relation) return missed(turn, "radians");
+    return std::nullopt;
+  }
+
+  std::optional<Refusal> prescribe_handle() {
+    const Eigen::MatrixXd& kernel = rig_.edit_kernels[at(class_)];
+    const Eigen::MatrixXd spread = handle_rows(kernel).transpose();
+    const Eigen::VectorXd change = spread * (pseudo_inverse(handle_rows(spread)) * task_.wanted.changes);
+    const double miss = (handle_rows(change) - task_.wanted.changes).cwiseAbs().maxCoeff() / diagonal();
+    if (miss > tolerance::relative) return missed(miss, "of the diagonal");
+    state_.controls[at(class_)].values += change;
+    Eigen::MatrixXd& basis = bases_[at(class_)];
+    const Eigen::MatrixXd rows = handle_rows(basis);
+    basis = kStiffness * (basis - basis * (pseudo_inverse(rows) * rows));
+    return std::nullopt;
+  }
+
+  Refusal missed(double amount, const std::string& unit) const {
+    const std::optional<int> relation = contradicting_relation();
+    const std::string cause = relation ? name_of(rig_.rest.relations[at(*relation)], rig_.rest) : "rounding";
+    return {cause + " does not let '" + part_name(task_.part) + "' go where the edit takes it: it would miss by " +
+                fraction(amount) + " " + unit,
+            relation, amount};
+  }
+
+  /// The symmetry of the edited class that what is prescribed contradicts most.
+  std::optional<int> contradicting_relation() const {
+    const ControlState wanted = rig_.space.state_of(task_.part, changed(task_.now[at(task_.part)], task_.wanted));
+    const Eigen::VectorXd change = wanted.values - start_[at(class_)].values;
+    const auto& stabilisers = rig_.space.stabilisers(class_);
+    std::optional<int> worst;
+    if (!stabilisers.empty()) worst = stabilisers.front().relation;
+    double most = 0;
+    for (const ControlSpace::Stabiliser& g : stabilisers)
+      for (std::size_t i = 0; i < g.order.size(); ++i) {
+        const Eigen::Vector3d move = change.segment<3>(static_cast<Eigen::Index>(3 * i));
+        const Eigen::Vector3d image = change.segment<3>(3 * g.order[i]);
+        const bool both = !move.isZero(0) && !image.isZero(0);
+        const double gap = both ? (g.linear * move - image).norm() : 0;
+        if (gap > most) most = gap, worst = g.relation;
+      }
+    return worst;
+  }
+
+  void solve() {
+    std::vector<Constraint> constraints = joint_constraints(rig_);
+    for (const Constraint& fixed : fixed_point_constraints()) constraints.push_back(fixed);
+    fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.joints.size()), constraints.end()};
+    state_ = solved(rig_, bases_, constraints, std::move(state_));
+    if (watch_.bounds().empty()) return;
+    for (int round = 0; round < kExtentRounds; ++round) {
+      const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
+      if (state_.levels.size() == 0) state_.levels = watch_.levels(vertices);
+      bool held = false;
+      for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
+        if (watch_.excess(k, vertices) != 0) held |= watch_.hold(k, vertices, mesh_.transfer, constraints);
+      if (!held) return;
+      state_ = solved(rig_, bases_, constraints, std::move(state_));
+    }
+  }
+
+  /// The points of the surface nearest to the fixed ones stay where they are now.
+  std::vector<Constraint> fixed_point_constraints() const {
+    std::vector<Constraint> constraints;
+    if (task_.constraints.fixed_points.empty()) return constraints;
+    const SurfaceIndex surface(task_.shape);
+    for (const Eigen::Vector3d& point : task_.constraints.fixed_points) {
+      if (!point.allFinite()) throw UsageError("a point to be fixed must be finite");
+      const SurfacePoint nearest = surface.nearest(point);
+      Eigen::Matrix3d corners;
+      for (int k = 0; k < 3; ++k) corners.col(k) = task_.shape.corner(nearest.triangle, k);
+      const Eigen::Vector3d weights = barycentric(corners, nearest.point);
+      Constraint constraint;
+      for (int k = 0; k < 3; ++k)
+        for (Rider rider : mesh_.transfer.riders(task_.shape.triangles(nearest.triangle, k))) {
+          rider.weight *= weights(k);
+          constraint.target += rider.weight * rig_.carriers[at(rider.part)].carried(rider.binding, task_.now[at(rider.part)]);
+          constraint.riders.push_back(std::move(rider));
+        }
+      constraints.push_back(std::move(constraint));
+    }
+    return constraints;
+  }
+
+  static Eigen::Vector3d barycentric(const Eigen::Matrix3d& corners, const Eigen::Vector3d& point) {
+    Eigen::Matrix<double, 3, 2> edges;
+    edges << corners.col(1) - corners.col(0), corners.col(2) - corners.col(0);
+    const Eigen::Vector2d weights = edges.completeOrthogonalDecomposition().solve(point - corners.col(0));
+    return {1 - weights.sum(), weights(0), weights(1)};
+  }
+
+  /// Classes that nothing moved keep the very numbers they had.
+  std::vector<Primitive> current_primitives() const {
+    std::vector<Primitive> primitives = rig_.space.primitives(state_.controls);
+    for (std::size_t part = 0; part < primitives.size(); ++part) {
+      const std::size_t c = at(rig_.space.class_of(static_cast<int>(part)));
+      const ControlState &before = start_[c], &after = state_.controls[c];
+      if (before.values == after.values && before.rotation.coeffs() == after.rotation.coeffs())
+        primitives[part] = task_.now[part];
+    }
+    return primitives;
+  }
+
+  std::optional<Refusal> broken() const {
+    if (auto refusal = broken_relation()) return refusal;
+    for (std::size_t part = 0; part < primitives_.size(); ++part)
+      if (const auto what = defect(rig_.rest.parts[part].primitive, primitives_[part]))
+        return Refusal{"'" + rig_.rest.parts[part].name + "' " + *what, std::nullopt, 0};
+    if (const double gap = largest_gap(rig_, fixed_points_, state_) / diagonal(); !(gap <= tolerance::relation))
+      return Refusal{"a fixed point would move by " + fraction(gap) + " of the diagonal", std::nullopt, gap};
+    return broken_extent();
+  }
+
+  std::optional<Refusal> broken_relation() const {
+    const std::vector<double> residuals = relation_residuals(rig_.rest, primitives_);
+    const auto worst = std::max_element(residuals.begin(), residuals.end());
+    if (worst == residuals.end() || !(*worst > tolerance::relation)) return std::nullopt;
+    const auto row = static_cast<int>(worst - residuals.begin());
+    const Relation& relation = rig_.rest.relations[at(row)];
+    return Refusal{name_of(relation, rig_.rest) + " would be off by " + fraction(*worst) + " of the diagonal", row, *worst};
+  }
+
+  std::optional<Refusal> broken_extent() const {
+    if (watch_.bounds().empty()) return std::nullopt;
+    const Points vertices = mesh_.transfer.vertices(rig_, primitives_);
+    for (std::size_t k = 0; k < watch_.bounds().size(); ++k) {
+      const double excess = watch_.excess(k, vertices);
+      if (excess == 0) continue;
+      const Eigen::Vector3d& n = watch_.bounds()[k].normal;
+      return Refusal{"the extent along (" + fraction(n.x()) + ", " + fraction(n.y()) + ", " + fraction(n.z()) +
+                         ") would be too " + (excess > 0 ? "long" : "short") + " by " +
+                         fraction(std::abs(excess) / diagonal()) + " of the diagonal",
+                     std::nullopt, std::abs(excess) / diagonal()};
+    }
+    return std::nullopt;
+  }
+
+  const Rig& rig_;
+  const RiggedMesh& mesh_;
+  const EditTask& task_;
+  int class_;
+  std::vector<Progress> progress_;  ///< per class
+  std::vector<Eigen::MatrixXd> bases_;
+  ExtentWatch watch_;
+  std::vector<ControlState> start_;
+  SolverState state_;
+  std::vector<Constraint> fixed_points_;
+  std::vector<Primitive> primitives_;
+};
+
+}  // namespace
+
+EditOutcome solved_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& task) {
+  return EditSolution(rig, mesh, task).run();
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "stackabilization/deformation/controller_model.h"
+#include "stackabilization/deformation/edit.h"
+#include "stackabilization/deformation/extent_bounds.h"
+#include "stackabilization/deformation/mesh_transfer.h"
+#include "stackabilization/deformation/part_edit.h"
+#include "stackabilization/deformation/rig.h"
+
+namespace stackabilization {
+
+/// A mesh on a rig.
+struct RiggedMesh {
+  MeshTransfer transfer;
+  std::vector<std::vector<int>> by_part;  ///< see vertices_by_part
+};
+
+/// An edit to be solved for.
+struct EditTask {
+  const Shape& shape;  ///< at rest
+  const std::vector<Primitive>& now;
+  int part = 0;
+  const PartEdit& wanted;
+  const DeformationConstraints& constraints;
+};
+
+/// Makes the edit with all relations and constraints, or says why not: prescribes the controls of the edited part within
+/// its symmetries, propagates, solves, checks. See ControllerModel::edited.
+EditOutcome solved_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& task);
+
+}  // namespace stackabilization

@@ -1,0 +1,94 @@
+#include "stackabilization/deformation/extent_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/tolerances.h"
+
+namespace stackabilization {
+
+std::vector<ExtentBound> extent_bounds(const Shape& rest, const DeformationConstraints& constraints) {
+  std::vector<ExtentBound> bounds;
+  const auto bound = [&](const Eigen::Vector3d& normal, double slack) {
+    const double extent = range_along(rest, normal).length();
+    bounds.push_back({normal, (1 - slack) * extent, (1 + slack) * extent});
+  };
+  if (constraints.keep_extent) bound(constraints.keep_extent->unit(), 0);
+  if (constraints.box_tolerance) {
+    if (!std::isfinite(*constraints.box_tolerance) || *constraints.box_tolerance < 0)
+      throw UsageError("the tolerance of the box must be 0 or positive");
+    for (int axis = 0; axis < 3; ++axis) bound(Eigen::Vector3d::Unit(axis), *constraints.box_tolerance);
+  }
+  return bounds;
+}
+
+std::vector<std::vector<int>> vertices_by_part(const Shape& shape) {
+  std::vector<std::vector<int>> by_part(static_cast<std::size_t>(shape.part_count()));
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k)
+      by_part[static_cast<std::size_t>(shape.triangle_part[static_cast<std::size_t>(t)])].push_back(
+          shape.triangles(t, k));
+  for (std::vector<int>& vertices : by_part) {
+    std::sort(vertices.begin(), vertices.end());
+    vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  }
+  return by_part;
+}
+
+Range ExtentWatch::range(std::size_t k, const Points& vertices) const {
+  const Eigen::Vector3d& normal = bounds_[k].normal;
+  Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const std::vector<int>& part : by_part_)
+    for (const int v : part) {
+      const double height = vertices.row(v).dot(normal);
+      range.low = std::min(range.low, height);
+      range.high = std::max(range.high, height);
+    }
+  return range;
+}
+
+double ExtentWatch::excess(std::size_t k, const Points& vertices) const {
+  const double length = range(k, vertices).length(), slack = tolerance::relative / 2 * length;
+  if (length > bounds_[k].high + slack) return length - bounds_[k].high;
+  if (length < bounds_[k].low - slack) return length - bounds_[k].low;
+  return 0;
+}
+
+Eigen::VectorXd ExtentWatch::levels(const Points& vertices) const {
+  Eigen::VectorXd levels(static_cast<Eigen::Index>(bounds_.size()));
+  for (std::size_t k = 0; k < bounds_.size(); ++k) levels(static_cast<Eigen::Index>(k)) = range(k, vertices).low;
+  return levels;
+}
+
+bool ExtentWatch::hold(std::size_t k, const Points& vertices, const MeshTransfer& transfer,
+                       std::vector<Constraint>& constraints) {
+  const bool above = hold_side(k, 1, vertices, transfer, constraints);
+  const bool below = hold_side(k, -1, vertices, transfer, constraints);
+  return above || below;
+}
+
+bool ExtentWatch::hold_side(std::size_t k, double sign, const Points& vertices, const MeshTransfer& transfer,
+                            std::vector<Constraint>& constraints) {
+  const ExtentBound& bound = bounds_[k];
+  const double beyond = excess(k, vertices);
+  const Range whole = range(k, vertices);
+  const double outermost = (sign > 0 ? whole.high : -whole.low) - std::max(beyond, 0.0);
+  bool added = false;
+  for (const std::vector<int>& part : by_part_) {
+    const auto height = [&](int v) { return sign * vertices.row(v).dot(bound.normal); };
+    const auto top = std::max_element(part.begin(), part.end(), [&](int a, int b) { return height(a) < height(b); });
+    if (top == part.end() || height(*top) < outermost || !held_.emplace(k, sign > 0, *top).second) continue;
+    Constraint constraint;
+    constraint.riders = transfer.riders(*top);
+    constraint.normal = bound.normal;
+    constraint.height = sign > 0 ? (beyond > 0 ? bound.high : bound.low) : 0;
+    constraint.level = static_cast<int>(k);
+    constraints.push_back(std::move(constraint));
+    added = true;
+  }
+  return added;
+}
+
+}  // namespace stackabilization

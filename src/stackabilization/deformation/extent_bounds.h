@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "stackabilization/deformation/edit.h"
+#include "stackabilization/deformation/mesh_transfer.h"
+#include "stackabilization/deformation/relation_solver.h"
+#include "stackabilization/shape/shape.h"
+
+namespace stackabilization {
+
+/// Bounds of the extent of a mesh along one direction.
+struct ExtentBound {
+  Eigen::Vector3d normal;    ///< unit
+  double low = 0, high = 0;  ///< model units; equal to keep the extent
+};
+
+/// What `keep_extent` and `box_tolerance` demand of a shape. Throws UsageError when the tolerance is negative or not
+/// finite.
+std::vector<ExtentBound> extent_bounds(const Shape& rest, const DeformationConstraints& constraints);
+
+/// Rows of the vertices that the triangles of each part use, ascending.
+std::vector<std::vector<int>> vertices_by_part(const Shape& shape);
+
+/// Turns bounds that a mesh breaks into constraints on its outermost vertices.
+class ExtentWatch {
+ public:
+  /// `by_part` as vertices_by_part gives it; it must outlive this.
+  ExtentWatch(const std::vector<std::vector<int>>& by_part, std::vector<ExtentBound> bounds)
+      : by_part_(by_part), bounds_(std::move(bounds)) {}
+
+  const std::vector<ExtentBound>& bounds() const { return bounds_; }
+  /// By how much the extent passes bound `k`, model units: above zero too long, below too short, 0 within
+  /// half of tolerance::relative of what is demanded.
+  double excess(std::size_t k, const Points& vertices) const;
+  /// Lowest heights along the normals of the bounds: levels to start a solve from.
+  Eigen::VectorXd levels(const Points& vertices) const;
+  /// Adds constraints that hold the extent at the bound it passes: in every part the outermost vertex on either side, if it
+  /// reaches into the excess. False when all of them were held already.
+  bool hold(std::size_t k, const Points& vertices, const MeshTransfer& transfer, std::vector<Constraint>& constraints);
+
+ private:
+  Range range(std::size_t k, const Points& vertices) const;
+  bool hold_side(std::size_t k, double sign, const Points& vertices, const MeshTransfer& transfer,
+                 std::vector<Constraint>& constraints);
+
+  const std::vector<std::vector<int>>& by_part_;
+  std::vector<ExtentBound> bounds_;
+  std::set<std::tuple<std::size_t, bool, int>> held_;  ///< bound, upper side, vertex
+};
+
+}  // namespace stackabilization

@@ -1,0 +1,30 @@
+#include "stackabilization/deformation/rig.h"
+
+#include "stackabilization/deformation/correction_basis.h"
+
+namespace stackabilization {
+
+Rig::Rig(const Structure& structure) : rest(structure), space(structure) {
+  for (const Part& part : rest.parts) carriers.emplace_back(part.primitive);
+  for (std::size_t k = 0; k < rest.relations.size(); ++k) {
+    const Relation& relation = rest.relations[k];
+    if (relation.type != RelationType::point_joint && relation.type != RelationType::line_joint) continue;
+    const std::array<int, 2> parts = {relation.parts[0], relation.parts[1]};
+    for (Eigen::Index i = 0; i < relation.points.rows(); ++i) {
+      const auto bind = [&](int part) {
+        return carriers[static_cast<std::size_t>(part)].bind(Eigen::Vector3d(relation.points.row(i).transpose()));
+      };
+      joints.push_back({static_cast<int>(k), parts, {bind(parts[0]), bind(parts[1])}});
+    }
+  }
+  for (int c = 0; c < space.class_count(); ++c) {
+    const Primitive& first = space.rest(space.members(c).front());
+    const Eigen::MatrixXd half = space.invariant_columns(c, edit_kernel(first));
+    edit_kernels.push_back(space.invariant_columns(c, half.transpose()));
+    bases.push_back(space.invariant_columns(c, correction_basis(first)));
+    const auto* cylinder = std::get_if<GeneralizedCylinder>(&first);
+    turnings.push_back(cylinder ? turning(*cylinder) : Eigen::MatrixXd());
+  }
+}
+
+}  // namespace stackabilization

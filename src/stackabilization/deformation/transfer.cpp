@@ -1,0 +1,12 @@
+#include "stackabilization/deformation/transfer.h"
+
+#include "stackabilization/deformation/binding.h"
+
+namespace stackabilization {
+
+Eigen::Vector3d carried(const Primitive& rest, const Primitive& now, const Eigen::Vector3d& point) {
+  const Carrier carrier(rest);
+  return carrier.carried(carrier.bind(point), now);
+}
+
+}  // namespace stackabilization
