@@ -52,4 +52,10 @@ inline constexpr double support_slab = 1e-2;
 /// `inspect` names an up axis only when every other axis fits less than this fraction as well.
 inline constexpr double clear_lead = 0.9;
 
+/// How far a relation of a shape's structure may be from holding after an edit, as a fraction of the diagonal.
+inline constexpr double relation = 1e-6;
+
+/// Factor of length, area or volume below which a feature curve counts as flattened by an edit.
+inline constexpr double flattened_wire = 1e-3;
+
 }  // namespace stackabilization::tolerance
