@@ -94,5 +94,10 @@ inline constexpr double invariance = 1e-6;
 /// Smallest factor by which a deformation may shrink a radius, a piece of a curve or the volume at a corner
 /// of a cuboid: what is smaller has collapsed.
 inline constexpr double collapse = 1e-3;
+/// How far a relation of a shape's structure may be from holding after an edit, as a fraction of the diagonal.
+inline constexpr double relation = 1e-6;
+
+/// Factor of length, area or volume below which a feature curve counts as flattened by an edit.
+inline constexpr double flattened_wire = 1e-3;
 
 }  // namespace stackabilization::tolerance

@@ -1,0 +1,228 @@
+#include "stackabilization/deformation/feature_curves.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "stackabilization/deformation/merged_places.h"
+#include "stackabilization/shape/disjoint_sets.h"
+#include "stackabilization/shape/errors.h"
+
+namespace stackabilization {
+
+namespace {
+
+using detail::MergedPlaces;
+using Places = std::vector<int>;
+
+/// Cosine of a degree: segments that turn by less belong to one straight run.
+const double straight_cosine = std::cos(std::numbers::pi / 180);
+
+struct Chain {
+  Places places;
+  bool closed = false;
+};
+
+void check(const FeatureCurveOptions& options) {
+  for (const double value : {options.crease_angle, options.corner_angle, options.straight_run_ratio, options.smallest_length})
+    if (!std::isfinite(value) || value < 0)
+      throw UsageError("angles and lengths of feature curves must be finite and not negative");
+}
+
+Eigen::Vector3d unit_normal(const MergedPlaces& surface, const std::array<int, 3>& t) {
+  const auto at = [&](std::size_t k) { return surface.points[static_cast<std::size_t>(t[k])]; };
+  return (at(1) - at(0)).cross(at(2) - at(0)).stableNormalized();
+}
+
+/// One side of a triangle.
+struct Side {
+  std::size_t triangle;
+  bool forward;  ///< from the lesser to the greater place
+};
+
+/// The graph of feature edges.
+class FeatureGraph {
+ public:
+  FeatureGraph(const MergedPlaces& surface, const FeatureCurveOptions& options)
+      : surface_(surface),
+        crease_cosine_(std::cos(options.crease_angle * std::numbers::pi / 180)),
+        corner_cosine_(std::cos(options.corner_angle * std::numbers::pi / 180)),
+        neighbours_(surface.points.size()),
+        cut_(surface.points.size(), 0) {
+    std::map<std::pair<int, int>, std::vector<Side>> edges;
+    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int a = surface.triangles[t][k], b = surface.triangles[t][(k + 1) % 3];
+        if (a != b) edges[std::minmax(a, b)].push_back({t, a < b});
+      }
+    for (const auto& [edge, sides] : edges)
+      if (is_feature(sides)) {
+        neighbours_[static_cast<std::size_t>(edge.first)].push_back(edge.second);
+        neighbours_[static_cast<std::size_t>(edge.second)].push_back(edge.first);
+      }
+  }
+
+  /// Every feature edge in one chain: open ones between corners first, then loops.
+  std::vector<Chain> chains() const {
+    std::vector<Chain> chains;
+    std::vector<char> seen(neighbours_.size(), 0);
+    for (int start = 0; start < place_count(); ++start) {
+      if (neighbours(start).empty() || !is_corner(start)) continue;
+      for (const int next : neighbours(start)) {
+        Chain chain = walk(start, next);
+        // Each open chain is met from both its ends, a loop at a corner in both directions: take the lesser.
+        Places reverse(chain.places.rbegin(), chain.places.rend());
+        if (chain.closed) std::rotate(reverse.begin(), reverse.end() - 1, reverse.end());
+        if (reverse < chain.places) continue;
+        for (const int place : chain.places) seen[static_cast<std::size_t>(place)] = 1;
+        chains.push_back(std::move(chain));
+      }
+    }
+    for (int start = 0; start < place_count(); ++start) {
+      if (neighbours(start).empty() || seen[static_cast<std::size_t>(start)]) continue;
+      chains.push_back(walk(start, neighbours(start).front()));
+      for (const int place : chains.back().places) seen[static_cast<std::size_t>(place)] = 1;
+    }
+    return chains;
+  }
+
+  /// Makes a corner of every place where a straight run of `longest` and more meets one shorter by `ratio`.
+  void cut_straight_runs(const std::vector<Chain>& chains, double longest, double ratio) {
+    for (const Chain& chain : chains) {
+      const std::vector<Run> runs = straight_runs(chain);
+      for (std::size_t i = chain.closed ? 0 : 1; i < runs.size(); ++i) {
+        const auto [less, more] = std::minmax(runs[i].length, runs[i > 0 ? i - 1 : runs.size() - 1].length);
+        if (more >= longest && more > ratio * less) cut_[static_cast<std::size_t>(runs[i].start)] = 1;
+      }
+    }
+  }
+
+  std::size_t valence(int place) const { return neighbours(place).size(); }
+
+ private:
+  /// Neighbouring segments of nearly the same direction.
+  struct Run {
+    int start;
+    double length;
+    Eigen::Vector3d direction;
+  };
+
+  /// The runs of a chain in order; of a loop beginning at a bend, nothing where it has none.
+  std::vector<Run> straight_runs(const Chain& chain) const {
+    const std::size_t n = chain.places.size(), segments = chain.closed ? n : n - 1;
+    const auto direction = [&](std::size_t i) -> Eigen::Vector3d {
+      return (point(chain.places[(i + 1) % n]) - point(chain.places[i % n])).stableNormalized();
+    };
+    std::size_t first = 0;
+    if (chain.closed) {
+      while (first < n && direction(first).dot(direction(first + n - 1)) >= straight_cosine) ++first;
+      if (first == n) return {};
+    }
+    std::vector<Run> runs;
+    for (std::size_t i = first; i < first + segments; ++i) {
+      const Eigen::Vector3d along = direction(i);
+      if (runs.empty() || runs.back().direction.dot(along) < straight_cosine)
+        runs.push_back({chain.places[i % n], 0, along});
+      runs.back().length += (point(chain.places[(i + 1) % n]) - point(chain.places[i % n])).norm();
+    }
+    return runs;
+  }
+
+  int place_count() const { return static_cast<int>(neighbours_.size()); }
+  const Places& neighbours(int place) const { return neighbours_[static_cast<std::size_t>(place)]; }
+  const Eigen::Vector3d& point(int place) const { return surface_.points[static_cast<std::size_t>(place)]; }
+
+  bool is_feature(const std::vector<Side>& sides) const {
+    if (sides.size() != 2) return true;
+    const Eigen::Vector3d a = unit_normal(surface_, surface_.triangles[sides[0].triangle]);
+    const Eigen::Vector3d b = unit_normal(surface_, surface_.triangles[sides[1].triangle]);
+    if (a.isZero(0) || b.isZero(0)) return false;
+    return (sides[0].forward == sides[1].forward ? -1 : 1) * a.dot(b) < crease_cosine_;
+  }
+
+  bool is_corner(int place) const {
+    const Places& around = neighbours(place);
+    if (around.size() != 2 || cut_[static_cast<std::size_t>(place)]) return true;
+    const Eigen::Vector3d in = (point(place) - point(around[0])).stableNormalized();
+    const Eigen::Vector3d out = (point(around[1]) - point(place)).stableNormalized();
+    return in.dot(out) < corner_cosine_;
+  }
+
+  Chain walk(int start, int next) const {
+    Chain chain{{start}};
+    int previous = start;
+    while (next != start && !is_corner(next)) {
+      chain.places.push_back(next);
+      const Places& around = neighbours(next);
+      previous = std::exchange(next, around[0] == previous ? around[1] : around[0]);
+    }
+    chain.closed = next == start;
+    if (!chain.closed) chain.places.push_back(next);
+    return chain;
+  }
+
+  const MergedPlaces& surface_;
+  double crease_cosine_, corner_cosine_;
+  std::vector<Places> neighbours_;
+  std::vector<char> cut_;
+};
+
+double length_of(const MergedPlaces& surface, const Chain& chain) {
+  double length = 0;
+  const std::size_t n = chain.places.size();
+  for (std::size_t i = 0; i + (chain.closed ? 0 : 1) < n; ++i)
+    length += (surface.points[static_cast<std::size_t>(chain.places[(i + 1) % n])] -
+               surface.points[static_cast<std::size_t>(chain.places[i])])
+                  .norm();
+  return length;
+}
+
+
+/// Which chains are long enough to matter.
+std::vector<char> significant(const MergedPlaces& surface, const FeatureGraph& graph,
+                              const std::vector<Chain>& chains, double smallest) {
+  DisjointSets networks(surface.points.size());
+  for (const Chain& chain : chains)
+    for (const int place : chain.places)
+      networks.join(static_cast<std::size_t>(chain.places.front()), static_cast<std::size_t>(place));
+  std::vector<Eigen::AlignedBox3d> boxes(surface.points.size());
+  for (std::size_t p = 0; p < surface.points.size(); ++p) boxes[networks.root(p)].extend(surface.points[p]);
+  std::vector<char> keep;
+  for (const Chain& chain : chains) {
+    const auto& box = boxes[networks.root(static_cast<std::size_t>(chain.places.front()))];
+    const bool loose = !chain.closed && std::min(graph.valence(chain.places.front()),
+                                                 graph.valence(chain.places.back())) == 1;
+    keep.push_back(box.diagonal().norm() >= smallest &&
+                   (!loose || length_of(surface, chain) >= smallest));
+  }
+  return keep;
+}
+
+}  // namespace
+
+std::vector<FeatureCurve> feature_curves(const Shape& shape, const FeatureCurveOptions& options) {
+  check(options);
+  const MergedPlaces surface = detail::merged_places(shape);
+  FeatureGraph graph(surface, options);
+  Eigen::AlignedBox3d box;
+  for (const auto& triangle : surface.triangles)
+    for (const int place : triangle) box.extend(surface.points[static_cast<std::size_t>(place)]);
+  const double smallest = options.smallest_length * box.diagonal().norm();
+  graph.cut_straight_runs(graph.chains(), smallest, options.straight_run_ratio);
+  const std::vector<Chain> chains = graph.chains();
+  const std::vector<char> keep = significant(surface, graph, chains, smallest);
+  std::vector<FeatureCurve> curves;
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    if (!keep[i]) continue;
+    FeatureCurve curve{{}, chains[i].closed};
+    for (const int place : chains[i].places)
+      curve.vertices.push_back(surface.vertex_of[static_cast<std::size_t>(place)]);
+    curves.push_back(std::move(curve));
+  }
+  return curves;
+}
+
+}  // namespace stackabilization

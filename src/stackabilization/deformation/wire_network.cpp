@@ -1,0 +1,120 @@
+#include "stackabilization/deformation/wire_network.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "stackabilization/shape/disjoint_sets.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+void number_nodes(const Shape& shape, const WireStructure& structure, WireNetwork& network) {
+  for (const Wire& wire : structure.wires)
+    network.vertices.insert(network.vertices.end(), wire.curve.vertices.begin(), wire.curve.vertices.end());
+  std::sort(network.vertices.begin(), network.vertices.end());
+  network.vertices.erase(std::unique(network.vertices.begin(), network.vertices.end()), network.vertices.end());
+  network.wires_at.resize(network.vertices.size());
+  for (const std::int32_t v : network.vertices) network.points.push_back(shape.vertices.row(v).transpose());
+  for (std::size_t k = 0; k < structure.wires.size(); ++k) {
+    network.mean_length += structure.wires[k].length / static_cast<double>(structure.wires.size());
+    std::vector<int> nodes;
+    for (const std::int32_t v : structure.wires[k].curve.vertices) {
+      const auto node = std::lower_bound(network.vertices.begin(), network.vertices.end(), v) - network.vertices.begin();
+      nodes.push_back(static_cast<int>(node));
+      network.wires_at[static_cast<std::size_t>(node)].push_back(static_cast<int>(k));
+    }
+    network.nodes.push_back(std::move(nodes));
+  }
+}
+
+/// Joint classes of axes: those of parallel wires are one. `sign` turns a wire's axis into that of its class.
+void align_axes(const WireStructure& structure, WireNetwork& network) {
+  network.class_of.assign(structure.wires.size(), -1);
+  std::vector<double> sign(structure.wires.size(), 1);
+  std::vector<Eigen::Vector3d> axes;
+  for (const auto& parallel : structure.parallel) {
+    const Eigen::Vector3d first = structure.wires[static_cast<std::size_t>(parallel.front())].axis;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const int k : parallel) {
+      const Wire& wire = structure.wires[static_cast<std::size_t>(k)];
+      sign[static_cast<std::size_t>(k)] = wire.axis.dot(first) < 0 ? -1 : 1;
+      sum += sign[static_cast<std::size_t>(k)] * wire.length * wire.axis;
+      network.class_of[static_cast<std::size_t>(k)] = static_cast<int>(axes.size());
+    }
+    axes.push_back(sum.normalized());
+  }
+  std::vector<int> row = network.class_of;
+  for (std::size_t k = 0; k < structure.wires.size(); ++k)
+    if (row[k] < 0) {
+      row[k] = static_cast<int>(axes.size());
+      axes.push_back(structure.wires[k].axis);
+    }
+  // Averages over symmetric pairs until all agree: at once for symmetries that commute, soon for others.
+  constexpr int sweeps = 16;
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+    for (const WireSymmetry& pair : structure.symmetric) {
+      const Eigen::Matrix3d q = isometry_of(structure.symmetries[static_cast<std::size_t>(pair.symmetry)]).linear();
+      Eigen::Vector3d& a = axes[static_cast<std::size_t>(row[static_cast<std::size_t>(pair.wire)])];
+      Eigen::Vector3d& b = axes[static_cast<std::size_t>(row[static_cast<std::size_t>(pair.image)])];
+      if (a.isZero(0) || b.isZero(0)) continue;
+      const Eigen::Vector3d image = q * a;
+      const double s = image.dot(b) < 0 ? -1 : 1;
+      b = (b + s * image).normalized();
+      a = s * q.transpose() * b;
+    }
+  for (std::size_t k = 0; k < structure.wires.size(); ++k)
+    network.axes.push_back(sign[k] * axes[static_cast<std::size_t>(row[k])]);
+}
+
+void find_links(double distance, WireNetwork& network) {
+  DisjointSets joined(network.nodes.size());
+  for (const auto& wires : network.wires_at)
+    for (const int k : wires) joined.join(static_cast<std::size_t>(wires.front()), static_cast<std::size_t>(k));
+  for (std::size_t i = 0; i < network.points.size(); ++i) {
+    const std::size_t own = joined.root(static_cast<std::size_t>(network.wires_at[i].front()));
+    double nearest = distance;
+    int partner = -1;
+    for (std::size_t j = 0; j < network.points.size(); ++j) {
+      const double d = (network.points[i] - network.points[j]).norm();
+      if (d > nearest || (d == nearest && partner >= 0)) continue;
+      if (joined.root(static_cast<std::size_t>(network.wires_at[j].front())) == own) continue;
+      nearest = d;
+      partner = static_cast<int>(j);
+    }
+    if (partner >= 0)
+      network.links.push_back({network.wires_at[i].front(), static_cast<int>(i),
+                               network.wires_at[static_cast<std::size_t>(partner)].front(), partner});
+  }
+}
+
+}  // namespace
+
+WireNetwork wire_network(const Shape& shape, const WireStructure& structure, double link_distance, double tolerance) {
+  WireNetwork network;
+  Eigen::AlignedBox3d box;
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k) box.extend(shape.corner(t, k));
+  network.diagonal = box.diagonal().norm();
+  number_nodes(shape, structure, network);
+  align_axes(structure, network);
+  network.tolerance = tolerance;
+  find_links(link_distance, network);
+  return network;
+}
+
+std::vector<Eigen::Vector3d> node_positions(const WireNetwork& network, const std::vector<Eigen::Affine3d>& maps,
+                                            int exact) {
+  std::vector<Eigen::Vector3d> positions;
+  for (std::size_t i = 0; i < network.points.size(); ++i) {
+    const std::vector<int>& wires = network.wires_at[i];
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const int k : wires) sum += maps[static_cast<std::size_t>(k)] * network.points[i];
+    positions.push_back(std::find(wires.begin(), wires.end(), exact) != wires.end()
+                            ? Eigen::Vector3d(maps[static_cast<std::size_t>(exact)] * network.points[i])
+                            : Eigen::Vector3d(sum / static_cast<double>(wires.size())));
+  }
+  return positions;
+}
+
+}  // namespace stackabilization::detail
