@@ -191,30 +191,67 @@ TEST_CASE("surface: equal vertices stay equal, sheets that meet in an edge do no
   }
 }
 
-TEST_CASE("surface: a shell without handle or anchor follows the nearest one rigidly") {
-  Shape body = tube();
-  Shape knob = solids::subdivided(solids::box({1.05, -0.1, 0.1}, {1.25, 0.1, 0.3}));
+namespace {
+
+struct WithKnob {
+  Shape rest, now;
+  Eigen::Index first;  ///< vertex of the knob
+};
+
+/// A box just beside the tube, which is widened and turned there.
+WithKnob with_knob(double reach) {
+  const Shape body = tube(), knob = solids::subdivided(solids::box({1.05, -0.1, 0.1}, {1.25, 0.1, 0.3}));
   const Shape shape = concatenate(body, knob);
-  const auto surface = surface_model(shape);
-  const Shape now = deformed(*surface, {{{HandleKind::section, 0, 3}, Scale{1.5, {}}},
-                                        {{HandleKind::section, 0, 3}, Rotate{{0, 1, 0}, 0.2}}});
-  const Eigen::Index first = body.vertex_count();
-  double stretch = 0, moved = 0;
-  for (Eigen::Index a = first; a < shape.vertex_count(); ++a) {
-    moved = std::max(moved, (now.vertices.row(a) - shape.vertices.row(a)).norm());
-    for (Eigen::Index b = first; b < a; ++b)
-      stretch = std::max(stretch, std::abs((now.vertices.row(a) - now.vertices.row(b)).norm() -
-                                           (shape.vertices.row(a) - shape.vertices.row(b)).norm()));
-  }
-  CHECK(stretch < 1e-14);
-  CHECK(moved > 0.1);
-  // It keeps its distance from the wall, about.
-  Shape wall = extract_part(now, 0), box = extract_part(now, 1);
-  const SurfaceIndex index(wall);
-  double gap = 1;
-  for (Eigen::Index v = 0; v < box.vertex_count(); ++v)
-    gap = std::min(gap, index.nearest(box.vertices.row(v).transpose()).distance);
-  CHECK(gap < 0.15);
+  const Handle ring{HandleKind::section, 0, 3};
+  const auto surface = surface_model(shape, with(&SurfaceModelOptions::reach, reach));
+  return {shape, deformed(*surface, {{ring, Scale{1.5, {}}}, {ring, Rotate{{0, 1, 0}, 0.2}}}),
+          body.vertex_count()};
+}
+
+/// Largest change of a distance between two vertices of the knob.
+double strain(const WithKnob& knob) {
+  double change = 0;
+  for (Eigen::Index a = knob.first; a < knob.rest.vertex_count(); ++a)
+    for (Eigen::Index b = knob.first; b < a; ++b)
+      change = std::max(change, std::abs((knob.now.vertices.row(a) - knob.now.vertices.row(b)).norm() -
+                                         (knob.rest.vertices.row(a) - knob.rest.vertices.row(b)).norm()));
+  return change;
+}
+
+double gap(const Shape& shape) {
+  const SurfaceIndex body(extract_part(shape, 0));
+  const Points knob = extract_part(shape, 1).vertices;
+  double least = std::numeric_limits<double>::infinity();
+  for (Eigen::Index v = 0; v < knob.rows(); ++v)
+    least = std::min(least, body.nearest(knob.row(v).transpose()).distance);
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("surface: a shell without handle or anchor follows the nearest one rigidly") {
+  const WithKnob knob = with_knob(0);
+  CHECK(strain(knob) < 1e-14);
+  CHECK((knob.now.vertices - knob.rest.vertices).bottomRows(8).rowwise().norm().minCoeff() > 0.1);
+  CHECK(gap(knob.now) == Approx(gap(knob.rest)).margin(0.03));
+}
+
+TEST_CASE("surface: shells that nearly touch deform together") {
+  const WithKnob knob = with_knob(0.01);
+  CHECK((knob.now.vertices - knob.rest.vertices).bottomRows(8).rowwise().norm().minCoeff() > 0.1);
+  CHECK(gap(knob.now) == Approx(gap(knob.rest)).margin(0.03));
+  CHECK(strain(knob) < 0.03);
+
+  // The collar stays around the neck of the bottle when the mouth is pulled aside.
+  const Shape shape = model("bottle");
+  const Shape now = deformed(*surface_model(shape), {{{HandleKind::point, 0, 1200}, Move{{0.03, 0, 0}}}});
+  const SurfaceIndex before(extract_part(shape, 0)), after(extract_part(now, 0));
+  const Points collar = extract_part(shape, 1).vertices, moved = extract_part(now, 1).vertices;
+  double worst = 0;
+  for (Eigen::Index v = 0; v < collar.rows(); ++v)
+    worst = std::max(worst, std::abs(after.nearest(moved.row(v).transpose()).distance -
+                                     before.nearest(collar.row(v).transpose()).distance));
+  CHECK(worst < 0.002);
 }
 
 TEST_CASE("surface: triangles without area and vertices without triangles do no harm") {
@@ -312,6 +349,7 @@ TEST_CASE("surface: what it cannot do is said") {
   CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::handle_radius, -1.0)), UsageError);
   CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::influence, std::nan(""))), UsageError);
   CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::sections, 0)), UsageError);
+  CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::reach, -1.0)), UsageError);
   CHECK_THROWS_AS(
       surface_model(shape, with(&SurfaceModelOptions::axis, std::optional(Eigen::Vector3d(0, 0, 0)))),
       UsageError);

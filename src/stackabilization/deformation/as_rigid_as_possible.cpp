@@ -40,8 +40,9 @@ void append_edges(const Points& points, const std::array<std::int32_t, 3>& corne
 
 }  // namespace
 
-RigidSurface::RigidSurface(Points points, const Triangles& triangles) : points_(std::move(points)) {
-  add_edges(triangles);
+RigidSurface::RigidSurface(Points points, const Triangles& triangles, const std::vector<Tie>& ties)
+    : points_(std::move(points)) {
+  add_edges(triangles, ties);
   find_shells();
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const Eigen::Vector3d a = points_.row(triangles(t, 0));
@@ -50,11 +51,15 @@ RigidSurface::RigidSurface(Points points, const Triangles& triangles) : points_(
   }
 }
 
-void RigidSurface::add_edges(const Triangles& triangles) {
+void RigidSurface::add_edges(const Triangles& triangles, const std::vector<Tie>& ties) {
   std::vector<WeightedEdge> edges;
   edges.reserve(6 * static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index t = 0; t < triangles.rows(); ++t)
     append_edges(points_, {triangles(t, 0), triangles(t, 1), triangles(t, 2)}, edges);
+  for (const Tie& tie : ties) {
+    edges.push_back({tie.a, tie.b, tie.weight});
+    edges.push_back({tie.b, tie.a, tie.weight});
+  }
   // Stable, so that both directions of an edge add up their weights in the same order, to the same bits.
   std::stable_sort(edges.begin(), edges.end(), [](const WeightedEdge& a, const WeightedEdge& b) {
     return std::pair(a.from, a.to) < std::pair(b.from, b.to);

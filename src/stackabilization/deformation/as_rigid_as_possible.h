@@ -21,6 +21,12 @@ struct RotatedPoints {
   std::vector<Eigen::Matrix3d> rotations;  ///< n
 };
 
+/// An edge besides those of the triangles.
+struct Tie {
+  std::int32_t a, b;  ///< two different points
+  double weight;      ///< about one, as of other edges
+};
+
 /// As-rigid-as-possible deformation of a surface (Sorkine and Alexa 2007): of all positions of the free
 /// points with some points held, those for which the surface around every point is as near as possible to a
 /// rotation of what it was, edges weighted by cotangents.
@@ -32,7 +38,7 @@ struct RotatedPoints {
 class RigidSurface {
  public:
   /// `triangles` are rows of `points`, which are all different. Triangles without area hang on by weak edges.
-  RigidSurface(Points points, const Triangles& triangles);
+  RigidSurface(Points points, const Triangles& triangles, const std::vector<Tie>& ties = {});
 
   /// Points of equal numbers are connected by edges; numbered from 0 in order of the points.
   const std::vector<std::int32_t>& shells() const { return shells_; }
@@ -51,7 +57,7 @@ class RigidSurface {
   };
   class Solution;
 
-  void add_edges(const Triangles& triangles);
+  void add_edges(const Triangles& triangles, const std::vector<Tie>& ties);
   void find_shells();
   const Edge* begin(std::size_t point) const { return edges_.data() + first_[point]; }
   const Edge* end(std::size_t point) const { return edges_.data() + first_[point + 1]; }

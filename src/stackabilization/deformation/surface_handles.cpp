@@ -20,6 +20,8 @@ void validate(const SurfaceModelOptions& options) {
     throw UsageError("the radius of point handles needs a finite number that is not negative");
   if (!(options.influence >= 0))
     throw UsageError("the influence of handles needs a number that is not negative");
+  if (!(std::isfinite(options.reach) && options.reach >= 0))
+    throw UsageError("the reach between shells needs a finite number that is not negative");
   if (options.sections < 1) throw UsageError("a surface needs one section at least");
   if (options.axis && !(options.axis->allFinite() && options.axis->norm() > 0))
     throw UsageError("the main axis needs finite coordinates that are not all zero");

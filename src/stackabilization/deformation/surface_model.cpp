@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "stackabilization/deformation/places.h"
+#include "stackabilization/deformation/shell_ties.h"
 #include "stackabilization/deformation/surface_handles.h"
 #include "stackabilization/deformation/vertex_constraints.h"
 #include "stackabilization/shape/errors.h"
@@ -106,10 +107,11 @@ class SurfaceModel : public DeformationModel {
       : shape_(shape),
         places_(places_of(shape)),
         handles_(shape, places_, options),
-        surface_(places_.points, places_.triangles),
-        options_(options) {
-    diagonal_ = (places_.points.colwise().maxCoeff() - places_.points.colwise().minCoeff()).norm();
-  }
+        options_(options),
+        diagonal_((places_.points.colwise().maxCoeff() - places_.points.colwise().minCoeff()).norm()),
+        ties_(shell_ties(places_, RigidSurface(places_.points, places_.triangles).shells(),
+                         options.reach * diagonal_)),
+        surface_(places_.points, places_.triangles, ties_) {}
 
   std::vector<Handle> handles() const override { return handles_.all(); }
   Eigen::Vector3d centre(const Handle& handle) const override {
@@ -130,9 +132,10 @@ class SurfaceModel : public DeformationModel {
   Shape shape_;
   Places places_;
   SurfaceHandles handles_;
-  RigidSurface surface_;
   SurfaceModelOptions options_;
-  double diagonal_ = 0;
+  double diagonal_;
+  std::vector<Tie> ties_;
+  RigidSurface surface_;
 };
 
 Targets SurfaceModel::targets(const std::vector<Edit>& edits) const {
@@ -191,7 +194,7 @@ RotatedPoints SurfaceModel::solved(const Targets& targets, const std::vector<boo
   for (std::size_t p = 0; p < shells.size(); ++p)
     if (!targets.is_held[p]) start.rotations[p] = turn[at(shells[p])];
   if (!targets.whole) return surface_.deformed(targets.is_held, std::move(start), options_.rigidity);
-  return RigidSurface(targets.background, places_.triangles)
+  return RigidSurface(targets.background, places_.triangles, ties_)
       .deformed(targets.is_held, std::move(start), options_.rigidity);
 }
 

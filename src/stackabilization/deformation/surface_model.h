@@ -16,6 +16,9 @@ struct SurfaceModelOptions {
   /// What is farther than this from every handle that was edited stays, fraction of the bounding-box
   /// diagonal; >= 0, and infinity for shapes that follow as a whole.
   double influence = 0.25;
+  /// Shells (connected pieces) that come nearer to each other than this hang together there, fraction of the
+  /// bounding-box diagonal; finite, >= 0.
+  double reach = 0.01;
   /// Slices of equal height that HandleKind::section counts along the main axis; >= 1.
   int sections = 24;
   /// Main axis, not zero. Nothing: of the minimal oriented box the axis across two sides that are equal to a
@@ -36,8 +39,9 @@ struct SurfaceModelOptions {
 /// handles keep the vertices they hold where the edits, one after the other, have put them; the surface
 /// within their influence follows as rigidly as possible, and the rest of the vertices do not move at all.
 /// Distances are straight, not along the surface, so that the two sides of a wall go together. Shells
-/// (connected pieces) of which nothing is held and nothing stays follow rigidly the nearest point of the
-/// others. Vertices of equal coordinates stay equal. Vertices that no triangle uses stay.
+/// that touch deform together; those of which nothing is held, nothing stays and nothing touches follow
+/// rigidly the point of the others that is nearest. Vertices of equal coordinates stay equal. Vertices that
+/// no triangle uses stay.
 ///
 /// The extent along r is kept by stretching along r what lies above or below everything that stays and, where
 /// this does not help, the whole (see vertex_constraints.h); fixed parts and points hold their vertices in
