@@ -79,7 +79,7 @@ class PropagationProblem {
   PropagatedWires solved() {
     for (int round = 0; round < most_rounds; ++round) {
       const auto solution = problem_->solved(tolerance::rounding * network_.diagonal);
-      const std::vector<int> flattened = flattened_wires(solution.values);
+      const std::vector<int> flattened = collapses(solution.values);
       if (flattened.empty()) return result_of(solution);
       for (const int k : flattened) {
         if (k == edit_.wire) return flattened_result(k);
@@ -99,10 +99,10 @@ class PropagationProblem {
     return linear;
   }
 
-  std::vector<int> flattened_wires(const Eigen::VectorXd& values) const {
+  std::vector<int> collapses(const Eigen::VectorXd& values) const {
     std::vector<int> flattened;
     for (int k = 0; k < count(); ++k)
-      if (change(k, values).determinant() <= tolerance::flattened_wire) flattened.push_back(k);
+      if (change(k, values).determinant() <= tolerance::collapse) flattened.push_back(k);
     return flattened;
   }
 

@@ -63,6 +63,7 @@ inline constexpr double clear_lead = 0.9;
 /// Least thickness of a cuboid, as a fraction of its diagonal: thinner ones are thickened to it, for mean value coordinates
 /// in a cage without volume are undefined.
 inline constexpr double least_thickness = 1e-3;
+
 /// Symmetries that take the same part to places nearer than this, as a fraction of the bounding-box diagonal of the
 /// shape, or whose planes meet within this many radians of a simple angle, are meant to be one, or to meet at that
 /// angle.
@@ -72,6 +73,7 @@ inline constexpr double same_symmetry = 0.01;
 /// largest coordinate, whichever is larger: 100 times below what is promised for edits, 10 times above what rounding
 /// leaves.
 inline constexpr double idealised = 1e-13;
+
 /// A relation holds when it is off by no more than this, as a fraction of the bounding-box diagonal.
 inline constexpr double relation = 1e-6;
 
@@ -91,13 +93,7 @@ inline constexpr double difference_step = 0x1p-24;
 /// order; the others are at least 4 sin^2(pi / order), far above.
 inline constexpr double invariance = 1e-6;
 
-/// Smallest factor by which a deformation may shrink a radius, a piece of a curve or the volume at a corner
-/// of a cuboid: what is smaller has collapsed.
+/// Smallest factor by which a deformation may shrink a radius, a piece of a curve, the volume at a corner of a
+/// cuboid, or length and area of a feature curve: what is smaller has collapsed.
 inline constexpr double collapse = 1e-3;
-/// How far a relation of a shape's structure may be from holding after an edit, as a fraction of the diagonal.
-inline constexpr double relation = 1e-6;
-
-/// Factor of length, area or volume below which a feature curve counts as flattened by an edit.
-inline constexpr double flattened_wire = 1e-3;
-
 }  // namespace stackabilization::tolerance
