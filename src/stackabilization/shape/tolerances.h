@@ -72,6 +72,7 @@ inline constexpr double same_symmetry = 0.01;
 /// largest coordinate, whichever is larger: 100 times below what is promised for edits, 10 times above what rounding
 /// leaves.
 inline constexpr double idealised = 1e-13;
+
 /// A relation holds when it is off by no more than this, as a fraction of the bounding-box diagonal.
 inline constexpr double relation = 1e-6;
 
@@ -94,8 +95,6 @@ inline constexpr double invariance = 1e-6;
 /// Smallest factor by which a deformation may shrink a radius, a piece of a curve or the volume at a corner
 /// of a cuboid: what is smaller has collapsed.
 inline constexpr double collapse = 1e-3;
-/// How far a relation of a shape's structure may be from holding after an edit, as a fraction of the diagonal.
-inline constexpr double relation = 1e-6;
 
 /// Factor of length, area or volume below which a feature curve counts as flattened by an edit.
 inline constexpr double flattened_wire = 1e-3;
