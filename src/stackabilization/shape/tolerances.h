@@ -96,4 +96,8 @@ inline constexpr double invariance = 1e-6;
 /// Smallest factor by which a deformation may shrink a radius, a piece of a curve, the volume at a corner of a
 /// cuboid, or length and area of a feature curve: what is smaller has collapsed.
 inline constexpr double collapse = 1e-3;
+
+/// Factor of length, area or volume below which a feature curve counts as flattened by an edit.
+inline constexpr double flattened_wire = 1e-3;
+
 }  // namespace stackabilization::tolerance
