@@ -92,28 +92,58 @@ class ContactFinder {
       add_box(edges, segment(side, static_cast<int>(e)), options_.reach, static_cast<int>(e), other(side), options_.reach);
     for (std::size_t t = 0; t < other(side).triangles().size(); ++t)
       add_box(triangles, corners(1 - side, static_cast<int>(t)), 0, static_cast<int>(t), mine(side), options_.reach);
+    nearest_.assign(mine(side).edges().size(), Meeting{side, -1, -1, {options_.reach, 0, 0}});
     CGAL::box_intersection_d(edges.begin(), edges.end(), triangles.begin(), triangles.end(),
                              [&](const Box& e, const Box& t) { meet(side, e.info(), t.info()); });
+    for (const Meeting& one : nearest_)
+      if (one.edge >= 0) meetings_.push_back(one);
   }
 
+  /// Of a short edge, what it touches and the nearest triangle are enough.
   void meet(int side, int row, int triangle) {
     const Segment ends = segment(side, row);
     const Corners corner = corners(1 - side, triangle);
     const Eigen::Vector3d middle = (ends[0] + ends[1]) / 2;
-    if ((nearest_on_triangle(middle, corner) - middle).norm() > options_.reach + (ends[1] - ends[0]).norm() / 2) return;
-    const Approach found = approach(ends, corner, resolution_);
-    if (found.distance <= options_.reach) meetings_.push_back({side, row, triangle, found});
+    const double length = (ends[1] - ends[0]).norm();
+    const bool is_short = length <= options_.reach;
+    Meeting& nearest = nearest_[static_cast<std::size_t>(row)];
+    const double most = is_short ? std::max(nearest.approach.distance, resolution_) : options_.reach;
+    if ((nearest_on_triangle(middle, corner) - middle).norm() > most + length / 2) return;
+    const Meeting found{side, row, triangle, approach(ends, corner, resolution_)};
+    const double distance = found.approach.distance;
+    if (distance > most) return;
+    if (!is_short || touches(found))
+      meetings_.push_back(found);
+    else if (nearest.edge < 0 || std::tie(distance, triangle) < std::tie(nearest.approach.distance, nearest.triangle))
+      nearest = found;
+  }
+
+  bool is_small(int side, int row) const {
+    const Corners c = corners(side, row);
+    return std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()}) <= options_.reach;
   }
 
   /// Within reach of a triangle lies a convex piece of each triangle of the other surface. Neighbouring pieces share a
-  /// piece of an edge; so meetings belong together when they are about the same two triangles.
+  /// piece of an edge; so meetings belong together when they are about the same two triangles, or the same small one.
   void join_pieces() {
     std::vector<std::pair<std::uint64_t, std::size_t>> pieces;
-    const auto key = [](int a, int b) { return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint32_t>(b); };
+    constexpr auto any = static_cast<std::uint64_t>(std::numeric_limits<std::uint32_t>::max());
+    const auto is_small_one = [&](int side) {
+      std::vector<bool> small(surfaces_[side]->triangles().size());
+      for (std::size_t t = 0; t < small.size(); ++t) small[t] = is_small(side, static_cast<int>(t));
+      return small;
+    };
+    const std::array<std::vector<bool>, 2> small = {is_small_one(0), is_small_one(1)};
     for (std::size_t m = 0; m < meetings_.size(); ++m) {
       const Meeting& one = meetings_[m];
-      for (const int t : edge(one.side, one.edge).triangles)
-        pieces.emplace_back(one.side == 0 ? key(t, one.triangle) : key(one.triangle, t), m);
+      for (const int t : edge(one.side, one.edge).triangles) {
+        const std::array<int, 2> rows = one.side == 0 ? std::array{t, one.triangle} : std::array{one.triangle, t};
+        const auto a = static_cast<std::uint64_t>(rows[0]), b = static_cast<std::uint64_t>(rows[1]);
+        const bool small_a = small[0][a], small_b = small[1][b];
+        if (small_a) pieces.emplace_back(a << 32 | any, m);
+        if (small_b) pieces.emplace_back(any << 32 | b, m);
+        if (!small_a && !small_b) pieces.emplace_back(a << 32 | b, m);
+      }
     }
     std::sort(pieces.begin(), pieces.end());
     for (std::size_t k = 1; k < pieces.size(); ++k)
@@ -297,6 +327,7 @@ class ContactFinder {
   ContactOptions options_;
   double resolution_;  ///< model units
   std::vector<Meeting> meetings_;
+  std::vector<Meeting> nearest_;  ///< per edge of the side that is being looked at; no edge (-1): none yet
   std::array<std::size_t, 2> first_vertex_{};  ///< sets: meetings, then vertices of both sides
   DisjointSets sets_{0};
   std::array<std::vector<bool>, 2> inside_;   ///< per vertex

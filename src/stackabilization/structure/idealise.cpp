@@ -134,34 +134,10 @@ class Idealiser {
     return check();
   }
 
+  void idealise(const Orbit& orbit);
+
  private:
   Part& part(int row) { return structure_.parts[static_cast<std::size_t>(row)]; }
-
-  void idealise(const Orbit& orbit) {
-    unify_kinds(orbit);
-    const bool boxes = std::all_of(orbit.parts.begin(), orbit.parts.end(), [&](int row) {
-      const auto* cuboid = std::get_if<Cuboid>(&part(row).primitive);
-      return cuboid && is_box(*cuboid);
-    });
-    const Primitive first = part(orbit.parts[0]).primitive;
-    Mean mean(first);
-    for (std::size_t k = 0; k < orbit.parts.size(); ++k)
-      mean.add(part(orbit.parts[k]).primitive, orbit.from_first[k].inverse());
-    const Primitive ideal = made_symmetric(mean.mean(), orbit, boxes);
-
-    for (std::size_t k = 0; k < orbit.parts.size(); ++k) {
-      Primitive& old = part(orbit.parts[k]).primitive;
-      const std::vector<int> to = control_correspondence(ideal, old, orbit.from_first[k]);
-      const Points image = moved(control_points(ideal), orbit.from_first[k]);
-      Points points = image;
-      for (std::size_t i = 0; i < to.size(); ++i) {
-        points.row(to[i]) = image.row(static_cast<Eigen::Index>(i));
-        if (auto* cylinder = std::get_if<GeneralizedCylinder>(&old))
-          cylinder->radii(to[i]) = (*radii_of(ideal))(static_cast<Eigen::Index>(i));
-      }
-      set_control_points(old, points);
-    }
-  }
 
   /// Mean over the group. A box that lies askew to the planes is turned to them first.
   Primitive made_symmetric(const Primitive& primitive, const Orbit& orbit, bool boxes) const {
@@ -254,9 +230,37 @@ class Idealiser {
   Structure& structure_;
 };
 
+void Idealiser::idealise(const Orbit& orbit) {
+  unify_kinds(orbit);
+  const bool boxes = std::all_of(orbit.parts.begin(), orbit.parts.end(), [&](int row) {
+    const auto* cuboid = std::get_if<Cuboid>(&part(row).primitive);
+    return cuboid && is_box(*cuboid);
+  });
+  const Primitive first = part(orbit.parts[0]).primitive;
+  Mean mean(first);
+  for (std::size_t k = 0; k < orbit.parts.size(); ++k)
+    mean.add(part(orbit.parts[k]).primitive, orbit.from_first[k].inverse());
+  const Primitive ideal = made_symmetric(mean.mean(), orbit, boxes);
+
+  for (std::size_t k = 0; k < orbit.parts.size(); ++k) {
+    Primitive& old = part(orbit.parts[k]).primitive;
+    const std::vector<int> to = control_correspondence(ideal, old, orbit.from_first[k]);
+    const Points image = moved(control_points(ideal), orbit.from_first[k]);
+    Points points = image;
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      points.row(to[i]) = image.row(static_cast<Eigen::Index>(i));
+      if (auto* cylinder = std::get_if<GeneralizedCylinder>(&old))
+        cylinder->radii(to[i]) = (*radii_of(ideal))(static_cast<Eigen::Index>(i));
+    }
+    set_control_points(old, points);
+  }
+}
+
 }  // namespace
 
 std::optional<Contradiction> try_idealise(Structure& structure) { return Idealiser(structure).run(); }
+
+void make_symmetric(Structure& structure, const Orbit& orbit) { Idealiser(structure).idealise(orbit); }
 
 double symmetry_miss(const Structure& structure, const Relation& relation) {
   return miss(structure.parts[static_cast<std::size_t>(relation.parts.front())].primitive,

@@ -20,7 +20,7 @@ namespace {
 using detail::PartSurface;
 
 /// Share of a region, about its centre, that a third part must hold to hide it.
-constexpr double kept_share = 0.95;
+constexpr double hidden_share = 0.75;
 
 void check(const JointOptions& options) {
   if (!(options.reach > 0) || !std::isfinite(options.reach)) throw UsageError("the reach of joints must be positive");
@@ -120,11 +120,13 @@ class JointFinder {
 
   const PartSurface& surface(int part) const { return *surfaces_[static_cast<std::size_t>(part)]; }
 
-  /// Two bars that end in one leg overlap there, but it is the leg that holds them.
+  /// Two bars that end in one leg overlap there, but it is the leg that holds them: what they share is smaller than what
+  /// each of them shares with the leg, and lies in it.
   std::vector<Relation> without_hidden(const std::vector<Joint>& joints) const {
-    const auto meet = [&](int a, int b) {
+    const auto share_more = [&](int a, int b, const detail::HullSpread& region) {
       return std::any_of(joints.begin(), joints.end(), [&](const Joint& joint) {
-        return joint.relation.parts == std::vector<int>{std::min(a, b), std::max(a, b)};
+        return joint.relation.parts == std::vector<int>{std::min(a, b), std::max(a, b)} &&
+               joint.region.deviations.norm() > region.deviations.norm();
       });
     };
     std::vector<Relation> kept;
@@ -132,7 +134,7 @@ class JointFinder {
       const int a = relation.parts[0], b = relation.parts[1];
       bool hidden = false;
       for (int part = 0; part < static_cast<int>(surfaces_.size()) && !hidden; ++part)
-        hidden = part != a && part != b && meet(a, part) && meet(b, part) &&
+        hidden = part != a && part != b && share_more(a, part, region) && share_more(b, part, region) &&
                  holds(surface(part), region);
       if (!hidden) kept.push_back(relation);
     }
@@ -141,7 +143,7 @@ class JointFinder {
 
   static bool holds(const PartSurface& surface, const detail::HullSpread& region) {
     for (const auto& row : region.hull.rowwise())
-      if (!surface.contains(region.centre + kept_share * (row.transpose() - region.centre))) return false;
+      if (!surface.contains(region.centre + hidden_share * (row.transpose() - region.centre))) return false;
     return surface.contains(region.centre);
   }
 

@@ -1,0 +1,146 @@
+#include "stackabilization/structure/analysis.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/structure/idealise.h"
+#include "stackabilization/structure/joint_symmetry.h"
+#include "stackabilization/structure/symmetry_orbit.h"
+
+namespace stackabilization {
+
+namespace {
+
+double diagonal_of(const Shape& shape) {
+  Eigen::Vector3d extent;
+  for (int a = 0; a < 3; ++a) extent(a) = range_along(shape, Eigen::Vector3d::Unit(a)).length();
+  return extent.norm();
+}
+
+PrimitiveKind kind_of(const Primitive& primitive) {
+  return std::holds_alternative<Cuboid>(primitive) ? PrimitiveKind::cuboid : PrimitiveKind::cylinder;
+}
+
+double error_of(const PrimitiveFit& fit, PrimitiveKind kind) {
+  if (kind == PrimitiveKind::cuboid) return fit.cuboid_error;
+  return fit.cylinder_error.value_or(std::numeric_limits<double>::infinity());
+}
+
+class Analysis {
+ public:
+  Analysis(const Shape& shape, const AnalysisOptions& options)
+      : options_(options), result_{segmented(shape, options.segmentation), {}} {
+    for (const auto& [name, kind] : options.kinds)
+      if (std::count(names().begin(), names().end(), name) == 0)
+        throw UsageError("a kind of primitive is given for part '" + name + "', which the shape does not have");
+  }
+
+  StructuredShape run() {
+    fit_parts();
+    find_relations();
+    agree_on_kinds();
+    drop_contradictions();
+    add_joints();
+    return std::move(result_);
+  }
+
+ private:
+  const std::vector<std::string>& names() const { return result_.shape.part_names; }
+  Structure& structure() { return result_.structure; }
+  Part& part(int row) { return structure().parts[static_cast<std::size_t>(row)]; }
+
+  std::optional<PrimitiveKind> forced_kind(int row) const {
+    const auto forced = options_.kinds.find(names()[static_cast<std::size_t>(row)]);
+    return forced == options_.kinds.end() ? options_.fit.kind : forced->second;
+  }
+
+  void fit_part(int row, std::optional<PrimitiveKind> kind) {
+    FitOptions options = options_.fit;
+    options.kind = kind;
+    FittedPrimitive fitted = fit_primitive(extract_part(result_.shape, row), options);
+    part(row) = {names()[static_cast<std::size_t>(row)], std::move(fitted.primitive), std::move(fitted.fit)};
+  }
+
+  void fit_parts() {
+    structure().diagonal = diagonal_of(result_.shape);
+    structure().parts.resize(names().size());
+    tbb::parallel_for(std::size_t{0}, names().size(), [&](std::size_t k) {
+      const int row = static_cast<int>(k);
+      fit_part(row, forced_kind(row));
+    });
+  }
+
+  void find_relations() {
+    const std::vector<FoundSymmetry> found = find_symmetries(result_.shape, options_.symmetry);
+    for (const FoundSymmetry& one : found) structure().symmetries.push_back(one.symmetry);
+    structure().relations = symmetry_relations(result_.shape, found, options_.symmetry);
+    std::stable_sort(structure().relations.begin(), structure().relations.end(),
+                     [](const Relation& a, const Relation& b) { return a.parts < b.parts; });
+  }
+
+  /// Symmetric parts get the kind that one of them is forced to, else the kind that fits all of them better in sum.
+  void agree_on_kinds() {
+    for (const detail::Orbit& orbit : detail::find_orbits(structure()).orbits) {
+      const PrimitiveKind kind = common_kind(orbit);
+      tbb::parallel_for(std::size_t{0}, orbit.parts.size(), [&](std::size_t k) {
+        if (kind_of(part(orbit.parts[k]).primitive) != kind) fit_part(orbit.parts[k], kind);
+      });
+    }
+  }
+
+  PrimitiveKind common_kind(const detail::Orbit& orbit) {
+    std::optional<PrimitiveKind> forced;
+    for (const int row : orbit.parts) {
+      const std::optional<PrimitiveKind> kind = forced_kind(row);
+      if (forced && kind && forced != kind)
+        throw UsageError("part '" + part(row).name + "' is symmetric to others that are forced to another kind of primitive");
+      if (kind) forced = kind;
+    }
+    if (forced) return *forced;
+    double cuboid = 0, cylinder = 0;
+    for (const int row : orbit.parts) {
+      cuboid += error_of(part(row).fit, PrimitiveKind::cuboid);
+      cylinder += error_of(part(row).fit, PrimitiveKind::cylinder);
+    }
+    return cylinder < cuboid ? PrimitiveKind::cylinder : PrimitiveKind::cuboid;
+  }
+
+  /// Symmetries were found one by one; where primitives cannot have all of them, the last to come goes.
+  void drop_contradictions() {
+    for (;;) {
+      Structure ideal = structure();
+      const std::optional<detail::Contradiction> contradiction = detail::try_idealise(ideal);
+      if (!contradiction) {
+        structure() = std::move(ideal);
+        return;
+      }
+      structure().relations.erase(structure().relations.begin() + contradiction->relations.back());
+    }
+  }
+
+  void add_joints() {
+    std::vector<Relation> joints =
+        detail::symmetric_joints(find_joints(result_.shape, structure().parts, options_.joints), structure());
+    std::stable_sort(joints.begin(), joints.end(),
+                     [](const Relation& a, const Relation& b) { return a.parts < b.parts; });
+    structure().relations.insert(structure().relations.end(), joints.begin(), joints.end());
+  }
+
+  const AnalysisOptions& options_;
+  StructuredShape result_;
+};
+
+}  // namespace
+
+StructuredShape analyse_structure(const Shape& shape, const AnalysisOptions& options) {
+  validate(shape);
+  return Analysis(shape, options).run();
+}
+
+}  // namespace stackabilization
