@@ -1,3 +1,4 @@
+#define BOOST_ALLOW_DEPRECATED_HEADERS  // of which Boost.Geometry 1.74 itself includes one
 #include "stackabilization/deformation/gap_scaling.h"
 
 #include <tbb/parallel_for.h>
@@ -117,8 +118,12 @@ GapScaling::GapScaling(const Shape& shape, const Direction& direction)
   const Points local = (places.points.rowwise() - centre_.transpose()) * axes;
   const Columns columns(local, places.triangles, tolerance::rounding * places.points.cwiseAbs().maxCoeff());
   Eigen::VectorXd depths(local.rows());
-  tbb::parallel_for(Eigen::Index{0}, local.rows(),
-                    [&](Eigen::Index p) { depths(p) = columns.top(p) - local(p, 2); });
+  // On the envelope up to rounding, and to the slope within the column's width, is on it.
+  const double none = tolerance::relative * 2 * box.half_extents.norm();
+  tbb::parallel_for(Eigen::Index{0}, local.rows(), [&](Eigen::Index p) {
+    const double depth = columns.top(p) - local(p, 2);
+    depths(p) = depth > none ? depth : 0;
+  });
   for (std::size_t v = 0; v < places.of_vertex.size(); ++v)
     if (places.of_vertex[v] >= 0) depth_(static_cast<Eigen::Index>(v)) = depths(places.of_vertex[v]);
 }

@@ -16,10 +16,11 @@ namespace stackabilization {
 /// where these are rounded (within tolerance::rounding of the coordinates). Columns are measured once, at
 /// rest.
 ///
-/// f_max of the result is `factor` times that of the rest where the triangles resolve the envelope: where the
-/// upper envelope is linear over every triangle. A triangle that hangs below a step of the envelope goes
-/// where its corners go; refined() cuts shapes finely enough beforehand. Vertices that no triangle uses stay,
-/// equal ones stay equal.
+/// f_max of the result is `factor` times that of the rest, up to tolerance::relative of the diagonal, where
+/// the triangles resolve the envelope: where the upper envelope is linear over every triangle. Elsewhere it
+/// is more: a triangle goes where its corners go, whatever is above its inside. Cutting a shape up beforehand
+/// (refined.h) brings it near below slopes, but below a step of the envelope only a vertex just there would
+/// help. Vertices that no triangle uses stay, equal ones stay equal.
 ///
 /// Squashing changes the extent along the direction: where this is to be kept, the result is stretched back
 /// (vertex_constraints.h), which undoes what was gained. Fixed vertices must lie on the upper envelope.

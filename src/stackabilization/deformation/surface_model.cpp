@@ -166,10 +166,7 @@ std::vector<bool> SurfaceModel::hold_the_rest(Targets& targets,
     const NeighbourSearch nearest(tree, to_cgal(places_.points.row(static_cast<Eigen::Index>(p))), 1);
     stays[p] = std::sqrt(nearest.begin()->second) > reach;
   }
-  for (const std::int32_t vertex : fixed) {
-    const std::size_t place = at(places_.of_vertex[at(vertex)]);
-    if (!targets.is_held[place]) stays[place] = true;
-  }
+  for (const std::int32_t vertex : fixed) stays[at(places_.of_vertex[at(vertex)])] = true;
   for (std::size_t p = 0; p < stays.size(); ++p)
     if (stays[p]) targets.is_held[p] = true;
   return stays;
