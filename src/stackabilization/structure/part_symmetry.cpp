@@ -1,0 +1,176 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "stackabilization/structure/canonical_reflections.h"
+#include "stackabilization/structure/part_match.h"
+#include "stackabilization/structure/symmetry_detection.h"
+#include "stackabilization/structure/symmetry_refinement.h"
+
+namespace stackabilization {
+
+namespace {
+
+using detail::SymmetrySurface;
+
+constexpr double nearly_parallel = 0.99, nearly_across = 0.05;  // cosines
+
+class PartSymmetry {
+ public:
+  PartSymmetry(const Shape& shape, const std::vector<FoundSymmetry>& symmetries, const SymmetryOptions& options)
+      : options_(options), parts_(shape, options) {
+    for (const FoundSymmetry& found : symmetries)
+      if (found.symmetry.kind == SymmetryKind::reflection) candidates_.push_back(found.symmetry);
+    for (const FoundSymmetry& found : symmetries)
+      if (found.symmetry.kind == SymmetryKind::revolution)
+        for (const Symmetry& plane : detail::planes_through(found.symmetry))
+          candidates_.push_back(plane);
+  }
+
+  std::vector<Relation> run() {
+    planes_ = detail::canonical_reflections(parts_.whole(), parts_.with_area(), candidates_);
+    for (const Symmetry& plane : planes_) append(relations_under(plane));
+    add_oblique_planes();
+    for (int part = 0; part < parts_.count(); ++part) {
+      if (!parts_.part(part) || has(part, RelationType::symmetry)) continue;
+      const bool alone = !has(part, RelationType::self_symmetry);
+      if (!add_revolution(part) && alone) add_own_planes(part);
+    }
+    std::stable_sort(relations_.begin(), relations_.end(), [](const Relation& a, const Relation& b) {
+      return std::pair(a.type, a.parts) < std::pair(b.type, b.parts);
+    });
+    return std::move(relations_);
+  }
+
+ private:
+  bool has(int part, RelationType type) const {
+    return std::any_of(relations_.begin(), relations_.end(), [&](const Relation& relation) {
+      return relation.type == type && std::count(relation.parts.begin(), relation.parts.end(), part) > 0;
+    });
+  }
+
+  void append(const std::vector<Relation>& more) { relations_.insert(relations_.end(), more.begin(), more.end()); }
+
+  static Relation related(std::vector<int> parts, const Symmetry& symmetry, double residual) {
+    const RelationType type = parts.size() == 1 ? RelationType::self_symmetry : RelationType::symmetry;
+    return {type, std::move(parts), symmetry, {}, residual};
+  }
+
+  /// The part that `plane` takes `part` onto best, -1 for none, and the residual.
+  std::pair<int, double> counterpart(int part, const Symmetry& plane) const {
+    std::pair<int, double> best{-1, 0};
+    for (int other = 0; other < parts_.count(); ++other)
+      if (const auto residual = parts_.match(part, other, plane); residual && (best.first < 0 || *residual < best.second))
+        best = {other, *residual};
+    return best;
+  }
+
+  std::vector<Relation> relations_under(const Symmetry& plane) const {
+    std::vector<std::pair<int, double>> counterparts;
+    for (int part = 0; part < parts_.count(); ++part) counterparts.push_back(counterpart(part, plane));
+    std::vector<Relation> relations;
+    for (int part = 0; part < parts_.count(); ++part) {
+      const auto [other, residual] = counterparts[static_cast<std::size_t>(part)];
+      if (other == part)
+        relations.push_back(related({part}, plane, residual));
+      else if (other > part && counterparts[static_cast<std::size_t>(other)].first == part)
+        relations.push_back(related({part, other}, plane, residual));
+    }
+    return relations;
+  }
+
+  /// Three legs, five legs: planes that are not orthogonal to those there are count when they give a part the first
+  /// counterpart it has; otherwise its orbit under those there are is what the design keeps.
+  void add_oblique_planes() {
+    for (const Symmetry& candidate : candidates_) {
+      const bool parallel = std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& plane) {
+        return std::abs(plane.axis.dot(candidate.axis)) > nearly_parallel;
+      });
+      if (parallel) continue;
+      const Symmetry plane = detail::fitted_to(planes_, candidate);
+      const std::vector<Relation> relations = relations_under(plane);
+      const bool joins = std::any_of(relations.begin(), relations.end(), [&](const Relation& relation) {
+        return relation.type == RelationType::symmetry &&
+               (!has(relation.parts[0], RelationType::symmetry) || !has(relation.parts[1], RelationType::symmetry));
+      });
+      if (!joins) continue;
+      planes_.push_back(plane);
+      append(relations);
+    }
+  }
+
+  /// Reflections that take the part onto itself.
+  std::vector<Symmetry> own_reflections(int part) const {
+    std::vector<Symmetry> planes;
+    for (const Relation& relation : relations_)
+      if (relation.type == RelationType::self_symmetry && relation.parts.front() == part)
+        planes.push_back(relation.symmetry);
+    return planes;
+  }
+
+  /// The relations of a part of revolution; false when it is none. Bars that the shape mirrors end to end are left as bars:
+  /// their roundness is the business of their primitive, and being straight is none of the design's.
+  bool add_revolution(int part) {
+    const SymmetrySurface& surface = *parts_.part(part);
+    const std::vector<Symmetry> axes = detail::revolutions(surface, options_, detail::Roundness::tolerant);
+    if (axes.empty()) return false;
+    const std::vector<Symmetry> own = own_reflections(part);
+    Symmetry axis = detail::to_model(surface, axes.front());
+    std::vector<Symmetry> through;
+    for (const Symmetry& plane : own) {
+      if (std::abs(plane.axis.dot(axis.axis)) > nearly_across) continue;
+      axis.axis = (axis.axis - plane.axis * plane.axis.dot(axis.axis)).normalized();
+      axis.point -= plane.axis * plane.axis.dot(axis.point - plane.point);
+      through.push_back(plane);
+    }
+    for (const Symmetry& plane : own)
+      if (std::abs(plane.axis.dot(axis.axis)) > nearly_parallel) {
+        if (through.size() < 2) return false;
+        axis.axis = plane.axis;
+      }
+
+    std::vector<Symmetry> planes;
+    if (through.empty())
+      planes = detail::planes_through(axis);
+    else if (through.size() == 1)
+      planes = {{SymmetryKind::reflection, axis.point, axis.axis.cross(through.front().axis).normalized(), 2}};
+    planes.push_back(axis);
+    for (const Symmetry& symmetry : planes)
+      relations_.push_back(related({part}, symmetry, parts_.match(part, part, symmetry).value_or(0)));
+    return true;
+  }
+
+  /// Planes through the middle of a part that the whole has no symmetry for, along its own box.
+  void add_own_planes(int part) {
+    const SymmetrySurface& surface = *parts_.part(part);
+    std::vector<Symmetry> planes;
+    for (int k = 0; k < 3; ++k) {
+      const Symmetry start{SymmetryKind::reflection, Eigen::Vector3d::Zero(), surface.box.axes.col(k), 2};
+      const double reach = 3 * options_.tolerance * surface.scale;
+      const Symmetry plane = detail::refined(surface, start, reach, detail::Effort::dense);
+      if (detail::verify(surface, plane, options_, detail::Effort::dense).holds)
+        planes.push_back(detail::to_model(surface, plane));
+    }
+    for (const Symmetry& plane : detail::canonical_reflections(surface, {&surface}, planes))
+      if (const auto residual = parts_.match(part, part, plane)) relations_.push_back(related({part}, plane, *residual));
+  }
+
+  SymmetryOptions options_;
+  detail::PartSurfaces parts_;
+  std::vector<Symmetry> candidates_, planes_;  ///< model units
+  std::vector<Relation> relations_;
+};
+
+}  // namespace
+
+std::vector<Relation> symmetry_relations(const Shape& shape, const std::vector<FoundSymmetry>& symmetries,
+                                         const SymmetryOptions& options) {
+  validate(shape);
+  detail::validate(options);
+  return PartSymmetry(shape, symmetries, options).run();
+}
+
+}  // namespace stackabilization
