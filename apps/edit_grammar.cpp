@@ -70,7 +70,8 @@ class Parser {
     Edit edit;
     edit.handle = handle();
     edit.operation = operation();
-    if (next_ < words_.size()) fail("expected nothing after " + words_[next_ - 1] + ", found '" + words_[next_] + "'");
+    if (next_ < words_.size())
+      fail("expected nothing after " + words_[next_ - 1] + ", found '" + words_[next_] + "'");
     try {
       validate(edit);
     } catch (const UsageError& error) {
@@ -82,7 +83,9 @@ class Parser {
  private:
   [[noreturn]] void fail(const std::string& what) const { throw UsageError(place_ + what); }
 
-  std::string found() const { return next_ < words_.size() ? "found '" + words_[next_] + "'" : "found the end"; }
+  std::string found() const {
+    return next_ < words_.size() ? "found '" + words_[next_] + "'" : "found the end";
+  }
 
   Handle handle() {
     const std::string word = words_[next_++];
@@ -93,7 +96,8 @@ class Parser {
     if (end == 0) fail("expected a closing ' after " + word);
     const std::string_view tail = std::string_view(word).substr(end == std::string::npos ? 0 : end + 1);
     const std::size_t slash = tail.rfind('/');
-    const Suffix* const suffix = slash == std::string_view::npos ? nullptr : suffix_of(tail.substr(slash + 1));
+    const Suffix* const suffix =
+        slash == std::string_view::npos ? nullptr : suffix_of(tail.substr(slash + 1));
     if (end != std::string::npos && !tail.empty() && (suffix == nullptr || slash != 0))
       fail("expected /face=, /corner= or /section= after the quoted part, found '" + std::string(tail) + "'");
     const std::size_t name_size = word.size() - (suffix == nullptr ? 0 : tail.size() - slash);
@@ -143,7 +147,8 @@ class Parser {
 
   Operation operation() {
     const std::string verb = next_ < words_.size() ? words_[next_] : "";
-    if (verb != "move" && verb != "rotate" && verb != "scale") fail("expected move, rotate or scale, " + found());
+    if (verb != "move" && verb != "rotate" && verb != "scale")
+      fail("expected move, rotate or scale, " + found());
     ++next_;
     if (verb == "move") return Move{vector("move")};
     const double amount = number(verb);

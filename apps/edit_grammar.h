@@ -11,16 +11,17 @@
 ///     HANDLE rotate DEGREES about X Y Z    about the handle's centre
 ///     HANDLE scale FACTOR [along X Y Z]    about the handle's centre
 ///
-/// HANDLE is one of PART, PART/face=F, PART/corner=0..7, PART/section=N, point=N, wire=N and shape. F is +x, -x, +y,
-/// -y, +z or -z of the primitive's own axes, or 0 to 5 in the order -x, +x, -y, +y, -z, +z. A name with blanks, or one
-/// that reads as something else ("shape", "wire=2", "a/face=1"), stands in single quotes; a quote in it is doubled.
+/// HANDLE is one of PART, PART/face=F, PART/corner=0..7, PART/section=N, point=N, wire=N and shape. F is +x,
+/// -x, +y, -y, +z or -z of the primitive's own axes, or 0 to 5 in the order -x, +x, -y, +y, -z, +z. A name
+/// with blanks, or one that reads as something else ("shape", "wire=2", "a/face=1"), stands in single quotes;
+/// a quote in it is doubled.
 namespace stackabilization::apps {
 
 /// Throws UsageError naming the edit, the word and what was expected there.
 Edit parse_edit(const std::string& text, const std::vector<std::string>& part_names);
 
-/// The edit in that grammar: `parse_edit` gives it back, numbers to the last bit (angles to rounding, unless they
-/// were parsed). Precondition: its part, where it has one, is a row of `part_names`.
+/// The edit in that grammar: `parse_edit` gives it back, numbers to the last bit (angles to rounding, unless
+/// they were parsed). Precondition: its part, where it has one, is a row of `part_names`.
 std::string edit_text(const Edit& edit, const std::vector<std::string>& part_names);
 
 /// The handle alone.

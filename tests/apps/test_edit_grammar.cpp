@@ -13,7 +13,9 @@ namespace {
 const std::vector<std::string> parts = {"body",     "leg_1", "left leg", "it's",    "shape", "point=3",
                                         "a/face=1", "a",     "room/leg", "a/b c'd", "move"};
 
-Handle handle_of(const std::string& text) { return parse_edit(text + " scale 1", parts).handle; }
+Handle handle_of(const std::string& text) {
+  return parse_edit(text + " scale 1", parts).handle;
+}
 
 std::string sentence_about(const std::string& text) {
   try {
@@ -67,7 +69,8 @@ TEST_CASE("operations carry their numbers exactly, angles in degrees") {
 }
 
 TEST_CASE("an edit that is printed is parsed as itself") {
-  std::vector<Handle> handles = {{HandleKind::point, 0, 9}, {HandleKind::wire, 0, 0}, {HandleKind::shape, 0, 0}};
+  std::vector<Handle> handles = {
+      {HandleKind::point, 0, 9}, {HandleKind::wire, 0, 0}, {HandleKind::shape, 0, 0}};
   for (int part = 0; part < static_cast<int>(parts.size()); ++part) {
     handles.push_back({HandleKind::part, part, 0});
     for (int face = 0; face < 6; ++face) handles.push_back({HandleKind::face, part, face});
@@ -99,7 +102,8 @@ TEST_CASE("a mistake is named by its word and by what was expected") {
       {"", "found nothing"},
       {"body", "expected move, rotate or scale, found the end"},
       {"body shove 1 0 0", "expected move, rotate or scale, found 'shove'"},
-      {"leg_9 move 1 0 0", "there is no part 'leg_9'; expected shape, point=N, wire=N or one of the parts body"},
+      {"leg_9 move 1 0 0",
+       "there is no part 'leg_9'; expected shape, point=N, wire=N or one of the parts body"},
       {"left leg move 1 0 0", "there is no part 'left'"},
       {"'left leg move 1 0 0", "expected a closing '"},
       {"'left leg'x move 1 0 0", "after the quoted part, found 'x'"},

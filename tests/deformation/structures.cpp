@@ -49,7 +49,8 @@ Shape tube(const GeneralizedCylinder& cylinder, int around) {
     }
   }
   shape.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) shape.triangles.row(static_cast<Eigen::Index>(t)) = triangles[t];
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    shape.triangles.row(static_cast<Eigen::Index>(t)) = triangles[t];
   return make_shape(std::move(shape.vertices), std::move(shape.triangles));
 }
 
@@ -62,7 +63,8 @@ class Assembly {
   }
 
   int add(const std::string& name, const Shape& shape, const Primitive& primitive) {
-    structured_.shape = parts().empty() ? named(shape, name) : concatenate(structured_.shape, named(shape, name));
+    structured_.shape =
+        parts().empty() ? named(shape, name) : concatenate(structured_.shape, named(shape, name));
     parts().push_back({name, primitive, {}});
     return static_cast<int>(parts().size()) - 1;
   }
@@ -102,7 +104,8 @@ StructuredShape table_of(int levels, bool lines) {
   const std::vector<Eigen::Vector2d> corners = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
   for (std::size_t k = 0; k < 4; ++k) {
     const Eigen::Vector3d middle(3.5 * corners[k].x(), 3.5 * corners[k].y(), 0), half(0.4, 0.4, 0);
-    legs.push_back(table.add_box("leg_" + std::to_string(k + 1), middle - half, middle + half + Eigen::Vector3d(0, 0, 5.5), levels));
+    legs.push_back(table.add_box("leg_" + std::to_string(k + 1), middle - half,
+                                 middle + half + Eigen::Vector3d(0, 0, 5.5), levels));
   }
   for (std::size_t k = 0; k < 4; ++k) {
     const Eigen::Vector2d a = 3.5 * corners[k], b = 3.5 * corners[(k + 1) % 4];
@@ -139,7 +142,8 @@ StructuredShape table_of(int levels, bool lines) {
 
 }  // namespace
 
-GeneralizedCylinder straight_cylinder(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius, int sections) {
+GeneralizedCylinder straight_cylinder(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius,
+                                      int sections) {
   GeneralizedCylinder cylinder;
   cylinder.centres.resize(sections, 3);
   for (int i = 0; i < sections; ++i)
@@ -183,16 +187,21 @@ StructuredShape tube_alone(const GeneralizedCylinder& cylinder, int around) {
   return assembly.done();
 }
 
-StructuredShape table(int levels) { return table_of(levels, false); }
+StructuredShape table(int levels) {
+  return table_of(levels, false);
+}
 
-StructuredShape table_with_line_joints() { return table_of(1, true); }
+StructuredShape table_with_line_joints() {
+  return table_of(1, true);
+}
 
 StructuredShape mug(int around) {
   Assembly mug;
   const GeneralizedCylinder body = straight_cylinder({0, 0, 0}, {0, 0, 10}, 4, 11);
   GeneralizedCylinder handle = arc_cylinder(3, 0.4, -std::numbers::pi / 2, std::numbers::pi / 2, 13);
   handle.centres.rowwise() += Eigen::RowVector3d(4, 0, 5);
-  const int a = mug.add("body", tube(body, around), body), b = mug.add("handle", tube(handle, around), handle);
+  const int a = mug.add("body", tube(body, around), body),
+            b = mug.add("handle", tube(handle, around), handle);
   mug.mirror({a}, Eigen::Vector3d::UnitY());
   mug.mirror({b}, Eigen::Vector3d::UnitY());
   mug.joint(a, b, Eigen::RowVector3d(4, 0, 2));
@@ -202,7 +211,8 @@ StructuredShape mug(int around) {
 
 StructuredShape post_with_ring() {
   Assembly assembly;
-  const GeneralizedCylinder post = straight_cylinder({3, 0, 0}, {9, 0, 0}, 0.5, 5), ring = ring_cylinder(3, 0.3, 16);
+  const GeneralizedCylinder post = straight_cylinder({3, 0, 0}, {9, 0, 0}, 0.5, 5),
+                            ring = ring_cylinder(3, 0.3, 16);
   const int a = assembly.add("post", tube(post, 12), post), b = assembly.add("ring", tube(ring, 12), ring);
   assembly.mirror({a}, Eigen::Vector3d::UnitY());
   assembly.mirror({b}, Eigen::Vector3d::UnitY());

@@ -8,7 +8,8 @@
 namespace stackabilization::structures {
 
 /// Straight, `sections` of them at equal distances from `a` to `b`.
-GeneralizedCylinder straight_cylinder(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius, int sections);
+GeneralizedCylinder straight_cylinder(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius,
+                                      int sections);
 /// `sections` of them on the arc from angle `from` to `to` (radians) around the origin in the x, z plane.
 GeneralizedCylinder arc_cylinder(double arc_radius, double radius, double from, double to, int sections);
 /// Closed, in the plane z = 0 around the origin.
@@ -19,15 +20,16 @@ StructuredShape box_alone(const Eigen::Vector3d& size);
 /// One generalized cylinder whose mesh is a tube of circles around its sections; `around` points each.
 StructuredShape tube_alone(const GeneralizedCylinder& cylinder, int around);
 
-/// Table around the z axis, 8 x 8 x 6: parts "top", "leg_1" to "leg_4", "bar_1" to "bar_4" between the legs. Mirror
-/// planes x = 0 and y = 0 (pairs of legs, pairs of bars, the rest symmetric to themselves). A point joint of each leg with
-/// the top, and of each bar with its two legs. Triangles are subdivided `levels` times.
+/// Table around the z axis, 8 x 8 x 6: parts "top", "leg_1" to "leg_4", "bar_1" to "bar_4" between the legs.
+/// Mirror planes x = 0 and y = 0 (pairs of legs, pairs of bars, the rest symmetric to themselves). A point
+/// joint of each leg with the top, and of each bar with its two legs. Triangles are subdivided `levels`
+/// times.
 StructuredShape table(int levels = 0);
 /// The table with line joints between bars and legs.
 StructuredShape table_with_line_joints();
 
-/// Mug around the z axis: "body", a straight generalized cylinder, and "handle", a curved one in the plane y = 0, with two
-/// point joints; mirror plane y = 0.
+/// Mug around the z axis: "body", a straight generalized cylinder, and "handle", a curved one in the plane y
+/// = 0, with two point joints; mirror plane y = 0.
 StructuredShape mug(int around = 24);
 /// A ring handle on a post: closed generalized cylinder, one joint.
 StructuredShape post_with_ring();

@@ -1,8 +1,7 @@
-#include "stackabilization/deformation/edit.h"
-
 #include <cmath>
 #include <numbers>
 
+#include "stackabilization/deformation/edit.h"
 #include "stackabilization/shape/errors.h"
 #include "support/catch.h"
 
@@ -10,10 +9,12 @@ using namespace stackabilization;
 
 TEST_CASE("edits are described by part, operation and amount") {
   const std::vector<std::string> names = {"seat", "leg"};
-  CHECK(describe({{HandleKind::face, 1, 3}, Move{{0.125, 0, -2}}}, names) == "move face 3 of leg by (0.125, 0, -2)");
+  CHECK(describe({{HandleKind::face, 1, 3}, Move{{0.125, 0, -2}}}, names) ==
+        "move face 3 of leg by (0.125, 0, -2)");
   CHECK(describe({{HandleKind::part, 0, 0}, Rotate{{0, 0, 1}, std::numbers::pi / 4}}, names) ==
         "rotate seat by 45 degrees about (0, 0, 1)");
-  CHECK(describe({{HandleKind::section, 1, 7}, Scale{0.9, {}}}, names) == "scale cross-section 7 of leg by 0.9");
+  CHECK(describe({{HandleKind::section, 1, 7}, Scale{0.9, {}}}, names) ==
+        "scale cross-section 7 of leg by 0.9");
   CHECK(describe({{HandleKind::shape, 0, 0}, Scale{2, Eigen::Vector3d(1, 0, 0)}}, names) ==
         "scale the shape by 2 along (1, 0, 0)");
 }

@@ -1,8 +1,7 @@
-#include "stackabilization/deformation/relation_residual.h"
-
 #include <cmath>
 
 #include "deformation/structures.h"
+#include "stackabilization/deformation/relation_residual.h"
 #include "stackabilization/shape/errors.h"
 #include "support/catch.h"
 
@@ -19,9 +18,10 @@ std::vector<Primitive> primitives_of(const Structure& structure) {
 }  // namespace
 
 TEST_CASE("at rest every relation holds") {
-  for (const StructuredShape& rest : {structures::table(), structures::table_with_line_joints(), structures::mug(),
-                                      structures::post_with_ring()})
-    for (const double residual : relation_residuals(rest.structure, primitives_of(rest.structure))) CHECK(residual < 1e-15);
+  for (const StructuredShape& rest : {structures::table(), structures::table_with_line_joints(),
+                                      structures::mug(), structures::post_with_ring()})
+    for (const double residual : relation_residuals(rest.structure, primitives_of(rest.structure)))
+      CHECK(residual < 1e-15);
 }
 
 TEST_CASE("residuals are the distances by which relations are off") {

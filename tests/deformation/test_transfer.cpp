@@ -1,5 +1,3 @@
-#include "stackabilization/deformation/transfer.h"
-
 #include <cmath>
 #include <numbers>
 
@@ -7,6 +5,7 @@
 #include "stackabilization/deformation/binding.h"
 #include "stackabilization/deformation/mean_value_coordinates.h"
 #include "stackabilization/deformation/skinning.h"
+#include "stackabilization/deformation/transfer.h"
 #include "support/catch.h"
 #include "support/variants.h"
 
@@ -16,7 +15,9 @@ namespace {
 
 using Weights = Eigen::Matrix<double, 8, 1>;
 
-Eigen::Vector3d cube_corner(int k) { return {k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0}; }
+Eigen::Vector3d cube_corner(int k) {
+  return {k & 1 ? 1.0 : -1.0, k & 2 ? 1.0 : -1.0, k & 4 ? 1.0 : -1.0};
+}
 
 Eigen::Vector3d reproduced(const Weights& weights) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -24,19 +25,22 @@ Eigen::Vector3d reproduced(const Weights& weights) {
   return sum;
 }
 
-double error(const Weights& a, const Weights& b) { return (a - b).cwiseAbs().maxCoeff(); }
+double error(const Weights& a, const Weights& b) {
+  return (a - b).cwiseAbs().maxCoeff();
+}
 
 Eigen::Quaterniond some_rotation(solids::Random& random) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(random.uniform(-3, 3), random.on_sphere()));
 }
 
-/// Integral over the directions of the unit sphere, sampled: equation 2 of Ju et al. with the boundary values 0, 1 of a
-/// corner, interpolated over the two triangulations of each square in turn.
+/// Integral over the directions of the unit sphere, sampled: equation 2 of Ju et al. with the boundary values
+/// 0, 1 of a corner, interpolated over the two triangulations of each square in turn.
 Weights sampled_coordinates(const Eigen::Vector3d& point, int count) {
   Weights sum = Weights::Zero();
   for (int i = 0; i < count; ++i) {
     const double z = 1 - (2.0 * i + 1) / count, angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
-    const Eigen::Vector3d ray(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle), z);
+    const Eigen::Vector3d ray(std::sqrt(1 - z * z) * std::cos(angle), std::sqrt(1 - z * z) * std::sin(angle),
+                              z);
     double distance = std::numeric_limits<double>::infinity();
     for (int a = 0; a < 3; ++a)
       if (ray(a) != 0) distance = std::min(distance, ((ray(a) > 0 ? 1 : -1) - point(a)) / ray(a));
@@ -45,7 +49,8 @@ Weights sampled_coordinates(const Eigen::Vector3d& point, int count) {
   return sum / sum.sum();
 }
 
-Primitive moved(Primitive primitive, const Eigen::Matrix3d& linear, const Eigen::Vector3d& by, double radius_factor) {
+Primitive moved(Primitive primitive, const Eigen::Matrix3d& linear, const Eigen::Vector3d& by,
+                double radius_factor) {
   const auto move = [&](auto& points) {
     points = ((points * linear.transpose()).rowwise() + by.transpose()).eval();
   };
@@ -68,8 +73,8 @@ std::vector<GeneralizedCylinder> cylinders() {
     helix.centres.row(i) << 2 * std::cos(0.4 * i), 2 * std::sin(0.4 * i), 0.2 * i;
     helix.radii(i) = 0.3 + 0.01 * i;
   }
-  return {structures::straight_cylinder({1, 2, 3}, {4, -1, 2}, 0.7, 6), structures::arc_cylinder(3, 0.4, -1.5, 2, 9),
-          structures::ring_cylinder(3, 0.5, 14), helix};
+  return {structures::straight_cylinder({1, 2, 3}, {4, -1, 2}, 0.7, 6),
+          structures::arc_cylinder(3, 0.4, -1.5, 2, 9), structures::ring_cylinder(3, 0.5, 14), helix};
 }
 
 }  // namespace
@@ -82,7 +87,8 @@ TEST_CASE("mean value coordinates sum to one and reproduce the point, in and out
     // Near faces, edges and corners, down to rounding, inside and outside.
     for (double& x : point)
       if (random.below(3) == 0)
-        x = std::copysign(1 + random.uniform(-1, 1) * std::pow(10.0, -static_cast<double>(random.below(17))), x);
+        x = std::copysign(1 + random.uniform(-1, 1) * std::pow(10.0, -static_cast<double>(random.below(17))),
+                          x);
     const Weights weights = cube_coordinates(point);
     INFO("point " << point.transpose());
     REQUIRE(std::abs(weights.sum() - 1) < 1e-12 * std::max(1.0, point.norm()));
@@ -112,8 +118,8 @@ TEST_CASE("mean value coordinates have closed forms at corners, on edges and on 
 }
 
 TEST_CASE("mean value coordinates approach their values on faces, edges and corners") {
-  for (const Eigen::Vector3d& border : {Eigen::Vector3d(1, 0.5, -0.2), Eigen::Vector3d(1, 0.3, 0.3), Eigen::Vector3d(-1, 1, 0.25),
-                                        Eigen::Vector3d(1, -1, 1)})
+  for (const Eigen::Vector3d& border : {Eigen::Vector3d(1, 0.5, -0.2), Eigen::Vector3d(1, 0.3, 0.3),
+                                        Eigen::Vector3d(-1, 1, 0.25), Eigen::Vector3d(1, -1, 1)})
     for (double distance = 1e-3; distance > 1e-15; distance /= 10)
       for (const double side : {-1.0, 1.0}) {
         Eigen::Vector3d point = border;
@@ -166,7 +172,8 @@ TEST_CASE("points ride on generalized cylinders exactly through rest, rigid moti
       CHECK((carried(rest, rest, point) - point).norm() < 1e-13);
       for (const double factor : {1.0, 0.8, 1.7}) {
         const Eigen::Matrix3d linear = factor * rotation.toRotationMatrix();
-        CHECK((carried(rest, moved(rest, linear, by, factor), point) - (linear * point + by)).norm() < 1e-12 * 20);
+        CHECK((carried(rest, moved(rest, linear, by, factor), point) - (linear * point + by)).norm() <
+              1e-12 * 20);
       }
     }
   }
@@ -196,12 +203,14 @@ TEST_CASE("a bent curve carries the plane of each section rigidly and what lies 
   for (int i = 0; i < 7; ++i) now.centres.row(i) << 6 - 6 * std::cos(0.2 * i), 0, 6 * std::sin(0.2 * i);
   const Points tangents = section_tangents(now);
   for (int i = 0; i < 7; ++i) {
-    const Eigen::Vector3d point(0.3, 0.8, i), c = now.centres.row(i).transpose(), t = tangents.row(i).transpose();
+    const Eigen::Vector3d point(0.3, 0.8, i), c = now.centres.row(i).transpose(),
+                                              t = tangents.row(i).transpose();
     const Eigen::Vector3d image = carried(rest, now, point);
     CHECK(std::abs((image - c).norm() - std::hypot(0.3, 0.8)) < 1e-13);
     CHECK(std::abs((image - c).dot(t)) < 1e-13);
     CHECK(std::abs(image.y() - 0.8) < 1e-13);
-    CHECK((carried(rest, now, {0.3, 0.8, i - 1e-9}) - carried(rest, now, {0.3, 0.8, i + 1e-9})).norm() < 1e-8);
+    CHECK((carried(rest, now, {0.3, 0.8, i - 1e-9}) - carried(rest, now, {0.3, 0.8, i + 1e-9})).norm() <
+          1e-8);
   }
 }
 
@@ -210,7 +219,8 @@ TEST_CASE("around a bend of a curve at rest, places vary without a jump from sec
   GeneralizedCylinder now = rest;
   now.centres.rowwise() -= Eigen::RowVector3d(0, 0, 1);
   for (int i = 0; i < 7; ++i) now.centres(i, 1) += 0.1 * i * i, now.radii(i) = 1 + 0.1 * i;
-  // Straight across the bend, inside of the curve: nearest points of the polyline would jump over each corner.
+  // Straight across the bend, inside of the curve: nearest points of the polyline would jump over each
+  // corner.
   for (double angle = 0.05; angle < 2.95; angle += 0.001) {
     const auto at = [](double a) { return Eigen::Vector3d(2.2 * std::cos(a), 0.2, 2.2 * std::sin(a)); };
     CHECK((carried(rest, now, at(angle + 0.001)) - carried(rest, now, at(angle))).norm() < 0.01);
@@ -227,7 +237,8 @@ TEST_CASE("dual quaternions blend along the shorter way") {
   CHECK((blended(dual_quaternion(a, t), dual_quaternion(b, t), 0, p) - (a * p + t)).norm() < 1e-14);
   CHECK((blended(dual_quaternion(a, t), dual_quaternion(b, t), 1, p) - (b * p + t)).norm() < 1e-14);
   // Half way between two rotations about parallel axes is the mean rotation about one.
-  const Eigen::Vector3d turned = blended(dual_quaternion(a, {0, 0, 0}), dual_quaternion(b, {0, 0, 0}), 0.5, p);
+  const Eigen::Vector3d turned =
+      blended(dual_quaternion(a, {0, 0, 0}), dual_quaternion(b, {0, 0, 0}), 0.5, p);
   CHECK((turned - Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()) * p).norm() < 1e-14);
   CHECK(smallest_rotation(t.normalized(), t.normalized()).vec().isZero(0));
   const Eigen::Quaterniond opposite = smallest_rotation({0, 0, 1}, {0, 0, -1});
@@ -241,15 +252,18 @@ TEST_CASE("the jacobian of a carried point is that of central differences") {
     GeneralizedCylinder now = rest;
     for (double& x : now.centres.reshaped()) x += random.uniform(-0.05, 0.05);
     for (double& r : now.radii) r *= random.uniform(0.9, 1.1);
-    const PointBinding binding = carrier.bind(Eigen::Vector3d(rest.centres.row(2).transpose() + 0.2 * random.in_cube()));
+    const PointBinding binding =
+        carrier.bind(Eigen::Vector3d(rest.centres.row(2).transpose() + 0.2 * random.in_cube()));
     const ControlJacobian jacobian = carrier.jacobian(binding, now);
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3, 4 * rest.centres.rows());
     for (const auto& [point, block] : jacobian.points) dense.middleCols<3>(3 * point) = block;
-    for (const auto& [section, column] : jacobian.radii) dense.col(3 * rest.centres.rows() + section) = column;
+    for (const auto& [section, column] : jacobian.radii)
+      dense.col(3 * rest.centres.rows() + section) = column;
     for (Eigen::Index k = 0; k < dense.cols(); ++k) {
       const auto at = [&](double step) {
         GeneralizedCylinder varied = now;
-        (k < 3 * rest.centres.rows() ? varied.centres(k / 3, k % 3) : varied.radii(k - 3 * rest.centres.rows())) += step;
+        (k < 3 * rest.centres.rows() ? varied.centres(k / 3, k % 3)
+                                     : varied.radii(k - 3 * rest.centres.rows())) += step;
         return carrier.carried(binding, varied);
       };
       CHECK((dense.col(k) - (at(1e-5) - at(-1e-5)) / 2e-5).norm() < 1e-5);

@@ -16,10 +16,12 @@ namespace {
 
 const Colour green{0.10, 0.66, 0.22};
 
-OrientedBox box_of(const Shape& shape) { return axis_aligned_box(shape.vertices); }
+OrientedBox box_of(const Shape& shape) {
+  return axis_aligned_box(shape.vertices);
+}
 
-/// The table of five parts: its top a cuboid, its legs generalized cylinders, two mirror planes and four joints, the
-/// last of them a line.
+/// The table of five parts: its top a cuboid, its legs generalized cylinders, two mirror planes and four
+/// joints, the last of them a line.
 StructuredShape structured_table() {
   StructuredShape table{solids::table({}), {}};
   Structure& structure = table.structure;
@@ -46,7 +48,8 @@ StructuredShape structured_table() {
         if ((isometry_of(symmetry) * centre(a) - centre(b)).norm() < 1e-9)
           structure.relations.push_back({RelationType::symmetry, {a, b}, symmetry, {}, 0});
   for (int leg = 1; leg < 5; ++leg) {
-    const Eigen::Vector3d end = centre(leg) + Eigen::Vector3d(0, 0, box_of(extract_part(table.shape, leg)).half_extents.z());
+    const Eigen::Vector3d end =
+        centre(leg) + Eigen::Vector3d(0, 0, box_of(extract_part(table.shape, leg)).half_extents.z());
     Relation joint{RelationType::point_joint, {0, leg}, {}, end.transpose(), 0};
     if (leg == 4) {
       joint.type = RelationType::line_joint;
@@ -101,7 +104,8 @@ TEST_CASE("balls and bars are closed and as large as asked for") {
   CHECK(range_along(bar, Eigen::Vector3d::UnitZ()).length() == Approx(4));
   CHECK(range_along(bar, Eigen::Vector3d::UnitX()).length() <= 0.5 + 1e-12);
   CHECK(range_along(bar, Eigen::Vector3d::UnitX()).length() > 0.48);
-  CHECK(range_along(detail::bar({1, 1, 1}, {1, 1, 1}, 0.25), Eigen::Vector3d::UnitZ()).length() == Approx(0.5));
+  CHECK(range_along(detail::bar({1, 1, 1}, {1, 1, 1}, 0.25), Eigen::Vector3d::UnitZ()).length() ==
+        Approx(0.5));
 }
 
 TEST_CASE("primitives are outlined by their edges and by their circles on the curve") {
@@ -126,7 +130,8 @@ TEST_CASE("primitives are outlined by their edges and by their circles on the cu
   CHECK(circles[6].row(0) == circles[6].row(6));
   for (Eigen::Index i = 0; i < 6; ++i)
     for (Eigen::Index k = 0; k < circles[static_cast<std::size_t>(i)].rows(); ++k) {
-      const Eigen::Vector3d arm = (circles[static_cast<std::size_t>(i)].row(k) - ring.centres.row(i)).transpose();
+      const Eigen::Vector3d arm =
+          (circles[static_cast<std::size_t>(i)].row(k) - ring.centres.row(i)).transpose();
       CHECK(arm.norm() == Approx(ring.radii(i)));
       CHECK(std::abs(arm.dot(section_tangents(ring).row(i))) < 1e-12);
     }
@@ -152,7 +157,8 @@ TEST_CASE("a plane cuts a box in a rectangle, a hexagon, or not at all") {
 TEST_CASE("a legend stays in its place and counts what it leaves out") {
   std::vector<detail::LegendEntry> entries;
   for (int k = 0; k < 40; ++k)
-    entries.push_back({detail::LegendMark::swatch, palette::input, "a part with a long name " + std::to_string(k)});
+    entries.push_back(
+        {detail::LegendMark::swatch, palette::input, "a part with a long name " + std::to_string(k)});
   entries[1].text = std::string(300, 'W');
   for (const double height : {25.0, 60.0, 200.0, 2000.0}) {
     Drawing drawing{600, 2020, detail::legend(entries, {10, 10, 580, height}, 14)};
@@ -169,8 +175,9 @@ TEST_CASE("a structure shows its parts by orbit, its joints in green and red, an
   const StructurePictureOptions options{900, 620, "table.obj"};
   const Drawing drawing = structure_picture(table, options);
   check_nothing_clipped(drawing);
-  for (const char* words : {"table.obj", "5 parts: 1 cuboid, 4 generalized cylinders", "4 symmetric pairs",
-                            "3 point joints, 1 line joint", "leg_1 and 3 like it", "top", "symmetry of the whole"})
+  for (const char* words :
+       {"table.obj", "5 parts: 1 cuboid, 4 generalized cylinders", "4 symmetric pairs",
+        "3 point joints, 1 line joint", "leg_1 and 3 like it", "top", "symmetry of the whole"})
     CHECK(says(drawing, words));
   const Image image = rasterize(drawing);
   const std::vector<Colour> colours = detail::part_colours(table.structure);
@@ -187,7 +194,8 @@ TEST_CASE("a structure shows its parts by orbit, its joints in green and red, an
 TEST_CASE("a structure without relations, or with very many parts, still fits its picture") {
   StructuredShape many;
   for (int k = 0; k < 90; ++k) {
-    Shape cube = transformed(solids::box({1, 1, 1}), Eigen::Matrix3d::Identity(), {1.5 * (k % 9), 1.5 * (k / 9), 0});
+    Shape cube =
+        transformed(solids::box({1, 1, 1}), Eigen::Matrix3d::Identity(), {1.5 * (k % 9), 1.5 * (k / 9), 0});
     cube.part_names = {"cube_" + std::to_string(k) + std::string(static_cast<std::size_t>(k), 'x')};
     many.structure.parts.push_back({cube.part_names[0], cuboid_of(box_of(cube)), {}});
     many.shape = k == 0 ? cube : concatenate(many.shape, cube);
@@ -217,9 +225,9 @@ TEST_CASE("before and after share one scale, and edited handles are red") {
   CHECK(area == Approx(0.25).epsilon(0.1));
 
   result = unchanged(table);
-  for (const Handle& handle :
-       {Handle{HandleKind::part, 2, 0}, Handle{HandleKind::face, 0, 5}, Handle{HandleKind::corner, 0, 3},
-        Handle{HandleKind::section, 3, 2}, Handle{HandleKind::point, 0, 7}, Handle{HandleKind::shape, 0, 0}}) {
+  for (const Handle& handle : {Handle{HandleKind::part, 2, 0}, Handle{HandleKind::face, 0, 5},
+                               Handle{HandleKind::corner, 0, 3}, Handle{HandleKind::section, 3, 2},
+                               Handle{HandleKind::point, 0, 7}, Handle{HandleKind::shape, 0, 0}}) {
     const Drawing drawing = deformation_picture(table, result, {handle}, options);
     check_nothing_clipped(drawing);
     CHECK(says(drawing, "what was edited"));

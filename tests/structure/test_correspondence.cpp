@@ -1,8 +1,7 @@
-#include "stackabilization/structure/correspondence.h"
-
 #include <algorithm>
 #include <numbers>
 
+#include "stackabilization/structure/correspondence.h"
 #include "stackabilization/structure/nearest_box.h"
 #include "stackabilization/structure/symmetry.h"
 #include "support/catch.h"
@@ -27,7 +26,8 @@ GeneralizedCylinder curve(int count, bool closed) {
   cylinder.closed = closed;
   for (int k = 0; k < count; ++k) {
     const double angle = 2 * std::numbers::pi * k / count;
-    cylinder.centres.row(k) << 4 * std::cos(angle), 3 * std::sin(angle), std::cos(2 * angle) + 0.3 * std::sin(angle);
+    cylinder.centres.row(k) << 4 * std::cos(angle), 3 * std::sin(angle),
+        std::cos(2 * angle) + 0.3 * std::sin(angle);
   }
   return cylinder;
 }
@@ -55,7 +55,8 @@ TEST_CASE("corners of a moved and relabelled box find their images") {
     const std::vector<int> to = control_correspondence(box, image, map);
     REQUIRE(to.size() == 8);
     const Points wanted = moved(box, map), found = control_points(image);
-    for (int k = 0; k < 8; ++k) CHECK((wanted.row(k) - found.row(to[static_cast<std::size_t>(k)])).norm() < 1e-12);
+    for (int k = 0; k < 8; ++k)
+      CHECK((wanted.row(k) - found.row(to[static_cast<std::size_t>(k)])).norm() < 1e-12);
   }
 }
 
@@ -81,7 +82,8 @@ TEST_CASE("every box assignment is a bijection that keeps edges edges") {
 TEST_CASE("flat boxes and cubes do not turn over by rounding") {
   for (const Eigen::Vector3d& half : {Eigen::Vector3d(1, 2, 0), Eigen::Vector3d(0, 0, 0)}) {
     const Cuboid box = cuboid_of(turned_box(half));
-    CHECK(control_correspondence(box, box, Eigen::Isometry3d::Identity()) == std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7});
+    CHECK(control_correspondence(box, box, Eigen::Isometry3d::Identity()) ==
+          std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7});
   }
 }
 
@@ -111,8 +113,8 @@ TEST_CASE("primitives of different kinds or sizes have no correspondence") {
 }
 
 TEST_CASE("the nearest box of a box is that box, also mirrored, flat or a single point") {
-  for (const Eigen::Vector3d& half : {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(1, 0, 3), Eigen::Vector3d(0, 2, 0),
-                                      Eigen::Vector3d(0, 0, 0)}) {
+  for (const Eigen::Vector3d& half : {Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(1, 0, 3),
+                                      Eigen::Vector3d(0, 2, 0), Eigen::Vector3d(0, 0, 0)}) {
     Cuboid cuboid = cuboid_of(turned_box(half));
     CHECK(is_box(cuboid));
     cuboid.corners.col(0) *= -1;

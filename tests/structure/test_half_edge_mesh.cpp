@@ -3,18 +3,20 @@
 #include "support/solids.h"
 
 using namespace stackabilization;
-using detail::ConnectedSurface;
 using detail::connected_surface;
+using detail::ConnectedSurface;
 
 namespace {
 
 int euler(const detail::HalfEdgeMesh& mesh) {
-  return static_cast<int>(mesh.n_vertices()) - static_cast<int>(mesh.n_edges()) + static_cast<int>(mesh.n_faces());
+  return static_cast<int>(mesh.n_vertices()) - static_cast<int>(mesh.n_edges()) +
+         static_cast<int>(mesh.n_faces());
 }
 
 void check_places(const Shape& shape, const ConnectedSurface& surface) {
   REQUIRE(surface.triangle_of_face.size() == surface.mesh.n_faces());
-  REQUIRE(surface.triangle_of_face.size() + surface.degenerate.size() == static_cast<std::size_t>(shape.triangle_count()));
+  REQUIRE(surface.triangle_of_face.size() + surface.degenerate.size() ==
+          static_cast<std::size_t>(shape.triangle_count()));
   for (const auto vertex : surface.mesh.vertices()) {
     const auto& p = surface.mesh.point(vertex);
     const auto row = surface.vertex_of[static_cast<std::size_t>(vertex.idx())];

@@ -29,7 +29,8 @@ Primitive leg_curve(const Eigen::Vector3d& centre, solids::Random& random, doubl
   cylinder.centres.resize(9, 3);
   cylinder.radii.resize(9);
   for (int k = 0; k < 9; ++k) {
-    cylinder.centres.row(k) = (centre + Eigen::Vector3d(0, 0, k - 4.0) + noise * random.in_cube()).transpose();
+    cylinder.centres.row(k) =
+        (centre + Eigen::Vector3d(0, 0, k - 4.0) + noise * random.in_cube()).transpose();
     cylinder.radii(k) = 0.5 + noise * random.uniform();
   }
   if (random.below(2) == 1) {
@@ -55,8 +56,10 @@ Structure four_legs(const Leg& leg, double noise) {
   structure.symmetries = {across_x, across_y};
   for (const auto& [x, y] : {std::pair(4, 3), {-4, 3}, {-4, -3}, {4, -3}})
     structure.parts.push_back({"leg_" + std::to_string(structure.parts.size() + 1),
-                               leg(Eigen::Vector3d(x, y, 3), random, noise), {}});
-  structure.relations = {pair(0, 1, across_x), pair(1, 2, across_y), pair(2, 3, across_x), pair(3, 0, across_y)};
+                               leg(Eigen::Vector3d(x, y, 3), random, noise),
+                               {}});
+  structure.relations = {pair(0, 1, across_x), pair(1, 2, across_y), pair(2, 3, across_x),
+                         pair(3, 0, across_y)};
   return structure;
 }
 
@@ -64,7 +67,9 @@ double largest_miss(const Structure& structure) {
   double most = 0;
   for (const Relation& relation : structure.relations) {
     if (relation.points.rows() > 0) continue;
-    const auto& part = [&](int row) -> const Primitive& { return structure.parts[static_cast<std::size_t>(row)].primitive; };
+    const auto& part = [&](int row) -> const Primitive& {
+      return structure.parts[static_cast<std::size_t>(row)].primitive;
+    };
     const Primitive &a = part(relation.parts.front()), &b = part(relation.parts.back());
     const Eigen::Isometry3d map = isometry_of(relation.symmetry);
     const std::vector<int> to = control_correspondence(a, b, map);
@@ -142,7 +147,8 @@ TEST_CASE("a regular pentagon of legs closes through two planes 36 degrees apart
   structure.diagonal = 10;
   solids::Random random(2);
   const auto direction = [](double degrees) {
-    return Eigen::Vector3d(std::cos(degrees * std::numbers::pi / 180), std::sin(degrees * std::numbers::pi / 180), 0);
+    return Eigen::Vector3d(std::cos(degrees * std::numbers::pi / 180),
+                           std::sin(degrees * std::numbers::pi / 180), 0);
   };
   for (int k = 0; k < 5; ++k) {
     const Primitive leg = leg_curve(5 * direction(72 * k), random, 0.02);
@@ -190,7 +196,8 @@ TEST_CASE("a square box that lies askew to its mirror planes is turned to them")
   OrientedBox box;
   box.half_extents = {2, 2, 0.5};
   for (const double degrees : {3.0, 20.0, 45.0, 70.0}) {
-    box.axes = Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    box.axes =
+        Eigen::AngleAxisd(degrees * std::numbers::pi / 180, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     Structure structure;
     structure.diagonal = 6;
     structure.parts = {{"plate", cuboid_of(box), {}}};
@@ -229,7 +236,8 @@ TEST_CASE("relations that contradict each other are refused by name, and nothing
   structure.relations[2].symmetry.point.x() = 1;
   const std::string message = refusal(structure);
   CHECK(message.find("contradict each other") != std::string::npos);
-  for (const char* name : {"relation 0", "relation 3", "'leg_1'", "'leg_4'"}) CHECK(message.find(name) != std::string::npos);
+  for (const char* name : {"relation 0", "relation 3", "'leg_1'", "'leg_4'"})
+    CHECK(message.find(name) != std::string::npos);
   const Structure before = structure;
   CHECK_THROWS_AS(idealise(structure), InputError);
   CHECK(control_points(structure.parts[0].primitive) == control_points(before.parts[0].primitive));
@@ -237,10 +245,13 @@ TEST_CASE("relations that contradict each other are refused by name, and nothing
   structure = four_legs(leg_box, 0.01);
   structure.relations.push_back(self(1, {.point = {-4, 0, 0}}));
   structure.relations.push_back(self(1, {.point = {-4.3, 0, 0}}));
-  CHECK(refusal(structure).find("relation 4 (self_symmetry of 'leg_2') and relation 5 (self_symmetry of 'leg_2') contradict") !=
+  CHECK(refusal(structure).find(
+            "relation 4 (self_symmetry of 'leg_2') and relation 5 (self_symmetry of 'leg_2') contradict") !=
         std::string::npos);
 
   structure = four_legs(leg_box, 0);
-  structure.relations = {self(0, {.kind = SymmetryKind::rotation, .point = {4, 3, 3}, .axis = Eigen::Vector3d::UnitZ(), .order = 3})};
-  CHECK(refusal(structure).find("relation 0 (self_symmetry of 'leg_1') cannot hold exactly") != std::string::npos);
+  structure.relations = {self(
+      0, {.kind = SymmetryKind::rotation, .point = {4, 3, 3}, .axis = Eigen::Vector3d::UnitZ(), .order = 3})};
+  CHECK(refusal(structure).find("relation 0 (self_symmetry of 'leg_1') cannot hold exactly") !=
+        std::string::npos);
 }

@@ -1,9 +1,8 @@
-#include "stackabilization/structure/joints.h"
-
 #include <algorithm>
 #include <numbers>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/structure/joints.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/variants.h"
@@ -23,7 +22,8 @@ std::vector<Part> boxes_around(const Shape& shape) {
   std::vector<Part> parts;
   for (Eigen::Index k = 0; k < shape.part_count(); ++k)
     parts.push_back({shape.part_names[static_cast<std::size_t>(k)],
-                     cuboid_of(axis_aligned_box(extract_part(shape, k).vertices)), {}});
+                     cuboid_of(axis_aligned_box(extract_part(shape, k).vertices)),
+                     {}});
   return parts;
 }
 
@@ -82,7 +82,8 @@ TEST_CASE("gap, overlap, piercing and containment all give one joint in the midd
   struct Case {
     double bottom, top, height;
   };
-  for (const Case& one : {Case{0, 3.95, 3.975}, Case{0, 4.5, 4.25}, Case{0, 5, 4.5}, Case{0, 7, 4.5}, Case{4.25, 4.75, 4.5}})
+  for (const Case& one :
+       {Case{0, 3.95, 3.975}, Case{0, 4.5, 4.25}, Case{0, 5, 4.5}, Case{0, 7, 4.5}, Case{4.25, 4.75, 4.5}})
     for (int level = 0; level < 3; level += 2) {
       const Shape shape = assembled({plate, finer(solids::box({1, 2, one.bottom}, {2, 3, one.top}), level)});
       const std::vector<Relation> joints = joints_of(shape);
@@ -114,7 +115,8 @@ TEST_CASE("a rail under a plate has a line joint along its middle, and the ends 
   REQUIRE(line.size() == 1);
   CHECK(line[0].type == RelationType::line_joint);
   check_points(line[0], {{-6, 2.25, 0}, {6, 2.25, 0}}, 1e-9);
-  const std::vector<Relation> point = joints_of(assembled({plate, solids::box({-0.5, 2, -4}, {0.5, 2.125, 0})}));
+  const std::vector<Relation> point =
+      joints_of(assembled({plate, solids::box({-0.5, 2, -4}, {0.5, 2.125, 0})}));
   REQUIRE(point.size() == 1);
   CHECK(point[0].type == RelationType::point_joint);
 }
@@ -137,7 +139,8 @@ TEST_CASE("a handle on a body has two point joints, flush or grown into it") {
 
 TEST_CASE("a cuboid that hangs on pegs has a line joint, a bar between two arms has two points") {
   const Shape plate = solids::box({-10, -10, 0}, {10, 10, 1}), rail = solids::box({-6, 2, -3}, {6, 3, -2});
-  const Shape pegs = assembled({solids::box({-5, 2, -2}, {-4, 3, 0.5}), solids::box({4, 2, -2}, {5, 3, 0.5}), rail});
+  const Shape pegs =
+      assembled({solids::box({-5, 2, -2}, {-4, 3, 0.5}), solids::box({4, 2, -2}, {5, 3, 0.5}), rail});
   const Shape hung = assembled({plate, make_shape(pegs.vertices, pegs.triangles)});
   const std::vector<Relation> line = joints_of(hung);
   REQUIRE(line.size() == 1);
@@ -146,7 +149,8 @@ TEST_CASE("a cuboid that hangs on pegs has a line joint, a bar between two arms 
 
   const Shape arms = assembled({solids::box({-7, 0, 0}, {-6, 1, 8}), solids::box({6, 0, 0}, {7, 1, 8}),
                                 solids::box({-7, 0, -1}, {7, 1, 0})});
-  const Shape held = assembled({make_shape(arms.vertices, arms.triangles), solids::box({-6, 0, 5}, {6, 1, 6})});
+  const Shape held =
+      assembled({make_shape(arms.vertices, arms.triangles), solids::box({-6, 0, 5}, {6, 1, 6})});
   const std::vector<Relation> points = joints_of(held);
   REQUIRE(points.size() == 2);
   CHECK(points[0].type == RelationType::point_joint);
@@ -159,7 +163,8 @@ TEST_CASE("open surfaces meet as well") {
   Shape leg = solids::box({1, 1, 0}, {2, 2, 4});
   std::vector<Eigen::Index> walls;
   for (Eigen::Index t = 0; t < leg.triangle_count(); ++t)
-    if (leg.corner(t, 0).z() != leg.corner(t, 1).z() || leg.corner(t, 0).z() != leg.corner(t, 2).z()) walls.push_back(t);
+    if (leg.corner(t, 0).z() != leg.corner(t, 1).z() || leg.corner(t, 0).z() != leg.corner(t, 2).z())
+      walls.push_back(t);
   leg = make_shape(leg.vertices, leg.triangles(walls, Eigen::all));
   Points corners(4, 3);
   corners << 0, 0, 4, 9, 0, 4, 9, 9, 4, 0, 9, 4;
@@ -183,8 +188,9 @@ TEST_CASE("bars that overlap inside a leg are joined to the leg alone") {
 
 TEST_CASE("joints move with the shape, in any pose and at any scale") {
   solids::Random random(11);
-  const Shape shape = assembled({solids::box({-4, -1, -5}, {0.25, 2, 5}), finer(half_ring(), 1),
-                                 solids::box({-4, -8, 5}, {0, 8, 5.5}), solids::box({-3, -9, -5}, {-2, -1, -4})});
+  const Shape shape =
+      assembled({solids::box({-4, -1, -5}, {0.25, 2, 5}), finer(half_ring(), 1),
+                 solids::box({-4, -8, 5}, {0, 8, 5.5}), solids::box({-3, -9, -5}, {-2, -1, -4})});
   const auto joints_with_handle = [](const Shape& one) {
     std::vector<Part> parts = boxes_around(one);
     parts[1].primitive = half_ring_curve();  // of closed surfaces only the kind matters
@@ -194,7 +200,8 @@ TEST_CASE("joints move with the shape, in any pose and at any scale") {
   REQUIRE(rest.size() == 4);
   for (int round = 0; round < 8; ++round) {
     const double scale = std::pow(10, random.uniform(-4, 4));
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(random.uniform(-3, 3), random.on_sphere()).toRotationMatrix();
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(random.uniform(-3, 3), random.on_sphere()).toRotationMatrix();
     const Eigen::Vector3d shift = 30 * scale * random.in_cube();
     const Shape posed = transformed(shape, scale * turn, shift);
     const std::vector<Relation> found = joints_with_handle(posed);

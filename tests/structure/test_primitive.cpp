@@ -44,7 +44,8 @@ TEST_CASE("a cuboid's faces are seen counter-clockwise from outside, and it has 
 
 TEST_CASE("the volume of a sheared and tapered cuboid is that of the frustum") {
   Cuboid cuboid = cuboid_of({Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity(), Eigen::Vector3d::Ones()});
-  for (const int k : cuboid_face(5)) cuboid.corners.row(k) = cuboid.corners.row(k).cwiseProduct(Eigen::RowVector3d(0.5, 0.5, 1));
+  for (const int k : cuboid_face(5))
+    cuboid.corners.row(k) = cuboid.corners.row(k).cwiseProduct(Eigen::RowVector3d(0.5, 0.5, 1));
   CHECK(volume(cuboid) == Approx(2.0 / 3 * (4 + 1 + 2)));  // h / 3 (A + B + sqrt(A B))
   for (const int k : cuboid_face(5)) cuboid.corners.row(k) += Eigen::RowVector3d(3, -1, 0);
   CHECK(volume(cuboid) == Approx(2.0 / 3 * (4 + 1 + 2)));
@@ -58,11 +59,13 @@ TEST_CASE("tangents, arc lengths and volume of a closed cylinder are those of th
   CHECK(volume(cylinder) == Approx(std::numbers::pi * 0.0625 * 12 * side));
   const Points tangents = section_tangents(cylinder);
   for (int k = 0; k < 12; ++k)
-    CHECK(tangents.row(k).dot(cylinder.centres.row(k) - Eigen::RowVector3d(0, 0, 1)) == Approx(0).margin(1e-14));
+    CHECK(tangents.row(k).dot(cylinder.centres.row(k) - Eigen::RowVector3d(0, 0, 1)) ==
+          Approx(0).margin(1e-14));
 }
 
 TEST_CASE("an open cylinder's volume is the sum of its frusta, and its end tangents are one-sided") {
-  GeneralizedCylinder cone{Points(3, 3), Eigen::Vector3d(1, 0.75, 0.5), false, Eigen::Quaterniond::Identity()};
+  GeneralizedCylinder cone{Points(3, 3), Eigen::Vector3d(1, 0.75, 0.5), false,
+                           Eigen::Quaterniond::Identity()};
   cone.centres << 0, 0, 0, 0, 0, 1, 0, 0, 2;
   CHECK(volume(cone) == Approx(std::numbers::pi * 2 / 3 * (1 + 0.25 + 0.5)));
   CHECK(section_tangents(cone).row(0) == Eigen::RowVector3d(0, 0, 1));
@@ -80,7 +83,8 @@ TEST_CASE("symmetry maps are involutions, rotations of their order, and the bise
   CHECK((p - b).norm() == Approx(0).margin(1e-13));
   CHECK((isometry_of(fifth) * b - b).norm() > 0.1);
   const Symmetry body{SymmetryKind::revolution, a, Eigen::Vector3d::UnitZ(), 2};
-  CHECK((isometry_of(body) * Eigen::Vector3d(1, 2, -7) - Eigen::Vector3d(1, 2, -7)).norm() == Approx(0).margin(1e-14));
+  CHECK((isometry_of(body) * Eigen::Vector3d(1, 2, -7) - Eigen::Vector3d(1, 2, -7)).norm() ==
+        Approx(0).margin(1e-14));
 }
 
 TEST_CASE("primitives with impossible numbers are refused in words") {

@@ -1,5 +1,3 @@
-#include "stackabilization/structure/segmentation.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
@@ -9,6 +7,7 @@
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/read.h"
+#include "stackabilization/structure/segmentation.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/variants.h"
@@ -26,7 +25,8 @@ SegmentationOptions by(SegmentationMethod method, int parts = 0) {
 
 std::vector<double> part_areas(const Shape& shape) {
   std::vector<double> areas;
-  for (Eigen::Index p = 0; p < shape.part_count(); ++p) areas.push_back(solids::surface_area(extract_part(shape, p)));
+  for (Eigen::Index p = 0; p < shape.part_count(); ++p)
+    areas.push_back(solids::surface_area(extract_part(shape, p)));
   return areas;
 }
 
@@ -74,14 +74,16 @@ TEST_CASE("a leg that stands under a top stays apart, a veneer glued on it does 
   const Shape top = solids::box({0, 0, 10}, {10, 10, 11});
   const Shape leg = solids::box({1, 1, 0}, {2, 2, 10});
   const Shape veneer = solids::box({0, 0, 11}, {10, 10, 11.1});
-  const Shape parts = segmented(concatenate(concatenate(top, leg), veneer), by(SegmentationMethod::components));
+  const Shape parts =
+      segmented(concatenate(concatenate(top, leg), veneer), by(SegmentationMethod::components));
   REQUIRE(parts.part_count() == 2);
   CHECK(part_areas(parts)[1] == Approx(solids::surface_area(leg)));
 }
 
 TEST_CASE("a box, a cylinder, a vessel and a ring are one part each") {
-  for (const Shape& solid : {solids::subdivided(solids::box({1, 2, 3})), solids::box({1, 1, 1}), solids::cylinder(1, 5, 48),
-                             solids::frustum_shell({}), solids::torus({}), solids::sphere(1, 3)}) {
+  for (const Shape& solid :
+       {solids::subdivided(solids::box({1, 2, 3})), solids::box({1, 1, 1}), solids::cylinder(1, 5, 48),
+        solids::frustum_shell({}), solids::torus({}), solids::sphere(1, 3)}) {
     const Shape parts = segmented(solid, by(SegmentationMethod::primitives));
     check_same_triangles(solid, parts);
     CHECK(parts.part_count() == 1);

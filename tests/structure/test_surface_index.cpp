@@ -7,7 +7,8 @@ using namespace stackabilization;
 
 TEST_CASE("the nearest point of a box is the clamped point outside and the nearest wall inside") {
   const SurfaceIndex index(solids::box({2, 3, 4}));
-  for (const Eigen::Vector3d& p : {Eigen::Vector3d(5, 1, 1), Eigen::Vector3d(-1, -2, 9), Eigen::Vector3d(1, 7, -3)}) {
+  for (const Eigen::Vector3d& p :
+       {Eigen::Vector3d(5, 1, 1), Eigen::Vector3d(-1, -2, 9), Eigen::Vector3d(1, 7, -3)}) {
     const Eigen::Vector3d clamped = p.cwiseMax(Eigen::Vector3d::Zero()).cwiseMin(Eigen::Vector3d(2, 3, 4));
     CHECK((index.nearest(p).point - clamped).norm() == Approx(0).margin(1e-14));
     CHECK(index.nearest(p).distance == Approx((p - clamped).norm()));

@@ -5,10 +5,10 @@
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/structure/symmetry_detection.h"
+#include "structure/symmetric_solids.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/variants.h"
-#include "structure/symmetric_solids.h"
 
 using namespace stackabilization;
 
@@ -25,12 +25,14 @@ int count(const std::vector<FoundSymmetry>& found, SymmetryKind kind) {
   return static_cast<int>(of_kind(found, kind).size());
 }
 
-/// Is the plane through `point` with normal `axis` among the reflections? Both to `accuracy`, angles in radians.
-bool has_plane(const std::vector<FoundSymmetry>& found, const Eigen::Vector3d& point, const Eigen::Vector3d& axis,
-               double accuracy) {
+/// Is the plane through `point` with normal `axis` among the reflections? Both to `accuracy`, angles in
+/// radians.
+bool has_plane(const std::vector<FoundSymmetry>& found, const Eigen::Vector3d& point,
+               const Eigen::Vector3d& axis, double accuracy) {
   return std::any_of(found.begin(), found.end(), [&](const FoundSymmetry& each) {
     const Symmetry& symmetry = each.symmetry;
-    return symmetry.kind == SymmetryKind::reflection && symmetry.axis.cross(axis.normalized()).norm() <= accuracy &&
+    return symmetry.kind == SymmetryKind::reflection &&
+           symmetry.axis.cross(axis.normalized()).norm() <= accuracy &&
            std::abs(symmetry.axis.dot(point - symmetry.point)) <= accuracy;
   });
 }
@@ -164,7 +166,8 @@ TEST_CASE("planes move along with the shape") {
 
 TEST_CASE("the order and number of triangles do not matter") {
   const Shape chair = solids::chair();
-  for (const Shape& variant : {solids::permuted(chair, 7), solids::subdivided(chair), solids::flipped(chair)}) {
+  for (const Shape& variant :
+       {solids::permuted(chair, 7), solids::subdivided(chair), solids::flipped(chair)}) {
     const auto found = find_symmetries(variant);
     CHECK(found.size() == 1);
     CHECK(has_plane(found, {0, 0, 0}, {1, 0, 0}, 1e-9));
@@ -177,7 +180,8 @@ TEST_CASE("noise of one percent hides no symmetry") {
     const auto box = find_symmetries(solids::noisy(solids::finely(solids::box({2, 3, 4}), 3), 0.01, seed));
     CHECK(count(box, SymmetryKind::reflection) == 3);
     for (int k = 0; k < 3; ++k) CHECK(has_plane(box, {1, 1.5, 2}, Eigen::Vector3d::Unit(k), 0.06));
-    const auto prism = find_symmetries(solids::noisy(solids::finely(solids::cylinder(1, 1.5, 5), 3), 0.01, seed));
+    const auto prism =
+        find_symmetries(solids::noisy(solids::finely(solids::cylinder(1, 1.5, 5), 3), 0.01, seed));
     CHECK(count(prism, SymmetryKind::reflection) == 6);
     const auto cup = find_symmetries(solids::noisy(solids::cup_with_handle(), 0.01, seed));
     CHECK(count(cup, SymmetryKind::reflection) == 1);

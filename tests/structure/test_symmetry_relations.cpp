@@ -15,7 +15,9 @@ using namespace stackabilization;
 
 namespace {
 
-std::vector<Relation> relations_of(const Shape& shape) { return symmetry_relations(shape, find_symmetries(shape)); }
+std::vector<Relation> relations_of(const Shape& shape) {
+  return symmetry_relations(shape, find_symmetries(shape));
+}
 
 std::set<std::set<std::string>> pairs_of(const Shape& shape, const std::vector<Relation>& relations) {
   std::set<std::set<std::string>> pairs;
@@ -27,7 +29,8 @@ std::set<std::set<std::string>> pairs_of(const Shape& shape, const std::vector<R
 }
 
 /// Self-symmetries of the part called `name`.
-std::vector<Symmetry> own_of(const Shape& shape, const std::vector<Relation>& relations, const std::string& name) {
+std::vector<Symmetry> own_of(const Shape& shape, const std::vector<Relation>& relations,
+                             const std::string& name) {
   std::vector<Symmetry> own;
   for (const Relation& relation : relations)
     if (relation.type == RelationType::self_symmetry &&
@@ -37,8 +40,9 @@ std::vector<Symmetry> own_of(const Shape& shape, const std::vector<Relation>& re
 }
 
 int planes_in(const std::vector<Symmetry>& symmetries) {
-  return static_cast<int>(std::count_if(symmetries.begin(), symmetries.end(),
-                                        [](const Symmetry& each) { return each.kind == SymmetryKind::reflection; }));
+  return static_cast<int>(std::count_if(symmetries.begin(), symmetries.end(), [](const Symmetry& each) {
+    return each.kind == SymmetryKind::reflection;
+  }));
 }
 
 using Pairs = std::set<std::set<std::string>>;
@@ -61,7 +65,8 @@ TEST_CASE("the legs of a square table are a cycle of pairs, without its diagonal
 TEST_CASE("every symmetry relation takes its first part onto its second") {
   const Shape table = transformed(solids::table({8, 6, 0.5, 1}), solids::random_rotation(3), {1, 2, 3});
   for (const Relation& relation : relations_of(table)) {
-    const Shape first = extract_part(table, relation.parts.front()), second = extract_part(table, relation.parts.back());
+    const Shape first = extract_part(table, relation.parts.front()),
+                second = extract_part(table, relation.parts.back());
     const Eigen::Isometry3d map = isometry_of(relation.symmetry);
     for (Eigen::Index v = 0; v < first.vertex_count(); ++v) {
       const Eigen::Vector3d image = map * first.vertices.row(v).transpose();
@@ -141,7 +146,8 @@ TEST_CASE("three and five legs hang together") {
     const Pairs pairs = pairs_of(stool, relations);
     for (int round = 0; round < legs; ++round)
       for (const auto& pair : pairs)
-        if (std::any_of(pair.begin(), pair.end(), [&](const std::string& name) { return reached.count(name) > 0; }))
+        if (std::any_of(pair.begin(), pair.end(),
+                        [&](const std::string& name) { return reached.count(name) > 0; }))
           reached.insert(pair.begin(), pair.end());
     CHECK(static_cast<int>(reached.size()) == legs);
     CHECK(planes_in(own_of(stool, relations, "seat")) == 2);

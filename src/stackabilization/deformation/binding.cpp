@@ -13,12 +13,13 @@ using Corners = Eigen::Matrix<double, 8, 3, Eigen::RowMajor>;
 
 ControlJacobian cage_jacobian(const CageBinding& binding) {
   ControlJacobian jacobian;
-  for (int k = 0; k < 8; ++k) jacobian.points.push_back({k, binding.weights(k) * Eigen::Matrix3d::Identity()});
+  for (int k = 0; k < 8; ++k)
+    jacobian.points.push_back({k, binding.weights(k) * Eigen::Matrix3d::Identity()});
   return jacobian;
 }
 
-/// The sections whose centres bear on a point between two neighbours: those and, for their tangents, one more on
-/// either side.
+/// The sections whose centres bear on a point between two neighbours: those and, for their tangents, one more
+/// on either side.
 std::vector<int> sections_around(const CurveBinding& binding, const GeneralizedCylinder& cylinder) {
   const int n = static_cast<int>(cylinder.centres.rows());
   const auto step = [&](int i, int by) {
@@ -30,10 +31,12 @@ std::vector<int> sections_around(const CurveBinding& binding, const GeneralizedC
   return sections;
 }
 
-ControlJacobian curve_jacobian(const CurveAtRest& curve, const CurveBinding& binding, GeneralizedCylinder now) {
+ControlJacobian curve_jacobian(const CurveAtRest& curve, const CurveBinding& binding,
+                               GeneralizedCylinder now) {
   const Eigen::Vector3d here = curve.carried(binding, now);
-  const double size = (curve.cylinder().centres.row(binding.to) - curve.cylinder().centres.row(binding.from)).norm() +
-                      curve.cylinder().radii(binding.from);
+  const double size =
+      (curve.cylinder().centres.row(binding.to) - curve.cylinder().centres.row(binding.from)).norm() +
+      curve.cylinder().radii(binding.from);
   const double step = tolerance::difference_step * size;
   const std::vector<int> sections = sections_around(binding, now);
   const auto slope = [&](double& variable) -> Eigen::Vector3d {
@@ -104,7 +107,8 @@ Points Carrier::displacements(const std::vector<PointBinding>& bindings, const P
       const Eigen::Vector3d rest = curve->origin() + binding.axis + binding.radial + binding.axial;
       moved.row(static_cast<Eigen::Index>(i)) =
           curve->carried(binding, cylinder, motions[static_cast<std::size_t>(binding.from)],
-                         motions[static_cast<std::size_t>(binding.to)]) - rest;
+                         motions[static_cast<std::size_t>(binding.to)]) -
+          rest;
     }
     return moved;
   }

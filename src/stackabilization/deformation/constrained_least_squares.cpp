@@ -17,7 +17,8 @@ constexpr int most_steps = 60;
 void ConstrainedLeastSquares::wish(const Row& row, double right, double weight) {
   const double factor = std::sqrt(weight);
   for (const Term& term : row)
-    wishes_.triplets.emplace_back(static_cast<int>(wishes_.right.size()), term.variable, factor * term.factor);
+    wishes_.triplets.emplace_back(static_cast<int>(wishes_.right.size()), term.variable,
+                                  factor * term.factor);
   wishes_.right.push_back(factor * right);
 }
 
@@ -31,7 +32,8 @@ ConstrainedLeastSquares::Matrices ConstrainedLeastSquares::reduced(const Rows& r
                                                                    const std::vector<int>& column,
                                                                    int columns) const {
   Matrices out;
-  out.right = Eigen::Map<const Eigen::VectorXd>(rows.right.data(), static_cast<Eigen::Index>(rows.right.size()));
+  out.right =
+      Eigen::Map<const Eigen::VectorXd>(rows.right.data(), static_cast<Eigen::Index>(rows.right.size()));
   std::vector<Eigen::Triplet<double>> free;
   for (const auto& entry : rows.triplets) {
     const auto variable = static_cast<std::size_t>(entry.col());

@@ -8,8 +8,9 @@
 /// Not installed.
 namespace stackabilization::detail {
 
-/// Sparse linear least squares under linear equations, which may repeat or contradict one another: the method of
-/// multipliers (Hestenes 1969, Powell 1969), one factorization of the penalised normal equations for all its steps.
+/// Sparse linear least squares under linear equations, which may repeat or contradict one another: the method
+/// of multipliers (Hestenes 1969, Powell 1969), one factorization of the penalised normal equations for all
+/// its steps.
 class ConstrainedLeastSquares {
  public:
   struct Term {
@@ -20,8 +21,8 @@ class ConstrainedLeastSquares {
 
   struct Solution {
     Eigen::VectorXd values;  ///< one per variable
-    /// Row - right side, one per equation: rounding, unless they contradict one another; then the sum of their squares is
-    /// least.
+    /// Row - right side, one per equation: rounding, unless they contradict one another; then the sum of
+    /// their squares is least.
     Eigen::VectorXd missed;
   };
 
@@ -32,8 +33,8 @@ class ConstrainedLeastSquares {
   void demand(const Row& row, double right);
   void fix(int variable, double value) { fixed_[static_cast<std::size_t>(variable)] = value; }
 
-  /// `resolution`: change of the variables below which steps end. Precondition: wishes and equations together determine
-  /// every variable.
+  /// `resolution`: change of the variables below which steps end. Precondition: wishes and equations together
+  /// determine every variable.
   Solution solved(double resolution) const;
 
  private:

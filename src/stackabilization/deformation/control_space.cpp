@@ -13,9 +13,13 @@ namespace stackabilization {
 
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
-int point_count(const Primitive& primitive) { return static_cast<int>(control_points(primitive).rows()); }
+int point_count(const Primitive& primitive) {
+  return static_cast<int>(control_points(primitive).rows());
+}
 
 std::vector<int> inverse(const std::vector<int>& order) {
   std::vector<int> back(order.size());
@@ -68,10 +72,10 @@ ControlSpace::ControlSpace(const Structure& rest) : images_(rest.parts.size()), 
   for (const Part& part : rest.parts) rest_.push_back(part.primitive);
   std::vector<std::vector<int>> orders;
   for (const Relation& relation : rest.relations)
-    orders.push_back(is_symmetry(relation)
-                         ? control_correspondence(rest_[at(relation.parts.front())], rest_[at(relation.parts.back())],
-                                                  isometry_of(relation.symmetry))
-                         : std::vector<int>());
+    orders.push_back(is_symmetry(relation) ? control_correspondence(rest_[at(relation.parts.front())],
+                                                                    rest_[at(relation.parts.back())],
+                                                                    isometry_of(relation.symmetry))
+                                           : std::vector<int>());
   for (int part = 0; part < static_cast<int>(rest_.size()); ++part)
     if (class_of(part) < 0) spread_class(part, rest, orders);
   for (std::size_t k = 0; k < orders.size(); ++k)
@@ -79,7 +83,8 @@ ControlSpace::ControlSpace(const Structure& rest) : images_(rest.parts.size()), 
   for (Class& of_class : classes_) prepare_projectors(of_class);
 }
 
-void ControlSpace::spread_class(int first, const Structure& rest, const std::vector<std::vector<int>>& orders) {
+void ControlSpace::spread_class(int first, const Structure& rest,
+                                const std::vector<std::vector<int>>& orders) {
   Image& image = images_[at(first)];
   image.of_class = class_count();
   image.order.resize(at(point_count(rest_[at(first)])));
@@ -145,14 +150,16 @@ ControlState ControlSpace::state_of(int part, const Primitive& now) const {
   ControlState state;
   state.values.resize(std::holds_alternative<Cuboid>(now) ? 3 * n : 4 * n);
   for (Eigen::Index i = 0; i < n; ++i)
-    state.values.segment<3>(3 * i) = image.linear.transpose() * moved.row(image.order[at(static_cast<int>(i))]).transpose();
+    state.values.segment<3>(3 * i) =
+        image.linear.transpose() * moved.row(image.order[at(static_cast<int>(i))]).transpose();
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&now)) {
     const auto& before = std::get<GeneralizedCylinder>(rest(part));
     for (Eigen::Index i = 0; i < n; ++i) {
       const int k = image.order[at(static_cast<int>(i))];
       state.values(3 * n + i) = cylinder->radii(k) - before.radii(k);
     }
-    state.rotation = turned((cylinder->rotation * before.rotation.inverse()).normalized(), axial(part).transpose());
+    state.rotation =
+        turned((cylinder->rotation * before.rotation.inverse()).normalized(), axial(part).transpose());
   }
   return state;
 }
@@ -162,7 +169,8 @@ Primitive ControlSpace::primitive(int part, const ControlState& state) const {
   Primitive now = rest(part);
   const auto move = [&](auto& points) {
     for (Eigen::Index i = 0; i < points.rows(); ++i)
-      points.row(image.order[at(static_cast<int>(i))]) += (image.linear * state.values.segment<3>(3 * i)).transpose();
+      points.row(image.order[at(static_cast<int>(i))]) +=
+          (image.linear * state.values.segment<3>(3 * i)).transpose();
   };
   if (auto* cuboid = std::get_if<Cuboid>(&now)) {
     move(cuboid->corners);
@@ -171,7 +179,8 @@ Primitive ControlSpace::primitive(int part, const ControlState& state) const {
   auto& cylinder = std::get<GeneralizedCylinder>(now);
   move(cylinder.centres);
   const Eigen::Index n = cylinder.radii.size();
-  for (Eigen::Index i = 0; i < n; ++i) cylinder.radii(image.order[at(static_cast<int>(i))]) += state.values(3 * n + i);
+  for (Eigen::Index i = 0; i < n; ++i)
+    cylinder.radii(image.order[at(static_cast<int>(i))]) += state.values(3 * n + i);
   cylinder.rotation = turned(state.rotation, axial(part)) * cylinder.rotation;
   return now;
 }
@@ -204,7 +213,8 @@ ControlState ControlSpace::invariant(int of_class, ControlState state) const {
   const Eigen::AngleAxisd turn(state.rotation);
   const Eigen::Vector3d vector = c.rotation_projector * (turn.angle() * turn.axis());
   const double angle = vector.norm();
-  state.rotation = angle > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle)) : Eigen::Quaterniond::Identity();
+  state.rotation = angle > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle))
+                             : Eigen::Quaterniond::Identity();
   return state;
 }
 

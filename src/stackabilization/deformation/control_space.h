@@ -10,23 +10,23 @@ namespace stackabilization {
 
 /// Where the controls of a primitive are, since rest.
 struct ControlState {
-  /// Displacements of the n control points, point by point; of a generalized cylinder then the changes of its n
-  /// radii. 3 n or 4 n numbers, model units.
+  /// Displacements of the n control points, point by point; of a generalized cylinder then the changes of its
+  /// n radii. 3 n or 4 n numbers, model units.
   Eigen::VectorXd values;
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< of a generalized cylinder as a whole
 };
 
-/// The controls of all parts with the symmetry relations eliminated: parts that symmetries take onto each other form
-/// a class, whose first member stands for all of them, and the self-symmetries of that member (its own, and those that
-/// close a loop of pairs) confine its controls to a subspace. What is built from the states of the classes is
-/// symmetric up to rounding, whatever they are. Symmetries are fixed in space.
+/// The controls of all parts with the symmetry relations eliminated: parts that symmetries take onto each
+/// other form a class, whose first member stands for all of them, and the self-symmetries of that member (its
+/// own, and those that close a loop of pairs) confine its controls to a subspace. What is built from the
+/// states of the classes is symmetric up to rounding, whatever they are. Symmetries are fixed in space.
 class ControlSpace {
  public:
   /// A symmetry that takes the first member of a class onto itself.
   struct Stabiliser {
-    int relation = 0;         ///< row of Structure::relations that it comes from
-    Eigen::Matrix3d linear;   ///< acts on displacements
-    std::vector<int> order;   ///< control point i goes to order[i]
+    int relation = 0;        ///< row of Structure::relations that it comes from
+    Eigen::Matrix3d linear;  ///< acts on displacements
+    std::vector<int> order;  ///< control point i goes to order[i]
   };
 
   /// Throws InputError, naming the relation, when primitives that should be symmetric are not so at rest, to
@@ -36,7 +36,9 @@ class ControlSpace {
   int class_count() const { return static_cast<int>(classes_.size()); }
   int class_of(int part) const { return images_[static_cast<std::size_t>(part)].of_class; }
   /// Parts of a class, ascending; the first stands for all.
-  const std::vector<int>& members(int of_class) const { return classes_[static_cast<std::size_t>(of_class)].members; }
+  const std::vector<int>& members(int of_class) const {
+    return classes_[static_cast<std::size_t>(of_class)].members;
+  }
   const std::vector<Stabiliser>& stabilisers(int of_class) const {
     return classes_[static_cast<std::size_t>(of_class)].stabilisers;
   }
@@ -54,7 +56,8 @@ class ControlSpace {
   Eigen::MatrixXd invariant_columns(int of_class, const Eigen::MatrixXd& columns) const;
 
   /// 3 x m: moves of control point `point` of `part` by m columns of changes of its class.
-  Eigen::Matrix<double, 3, Eigen::Dynamic> point_rows(int part, int point, const Eigen::MatrixXd& columns) const;
+  Eigen::Matrix<double, 3, Eigen::Dynamic> point_rows(int part, int point,
+                                                      const Eigen::MatrixXd& columns) const;
   /// 1 x m: changes of the radius of its section.
   Eigen::RowVectorXd radius_row(int part, int section, const Eigen::MatrixXd& columns) const;
   /// What the isometry that takes the first member to `part` does to displacements, and to rotation vectors.
@@ -79,9 +82,9 @@ class ControlSpace {
   void prepare_projectors(Class& of_class) const;
 
   std::vector<Primitive> rest_;
-  std::vector<Image> images_;    ///< per part
+  std::vector<Image> images_;  ///< per part
   std::vector<Class> classes_;
-  std::vector<bool> tree_;       ///< per relation: it carried a class from one part to the next
+  std::vector<bool> tree_;  ///< per relation: it carried a class from one part to the next
 };
 
 }  // namespace stackabilization

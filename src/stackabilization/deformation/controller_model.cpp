@@ -12,7 +12,9 @@ namespace stackabilization {
 
 struct ControllerModel::Data {
   explicit Data(StructuredShape structured)
-      : rest(std::move(structured)), rig(rest.structure), mesh{MeshTransfer(rest.shape, rig), vertices_by_part(rest.shape)} {
+      : rest(std::move(structured)),
+        rig(rest.structure),
+        mesh{MeshTransfer(rest.shape, rig), vertices_by_part(rest.shape)} {
     for (const Part& part : rest.structure.parts) primitives.push_back(part.primitive);
   }
 
@@ -52,14 +54,19 @@ ControllerModel::ControllerModel(ControllerModel&&) noexcept = default;
 ControllerModel& ControllerModel::operator=(ControllerModel&&) noexcept = default;
 ControllerModel::~ControllerModel() = default;
 
-const StructuredShape& ControllerModel::rest() const { return data_->rest; }
+const StructuredShape& ControllerModel::rest() const {
+  return data_->rest;
+}
 
-const std::vector<Primitive>& ControllerModel::rest_primitives() const { return data_->primitives; }
+const std::vector<Primitive>& ControllerModel::rest_primitives() const {
+  return data_->primitives;
+}
 
 std::vector<Handle> ControllerModel::handles() const {
   std::vector<Handle> handles;
   for (std::size_t part = 0; part < data_->primitives.size(); ++part)
-    for (const Handle& handle : handles_of(static_cast<int>(part), data_->primitives[part])) handles.push_back(handle);
+    for (const Handle& handle : handles_of(static_cast<int>(part), data_->primitives[part]))
+      handles.push_back(handle);
   return handles;
 }
 
@@ -74,7 +81,8 @@ EditOutcome ControllerModel::edited(const std::vector<Primitive>& now, const Edi
   data_->check(now);
   const Part& part = data_->part(edit.handle);
   const PartEdit wanted = prescribed(now[static_cast<std::size_t>(edit.handle.part)], edit, part.name);
-  return solved_edit(data_->rig, data_->mesh, {data_->rest.shape, now, edit.handle.part, wanted, constraints});
+  return solved_edit(data_->rig, data_->mesh,
+                     {data_->rest.shape, now, edit.handle.part, wanted, constraints});
 }
 
 Shape ControllerModel::shape_of(const std::vector<Primitive>& now) const {

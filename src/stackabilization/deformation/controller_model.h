@@ -15,17 +15,18 @@ struct EditOutcome {
   std::vector<Primitive> primitives;  ///< one per part
 };
 
-/// Cuboids and generalized cylinders that move the mesh riding on them, with all relations between them kept (paper,
-/// section 4.1). See docs/method.md.
+/// Cuboids and generalized cylinders that move the mesh riding on them, with all relations between them kept
+/// (paper, section 4.1). See docs/method.md.
 ///
-/// A configuration is one primitive per part, values in and values out. An edit is made exactly or refused: symmetries
-/// hold up to rounding by construction, joints to tolerance::relation of the diagonal (in practice to rounding), no
-/// primitive collapses, folds or turns inside out. Symmetry planes and axes are fixed in space: what one part of a pair
-/// does the other does in the mirror, and a part that is its own mirror image cannot leave the plane.
+/// A configuration is one primitive per part, values in and values out. An edit is made exactly or refused:
+/// symmetries hold up to rounding by construction, joints to tolerance::relation of the diagonal (in practice
+/// to rounding), no primitive collapses, folds or turns inside out. Symmetry planes and axes are fixed in
+/// space: what one part of a pair does the other does in the mirror, and a part that is its own mirror image
+/// cannot leave the plane.
 class ControllerModel : public DeformationModel {
  public:
-  /// Everything that depends on the rest alone is computed here. Throws InputError when `rest` is invalid or its
-  /// primitives do not satisfy its symmetry relations.
+  /// Everything that depends on the rest alone is computed here. Throws InputError when `rest` is invalid or
+  /// its primitives do not satisfy its symmetry relations.
   explicit ControllerModel(StructuredShape rest);
   ControllerModel(ControllerModel&&) noexcept;
   ControllerModel& operator=(ControllerModel&&) noexcept;
@@ -41,10 +42,10 @@ class ControllerModel : public DeformationModel {
   DeformationResult deformed(const std::vector<Edit>& edits,
                              const DeformationConstraints& constraints = {}) const override;
 
-  /// One edit to a configuration that this model made. The handle goes where the edit takes it and the others follow
-  /// (propagation.h, relation_solver.h); every relation is recomputed from the result before it counts. Extents and
-  /// boxes of the constraints are those of the shape at rest, parts and points stay where they are in `now`. Throws
-  /// UsageError as `deformed`.
+  /// One edit to a configuration that this model made. The handle goes where the edit takes it and the others
+  /// follow (propagation.h, relation_solver.h); every relation is recomputed from the result before it
+  /// counts. Extents and boxes of the constraints are those of the shape at rest, parts and points stay where
+  /// they are in `now`. Throws UsageError as `deformed`.
   EditOutcome edited(const std::vector<Primitive>& now, const Edit& edit,
                      const DeformationConstraints& constraints = {}) const;
 

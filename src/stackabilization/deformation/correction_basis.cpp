@@ -22,7 +22,8 @@ constexpr double kRadii = 0.1;
 constexpr double kWeakestMode = 1e-3;  // no tolerance: it bounds the number of columns, not a rounding error
 
 /// Kronecker product with the unit matrix of size 3: a function along the points becomes three columns.
-void append_moves(const Eigen::MatrixXd& functions, double factor, Eigen::MatrixXd& basis, Eigen::Index& column) {
+void append_moves(const Eigen::MatrixXd& functions, double factor, Eigen::MatrixXd& basis,
+                  Eigen::Index& column) {
   for (Eigen::Index f = 0; f < functions.cols(); ++f)
     for (int k = 0; k < 3; ++k, ++column)
       for (Eigen::Index i = 0; i < functions.rows(); ++i) basis(3 * i + k, column) = factor * functions(i, f);
@@ -45,7 +46,8 @@ Eigen::MatrixXd affine_functions(const GeneralizedCylinder& cylinder) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
   qr.setThreshold(tolerance::relative);
   qr.compute(centred);
-  const Eigen::MatrixXd orthonormal = Eigen::MatrixXd(qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank()));
+  const Eigen::MatrixXd orthonormal =
+      Eigen::MatrixXd(qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank()));
   Eigen::MatrixXd functions(n, 1 + qr.rank());
   functions << Eigen::VectorXd::Ones(n), std::sqrt(static_cast<double>(n)) * orthonormal;
   return functions;
@@ -63,7 +65,8 @@ Eigen::MatrixXd basis_of(const GeneralizedCylinder& cylinder) {
   return basis;
 }
 
-/// The products of the signs of the three coordinates of a corner: 1, x, y, z are affine, xy, yz, zx and xyz are not.
+/// The products of the signs of the three coordinates of a corner: 1, x, y, z are affine, xy, yz, zx and xyz
+/// are not.
 Eigen::MatrixXd basis_of(const Cuboid&) {
   Eigen::MatrixXd affine(8, 4), bent(8, 4);
   for (int k = 0; k < 8; ++k) {

@@ -6,22 +6,23 @@
 
 namespace stackabilization {
 
-/// n x n: exp(-(s_i - s_j)^2 / (2 sigma^2)) over the arc lengths s of the sections at rest, sigma = 0.2 of the whole
-/// (paper, section 4.1), around closed curves as well.
+/// n x n: exp(-(s_i - s_j)^2 / (2 sigma^2)) over the arc lengths s of the sections at rest, sigma = 0.2 of
+/// the whole (paper, section 4.1), around closed curves as well.
 Eigen::MatrixXd gaussian_spread(const GeneralizedCylinder& rest);
 
-/// Symmetric positive semi-definite matrix K over the control values of a primitive (ControlState::values): an edit that
-/// prescribes some of them makes the change of least norm x^T K^+ x. Corners of a cuboid move alone; a change of a
-/// cross-section spreads to its neighbours by `gaussian_spread`, that of a radius in proportion to theirs.
+/// Symmetric positive semi-definite matrix K over the control values of a primitive (ControlState::values):
+/// an edit that prescribes some of them makes the change of least norm x^T K^+ x. Corners of a cuboid move
+/// alone; a change of a cross-section spreads to its neighbours by `gaussian_spread`, that of a radius in
+/// proportion to theirs.
 Eigen::MatrixXd edit_kernel(const Primitive& rest);
 
-/// B whose columns, all of the same price, span what a solver may do to a primitive: cheap affine motions of the whole
-/// (a translation by 1 is a column), dearer smooth bending, and dearest non-affine moves of single corners and changes
-/// of radii.
+/// B whose columns, all of the same price, span what a solver may do to a primitive: cheap affine motions of
+/// the whole (a translation by 1 is a column), dearer smooth bending, and dearest non-affine moves of single
+/// corners and changes of radii.
 Eigen::MatrixXd correction_basis(const Primitive& rest);
 
-/// 3 x 3n: rotation vector of the rigid motion nearest to small displacements of the centres; no component that they
-/// leave undetermined, such as about a straight axis.
+/// 3 x 3n: rotation vector of the rigid motion nearest to small displacements of the centres; no component
+/// that they leave undetermined, such as about a straight axis.
 Eigen::MatrixXd turning(const GeneralizedCylinder& rest);
 
 }  // namespace stackabilization

@@ -23,11 +23,11 @@ struct DeformationResult {
   std::vector<Primitive> primitives;  ///< of the parts, moved; empty for models without primitives
 };
 
-/// One way to deform a shape: prepared once for a shape at rest, asked for many edits. Queries are const, deterministic
-/// and safe from any number of threads.
+/// One way to deform a shape: prepared once for a shape at rest, asked for many edits. Queries are const,
+/// deterministic and safe from any number of threads.
 ///
-/// Every model guarantees: no edits, or edits that change nothing, give the vertices at rest to 1e-12 of the diagonal;
-/// every vertex of a result is finite; all constraints hold, or there is a refusal.
+/// Every model guarantees: no edits, or edits that change nothing, give the vertices at rest to 1e-12 of the
+/// diagonal; every vertex of a result is finite; all constraints hold, or there is a refusal.
 class DeformationModel {
  public:
   virtual ~DeformationModel() = default;
@@ -35,11 +35,12 @@ class DeformationModel {
   /// Everything that can be edited.
   virtual std::vector<Handle> handles() const = 0;
 
-  /// Point about which a handle at rest is turned and scaled, model units. Throws UsageError when there is no such handle.
+  /// Point about which a handle at rest is turned and scaled, model units. Throws UsageError when there is no
+  /// such handle.
   virtual Eigen::Vector3d centre(const Handle& handle) const = 0;
 
-  /// The shape at rest with `edits` made one after the other. Throws UsageError for a handle that this model does not
-  /// have, or an operation it cannot take.
+  /// The shape at rest with `edits` made one after the other. Throws UsageError for a handle that this model
+  /// does not have, or an operation it cannot take.
   virtual DeformationResult deformed(const std::vector<Edit>& edits,
                                      const DeformationConstraints& constraints = {}) const = 0;
 };

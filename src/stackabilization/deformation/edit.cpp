@@ -26,18 +26,27 @@ std::string name_of(const Handle& handle, const std::vector<std::string>& part_n
   const std::string number = std::to_string(handle.index);
   const auto of_part = [&] { return " of " + part_names.at(static_cast<std::size_t>(handle.part)); };
   switch (handle.kind) {
-    case HandleKind::part: return part_names.at(static_cast<std::size_t>(handle.part));
-    case HandleKind::face: return "face " + number + of_part();
-    case HandleKind::corner: return "corner " + number + of_part();
-    case HandleKind::section: return "cross-section " + number + of_part();
-    case HandleKind::point: return "point " + number;
-    case HandleKind::wire: return "wire " + number;
-    case HandleKind::shape: return "the shape";
+    case HandleKind::part:
+      return part_names.at(static_cast<std::size_t>(handle.part));
+    case HandleKind::face:
+      return "face " + number + of_part();
+    case HandleKind::corner:
+      return "corner " + number + of_part();
+    case HandleKind::section:
+      return "cross-section " + number + of_part();
+    case HandleKind::point:
+      return "point " + number;
+    case HandleKind::wire:
+      return "wire " + number;
+    case HandleKind::shape:
+      return "the shape";
   }
   return {};
 }
 
-bool is_axis(const Eigen::Vector3d& v) { return v.allFinite() && v.norm() > 0; }
+bool is_axis(const Eigen::Vector3d& v) {
+  return v.allFinite() && v.norm() > 0;
+}
 
 }  // namespace
 
@@ -51,7 +60,8 @@ void validate(const Edit& edit) {
     const Scale& scale = std::get<Scale>(edit.operation);
     if (!std::isfinite(scale.factor) || !(scale.factor > 0))
       throw UsageError("a scaling needs a positive factor, found " + text(scale.factor));
-    if (scale.along && !is_axis(*scale.along)) throw UsageError("a scaling along an axis needs one that is not zero");
+    if (scale.along && !is_axis(*scale.along))
+      throw UsageError("a scaling along an axis needs one that is not zero");
   }
 }
 

@@ -40,8 +40,8 @@ struct Rotate {
   double radians = 0;
 };
 
-/// Scaling about the handle's centre: of a cross-section its radius, of a face within its plane, of the rest in all
-/// directions or along one.
+/// Scaling about the handle's centre: of a cross-section its radius, of a face within its plane, of the rest
+/// in all directions or along one.
 struct Scale {
   double factor = 1;                     ///< > 0
   std::optional<Eigen::Vector3d> along;  ///< not zero; only for parts and shapes
@@ -58,8 +58,8 @@ struct Edit {
 /// Throws UsageError unless factors are positive, axes are not zero and every number is finite.
 void validate(const Edit& edit);
 
-/// "move face 3 of leg by (0.1, 0, 0)"; `part_names` are those of the shape. Precondition: the handle's part is one of
-/// them, where its kind needs one.
+/// "move face 3 of leg by (0.1, 0, 0)"; `part_names` are those of the shape. Precondition: the handle's part
+/// is one of them, where its kind needs one.
 std::string describe(const Edit& edit, const std::vector<std::string>& part_names);
 
 /// What no edit may change.

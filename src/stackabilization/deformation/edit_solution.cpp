@@ -16,13 +16,15 @@ namespace stackabilization {
 
 namespace {
 
-/// How much the part that carries the handle resists corrections of what the edit left open of it: length of its columns
-/// relative to those of other parts.
+/// How much the part that carries the handle resists corrections of what the edit left open of it: length of
+/// its columns relative to those of other parts.
 constexpr double kStiffness = 0.3;
 /// Rounds in which vertices that a solve made outermost are held as well.
 constexpr int kExtentRounds = 10;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 std::string fraction(double value) {
   char buffer[32];
@@ -31,7 +33,8 @@ std::string fraction(double value) {
 }
 
 std::string name_of(const Relation& relation, const Structure& structure) {
-  std::string name = "the " + name_of(relation.type) + " of '" + structure.parts[at(relation.parts.front())].name + "'";
+  std::string name =
+      "the " + name_of(relation.type) + " of '" + structure.parts[at(relation.parts.front())].name + "'";
   if (relation.parts.size() > 1) name += " and '" + structure.parts[at(relation.parts.back())].name + "'";
   return name;
 }
@@ -124,12 +127,16 @@ class EditSolution {
     return rows;
   }
 
-  bool whole() const { return static_cast<Eigen::Index>(task_.wanted.values.size()) == bases_[at(class_)].rows(); }
+  bool whole() const {
+    return static_cast<Eigen::Index>(task_.wanted.values.size()) == bases_[at(class_)].rows();
+  }
 
-  /// Gives the edited class what the edit prescribes, within its symmetries, and leaves its basis what keeps that.
+  /// Gives the edited class what the edit prescribes, within its symmetries, and leaves its basis what keeps
+  /// that.
   std::optional<Refusal> prescribe() {
     if (progress_[at(class_)] == Progress::settled)
-      return Refusal{"'" + part_name(task_.part) + "' is fixed, or symmetric to a part that is", std::nullopt, 0};
+      return Refusal{"'" + part_name(task_.part) + "' is fixed, or symmetric to a part that is", std::nullopt,
+                     0};
     return whole() ? prescribe_whole() : prescribe_handle();
   }
 
@@ -162,14 +169,15 @@ class EditSolution {
   Refusal missed(double amount, const std::string& unit) const {
     const std::optional<int> relation = contradicting_relation();
     const std::string cause = relation ? name_of(rig_.rest.relations[at(*relation)], rig_.rest) : "rounding";
-    return {cause + " does not let '" + part_name(task_.part) + "' go where the edit takes it: it would miss by " +
-                fraction(amount) + " " + unit,
+    return {cause + " does not let '" + part_name(task_.part) +
+                "' go where the edit takes it: it would miss by " + fraction(amount) + " " + unit,
             relation, amount};
   }
 
   /// The symmetry of the edited class that what is prescribed contradicts most.
   std::optional<int> contradicting_relation() const {
-    const ControlState wanted = rig_.space.state_of(task_.part, changed(task_.now[at(task_.part)], task_.wanted));
+    const ControlState wanted =
+        rig_.space.state_of(task_.part, changed(task_.now[at(task_.part)], task_.wanted));
     const Eigen::VectorXd change = wanted.values - start_[at(class_)].values;
     const auto& stabilisers = rig_.space.stabilisers(class_);
     std::optional<int> worst;
@@ -189,7 +197,8 @@ class EditSolution {
   void solve() {
     std::vector<Constraint> constraints = joint_constraints(rig_);
     for (const Constraint& fixed : fixed_point_constraints()) constraints.push_back(fixed);
-    fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.joints.size()), constraints.end()};
+    fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.joints.size()),
+                     constraints.end()};
     state_ = solved(rig_, bases_, constraints, std::move(state_));
     if (watch_.bounds().empty()) return;
     for (int round = 0; round < kExtentRounds; ++round) {
@@ -218,7 +227,8 @@ class EditSolution {
       for (int k = 0; k < 3; ++k)
         for (Rider rider : mesh_.transfer.riders(task_.shape.triangles(nearest.triangle, k))) {
           rider.weight *= weights(k);
-          constraint.target += rider.weight * rig_.carriers[at(rider.part)].carried(rider.binding, task_.now[at(rider.part)]);
+          constraint.target +=
+              rider.weight * rig_.carriers[at(rider.part)].carried(rider.binding, task_.now[at(rider.part)]);
           constraint.riders.push_back(std::move(rider));
         }
       constraints.push_back(std::move(constraint));
@@ -250,7 +260,8 @@ class EditSolution {
     for (std::size_t part = 0; part < primitives_.size(); ++part)
       if (const auto what = defect(rig_.rest.parts[part].primitive, primitives_[part]))
         return Refusal{"'" + rig_.rest.parts[part].name + "' " + *what, std::nullopt, 0};
-    if (const double gap = largest_gap(rig_, fixed_points_, state_) / diagonal(); !(gap <= tolerance::relation))
+    if (const double gap = largest_gap(rig_, fixed_points_, state_) / diagonal();
+        !(gap <= tolerance::relation))
       return Refusal{"a fixed point would move by " + fraction(gap) + " of the diagonal", std::nullopt, gap};
     return broken_extent();
   }
@@ -261,7 +272,8 @@ class EditSolution {
     if (worst == residuals.end() || !(*worst > tolerance::relation)) return std::nullopt;
     const auto row = static_cast<int>(worst - residuals.begin());
     const Relation& relation = rig_.rest.relations[at(row)];
-    return Refusal{name_of(relation, rig_.rest) + " would be off by " + fraction(*worst) + " of the diagonal", row, *worst};
+    return Refusal{name_of(relation, rig_.rest) + " would be off by " + fraction(*worst) + " of the diagonal",
+                   row, *worst};
   }
 
   std::optional<Refusal> broken_extent() const {
@@ -271,8 +283,8 @@ class EditSolution {
       const double excess = watch_.excess(k, vertices);
       if (excess == 0) continue;
       const Eigen::Vector3d& n = watch_.bounds()[k].normal;
-      return Refusal{"the extent along (" + fraction(n.x()) + ", " + fraction(n.y()) + ", " + fraction(n.z()) +
-                         ") would be too " + (excess > 0 ? "long" : "short") + " by " +
+      return Refusal{"the extent along (" + fraction(n.x()) + ", " + fraction(n.y()) + ", " +
+                         fraction(n.z()) + ") would be too " + (excess > 0 ? "long" : "short") + " by " +
                          fraction(std::abs(excess) / diagonal()) + " of the diagonal",
                      std::nullopt, std::abs(excess) / diagonal()};
     }

@@ -26,8 +26,8 @@ struct EditTask {
   const DeformationConstraints& constraints;
 };
 
-/// Makes the edit with all relations and constraints, or says why not: prescribes the controls of the edited part within
-/// its symmetries, propagates, solves, checks. See ControllerModel::edited.
+/// Makes the edit with all relations and constraints, or says why not: prescribes the controls of the edited
+/// part within its symmetries, propagates, solves, checks. See ControllerModel::edited.
 EditOutcome solved_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& task);
 
 }  // namespace stackabilization

@@ -58,7 +58,8 @@ double ExtentWatch::excess(std::size_t k, const Points& vertices) const {
 
 Eigen::VectorXd ExtentWatch::levels(const Points& vertices) const {
   Eigen::VectorXd levels(static_cast<Eigen::Index>(bounds_.size()));
-  for (std::size_t k = 0; k < bounds_.size(); ++k) levels(static_cast<Eigen::Index>(k)) = range(k, vertices).low;
+  for (std::size_t k = 0; k < bounds_.size(); ++k)
+    levels(static_cast<Eigen::Index>(k)) = range(k, vertices).low;
   return levels;
 }
 
@@ -78,7 +79,8 @@ bool ExtentWatch::hold_side(std::size_t k, double sign, const Points& vertices, 
   bool added = false;
   for (const std::vector<int>& part : by_part_) {
     const auto height = [&](int v) { return sign * vertices.row(v).dot(bound.normal); };
-    const auto top = std::max_element(part.begin(), part.end(), [&](int a, int b) { return height(a) < height(b); });
+    const auto top =
+        std::max_element(part.begin(), part.end(), [&](int a, int b) { return height(a) < height(b); });
     if (top == part.end() || height(*top) < outermost || !held_.emplace(k, sign > 0, *top).second) continue;
     Constraint constraint;
     constraint.riders = transfer.riders(*top);

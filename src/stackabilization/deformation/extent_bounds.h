@@ -18,8 +18,8 @@ struct ExtentBound {
   double low = 0, high = 0;  ///< model units; equal to keep the extent
 };
 
-/// What `keep_extent` and `box_tolerance` demand of a shape. Throws UsageError when the tolerance is negative or not
-/// finite.
+/// What `keep_extent` and `box_tolerance` demand of a shape. Throws UsageError when the tolerance is negative
+/// or not finite.
 std::vector<ExtentBound> extent_bounds(const Shape& rest, const DeformationConstraints& constraints);
 
 /// Rows of the vertices that the triangles of each part use, ascending.
@@ -38,9 +38,10 @@ class ExtentWatch {
   double excess(std::size_t k, const Points& vertices) const;
   /// Lowest heights along the normals of the bounds: levels to start a solve from.
   Eigen::VectorXd levels(const Points& vertices) const;
-  /// Adds constraints that hold the extent at the bound it passes: in every part the outermost vertex on either side, if it
-  /// reaches into the excess. False when all of them were held already.
-  bool hold(std::size_t k, const Points& vertices, const MeshTransfer& transfer, std::vector<Constraint>& constraints);
+  /// Adds constraints that hold the extent at the bound it passes: in every part the outermost vertex on
+  /// either side, if it reaches into the excess. False when all of them were held already.
+  bool hold(std::size_t k, const Points& vertices, const MeshTransfer& transfer,
+            std::vector<Constraint>& constraints);
 
  private:
   Range range(std::size_t k, const Points& vertices) const;

@@ -27,7 +27,8 @@ struct Chain {
 };
 
 void check(const FeatureCurveOptions& options) {
-  for (const double value : {options.crease_angle, options.corner_angle, options.straight_run_ratio, options.smallest_length})
+  for (const double value :
+       {options.crease_angle, options.corner_angle, options.straight_run_ratio, options.smallest_length})
     if (!std::isfinite(value) || value < 0)
       throw UsageError("angles and lengths of feature curves must be finite and not negative");
 }
@@ -180,7 +181,6 @@ double length_of(const MergedPlaces& surface, const Chain& chain) {
   return length;
 }
 
-
 /// Which chains are long enough to matter.
 std::vector<char> significant(const MergedPlaces& surface, const FeatureGraph& graph,
                               const std::vector<Chain>& chains, double smallest) {
@@ -193,10 +193,9 @@ std::vector<char> significant(const MergedPlaces& surface, const FeatureGraph& g
   std::vector<char> keep;
   for (const Chain& chain : chains) {
     const auto& box = boxes[networks.root(static_cast<std::size_t>(chain.places.front()))];
-    const bool loose = !chain.closed && std::min(graph.valence(chain.places.front()),
-                                                 graph.valence(chain.places.back())) == 1;
-    keep.push_back(box.diagonal().norm() >= smallest &&
-                   (!loose || length_of(surface, chain) >= smallest));
+    const bool loose = !chain.closed &&
+                       std::min(graph.valence(chain.places.front()), graph.valence(chain.places.back())) == 1;
+    keep.push_back(box.diagonal().norm() >= smallest && (!loose || length_of(surface, chain) >= smallest));
   }
   return keep;
 }

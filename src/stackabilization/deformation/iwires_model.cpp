@@ -88,7 +88,8 @@ OnWire nearest_on(const Shape& rest, const Wire& wire, const Eigen::Vector3d& po
 
 }  // namespace
 
-std::vector<double> wire_symmetry_residuals(const Shape& rest, const WireStructure& structure, const Points& vertices) {
+std::vector<double> wire_symmetry_residuals(const Shape& rest, const WireStructure& structure,
+                                            const Points& vertices) {
   const auto moved = [&](std::int32_t v) -> Eigen::Vector3d {
     return (vertices.row(v) - rest.vertices.row(v)).transpose();
   };
@@ -99,7 +100,8 @@ std::vector<double> wire_symmetry_residuals(const Shape& rest, const WireStructu
     for (const std::int32_t v : structure.wires[static_cast<std::size_t>(pair.image)].curve.vertices) {
       const Eigen::Vector3d source = map.inverse() * Eigen::Vector3d(rest.vertices.row(v));
       const OnWire at = nearest_on(rest, structure.wires[static_cast<std::size_t>(pair.wire)], source);
-      const Eigen::Vector3d expected = map.linear() * ((1 - at.share) * moved(at.from) + at.share * moved(at.to));
+      const Eigen::Vector3d expected =
+          map.linear() * ((1 - at.share) * moved(at.from) + at.share * moved(at.to));
       largest = std::max(largest, (expected - moved(v)).norm());
     }
     residuals.push_back(largest);
@@ -126,7 +128,8 @@ struct IWiresModel::Data {
 
   void check(const Handle& handle) const {
     if (handle.kind == HandleKind::shape) return;
-    if (handle.kind != HandleKind::wire) throw UsageError("the wires of a shape and the shape itself can be edited here");
+    if (handle.kind != HandleKind::wire)
+      throw UsageError("the wires of a shape and the shape itself can be edited here");
     if (handle.index < 0 || static_cast<std::size_t>(handle.index) >= structure.wires.size())
       throw UsageError("there is no wire " + std::to_string(handle.index) + ", the last one is " +
                        std::to_string(structure.wires.size() - 1));
@@ -206,13 +209,15 @@ class Editing {
 
   std::optional<Refusal> check_symmetries() const {
     for (const WireSymmetry& pair : structure_.symmetric) {
-      const Eigen::Matrix3d q = isometry_of(structure_.symmetries[static_cast<std::size_t>(pair.symmetry)]).linear();
+      const Eigen::Matrix3d q =
+          isometry_of(structure_.symmetries[static_cast<std::size_t>(pair.symmetry)]).linear();
       const Eigen::Matrix3d carried = whole_.linear() * q * whole_.linear().inverse();
       const double bend = (carried.transpose() * carried - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
       if (!(bend <= tolerance::relation))
-        return Refusal{"symmetry " + std::to_string(pair.symmetry) + " would no longer be one, by " + text(bend) +
-                           " of any length",
-                       {}, bend};
+        return Refusal{"symmetry " + std::to_string(pair.symmetry) + " would no longer be one, by " +
+                           text(bend) + " of any length",
+                       {},
+                       bend};
     }
     return std::nullopt;
   }
@@ -226,17 +231,18 @@ class Editing {
   Eigen::Affine3d whole_ = Eigen::Affine3d::Identity();
 };
 
-std::optional<Refusal> broken_symmetry(const Shape& rest, const WireStructure& structure, const Points& vertices,
-                                       double diagonal) {
+std::optional<Refusal> broken_symmetry(const Shape& rest, const WireStructure& structure,
+                                       const Points& vertices, double diagonal) {
   const std::vector<double> residuals = wire_symmetry_residuals(rest, structure, vertices);
   for (std::size_t i = 0; i < residuals.size(); ++i)
     if (!(residuals[i] <= tolerance::relation * diagonal)) {
       const WireSymmetry& pair = structure.symmetric[i];
       const double amount = residuals[i] / diagonal;
       return Refusal{"wire " + std::to_string(pair.image) + " would no longer be the image of wire " +
-                         std::to_string(pair.wire) + " under symmetry " + std::to_string(pair.symmetry) + ", by " +
-                         text(amount) + " of the diagonal",
-                     {}, amount};
+                         std::to_string(pair.wire) + " under symmetry " + std::to_string(pair.symmetry) +
+                         ", by " + text(amount) + " of the diagonal",
+                     {},
+                     amount};
     }
   return std::nullopt;
 }
@@ -249,7 +255,9 @@ IWiresModel::IWiresModel(IWiresModel&&) noexcept = default;
 IWiresModel& IWiresModel::operator=(IWiresModel&&) noexcept = default;
 IWiresModel::~IWiresModel() = default;
 
-const WireStructure& IWiresModel::wires() const { return data_->structure; }
+const WireStructure& IWiresModel::wires() const {
+  return data_->structure;
+}
 
 std::vector<Handle> IWiresModel::handles() const {
   std::vector<Handle> handles = {{HandleKind::shape, 0, 0}};
@@ -290,7 +298,8 @@ DeformationResult IWiresModel::deformed(const std::vector<Edit>& edits,
     return result;
   }
   const Eigen::Affine3d back = whole.inverse();
-  const Points before = (kept.vertices * back.linear().transpose()).rowwise() + back.translation().transpose();
+  const Points before =
+      (kept.vertices * back.linear().transpose()).rowwise() + back.translation().transpose();
   result.refusal = broken_symmetry(data_->rest, data_->structure, before, data_->network.diagonal);
   if (!result.refusal) result.shape.vertices = std::move(kept.vertices);
   return result;

@@ -10,36 +10,40 @@ namespace stackabilization {
 struct IWiresOptions {
   FeatureCurveOptions curves;     ///< what is a wire
   WireAnalysisOptions relations;  ///< what is kept; no symmetry unless given here
-  /// Wires of networks that do not join keep their offset, as well as all else allows, where they come as near as this;
-  /// fraction of the diagonal of the shape's bounding box.
+  /// Wires of networks that do not join keep their offset, as well as all else allows, where they come as
+  /// near as this; fraction of the diagonal of the shape's bounding box.
   double link_distance = 0.03;
 };
 
-/// iWires (Gal, Sorkine, Mitra and Cohen-Or 2009): the feature curves of a shape are its wires. An edit of one of them is
-/// carried on to all others so that each keeps what it is by itself (straight, circular, planar) and what it is to the
-/// others (parallel, in one plane, of equal length, symmetric, joined); the surface follows.
+/// iWires (Gal, Sorkine, Mitra and Cohen-Or 2009): the feature curves of a shape are its wires. An edit of
+/// one of them is carried on to all others so that each keeps what it is by itself (straight, circular,
+/// planar) and what it is to the others (parallel, in one plane, of equal length, symmetric, joined); the
+/// surface follows.
 ///
-/// Handles: HandleKind::shape, which takes any operation as an affine map and carries the symmetries along, and
-/// HandleKind::wire with the rows of WireStructure::wires. Wires take moves, rotations and scalings in all directions
-/// about Wire::centre, wherever earlier edits have brought it.
+/// Handles: HandleKind::shape, which takes any operation as an affine map and carries the symmetries along,
+/// and HandleKind::wire with the rows of WireStructure::wires. Wires take moves, rotations and scalings in
+/// all directions about Wire::centre, wherever earlier edits have brought it.
 ///
 /// What holds in every result, up to rounding:
 ///
 /// * the edited wire is where the edit puts it, unless Constraints bring the whole back;
-/// * straight, circular and planar wires are straight, circular and planar; moves and scalings keep all directions, a
-///   rotation turns parallel wires alike. A circle that is scaled need not keep others of its size, a segment does;
-/// * mirror images stay images, to 1e-6 of the diagonal. A rotation may give up right angles and planes, as the box becomes
+/// * straight, circular and planar wires are straight, circular and planar; moves and scalings keep all
+/// directions, a
+///   rotation turns parallel wires alike. A circle that is scaled need not keep others of its size, a segment
+///   does;
+/// * mirror images stay images, to 1e-6 of the diagonal. A rotation may give up right angles and planes, as
+/// the box becomes
 ///   a parallelepiped;
 /// * vertices of equal coordinates stay together.
 ///
-/// Refused, with the wire and by how much, is an edit against which symmetries, junctions or fixed points stand, one that
-/// flattens a wire or turns it inside out, and what DeformationConstraints forbid. Where the extent is to be kept, the
-/// wires that define it are held; where that cannot be, the result is stretched back along the direction (see
-/// vertex_constraints.h), which may deform circles.
+/// Refused, with the wire and by how much, is an edit against which symmetries, junctions or fixed points
+/// stand, one that flattens a wire or turns it inside out, and what DeformationConstraints forbid. Where the
+/// extent is to be kept, the wires that define it are held; where that cannot be, the result is stretched
+/// back along the direction (see vertex_constraints.h), which may deform circles.
 class IWiresModel final : public DeformationModel {
  public:
-  /// Throws InputError when the shape is invalid or has no feature curve (smooth closed surfaces), UsageError for
-  /// options out of range.
+  /// Throws InputError when the shape is invalid or has no feature curve (smooth closed surfaces), UsageError
+  /// for options out of range.
   explicit IWiresModel(Shape rest, const IWiresOptions& options = {});
   IWiresModel(IWiresModel&&) noexcept;
   IWiresModel& operator=(IWiresModel&&) noexcept;
@@ -58,9 +62,10 @@ class IWiresModel final : public DeformationModel {
   std::unique_ptr<const Data> data_;
 };
 
-/// For each row of WireStructure::symmetric, how far the displacements of a wire and of its image are from being images of
-/// each other: largest distance over the vertices of the image, model units. `vertices`: n x 3, those of `rest` deformed.
-/// Recomputed from the vertices alone: the independent check of the model.
-std::vector<double> wire_symmetry_residuals(const Shape& rest, const WireStructure& structure, const Points& vertices);
+/// For each row of WireStructure::symmetric, how far the displacements of a wire and of its image are from
+/// being images of each other: largest distance over the vertices of the image, model units. `vertices`: n x
+/// 3, those of `rest` deformed. Recomputed from the vertices alone: the independent check of the model.
+std::vector<double> wire_symmetry_residuals(const Shape& rest, const WireStructure& structure,
+                                            const Points& vertices);
 
 }  // namespace stackabilization

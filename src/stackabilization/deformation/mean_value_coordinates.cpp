@@ -29,8 +29,8 @@ Eigen::Vector3d tamed(const Eigen::Vector3d& point) {
   return tame;
 }
 
-/// Weights of a point on the face across axis `a`: the mean over both diagonals of the barycentric coordinates
-/// of the triangle that the point is in.
+/// Weights of a point on the face across axis `a`: the mean over both diagonals of the barycentric
+/// coordinates of the triangle that the point is in.
 Weights face_coordinates(const Eigen::Vector3d& point, int a) {
   const int b = (a + 1) % 3, c = (a + 2) % 3;
   const double u = point(b), v = point(c);
@@ -52,8 +52,8 @@ class SeenCube {
     for (int k = 0; k < 8; ++k) ray_[static_cast<std::size_t>(k)] = cube_corner(k) - point;
     for (int face = 0; face < 6; ++face) {
       const std::array<int, 4> ring = cuboid_face(face);
-      for (const auto [i, j] : std::array<std::array<std::size_t, 2>, 6>{
-               {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}, {1, 3}}})
+      for (const auto [i, j] :
+           std::array<std::array<std::size_t, 2>, 6>{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}, {1, 3}}})
         prepare(ring[i], ring[j]);
     }
   }
@@ -75,8 +75,8 @@ class SeenCube {
   const Eigen::Vector3d& ray(int k) const { return ray_[static_cast<std::size_t>(k)]; }
   static std::size_t slot(int i, int j) { return static_cast<std::size_t>(8 * i + j); }
 
-  /// Crosses the rays to two corners, from the exact difference of the corners, and weighs the unit normal with
-  /// the angle between them.
+  /// Crosses the rays to two corners, from the exact difference of the corners, and weighs the unit normal
+  /// with the angle between them.
   void prepare(int i, int j) {
     const Eigen::Vector3d cross = ray(i).cross(cube_corner(j) - cube_corner(i));
     const double length = cross.norm();

@@ -12,10 +12,14 @@ namespace {
 /// Reach of a part beyond its border with another, fraction of the diagonal of the smaller of both.
 constexpr double kBand = 0.15;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// 1 at 0, 0 from 1 on, flat at both ends.
-double fall_off(double t) { return t >= 1 ? 0 : 1 - t * t * (3 - 2 * t); }
+double fall_off(double t) {
+  return t >= 1 ? 0 : 1 - t * t * (3 - 2 * t);
+}
 
 bool equal(const Primitive& a, const Primitive& b) {
   if (const auto* cuboid = std::get_if<Cuboid>(&a)) return cuboid->corners == std::get<Cuboid>(b).corners;
@@ -109,7 +113,8 @@ class Shares {
 
 }  // namespace
 
-MeshTransfer::MeshTransfer(const Shape& shape, const Rig& rig) : rest_(shape.vertices), parts_(rig.carriers.size()) {
+MeshTransfer::MeshTransfer(const Shape& shape, const Rig& rig)
+    : rest_(shape.vertices), parts_(rig.carriers.size()) {
   const std::vector<Shares::PerVertex> shares = Shares(shape).all();
   for (std::size_t v = 0; v < shares.size(); ++v)
     for (const auto& [part, share] : shares[v]) {

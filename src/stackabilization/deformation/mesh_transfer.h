@@ -2,16 +2,16 @@
 
 #include <vector>
 
-#include "stackabilization/deformation/rig.h"
 #include "stackabilization/deformation/relation_solver.h"
+#include "stackabilization/deformation/rig.h"
 #include "stackabilization/shape/shape.h"
 
 namespace stackabilization {
 
-/// The vertices of a shape bound to its parts. A vertex rides on the part whose triangles use it. Where parts share
-/// vertices, those ride on all of them in equal shares, and the share of the other part falls off smoothly, to nothing
-/// at 0.15 of the diagonal of the smaller part, measured along the edges: no crack and no step. Vertices that no
-/// triangle uses stay. Immutable, safe to share between threads.
+/// The vertices of a shape bound to its parts. A vertex rides on the part whose triangles use it. Where parts
+/// share vertices, those ride on all of them in equal shares, and the share of the other part falls off
+/// smoothly, to nothing at 0.15 of the diagonal of the smaller part, measured along the edges: no crack and
+/// no step. Vertices that no triangle uses stay. Immutable, safe to share between threads.
 class MeshTransfer {
  public:
   MeshTransfer(const Shape& shape, const Rig& rig);

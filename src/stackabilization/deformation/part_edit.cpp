@@ -29,10 +29,12 @@ int checked(int index, int count, const std::string& part_name, const std::strin
 std::vector<int> held_points(const Primitive& primitive, const Handle& handle, const std::string& part_name) {
   const bool cuboid = std::holds_alternative<Cuboid>(primitive);
   switch (handle.kind) {
-    case HandleKind::part: return all_points(primitive);
+    case HandleKind::part:
+      return all_points(primitive);
     case HandleKind::face: {
       if (!cuboid) no_handle(part_name, "is a generalized cylinder: it has cross-sections, no faces");
-      const std::array<int, 4> ring = cuboid_face(checked(handle.index, 6, part_name, "faces, numbered from 0"));
+      const std::array<int, 4> ring =
+          cuboid_face(checked(handle.index, 6, part_name, "faces, numbered from 0"));
       return {ring.begin(), ring.end()};
     }
     case HandleKind::corner:
@@ -42,7 +44,8 @@ std::vector<int> held_points(const Primitive& primitive, const Handle& handle, c
       if (cuboid) no_handle(part_name, "is a cuboid: it has faces and corners, no cross-sections");
       return {checked(handle.index, static_cast<int>(control_points(primitive).rows()), part_name,
                       "cross-sections, numbered from 0")};
-    default: throw UsageError("controllers have parts, faces, corners and cross-sections to take hold of");
+    default:
+      throw UsageError("controllers have parts, faces, corners and cross-sections to take hold of");
   }
 }
 
@@ -61,7 +64,8 @@ void check_operation(const Edit& edit, const std::string& part_name) {
   const bool move = std::holds_alternative<Move>(edit.operation);
   if (edit.handle.kind != HandleKind::part && scale != nullptr && scale->along)
     no_handle(part_name, "can be scaled along an axis only as a whole");
-  if (edit.handle.kind == HandleKind::corner && !move) no_handle(part_name, "has corners that can only be moved");
+  if (edit.handle.kind == HandleKind::corner && !move)
+    no_handle(part_name, "has corners that can only be moved");
   if (edit.handle.kind == HandleKind::section && !move && scale == nullptr)
     no_handle(part_name, "has cross-sections that can be moved and scaled, not turned");
 }
@@ -94,7 +98,8 @@ std::vector<Handle> handles_of(int part, const Primitive& primitive) {
   return handles;
 }
 
-Eigen::Vector3d handle_centre(const Primitive& primitive, const Handle& handle, const std::string& part_name) {
+Eigen::Vector3d handle_centre(const Primitive& primitive, const Handle& handle,
+                              const std::string& part_name) {
   const Points points = control_points(primitive);
   const std::vector<int> held = held_points(primitive, handle, part_name);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -108,7 +113,8 @@ PartEdit prescribed(const Primitive& now, const Edit& edit, const std::string& p
   const Points points = control_points(now);
   const int n = static_cast<int>(points.rows());
   PartEdit result;
-  if (const auto* scale = std::get_if<Scale>(&edit.operation); scale && edit.handle.kind == HandleKind::section) {
+  if (const auto* scale = std::get_if<Scale>(&edit.operation);
+      scale && edit.handle.kind == HandleKind::section) {
     prescribe(result, 3 * n + held.front(),
               (scale->factor - 1) * std::get<GeneralizedCylinder>(now).radii(held.front()));
     return result;

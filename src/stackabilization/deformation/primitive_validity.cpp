@@ -47,7 +47,8 @@ std::optional<std::string> defect_of(const Cuboid& rest, const Cuboid& now) {
   for (int corner = 0; corner < 8 && !axes.empty(); ++corner) {
     const double ratio = measure_ratio(edges_at(rest, corner), edges_at(now, corner), side, axes);
     if (!(ratio > tolerance::collapse))
-      return (ratio < 0 ? "is turned inside out at corner " : "collapses at corner ") + std::to_string(corner);
+      return (ratio < 0 ? "is turned inside out at corner " : "collapses at corner ") +
+             std::to_string(corner);
   }
   return std::nullopt;
 }
@@ -70,7 +71,8 @@ std::optional<std::string> defect_of(const GeneralizedCylinder& rest, const Gene
     if (!(piece.dot(before) > 0)) return "folds " + where;
     const Eigen::RowVector3d rest_piece = rest.centres.row(next) - rest.centres.row(i);
     for (const int k : {i, next})
-      if (rest_tangents.row(k).dot(rest_piece) > 0 && !(tangents.row(k).dot(piece) > 0)) return "folds " + where;
+      if (rest_tangents.row(k).dot(rest_piece) > 0 && !(tangents.row(k).dot(piece) > 0))
+        return "folds " + where;
   }
   return std::nullopt;
 }

@@ -14,7 +14,9 @@ constexpr double kRotationPull = 0x1p-20;
 /// The same for the strain.
 constexpr double kStrainPull = 0x1p-10;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
 /// p -> linear (p - from) + to; `rotation` is that of `linear`.
 struct AffineMotion {
@@ -22,10 +24,11 @@ struct AffineMotion {
   Eigen::Vector3d from, to;
 };
 
-/// Rotation nearest to what takes the rows of `p` to those of `q` (Kabsch), then the least strain for the rest.
+/// Rotation nearest to what takes the rows of `p` to those of `q` (Kabsch), then the least strain for the
+/// rest.
 AffineMotion fitted(const Points& p, const Points& q) {
-  AffineMotion motion{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity(), p.colwise().mean().transpose(),
-                      q.colwise().mean().transpose()};
+  AffineMotion motion{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity(),
+                      p.colwise().mean().transpose(), q.colwise().mean().transpose()};
   const Points from = p.rowwise() - motion.from.transpose(), to = q.rowwise() - motion.to.transpose();
   const double spread = from.squaredNorm();
   if (!(spread > 0)) return motion;
@@ -60,7 +63,10 @@ Primitive moved(Primitive primitive, const AffineMotion& motion) {
 class Propagation {
  public:
   Propagation(const Rig& rig, std::vector<ControlState> states, std::vector<Progress> progress)
-      : rig_(rig), states_(std::move(states)), progress_(std::move(progress)), now_(rig.space.primitives(states_)) {}
+      : rig_(rig),
+        states_(std::move(states)),
+        progress_(std::move(progress)),
+        now_(rig.space.primitives(states_)) {}
 
   std::vector<ControlState> run() {
     for (int part = next(); part >= 0; part = next()) follow(part);
@@ -126,7 +132,8 @@ class Propagation {
 
 }  // namespace
 
-std::vector<ControlState> propagated(const Rig& rig, std::vector<ControlState> states, std::vector<Progress> progress) {
+std::vector<ControlState> propagated(const Rig& rig, std::vector<ControlState> states,
+                                     std::vector<Progress> progress) {
   return Propagation(rig, std::move(states), std::move(progress)).run();
 }
 

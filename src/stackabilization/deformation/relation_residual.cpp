@@ -19,7 +19,8 @@ double symmetry_gap(const Relation& relation, const Structure& rest, const std::
   const auto a = static_cast<std::size_t>(relation.parts.front());
   const auto b = static_cast<std::size_t>(relation.parts.back());
   const Eigen::Isometry3d map = isometry_of(relation.symmetry);
-  const std::vector<int> order = control_correspondence(rest.parts[a].primitive, rest.parts[b].primitive, map);
+  const std::vector<int> order =
+      control_correspondence(rest.parts[a].primitive, rest.parts[b].primitive, map);
   if (order.empty())
     throw InputError("the primitives of '" + rest.parts[a].name + "' and '" + rest.parts[b].name +
                      "' cannot be symmetric: they differ in kind or in their number of cross-sections");
@@ -54,7 +55,8 @@ double joint_gap(const Relation& relation, const Structure& rest, const std::vec
 std::vector<double> relation_residuals(const Structure& rest, const std::vector<Primitive>& deformed) {
   std::vector<double> residuals;
   for (const Relation& relation : rest.relations) {
-    const bool joint = relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
+    const bool joint =
+        relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
     const double gap = joint ? joint_gap(relation, rest, deformed) : symmetry_gap(relation, rest, deformed);
     residuals.push_back(gap / rest.diagonal);
   }

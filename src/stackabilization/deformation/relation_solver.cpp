@@ -16,9 +16,13 @@ constexpr double kProgress = 0.9;
 /// Longest step of a control, fraction of the diagonal.
 constexpr double kLongestStep = 0.25;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
 
-Eigen::Index rows_of(const Constraint& constraint) { return constraint.normal ? 1 : 3; }
+Eigen::Index rows_of(const Constraint& constraint) {
+  return constraint.normal ? 1 : 3;
+}
 
 Eigen::Index rows_of(const std::vector<Constraint>& constraints) {
   Eigen::Index rows = 0;
@@ -28,11 +32,12 @@ Eigen::Index rows_of(const std::vector<Constraint>& constraints) {
 
 Eigen::Quaterniond rotation_of(const Eigen::Vector3d& vector) {
   const double angle = vector.norm();
-  return angle > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle)) : Eigen::Quaterniond::Identity();
+  return angle > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle))
+                   : Eigen::Quaterniond::Identity();
 }
 
-/// Solution x of A x = b for a positive semi-definite A that may be singular: pivoted Cholesky, which leaves out rows
-/// that depend on those before them.
+/// Solution x of A x = b for a positive semi-definite A that may be singular: pivoted Cholesky, which leaves
+/// out rows that depend on those before them.
 Eigen::VectorXd semidefinite_solution(Eigen::MatrixXd a, const Eigen::VectorXd& b) {
   const Eigen::Index n = a.rows();
   const Eigen::VectorXd diagonal = a.diagonal();
@@ -66,8 +71,8 @@ Eigen::VectorXd semidefinite_solution(Eigen::MatrixXd a, const Eigen::VectorXd& 
 
 class Solver {
  public:
-  Solver(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases, const std::vector<Constraint>& constraints,
-         SolverState start)
+  Solver(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases,
+         const std::vector<Constraint>& constraints, SolverState start)
       : rig_(rig), bases_(bases), constraints_(constraints), state_(std::move(start)) {
     for (const Eigen::MatrixXd& basis : bases_) {
       offsets_.push_back(columns_);
@@ -155,10 +160,13 @@ class Solver {
     return found * columns.topRows(turning.cols());
   }
 
-  Eigen::Matrix<double, 3, Eigen::Dynamic> rider_slope(const Rider& rider, const Eigen::MatrixXd& turns) const {
+  Eigen::Matrix<double, 3, Eigen::Dynamic> rider_slope(const Rider& rider,
+                                                       const Eigen::MatrixXd& turns) const {
     const Eigen::MatrixXd& basis = bases_[at(rig_.space.class_of(rider.part))];
-    const ControlJacobian jacobian = rig_.carriers[at(rider.part)].jacobian(rider.binding, now_[at(rider.part)]);
-    Eigen::Matrix<double, 3, Eigen::Dynamic> slope = Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, basis.cols());
+    const ControlJacobian jacobian =
+        rig_.carriers[at(rider.part)].jacobian(rider.binding, now_[at(rider.part)]);
+    Eigen::Matrix<double, 3, Eigen::Dynamic> slope =
+        Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, basis.cols());
     for (const auto& [point, block] : jacobian.points)
       slope.noalias() += block * rig_.space.point_rows(rider.part, point, basis);
     for (const auto& [section, column] : jacobian.radii)
@@ -212,8 +220,8 @@ double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, c
   return gaps.size() > 0 ? gaps.cwiseAbs().maxCoeff() : 0;
 }
 
-SolverState solved(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases, const std::vector<Constraint>& constraints,
-                   SolverState start) {
+SolverState solved(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases,
+                   const std::vector<Constraint>& constraints, SolverState start) {
   return Solver(rig, bases, constraints, std::move(start)).run();
 }
 

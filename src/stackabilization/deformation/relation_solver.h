@@ -15,8 +15,8 @@ struct Rider {
   double weight = 1;
 };
 
-/// The weighted sum of riding points is `target`; or, with a normal, its height along the normal is `height` above a
-/// level that is free.
+/// The weighted sum of riding points is `target`; or, with a normal, its height along the normal is `height`
+/// above a level that is free.
 struct Constraint {
   std::vector<Rider> riders;
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
@@ -36,11 +36,11 @@ std::vector<Constraint> joint_constraints(const Rig& rig);
 /// Largest violation of the constraints, model units.
 double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state);
 
-/// Gauss-Newton on all constraints at once, each step the one of least norm in the columns of `bases` (per class; a class
-/// with no columns stays): the normal equations in their dual form, a small dense system, with constraints that repeat
-/// others left out by a pivoted Cholesky factorisation. Stops at tolerance::solve of the diagonal or where steps do not
-/// help any more: look at `largest_gap`.
-SolverState solved(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases, const std::vector<Constraint>& constraints,
-                   SolverState start);
+/// Gauss-Newton on all constraints at once, each step the one of least norm in the columns of `bases` (per
+/// class; a class with no columns stays): the normal equations in their dual form, a small dense system, with
+/// constraints that repeat others left out by a pivoted Cholesky factorisation. Stops at tolerance::solve of
+/// the diagonal or where steps do not help any more: look at `largest_gap`.
+SolverState solved(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases,
+                   const std::vector<Constraint>& constraints, SolverState start);
 
 }  // namespace stackabilization

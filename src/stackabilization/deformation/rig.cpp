@@ -12,7 +12,8 @@ Rig::Rig(const Structure& structure) : rest(structure), space(structure) {
     const std::array<int, 2> parts = {relation.parts[0], relation.parts[1]};
     for (Eigen::Index i = 0; i < relation.points.rows(); ++i) {
       const auto bind = [&](int part) {
-        return carriers[static_cast<std::size_t>(part)].bind(Eigen::Vector3d(relation.points.row(i).transpose()));
+        return carriers[static_cast<std::size_t>(part)].bind(
+            Eigen::Vector3d(relation.points.row(i).transpose()));
       };
       joints.push_back({static_cast<int>(k), parts, {bind(parts[0]), bind(parts[1])}});
     }

@@ -12,24 +12,24 @@ namespace stackabilization {
 
 /// A joint point with both of its parts.
 struct JointPoint {
-  int relation = 0;          ///< row of Structure::relations
+  int relation = 0;  ///< row of Structure::relations
   std::array<int, 2> parts;
   std::array<PointBinding, 2> bindings;
 };
 
-/// Everything about the controls of a structure that depends on its rest alone. Immutable, safe to share between
-/// threads.
+/// Everything about the controls of a structure that depends on its rest alone. Immutable, safe to share
+/// between threads.
 struct Rig {
   /// Throws InputError as ControlSpace does.
   explicit Rig(const Structure& rest);
 
   Structure rest;
   ControlSpace space;
-  std::vector<Carrier> carriers;               ///< per part
-  std::vector<JointPoint> joints;              ///< a line joint has two
-  std::vector<Eigen::MatrixXd> edit_kernels;   ///< per class, within what its self-symmetries leave free
-  std::vector<Eigen::MatrixXd> bases;          ///< per class, likewise: see correction_basis.h
-  std::vector<Eigen::MatrixXd> turnings;       ///< per class; empty for cuboids
+  std::vector<Carrier> carriers;              ///< per part
+  std::vector<JointPoint> joints;             ///< a line joint has two
+  std::vector<Eigen::MatrixXd> edit_kernels;  ///< per class, within what its self-symmetries leave free
+  std::vector<Eigen::MatrixXd> bases;         ///< per class, likewise: see correction_basis.h
+  std::vector<Eigen::MatrixXd> turnings;      ///< per class; empty for cuboids
 };
 
 }  // namespace stackabilization

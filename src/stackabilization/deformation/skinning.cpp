@@ -8,7 +8,9 @@ namespace stackabilization {
 
 namespace {
 
-Eigen::Vector3d row(const Points& points, Eigen::Index i) { return points.row(i).transpose(); }
+Eigen::Vector3d row(const Points& points, Eigen::Index i) {
+  return points.row(i).transpose();
+}
 
 /// Tangent of section i alone, as section_tangents gives it.
 Eigen::Vector3d tangent(const GeneralizedCylinder& cylinder, int i) {
@@ -112,7 +114,8 @@ CurveBinding CurveAtRest::bind(const Eigen::Vector3d& point) const {
 DualQuaternion CurveAtRest::motion(const GeneralizedCylinder& now, int i) const {
   const Eigen::Quaterniond whole = (now.rotation * cylinder_.rotation.inverse()).normalized();
   const Eigen::Quaterniond rotation = smallest_rotation(whole * row(tangents_, i), tangent(now, i)) * whole;
-  return dual_quaternion(rotation, row(now.centres, i) - origin_ - rotation * (row(cylinder_.centres, i) - origin_));
+  return dual_quaternion(rotation,
+                         row(now.centres, i) - origin_ - rotation * (row(cylinder_.centres, i) - origin_));
 }
 
 Eigen::Vector3d CurveAtRest::carried(const CurveBinding& binding, const GeneralizedCylinder& now,

@@ -18,8 +18,8 @@ namespace {
 using Columns = Eigen::Matrix3Xd;
 
 void check(const WireAnalysisOptions& options) {
-  for (const double value : {options.form_tolerance, options.angle_tolerance, options.size_tolerance,
-                             options.distance_tolerance})
+  for (const double value :
+       {options.form_tolerance, options.angle_tolerance, options.size_tolerance, options.distance_tolerance})
     if (!std::isfinite(value) || value < 0)
       throw UsageError("tolerances of wires must be finite and not negative");
   for (const Symmetry& s : options.symmetries)
@@ -136,7 +136,8 @@ class Relations {
   /// Puts wire k into the first group whose first member `agrees`, or into a new one.
   template <typename Agrees>
   static void insert(std::vector<std::vector<int>>& groups, int k, const Agrees& agrees) {
-    const auto it = std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return agrees(g.front()); });
+    const auto it =
+        std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return agrees(g.front()); });
     if (it == groups.end())
       groups.push_back({k});
     else
@@ -172,8 +173,8 @@ class Relations {
     for (int k = 0; k < count(); ++k)
       if (wire(k).form == WireForm::circular)
         insert(circles, k, [&](int other) {
-          return wire(k).curve.closed == wire(other).curve.closed && equal(wire(k).radius, wire(other).radius) &&
-                 equal(wire(k).length, wire(other).length);
+          return wire(k).curve.closed == wire(other).curve.closed &&
+                 equal(wire(k).radius, wire(other).radius) && equal(wire(k).length, wire(other).length);
         });
     groups.insert(groups.end(), circles.begin(), circles.end());
     for (auto& group : groups)
@@ -256,7 +257,8 @@ class Relations {
       for (int a = 0; a < count(); ++a)
         for (int b = 0; b < count(); ++b)
           if (wire(a).form == wire(b).form && wire(a).curve.closed == wire(b).curve.closed &&
-              equal(wire(a).length, wire(b).length) && (map * wire(a).centre - wire(b).centre).norm() <= distance_ &&
+              equal(wire(a).length, wire(b).length) &&
+              (map * wire(a).centre - wire(b).centre).norm() <= distance_ &&
               mismatch(map, a, b) <= distance_) {
             structure_.symmetric.push_back({static_cast<int>(s), a, b});
             break;

@@ -21,11 +21,12 @@ enum class WireForm {
 struct Wire {
   FeatureCurve curve;
   WireForm form = WireForm::spatial;
-  double length = 0;                                  ///< of the polygon, model units
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();   ///< middle of a segment, centre of a circle, else of the length
+  double length = 0;  ///< of the polygon, model units
+  Eigen::Vector3d centre =
+      Eigen::Vector3d::Zero();  ///< middle of a segment, centre of a circle, else of the length
   /// Unit direction of a segment, unit normal of the plane of circular and planar ones; of spatial ones zero.
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();
-  double radius = 0;                                  ///< of circular ones, model units
+  double radius = 0;  ///< of circular ones, model units
 };
 
 /// A plane and the wires in it.
@@ -47,33 +48,36 @@ struct WireJunction {
   std::vector<int> wires;   ///< ascending, two or more
 };
 
-/// Wires and what holds between them. Wires are given by their rows in `wires`; every list is in ascending order.
+/// Wires and what holds between them. Wires are given by their rows in `wires`; every list is in ascending
+/// order.
 struct WireStructure {
   std::vector<Wire> wires;
-  std::vector<std::vector<int>> parallel;              ///< classes of straight wires, every straight one in one class
-  std::vector<std::pair<int, int>> orthogonal;         ///< pairs of rows of `parallel`
+  std::vector<std::vector<int>> parallel;  ///< classes of straight wires, every straight one in one class
+  std::vector<std::pair<int, int>> orthogonal;  ///< pairs of rows of `parallel`
   /// Groups of two and more: straight and parallel of equal length, or circular of equal radius and length.
   std::vector<std::vector<int>> congruent;
   /// Planes with three or more wires, or with one that is circular or planar and one more.
   std::vector<WirePlane> planes;
-  std::vector<Symmetry> symmetries;                    ///< as given
+  std::vector<Symmetry> symmetries;  ///< as given
   std::vector<WireSymmetry> symmetric;
   std::vector<WireJunction> junctions;
 };
 
 struct WireAnalysisOptions {
-  /// Largest distance of a curve's vertices from the segment, circle or plane that it is taken for, fraction of its
-  /// length.
+  /// Largest distance of a curve's vertices from the segment, circle or plane that it is taken for, fraction
+  /// of its length.
   double form_tolerance = 2e-3;
-  double angle_tolerance = 0.5;       ///< between parallel, from orthogonal directions, degrees
-  double size_tolerance = 2e-3;       ///< of equal lengths and radii, fraction of them
-  /// Of vertices from a common plane, from mirror images; fraction of the diagonal of the shape's bounding box.
+  double angle_tolerance = 0.5;  ///< between parallel, from orthogonal directions, degrees
+  double size_tolerance = 2e-3;  ///< of equal lengths and radii, fraction of them
+  /// Of vertices from a common plane, from mirror images; fraction of the diagonal of the shape's bounding
+  /// box.
   double distance_tolerance = 1e-3;
-  std::vector<Symmetry> symmetries;   ///< of the shape, to be looked for among the wires; none by default
+  std::vector<Symmetry> symmetries;  ///< of the shape, to be looked for among the wires; none by default
 };
 
-/// Individual properties and mutual relations of curves on a shape. Deterministic. Throws UsageError for options that
-/// are negative or not finite. Precondition: `validate(shape)`, curves as feature_curves gives them.
+/// Individual properties and mutual relations of curves on a shape. Deterministic. Throws UsageError for
+/// options that are negative or not finite. Precondition: `validate(shape)`, curves as feature_curves gives
+/// them.
 WireStructure analysed_wires(const Shape& shape, const std::vector<FeatureCurve>& curves,
                              const WireAnalysisOptions& options = {});
 

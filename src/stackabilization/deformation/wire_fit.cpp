@@ -8,8 +8,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Points span a direction when they spread along it by more than this fraction of their largest spread: thinner sets
-/// would magnify what does not fit.
+/// Points span a direction when they spread along it by more than this fraction of their largest spread:
+/// thinner sets would magnify what does not fit.
 constexpr double thin = 0.05;
 
 }  // namespace
@@ -26,8 +26,7 @@ AffineFit::AffineFit(std::vector<int> members, const std::vector<Eigen::Vector3d
   const Eigen::Vector3d spread = axes.eigenvalues().reverse();
   while (rank_ < 3 && spread(rank_) > thin * thin * spread(0)) ++rank_;
   Eigen::Matrix3d inverse = Eigen::Matrix3d::Zero();
-  for (int c = 0; c < rank_; ++c)
-    inverse += directions_.col(c) * directions_.col(c).transpose() / spread(c);
+  for (int c = 0; c < rank_; ++c) inverse += directions_.col(c) * directions_.col(c).transpose() / spread(c);
   for (Eigen::Vector3d& arm : arms_) arm = inverse * arm;
 }
 

@@ -6,8 +6,8 @@
 /// Not installed.
 namespace stackabilization::detail {
 
-/// The affine map that fits best what happens to some points. Along directions which the points do not span, it turns with
-/// the others and does not stretch.
+/// The affine map that fits best what happens to some points. Along directions which the points do not span,
+/// it turns with the others and does not stretch.
 class AffineFit {
  public:
   /// `members`: which of `points` take part; one at least.
@@ -20,9 +20,10 @@ class AffineFit {
 
  private:
   std::vector<int> members_;
-  std::vector<Eigen::Vector3d> arms_;  ///< of the members from their centre, times the inverse of their scatter
+  std::vector<Eigen::Vector3d>
+      arms_;  ///< of the members from their centre, times the inverse of their scatter
   Eigen::Vector3d centre_;
-  Eigen::Matrix3d directions_;         ///< columns, the spanned ones first
+  Eigen::Matrix3d directions_;  ///< columns, the spanned ones first
   int rank_ = 0;
 };
 

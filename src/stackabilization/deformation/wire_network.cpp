@@ -13,14 +13,16 @@ void number_nodes(const Shape& shape, const WireStructure& structure, WireNetwor
   for (const Wire& wire : structure.wires)
     network.vertices.insert(network.vertices.end(), wire.curve.vertices.begin(), wire.curve.vertices.end());
   std::sort(network.vertices.begin(), network.vertices.end());
-  network.vertices.erase(std::unique(network.vertices.begin(), network.vertices.end()), network.vertices.end());
+  network.vertices.erase(std::unique(network.vertices.begin(), network.vertices.end()),
+                         network.vertices.end());
   network.wires_at.resize(network.vertices.size());
   for (const std::int32_t v : network.vertices) network.points.push_back(shape.vertices.row(v).transpose());
   for (std::size_t k = 0; k < structure.wires.size(); ++k) {
     network.mean_length += structure.wires[k].length / static_cast<double>(structure.wires.size());
     std::vector<int> nodes;
     for (const std::int32_t v : structure.wires[k].curve.vertices) {
-      const auto node = std::lower_bound(network.vertices.begin(), network.vertices.end(), v) - network.vertices.begin();
+      const auto node =
+          std::lower_bound(network.vertices.begin(), network.vertices.end(), v) - network.vertices.begin();
       nodes.push_back(static_cast<int>(node));
       network.wires_at[static_cast<std::size_t>(node)].push_back(static_cast<int>(k));
     }
@@ -54,7 +56,8 @@ void align_axes(const WireStructure& structure, WireNetwork& network) {
   constexpr int sweeps = 16;
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (const WireSymmetry& pair : structure.symmetric) {
-      const Eigen::Matrix3d q = isometry_of(structure.symmetries[static_cast<std::size_t>(pair.symmetry)]).linear();
+      const Eigen::Matrix3d q =
+          isometry_of(structure.symmetries[static_cast<std::size_t>(pair.symmetry)]).linear();
       Eigen::Vector3d& a = axes[static_cast<std::size_t>(row[static_cast<std::size_t>(pair.wire)])];
       Eigen::Vector3d& b = axes[static_cast<std::size_t>(row[static_cast<std::size_t>(pair.image)])];
       if (a.isZero(0) || b.isZero(0)) continue;
@@ -70,7 +73,8 @@ void align_axes(const WireStructure& structure, WireNetwork& network) {
 void find_links(double distance, WireNetwork& network) {
   DisjointSets joined(network.nodes.size());
   for (const auto& wires : network.wires_at)
-    for (const int k : wires) joined.join(static_cast<std::size_t>(wires.front()), static_cast<std::size_t>(k));
+    for (const int k : wires)
+      joined.join(static_cast<std::size_t>(wires.front()), static_cast<std::size_t>(k));
   for (std::size_t i = 0; i < network.points.size(); ++i) {
     const std::size_t own = joined.root(static_cast<std::size_t>(network.wires_at[i].front()));
     double nearest = distance;
@@ -90,7 +94,8 @@ void find_links(double distance, WireNetwork& network) {
 
 }  // namespace
 
-WireNetwork wire_network(const Shape& shape, const WireStructure& structure, double link_distance, double tolerance) {
+WireNetwork wire_network(const Shape& shape, const WireStructure& structure, double link_distance,
+                         double tolerance) {
   WireNetwork network;
   Eigen::AlignedBox3d box;
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
@@ -103,8 +108,8 @@ WireNetwork wire_network(const Shape& shape, const WireStructure& structure, dou
   return network;
 }
 
-std::vector<Eigen::Vector3d> node_positions(const WireNetwork& network, const std::vector<Eigen::Affine3d>& maps,
-                                            int exact) {
+std::vector<Eigen::Vector3d> node_positions(const WireNetwork& network,
+                                            const std::vector<Eigen::Affine3d>& maps, int exact) {
   std::vector<Eigen::Vector3d> positions;
   for (std::size_t i = 0; i < network.points.size(); ++i) {
     const std::vector<int>& wires = network.wires_at[i];

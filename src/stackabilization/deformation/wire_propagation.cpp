@@ -40,11 +40,16 @@ struct Demand {
 std::string clause(const Demand& demand) {
   const std::string a = "wire " + std::to_string(demand.a), b = "wire " + std::to_string(demand.b);
   switch (demand.kind) {
-    case Demand::Kind::junction: return a + " would come apart from " + b;
-    case Demand::Kind::plane: return a + " would leave the plane of " + b;
-    case Demand::Kind::symmetry: return b + " would no longer be the image of " + a + " under a symmetry";
-    case Demand::Kind::held: return a + " would leave a point that is to stay";
-    case Demand::Kind::height: return a + " would change the extent that is to be kept";
+    case Demand::Kind::junction:
+      return a + " would come apart from " + b;
+    case Demand::Kind::plane:
+      return a + " would leave the plane of " + b;
+    case Demand::Kind::symmetry:
+      return b + " would no longer be the image of " + a + " under a symmetry";
+    case Demand::Kind::held:
+      return a + " would leave a point that is to stay";
+    case Demand::Kind::height:
+      return a + " would change the extent that is to be kept";
   }
   return {};
 }
@@ -55,7 +60,8 @@ class PropagationProblem {
   PropagationProblem(const WireStructure& structure, const WireNetwork& network, const WireMaps& now,
                      const WireEdit& edit, Turns turns)
       : structure_(structure), network_(network), now_(now), edit_(edit), turns_(std::move(turns)) {
-    for (std::size_t k = 0; k < structure.wires.size(); ++k) centres_.push_back(now[k] * structure.wires[k].centre);
+    for (std::size_t k = 0; k < structure.wires.size(); ++k)
+      centres_.push_back(now[k] * structure.wires[k].centre);
     make_axes();
     make_modes();
     problem_.emplace(variables_);
@@ -120,7 +126,8 @@ class PropagationProblem {
       result.maps.push_back(step * now_[static_cast<std::size_t>(k)]);
     }
     for (std::size_t i = 0; i < demands_.size(); ++i) {
-      const bool measured = demands_[i].kind == Demand::Kind::junction || demands_[i].kind == Demand::Kind::plane;
+      const bool measured =
+          demands_[i].kind == Demand::Kind::junction || demands_[i].kind == Demand::Kind::plane;
       const double exact = tolerance::relation * network_.diagonal;
       const double missed_by = std::abs(solution.missed(static_cast<Eigen::Index>(i))) /
                                (demands_[i].kind == Demand::Kind::symmetry ? factor_of_symmetry : 1);
@@ -208,7 +215,8 @@ class PropagationProblem {
     for (int c = 0; c < 3; ++c) problem_->fix(3 * k + c, edit_.motion == WireMotion::move ? edit_.by(c) : 0);
     for (const Mode& mode : modes(k)) {
       const double growth = edit_.motion == WireMotion::scale ? edit_.factor - 1 : 0;
-      // Each mode is a multiple of a projection or of an elementary matrix e_i e_j^T, whose trace tells i = j.
+      // Each mode is a multiple of a projection or of an elementary matrix e_i e_j^T, whose trace tells i =
+      // j.
       const double trace = mode.matrix.trace(), size = mode.matrix.norm();
       problem_->fix(mode.variable, std::abs(trace) > size / 2 ? growth * trace / (size * size) : 0);
     }
@@ -259,7 +267,9 @@ class PropagationProblem {
     for (int c = 0; c < 3; ++c) demand(rows[static_cast<std::size_t>(c)], right(c), about);
   }
 
-  void demand_zero(const Rows3& rows, const Demand& about) { demand_equal(rows, Eigen::Vector3d::Zero(), about); }
+  void demand_zero(const Rows3& rows, const Demand& about) {
+    demand_equal(rows, Eigen::Vector3d::Zero(), about);
+  }
 
   double weight(int k) const { return std::min(wire(k).length / network_.mean_length, 1.0); }
 
@@ -272,7 +282,8 @@ class PropagationProblem {
         for (const Row& row : displacement(k, point(k, node)))
           problem_->wish(row, 0, weight(k) / static_cast<double>(held.size()));
       if (!straight)
-        for (const Mode& mode : modes(k)) problem_->wish({{mode.variable, 1}}, 0, weight_of_shape * weight(k));
+        for (const Mode& mode : modes(k))
+          problem_->wish({{mode.variable, 1}}, 0, weight_of_shape * weight(k));
     }
   }
 
@@ -292,8 +303,8 @@ class PropagationProblem {
       for (std::size_t j = 1; j < wires.size(); ++j) {
         const int a = wires.front(), b = wires[j];
         const Eigen::Vector3d at_a = point(a, static_cast<int>(i)), at_b = point(b, static_cast<int>(i));
-        demand_equal(difference(displacement(a, at_a), displacement(b, at_b)), turned(b, at_b) - turned(a, at_a),
-                     {Demand::Kind::junction, b, a});
+        demand_equal(difference(displacement(a, at_a), displacement(b, at_b)),
+                     turned(b, at_b) - turned(a, at_a), {Demand::Kind::junction, b, a});
       }
     }
   }
@@ -332,7 +343,8 @@ class PropagationProblem {
 
   void demand_symmetries() {
     for (const WireSymmetry& pair : structure_.symmetric) {
-      const Eigen::Isometry3d map = isometry_of(structure_.symmetries[static_cast<std::size_t>(pair.symmetry)]);
+      const Eigen::Isometry3d map =
+          isometry_of(structure_.symmetries[static_cast<std::size_t>(pair.symmetry)]);
       const Eigen::Matrix3d q = map.linear();
       const int a = pair.wire, b = pair.image;
       const Demand about{Demand::Kind::symmetry, a, b};
@@ -342,7 +354,8 @@ class PropagationProblem {
           if (q(c, d) != 0) rows[static_cast<std::size_t>(c)].push_back({3 * a + d, q(c, d)});
       const Eigen::Vector3d image = map * centre(a);
       demand_equal(difference(displacement(b, image), rows), -turned(b, image), about);
-      if (wire(a).form == WireForm::planar || wire(a).form == WireForm::spatial) demand_same_change(a, b, q, about);
+      if (wire(a).form == WireForm::planar || wire(a).form == WireForm::spatial)
+        demand_same_change(a, b, q, about);
     }
   }
 

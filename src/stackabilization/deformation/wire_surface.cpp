@@ -30,7 +30,8 @@ std::array<double, 3> cotangent_weights(const std::array<Eigen::Vector3d, 3>& p)
 
 }  // namespace
 
-WireSurface::WireSurface(const Shape& rest, const WireNetwork& network, const std::vector<std::int32_t>& pinned)
+WireSurface::WireSurface(const Shape& rest, const WireNetwork& network,
+                         const std::vector<std::int32_t>& pinned)
     : network_(network),
       surface_(merged_places(rest)),
       rest_(rest.vertices),
@@ -54,7 +55,8 @@ void WireSurface::find_patches() {
     const auto& nodes = network_.nodes[k];
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       const auto place = [&](int node) {
-        return surface_.of_vertex[static_cast<std::size_t>(network_.vertices[static_cast<std::size_t>(node)])];
+        return surface_
+            .of_vertex[static_cast<std::size_t>(network_.vertices[static_cast<std::size_t>(node)])];
       };
       // The segment that closes an open wire of more than two nodes is no edge, or does no harm as one.
       wire_at[std::minmax(place(nodes[i]), place(nodes[(i + 1) % nodes.size()]))] = static_cast<int>(k);
@@ -66,13 +68,15 @@ void WireSurface::find_patches() {
   std::vector<std::pair<std::size_t, int>> beside;
   for (std::size_t t = 0; t < surface_.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
-      const std::pair<int, int> edge = std::minmax(surface_.triangles[t][k], surface_.triangles[t][(k + 1) % 3]);
+      const std::pair<int, int> edge =
+          std::minmax(surface_.triangles[t][k], surface_.triangles[t][(k + 1) % 3]);
       if (const auto wire = wire_at.find(edge); wire != wire_at.end())
         beside.emplace_back(t, wire->second);
       else if (edge.first != edge.second)
         patches.join(first.emplace(edge, t).first->second, t);
     }
-  for (std::size_t t = 0; t < surface_.triangles.size(); ++t) patch_of_.push_back(static_cast<int>(patches.root(t)));
+  for (std::size_t t = 0; t < surface_.triangles.size(); ++t)
+    patch_of_.push_back(static_cast<int>(patches.root(t)));
   for (const auto& [triangle, wire] : beside) wires_of_[patch_of_[triangle]].push_back(wire);
   for (auto& [patch, wires] : wires_of_) {
     std::sort(wires.begin(), wires.end());
@@ -130,7 +134,8 @@ void WireSurface::find_followers() {
   std::map<std::size_t, std::pair<double, int>> nearest;
   for (std::size_t p = 0; p < count; ++p) {
     if (led[pieces.root(p)]) continue;
-    auto& best = nearest.try_emplace(pieces.root(p), std::numeric_limits<double>::infinity(), -1).first->second;
+    auto& best =
+        nearest.try_emplace(pieces.root(p), std::numeric_limits<double>::infinity(), -1).first->second;
     for (std::size_t i = 0; i < network_.points.size(); ++i) {
       const double distance = (network_.points[i] - surface_.points[p]).squaredNorm();
       if (distance < best.first) best = {distance, static_cast<int>(i)};
@@ -206,12 +211,14 @@ Points WireSurface::deformed(const std::vector<Eigen::Vector3d>& nodes) const {
   for (const Rim& rim : rims_) {
     Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
     for (const int fit : rim)
-      mean += (maps[static_cast<std::size_t>(fit)] - Eigen::Matrix3d::Identity()) / static_cast<double>(rim.size());
+      mean += (maps[static_cast<std::size_t>(fit)] - Eigen::Matrix3d::Identity()) /
+              static_cast<double>(rim.size());
     rims.push_back(mean);
   }
   std::vector<Eigen::Vector3d> moved(surface_.points.size(), Eigen::Vector3d::Zero());
   for (std::size_t p = 0; p < moved.size(); ++p)
-    if (node_of_[p] >= 0 && !pinned_[p]) moved[p] = nodes[static_cast<std::size_t>(node_of_[p])] - surface_.points[p];
+    if (node_of_[p] >= 0 && !pinned_[p])
+      moved[p] = nodes[static_cast<std::size_t>(node_of_[p])] - surface_.points[p];
   for (const Follower& f : followers_) {
     const AffineFit& fit = fits_[static_cast<std::size_t>(f.fit)];
     const Eigen::Vector3d& from = surface_.points[static_cast<std::size_t>(f.place)];
@@ -231,9 +238,11 @@ Points WireSurface::deformed(const std::vector<Eigen::Vector3d>& nodes) const {
         const auto a = static_cast<std::size_t>(e.place[i]), b = static_cast<std::size_t>(e.place[j]);
         const Eigen::Vector3d edge = (map[i] + map[j]) * (surface_.points[a] - surface_.points[b]) / 2;
         if (e.column[i] >= 0)
-          right.row(e.column[i]) += e.weight[k] * (edge + (e.column[j] < 0 ? moved[b] : Eigen::Vector3d::Zero())).transpose();
+          right.row(e.column[i]) +=
+              e.weight[k] * (edge + (e.column[j] < 0 ? moved[b] : Eigen::Vector3d::Zero())).transpose();
         if (e.column[j] >= 0)
-          right.row(e.column[j]) += e.weight[k] * ((e.column[i] < 0 ? moved[a] : Eigen::Vector3d::Zero()) - edge).transpose();
+          right.row(e.column[j]) +=
+              e.weight[k] * ((e.column[i] < 0 ? moved[a] : Eigen::Vector3d::Zero()) - edge).transpose();
       }
     }
     const Eigen::MatrixXd free = factor_.solve(right);

@@ -17,23 +17,25 @@ namespace stackabilization::detail {
 
 /// Carries a surface along with its wires.
 ///
-/// The wires cut the surface into patches. At the rim of a patch each wire has a linear map, fitted to the wire and its
-/// neighbours around that patch (wire_fit.h). Harmonic interpolation gives a linear map at every other vertex, and the
-/// vertices follow whose edges come nearest to the edges at rest under these maps (harmonic guidance, Zayer et al. 2005),
-/// with cotangent weights: two linear solves with one factorization, made once.
+/// The wires cut the surface into patches. At the rim of a patch each wire has a linear map, fitted to the
+/// wire and its neighbours around that patch (wire_fit.h). Harmonic interpolation gives a linear map at every
+/// other vertex, and the vertices follow whose edges come nearest to the edges at rest under these maps
+/// (harmonic guidance, Zayer et al. 2005), with cotangent weights: two linear solves with one factorization,
+/// made once.
 ///
-/// Exact up to rounding: nothing when the wires stay; affine maps of all wires where those around a patch span it; flat
-/// patches stay flat when their rim does; between two circles of a cylinder whose vertices lie in rings, the straight
-/// lines of the cone.
+/// Exact up to rounding: nothing when the wires stay; affine maps of all wires where those around a patch
+/// span it; flat patches stay flat when their rim does; between two circles of a cylinder whose vertices lie
+/// in rings, the straight lines of the cone.
 ///
-/// Connected pieces without a wire, and vertices that no triangle uses, follow the map fitted to their nearest wire and
-/// its neighbours.
+/// Connected pieces without a wire, and vertices that no triangle uses, follow the map fitted to their
+/// nearest wire and its neighbours.
 class WireSurface {
  public:
   /// `pinned`: vertices that always stay where they are, with all of equal coordinates.
   WireSurface(const Shape& rest, const WireNetwork& network, const std::vector<std::int32_t>& pinned);
 
-  /// The vertices (rows as in Shape::vertices) when the nodes of the network are at `nodes`. Pinned ones stay.
+  /// The vertices (rows as in Shape::vertices) when the nodes of the network are at `nodes`. Pinned ones
+  /// stay.
   Points deformed(const std::vector<Eigen::Vector3d>& nodes) const;
 
  private:
@@ -61,11 +63,11 @@ class WireSurface {
   const WireNetwork& network_;
   MergedPlaces surface_;
   Points rest_;
-  std::vector<int> node_of_;                    ///< of each place, -1 off the wires
-  std::vector<char> pinned_;                    ///< of each place
-  std::vector<int> column_;                     ///< of each place, -1 where known
-  std::vector<int> patch_of_;                   ///< of each triangle
-  std::map<int, std::vector<int>> wires_of_;    ///< of each patch, ascending; key -1: all wires
+  std::vector<int> node_of_;                  ///< of each place, -1 off the wires
+  std::vector<char> pinned_;                  ///< of each place
+  std::vector<int> column_;                   ///< of each place, -1 where known
+  std::vector<int> patch_of_;                 ///< of each triangle
+  std::map<int, std::vector<int>> wires_of_;  ///< of each patch, ascending; key -1: all wires
   std::map<std::vector<int>, int> fit_numbers_;
   std::map<std::pair<int, int>, int> rim_numbers_;
   std::vector<AffineFit> fits_;

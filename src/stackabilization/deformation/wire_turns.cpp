@@ -33,7 +33,8 @@ class TurnSpreader {
     for (std::size_t i = 0; i < queue.size(); ++i)
       for (const WireSymmetry& pair : structure_.symmetric) {
         if (pair.wire != queue[i] || at(pair.image)) continue;
-        const Eigen::Matrix3d q = isometry_of(structure_.symmetries[static_cast<std::size_t>(pair.symmetry)]).linear();
+        const Eigen::Matrix3d q =
+            isometry_of(structure_.symmetries[static_cast<std::size_t>(pair.symmetry)]).linear();
         at(pair.image) = q * *at(pair.wire) * q.transpose();
         queue.push_back(pair.image);
       }
@@ -91,8 +92,8 @@ class TurnSpreader {
 
 }  // namespace
 
-std::vector<Eigen::Matrix3d> spread_turn(const WireStructure& structure, const WireNetwork& network, int edited,
-                                         const Eigen::Matrix3d& linear) {
+std::vector<Eigen::Matrix3d> spread_turn(const WireStructure& structure, const WireNetwork& network,
+                                         int edited, const Eigen::Matrix3d& linear) {
   return TurnSpreader(structure, network).spread(edited, linear);
 }
 

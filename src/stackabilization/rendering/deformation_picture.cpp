@@ -21,19 +21,19 @@ Points closed(Points points) {
   return points;
 }
 
-/// Lines that show a handle on a shape and its primitives; empty for parts, which are coloured, and for what is not
-/// known here, such as feature curves.
-std::vector<Points> handle_lines(const Handle& handle, const Shape& shape, const std::vector<Primitive>& primitives) {
+/// Lines that show a handle on a shape and its primitives; empty for parts, which are coloured, and for what
+/// is not known here, such as feature curves.
+std::vector<Points> handle_lines(const Handle& handle, const Shape& shape,
+                                 const std::vector<Primitive>& primitives) {
   const auto index = static_cast<Eigen::Index>(handle.index);
-  if (handle.kind == HandleKind::shape)
-    return detail::outline(cuboid_of(axis_aligned_box(shape.vertices)));
-  if (handle.kind == HandleKind::point && index < shape.vertex_count())
-    return {shape.vertices.row(index)};
+  if (handle.kind == HandleKind::shape) return detail::outline(cuboid_of(axis_aligned_box(shape.vertices)));
+  if (handle.kind == HandleKind::point && index < shape.vertex_count()) return {shape.vertices.row(index)};
   if (static_cast<std::size_t>(handle.part) >= primitives.size()) return {};
   const Primitive& primitive = primitives[static_cast<std::size_t>(handle.part)];
   const auto* const cuboid = std::get_if<Cuboid>(&primitive);
   const auto* const cylinder = std::get_if<GeneralizedCylinder>(&primitive);
-  if (handle.kind == HandleKind::corner && cuboid != nullptr && index < 8) return {cuboid->corners.row(index)};
+  if (handle.kind == HandleKind::corner && cuboid != nullptr && index < 8)
+    return {cuboid->corners.row(index)};
   if (handle.kind == HandleKind::face && cuboid != nullptr && index < 6) {
     const std::array<int, 4> ring = cuboid_face(handle.index);
     return {closed(cuboid->corners(ring, Eigen::all))};
@@ -69,9 +69,11 @@ detail::Elements handle_marks(const Side& side, const std::vector<Handle>& handl
     for (const Points& line : handle_lines(handle, side.shape, side.primitives)) {
       PlanePoints points(line.rows(), 2);
       for (Eigen::Index i = 0; i < line.rows(); ++i)
-        points.row(i) = (Eigen::Vector2d(place.x, place.y) + view.project(line.row(i).transpose())).transpose();
+        points.row(i) =
+            (Eigen::Vector2d(place.x, place.y) + view.project(line.row(i).transpose())).transpose();
       if (points.rows() == 1)
-        marks.emplace_back(FilledPolygon{detail::circle(points.row(0).transpose(), 2 * handle_width), palette::contact});
+        marks.emplace_back(
+            FilledPolygon{detail::circle(points.row(0).transpose(), 2 * handle_width), palette::contact});
       else
         marks.emplace_back(Polyline{std::move(points), palette::contact, handle_width});
     }

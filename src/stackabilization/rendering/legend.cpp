@@ -6,7 +6,7 @@
 namespace stackabilization::detail {
 namespace {
 
-constexpr double row_step = 1.7;   ///< em, as all sizes here
+constexpr double row_step = 1.7;  ///< em, as all sizes here
 constexpr double mark_width = 1.5;
 constexpr double mark_gap = 0.5;
 constexpr double entry_gap = 1.4;
@@ -44,8 +44,8 @@ Elements legend(const std::vector<LegendEntry>& entries, const Rectangle& place,
   double x = place.x;
   int row = 0;
   for (std::size_t k = 0; k < entries.size(); ++k) {
-    Text text = fitted({{0, 0}, entries[k].text, text_size},
-                       place.width - (mark_width + mark_gap) * text_size);
+    Text text =
+        fitted({{0, 0}, entries[k].text, text_size}, place.width - (mark_width + mark_gap) * text_size);
     const double width = (mark_width + mark_gap) * text_size + text_width(text);
     const bool last = k + 1 == entries.size();
     const auto right_end = [&] { return place.right() - (row + 1 >= rows && !last ? reserved : 0); };
@@ -53,10 +53,12 @@ Elements legend(const std::vector<LegendEntry>& entries, const Rectangle& place,
       ++row;
       if (row < rows) x = place.x;
     }
-    const double y = place.y + (std::min(row, std::max(rows, 1) - 1) + 1) * row_step * text_size - 0.5 * text_size;
+    const double y =
+        place.y + (std::min(row, std::max(rows, 1) - 1) + 1) * row_step * text_size - 0.5 * text_size;
     if (row >= rows) {
       if (rows > 0)
-        elements.emplace_back(Text{{x, y}, "and " + std::to_string(entries.size() - k) + " more", text_size, palette::faint});
+        elements.emplace_back(
+            Text{{x, y}, "and " + std::to_string(entries.size() - k) + " more", text_size, palette::faint});
       break;
     }
     for (const DrawingElement& mark : mark_elements(entries[k], x, y, text_size)) elements.push_back(mark);

@@ -57,10 +57,10 @@ struct StructurePictureOptions {
   std::string title;                ///< heading; may be empty
 };
 
-/// The structure of a shape, as in the paper's Fig. 7: its parts, those that are symmetric to each other in one colour,
-/// with frames for the symmetries of the whole; beside them the cuboids and the circles of the generalized cylinders,
-/// point joints as green balls and line joints as red bars. z points up. Throws InputError when `validate(structured)`
-/// fails, RenderError when there is no OpenGL context.
+/// The structure of a shape, as in the paper's Fig. 7: its parts, those that are symmetric to each other in
+/// one colour, with frames for the symmetries of the whole; beside them the cuboids and the circles of the
+/// generalized cylinders, point joints as green balls and line joints as red bars. z points up. Throws
+/// InputError when `validate(structured)` fails, RenderError when there is no OpenGL context.
 Drawing structure_picture(const StructuredShape& structured, const StructurePictureOptions& options = {});
 
 struct DeformationPictureOptions {
@@ -69,11 +69,12 @@ struct DeformationPictureOptions {
   std::vector<std::string> notes;  ///< lines under the heading, such as the edits and what they moved
 };
 
-/// A shape before (yellow) and after (green) edits, side by side from one viewpoint and in one scale, with the edited
-/// handles in red where they can be shown; z points up. Throws UsageError when the edits were refused, RenderError
-/// when there is no OpenGL context. Precondition: `result` comes from `rest`.
+/// A shape before (yellow) and after (green) edits, side by side from one viewpoint and in one scale, with
+/// the edited handles in red where they can be shown; z points up. Throws UsageError when the edits were
+/// refused, RenderError when there is no OpenGL context. Precondition: `result` comes from `rest`.
 Drawing deformation_picture(const StructuredShape& rest, const DeformationResult& result,
-                            const std::vector<Handle>& handles, const DeformationPictureOptions& options = {});
+                            const std::vector<Handle>& handles,
+                            const DeformationPictureOptions& options = {});
 
 /// The sampled gap function f = u - l with colour bar and the place of its maximum. Needs no OpenGL.
 Drawing gap_picture(const HeightField& field, const PictureOptions& options = {1000, 860, {}});

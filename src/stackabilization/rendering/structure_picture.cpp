@@ -28,8 +28,7 @@ Tally tally(const Structure& structure) {
   Tally count;
   for (const Part& part : structure.parts)
     ++(std::holds_alternative<Cuboid>(part.primitive) ? count.cuboids : count.cylinders);
-  for (const Relation& relation : structure.relations)
-    switch (relation.type) {
+  for (const Relation& relation : structure.relations) switch (relation.type) {
       case RelationType::symmetry:
         ++count.pairs;
         break;
@@ -53,10 +52,10 @@ std::string counted(int count, const std::string& noun) {
 std::string summary(const Structure& structure) {
   const Tally count = tally(structure);
   return counted(static_cast<int>(structure.parts.size()), "part") + ": " + counted(count.cuboids, "cuboid") +
-         ", " + counted(count.cylinders, "generalized cylinder") + ".  Relations: " +
-         counted(count.pairs, "symmetric pair") + ", " +
-         std::to_string(count.self_symmetries) + " self-symmetric, " + counted(count.points, "point joint") + ", " +
-         counted(count.lines, "line joint") + ".";
+         ", " + counted(count.cylinders, "generalized cylinder") +
+         ".  Relations: " + counted(count.pairs, "symmetric pair") + ", " +
+         std::to_string(count.self_symmetries) + " self-symmetric, " + counted(count.points, "point joint") +
+         ", " + counted(count.lines, "line joint") + ".";
 }
 
 /// Frames of the planes and axes of the global symmetries, a little larger than the shape.
@@ -98,10 +97,11 @@ void add_joints(Scene& scene, const Structure& structure) {
     if (relation.type == RelationType::point_joint)
       scene.add({detail::ball(relation.points.row(0).transpose(), size), {point_colour}, 1, Finish::smooth});
     if (relation.type == RelationType::line_joint)
-      scene.add({detail::bar(relation.points.row(0).transpose(), relation.points.row(1).transpose(), 0.6 * size),
-                 {line_colour},
-                 1,
-                 Finish::smooth});
+      scene.add(
+          {detail::bar(relation.points.row(0).transpose(), relation.points.row(1).transpose(), 0.6 * size),
+           {line_colour},
+           1,
+           Finish::smooth});
   }
 }
 
@@ -164,10 +164,11 @@ Drawing structure_picture(const StructuredShape& structured, const StructurePict
   drawing.add(heading.elements);
   const double top = heading.bottom + size, column = (options.width - 3 * margin) / 2;
   const double height = options.height - top - captions;
-  const std::array<Panel, 2> panels{{{parts_scene(structured), "Parts: one colour for parts that are symmetric to each other",
-                                      part_entries(structured)},
-                                     {primitives_scene(structured), "What stands for them, and where they are joined",
-                                      relation_entries(structured.structure)}}};
+  const std::array<Panel, 2> panels{
+      {{parts_scene(structured), "Parts: one colour for parts that are symmetric to each other",
+        part_entries(structured)},
+       {primitives_scene(structured), "What stands for them, and where they are joined",
+        relation_entries(structured.structure)}}};
   ViewOptions view_options;
   view_options.width = static_cast<int>(column);
   view_options.height = static_cast<int>(height);
@@ -178,8 +179,8 @@ Drawing structure_picture(const StructuredShape& structured, const StructurePict
     const Rectangle place{margin + static_cast<double>(k) * (column + margin), top, column, height};
     drawing.add(PlacedImage{place, render(panels[k].scene, view)});
     const double base = place.bottom() + 1.2 * size;
-    drawing.add(detail::fitted({{place.x, base}, panels[k].heading, 1.05 * size, palette::ink, Anchor::left, true},
-                               place.width));
+    drawing.add(detail::fitted(
+        {{place.x, base}, panels[k].heading, 1.05 * size, palette::ink, Anchor::left, true}, place.width));
     drawing.add(detail::legend(panels[k].entries,
                                {place.x, base + 0.4 * size, place.width, options.height - base - 0.8 * size},
                                0.9 * size));

@@ -113,7 +113,8 @@ Shape ball(const Eigen::Vector3d& centre, double radius) {
       const double polar = std::numbers::pi * i / (rows - 1), around = 2 * std::numbers::pi * j / columns;
       points.row(i * columns + j) =
           centre.transpose() + radius * Eigen::RowVector3d(std::sin(polar) * std::cos(around),
-                                                           std::sin(polar) * std::sin(around), std::cos(polar));
+                                                           std::sin(polar) * std::sin(around),
+                                                           std::cos(polar));
     }
   return ring_grid(std::move(points), rows, columns);
 }
@@ -129,8 +130,7 @@ Shape bar(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double radius)
     for (int j = 0; j < columns; ++j) {
       const double angle = 2 * std::numbers::pi * j / columns;
       const auto& [centre, size] = rings[static_cast<std::size_t>(i)];
-      points.row(i * columns + j) =
-          (centre + size * (std::cos(angle) * u + std::sin(angle) * v)).transpose();
+      points.row(i * columns + j) = (centre + size * (std::cos(angle) * u + std::sin(angle) * v)).transpose();
     }
   return ring_grid(std::move(points), 4, columns);
 }
@@ -181,7 +181,8 @@ Points plane_in_box(const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
     }
   if (crossings.size() < 3) return {};
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& crossing : crossings) centre += crossing / static_cast<double>(crossings.size());
+  for (const Eigen::Vector3d& crossing : crossings)
+    centre += crossing / static_cast<double>(crossings.size());
   const auto [u, v] = across(normal.normalized());
   const auto angle = [&, &u_axis = u, &v_axis = v](const Eigen::Vector3d& p) {
     return std::atan2(v_axis.dot(p - centre), u_axis.dot(p - centre));

@@ -9,12 +9,12 @@
 /// What pictures of structures and of edits share. Private to rendering/.
 namespace stackabilization::detail {
 
-/// Parts that the symmetry relations take onto each other, directly or by way of others: one list per orbit, each in
-/// the order of the parts, larger orbits first; a part without a counterpart is alone.
+/// Parts that the symmetry relations take onto each other, directly or by way of others: one list per orbit,
+/// each in the order of the parts, larger orbits first; a part without a counterpart is alone.
 std::vector<std::vector<int>> symmetry_orbits(const Structure& structure);
 
-/// One colour per part: orbits of several parts have hues that are far apart, lone parts quieter ones. None is the
-/// green or the red of the joints.
+/// One colour per part: orbits of several parts have hues that are far apart, lone parts quieter ones. None
+/// is the green or the red of the joints.
 std::vector<Colour> part_colours(const Structure& structure);
 
 /// Sphere of about 200 triangles.
@@ -32,8 +32,8 @@ Points section_circle(const GeneralizedCylinder& cylinder, Eigen::Index section)
 /// The quadrangles of a cuboid as a surface; no triangles for a generalized cylinder.
 Shape faces(const Primitive& primitive);
 
-/// Border of the part of the plane through `point` with normal `normal` that lies in the axis-parallel box, a closed
-/// polyline; empty when they do not meet.
+/// Border of the part of the plane through `point` with normal `normal` that lies in the axis-parallel box, a
+/// closed polyline; empty when they do not meet.
 Points plane_in_box(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, const OrientedBox& box);
 
 }  // namespace stackabilization::detail

@@ -18,12 +18,12 @@ inline constexpr double rounding = 1e-13;
 /// magnitudes of its products: 16 units in the last place.
 inline constexpr double product_rounding = 0x1p-48;
 
-/// Least weight of an edge in as-rigid-as-possible deformation, and one over the greatest. Cotangents of ordinary
-/// triangles lie well within; needles and obtuse pairs would make the system indefinite or useless.
+/// Least weight of an edge in as-rigid-as-possible deformation, and one over the greatest. Cotangents of
+/// ordinary triangles lie well within; needles and obtuse pairs would make the system indefinite or useless.
 inline constexpr double edge_weight = 1e-3;
 
-/// Fraction of a slice's height by which a vertex may lie below it and still be counted in: rings of vertices on the
-/// border of two slices are not torn apart by the rounding of coordinates and axis.
+/// Fraction of a slice's height by which a vertex may lie below it and still be counted in: rings of vertices
+/// on the border of two slices are not torn apart by the rounding of coordinates and axis.
 inline constexpr double slice_slack = 1e-2;
 
 /// Default width of the contact band { f >= f_max - eps }, as a fraction of the extent h along the direction:
@@ -60,18 +60,18 @@ inline constexpr double support_slab = 1e-2;
 /// `inspect` names an up axis only when every other axis fits less than this fraction as well.
 inline constexpr double clear_lead = 0.9;
 
-/// Least thickness of a cuboid, as a fraction of its diagonal: thinner ones are thickened to it, for mean value coordinates
-/// in a cage without volume are undefined.
+/// Least thickness of a cuboid, as a fraction of its diagonal: thinner ones are thickened to it, for mean
+/// value coordinates in a cage without volume are undefined.
 inline constexpr double least_thickness = 1e-3;
 
-/// Symmetries that take the same part to places nearer than this, as a fraction of the bounding-box diagonal of the
-/// shape, or whose planes meet within this many radians of a simple angle, are meant to be one, or to meet at that
-/// angle.
+/// Symmetries that take the same part to places nearer than this, as a fraction of the bounding-box diagonal
+/// of the shape, or whose planes meet within this many radians of a simple angle, are meant to be one, or to
+/// meet at that angle.
 inline constexpr double same_symmetry = 0.01;
 
-/// How exactly primitives satisfy symmetries after they were made symmetric, as a fraction of the diagonal or of the
-/// largest coordinate, whichever is larger: 100 times below what is promised for edits, 10 times above what rounding
-/// leaves.
+/// How exactly primitives satisfy symmetries after they were made symmetric, as a fraction of the diagonal or
+/// of the largest coordinate, whichever is larger: ten million times below what is promised for edits, 10
+/// times above what rounding leaves.
 inline constexpr double idealised = 1e-13;
 
 /// A relation holds when it is off by no more than this, as a fraction of the bounding-box diagonal.
@@ -93,11 +93,8 @@ inline constexpr double difference_step = 0x1p-24;
 /// order; the others are at least 4 sin^2(pi / order), far above.
 inline constexpr double invariance = 1e-6;
 
-/// Smallest factor by which a deformation may shrink a radius, a piece of a curve, the volume at a corner of a
-/// cuboid, or length and area of a feature curve: what is smaller has collapsed.
+/// Smallest factor by which a deformation may shrink a radius, a piece of a curve, the volume at a corner of
+/// a cuboid, or length and area of a feature curve: what is smaller has collapsed.
 inline constexpr double collapse = 1e-3;
-
-/// Factor of length, area or volume below which a feature curve counts as flattened by an edit.
-inline constexpr double flattened_wire = 1e-3;
 
 }  // namespace stackabilization::tolerance

@@ -38,7 +38,8 @@ class Analysis {
       : options_(options), result_{segmented(shape, options.segmentation), {}} {
     for (const auto& [name, kind] : options.kinds)
       if (std::count(names().begin(), names().end(), name) == 0)
-        throw UsageError("a kind of primitive is given for part '" + name + "', which the shape does not have");
+        throw UsageError("a kind of primitive is given for part '" + name +
+                         "', which the shape does not have");
   }
 
   StructuredShape run() {
@@ -84,7 +85,8 @@ class Analysis {
                      [](const Relation& a, const Relation& b) { return a.parts < b.parts; });
   }
 
-  /// Symmetric parts get the kind that one of them is forced to, else the kind that fits all of them better in sum.
+  /// Symmetric parts get the kind that one of them is forced to, else the kind that fits all of them better
+  /// in sum.
   void agree_on_kinds() {
     for (const detail::Orbit& orbit : detail::find_orbits(structure()).orbits) {
       const PrimitiveKind kind = common_kind(orbit);
@@ -99,7 +101,8 @@ class Analysis {
     for (const int row : orbit.parts) {
       const std::optional<PrimitiveKind> kind = forced_kind(row);
       if (forced && kind && forced != kind)
-        throw UsageError("part '" + part(row).name + "' is symmetric to others that are forced to another kind of primitive");
+        throw UsageError("part '" + part(row).name +
+                         "' is symmetric to others that are forced to another kind of primitive");
       if (kind) forced = kind;
     }
     if (forced) return *forced;

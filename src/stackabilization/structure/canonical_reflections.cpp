@@ -27,7 +27,8 @@ void orthogonalize(std::vector<Symmetry>& planes) {
   for (std::size_t k = 0; k < planes.size(); ++k) planes[k].axis = normals.col(static_cast<Eigen::Index>(k));
 }
 
-/// The multiple of pi / n, n as small as possible, that is nearest to `angle`; `angle` itself when none is near.
+/// The multiple of pi / n, n as small as possible, that is nearest to `angle`; `angle` itself when none is
+/// near.
 double rational_angle(double angle) {
   for (int order = 2; order <= highest_order; ++order) {
     const double step = std::numbers::pi / order, multiple = std::round(angle / step) * step;
@@ -38,7 +39,8 @@ double rational_angle(double angle) {
 
 }  // namespace
 
-std::vector<Symmetry> canonical_reflections(const SymmetrySurface& whole, const std::vector<const SymmetrySurface*>& parts,
+std::vector<Symmetry> canonical_reflections(const SymmetrySurface& whole,
+                                            const std::vector<const SymmetrySurface*>& parts,
                                             const std::vector<Symmetry>& candidates) {
   double area = 0;
   for (const SymmetrySurface* part : parts) area += part->area;
@@ -53,7 +55,8 @@ std::vector<Symmetry> canonical_reflections(const SymmetrySurface& whole, const 
       if (along_box(part->box, plane.axis)) weight += part->area / area;
     ranked.push_back({plane, weight});
   }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) { return a.weight > b.weight; });
+  std::stable_sort(ranked.begin(), ranked.end(),
+                   [](const Ranked& a, const Ranked& b) { return a.weight > b.weight; });
 
   std::vector<Symmetry> chosen;
   for (const Ranked& each : ranked)
@@ -89,7 +92,8 @@ Symmetry fitted_to(const std::vector<Symmetry>& chosen, const Symmetry& plane) {
   const Eigen::Vector3d line = first.axis.cross(result.axis).normalized();
   const double angle = std::acos(std::clamp(first.axis.dot(result.axis), -1.0, 1.0));
   result.axis = Eigen::AngleAxisd(rational_angle(angle), line) * first.axis;
-  for (const Symmetry* other : oblique) result.point -= other->axis * other->axis.dot(result.point - other->point);
+  for (const Symmetry* other : oblique)
+    result.point -= other->axis * other->axis.dot(result.point - other->point);
   return result;
 }
 

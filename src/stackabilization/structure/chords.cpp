@@ -24,14 +24,16 @@ using Triangle = Kernel::Triangle_3;
 using TrianglePrimitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>;
 using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive>>;
 
-/// Rays start this far off the surface, fraction of the bounding-box diagonal, so that they do not meet their own
-/// triangle: a choice of scale, below which no wall is seen.
+/// Rays start this far off the surface, fraction of the bounding-box diagonal, so that they do not meet their
+/// own triangle: a choice of scale, below which no wall is seen.
 constexpr double lift = 0.0001;
 
-Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
 
-/// Share of the half space in front of a place that is not barred by the shape, from which on the place is in the open,
-/// and up to which it is in a hollow.
+/// Share of the half space in front of a place that is not barred by the shape, from which on the place is in
+/// the open, and up to which it is in a hollow.
 constexpr double open_air = 0.9, hollow = 0.5;
 
 /// Directions of the upper half space, each standing for the same solid angle: a spiral.
@@ -51,7 +53,8 @@ class ChordCaster {
     Eigen::AlignedBox3d box;
     for (std::int32_t t = 0; t < graph.size(); ++t) {
       if (!(graph.areas(t) > 0)) continue;
-      triangles_.emplace_back(to_cgal(shape.corner(t, 0)), to_cgal(shape.corner(t, 1)), to_cgal(shape.corner(t, 2)));
+      triangles_.emplace_back(to_cgal(shape.corner(t, 0)), to_cgal(shape.corner(t, 1)),
+                              to_cgal(shape.corner(t, 2)));
       rows_.push_back(t);
       for (int k = 0; k < 3; ++k) box.extend(shape.corner(t, k));
     }
@@ -69,9 +72,11 @@ class ChordCaster {
       chord.end_triangle = hit->triangle;
       chord.solid = (hit->point - chord.start).norm();
     }
-    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), chord.normal);
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), chord.normal);
     int seen = 0;
-    for (const Eigen::Vector3d& direction : directions_) seen += blocked(chord.start + lift_ * chord.normal, turn * direction);
+    for (const Eigen::Vector3d& direction : directions_)
+      seen += blocked(chord.start + lift_ * chord.normal, turn * direction);
     const double free = 1 - static_cast<double>(seen) / static_cast<double>(directions_.size());
     chord.openness = std::clamp((free - hollow) / (open_air - hollow), 0.0, 1.0);
   }
@@ -106,19 +111,22 @@ class ChordCaster {
 void measure_ends(std::vector<Chord>& chords, const std::vector<std::int32_t>& patch) {
   const auto patches = static_cast<std::size_t>(*std::max_element(patch.begin(), patch.end())) + 1;
   std::vector<double> area(patches, 0), open_area(patches, 0);
-  const auto patch_of = [&](std::int32_t t) { return static_cast<std::size_t>(patch[static_cast<std::size_t>(t)]); };
+  const auto patch_of = [&](std::int32_t t) {
+    return static_cast<std::size_t>(patch[static_cast<std::size_t>(t)]);
+  };
   for (const Chord& c : chords) {
     area[patch_of(c.triangle)] += c.area;
     open_area[patch_of(c.triangle)] += c.area * c.openness;
   }
   for (Chord& c : chords)
-    if (c.end_triangle >= 0) c.end_openness = open_area[patch_of(c.end_triangle)] / area[patch_of(c.end_triangle)];
+    if (c.end_triangle >= 0)
+      c.end_openness = open_area[patch_of(c.end_triangle)] / area[patch_of(c.end_triangle)];
 }
 
 }  // namespace
 
-std::vector<Chord> chords(const Shape& shape, const SurfaceGraph& graph, const std::vector<std::int32_t>& patch,
-                          int count) {
+std::vector<Chord> chords(const Shape& shape, const SurfaceGraph& graph,
+                          const std::vector<std::int32_t>& patch, int count) {
   const double area = graph.areas.sum();
   const SurfaceSamples samples = surface_samples(shape, count);
   std::vector<Chord> result;

@@ -43,7 +43,9 @@ Component component_of(const Shape& shape, const std::vector<std::int32_t>& rows
 }
 
 Eigen::Vector3d unit_normal(const Shape& shape, Eigen::Index t) {
-  return (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0)).stableNormalized();
+  return (shape.corner(t, 1) - shape.corner(t, 0))
+      .cross(shape.corner(t, 2) - shape.corner(t, 0))
+      .stableNormalized();
 }
 
 bool inside(const HullSupport& hull, const Eigen::Vector3d& point, double reach) {
@@ -63,7 +65,8 @@ class ContactMerger {
     const std::vector<Pair> pairs = candidates();
     prepare(pairs);
     std::vector<char> joins(pairs.size(), 0);
-    tbb::parallel_for(std::size_t{0}, pairs.size(), [&](std::size_t p) { joins[p] = are_one_part(pairs[p]); });
+    tbb::parallel_for(std::size_t{0}, pairs.size(),
+                      [&](std::size_t p) { joins[p] = are_one_part(pairs[p]); });
     DisjointSets sets(components_.size());
     for (std::size_t p = 0; p < pairs.size(); ++p)
       if (joins[p]) sets.join(pairs[p].small, pairs[p].large);
@@ -150,7 +153,8 @@ void attach_flat(DisjointSets& sets, const std::vector<Component>& components, c
                  const std::vector<std::int32_t>& component) {
   std::vector<std::int32_t> rows;
   for (std::size_t t = 0; t < component.size(); ++t)
-    if (components[static_cast<std::size_t>(component[t])].area > 0) rows.push_back(static_cast<std::int32_t>(t));
+    if (components[static_cast<std::size_t>(component[t])].area > 0)
+      rows.push_back(static_cast<std::int32_t>(t));
   if (rows.empty() || rows.size() == component.size()) return;
   const SurfaceIndex index(extracted(shape, rows));
   for (std::size_t c = 0; c < components.size(); ++c) {

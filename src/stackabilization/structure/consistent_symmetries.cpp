@@ -26,7 +26,8 @@ class SymmetrySet {
   explicit SymmetrySet(Structure& structure) : structure_(structure), orbits_(structure.parts.size()) {
     for (const Relation& relation : structure.relations)
       if (relation.type == RelationType::symmetry)
-        orbits_.join(static_cast<std::size_t>(relation.parts[0]), static_cast<std::size_t>(relation.parts[1]));
+        orbits_.join(static_cast<std::size_t>(relation.parts[0]),
+                     static_cast<std::size_t>(relation.parts[1]));
     for (Symmetry& symmetry : structure.symmetries) {
       symmetry.axis.normalize();
       members_.push_back({symmetry, {}});
@@ -43,7 +44,8 @@ class SymmetrySet {
   }
 
   void write_back() const {
-    for (std::size_t k = 0; k < structure_.symmetries.size(); ++k) structure_.symmetries[k] = members_[k].symmetry;
+    for (std::size_t k = 0; k < structure_.symmetries.size(); ++k)
+      structure_.symmetries[k] = members_[k].symmetry;
     for (std::size_t r = 0; r < member_of_.size(); ++r)
       if (member_of_[r]) structure_.relations[r].symmetry = members_[*member_of_[r]].symmetry;
   }
@@ -62,7 +64,8 @@ class SymmetrySet {
     double least = tolerance::same_symmetry * structure_.diagonal;
     for (std::size_t i = 0; i < members_.size(); ++i) {
       const Symmetry& other = members_[i].symmetry;
-      if (other.kind != relation.symmetry.kind || isometry_order(other) != isometry_order(relation.symmetry)) continue;
+      if (other.kind != relation.symmetry.kind || isometry_order(other) != isometry_order(relation.symmetry))
+        continue;
       const double miss = difference(relation.symmetry, other, structure_.parts[part].primitive);
       if (miss > least || (best && miss == least)) continue;
       least = miss;
@@ -83,10 +86,12 @@ class SymmetrySet {
 
   bool meet(std::size_t i, std::size_t j) const {
     const std::vector<std::size_t>&a = members_[i].orbits, &b = members_[j].orbits;
-    return std::any_of(a.begin(), a.end(), [&](std::size_t orbit) { return std::count(b.begin(), b.end(), orbit) > 0; });
+    return std::any_of(a.begin(), a.end(),
+                       [&](std::size_t orbit) { return std::count(b.begin(), b.end(), orbit) > 0; });
   }
 
-  /// Perpendicular to those it is nearly perpendicular to; at the nearest simple angle to the first of the others.
+  /// Perpendicular to those it is nearly perpendicular to; at the nearest simple angle to the first of the
+  /// others.
   void correct_direction(std::size_t i) {
     Eigen::Vector3d& axis = members_[i].symmetry.axis;
     std::vector<Eigen::Vector3d> across;
@@ -119,7 +124,8 @@ class SymmetrySet {
     return axis;
   }
 
-  /// An axis of rotation in a mirror plane, and the third plane through a line, go exactly there when they nearly do.
+  /// An axis of rotation in a mirror plane, and the third plane through a line, go exactly there when they
+  /// nearly do.
   void correct_place(std::size_t i) {
     Symmetry& symmetry = members_[i].symmetry;
     const bool is_plane = symmetry.kind == SymmetryKind::reflection;
@@ -133,8 +139,10 @@ class SymmetrySet {
       if (is_plane && !other_is_plane && std::abs(symmetry.axis.dot(other.axis)) < angle_tolerance)
         pass_through(symmetry, other.point);
       if (!is_plane || !other_is_plane) continue;
-      if (first) share_line(symmetry, members_[*first].symmetry, other);
-      else first = j;
+      if (first)
+        share_line(symmetry, members_[*first].symmetry, other);
+      else
+        first = j;
     }
   }
 
@@ -145,12 +153,14 @@ class SymmetrySet {
 
   void pass_through(Symmetry& plane, const Eigen::Vector3d& point) const {
     const double height = plane.axis.dot(point - plane.point);
-    if (std::abs(height) <= tolerance::same_symmetry * structure_.diagonal) plane.point += height * plane.axis;
+    if (std::abs(height) <= tolerance::same_symmetry * structure_.diagonal)
+      plane.point += height * plane.axis;
   }
 
   void share_line(Symmetry& plane, const Symmetry& a, const Symmetry& b) const {
     const Eigen::Vector3d line = a.axis.cross(b.axis);
-    if (line.norm() < angle_tolerance || std::abs(line.normalized().dot(plane.axis)) > tolerance::relative) return;
+    if (line.norm() < angle_tolerance || std::abs(line.normalized().dot(plane.axis)) > tolerance::relative)
+      return;
     Eigen::Matrix3d normals;
     normals << a.axis.transpose(), b.axis.transpose(), line.transpose();
     const Eigen::Vector3d heights(a.axis.dot(a.point), b.axis.dot(b.point), line.dot(plane.point));

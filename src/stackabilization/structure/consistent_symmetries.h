@@ -7,13 +7,16 @@ namespace stackabilization::detail {
 /// Largest distance between where two symmetries take the control points of `primitive`, model units.
 double difference(const Symmetry& a, const Symmetry& b, const Primitive& primitive);
 
-/// Makes the symmetries of `structure` fit together, so that their products close into finite groups in double precision:
+/// Makes the symmetries of `structure` fit together, so that their products close into finite groups in
+/// double precision:
 ///
-/// * a relation whose symmetry takes the control points of its part within tolerance::same_symmetry of where a global
+/// * a relation whose symmetry takes the control points of its part within tolerance::same_symmetry of where
+/// a global
 ///   symmetry, or that of an earlier relation, takes them, gets that one;
-/// * mirror planes that bear on the same parts and meet within tolerance::same_symmetry (radians) of 90 degrees, or of
-///   another multiple of 180 / n degrees with n up to 8, meet at exactly that angle; axes of rotation lie exactly in or
-///   across them; three planes that nearly share a line share it.
+/// * mirror planes that bear on the same parts and meet within tolerance::same_symmetry (radians) of 90
+/// degrees, or of
+///   another multiple of 180 / n degrees with n up to 8, meet at exactly that angle; axes of rotation lie
+///   exactly in or across them; three planes that nearly share a line share it.
 ///
 /// What is farther apart than that stays as it is.
 void make_consistent(Structure& structure);

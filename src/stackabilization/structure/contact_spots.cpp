@@ -21,8 +21,8 @@ namespace {
 
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
 
-/// Of what lies within reach, the part that comes this much farther than the nearest, as a share of the reach, gives the
-/// place of a joint.
+/// Of what lies within reach, the part that comes this much farther than the nearest, as a share of the
+/// reach, gives the place of a joint.
 constexpr double place_share = 0.25;
 
 /// An edge of one surface that comes within reach of a triangle of the other.
@@ -37,11 +37,14 @@ struct Meeting {
 class ContactFinder {
  public:
   ContactFinder(const PartSurface& a, const PartSurface& b, const ContactOptions& options)
-      : surfaces_{&a, &b}, options_(options), resolution_(tolerance::relative * std::max(a.size(), b.size())) {}
+      : surfaces_{&a, &b},
+        options_(options),
+        resolution_(tolerance::relative * std::max(a.size(), b.size())) {}
 
   std::vector<ContactSpot> run() {
     for (int side = 0; side < 2; ++side) find_meetings(side);
-    std::sort(meetings_.begin(), meetings_.end(), [](const Meeting& a, const Meeting& b) { return a.order() < b.order(); });
+    std::sort(meetings_.begin(), meetings_.end(),
+              [](const Meeting& a, const Meeting& b) { return a.order() < b.order(); });
     first_vertex_[0] = meetings_.size();
     first_vertex_[1] = first_vertex_[0] + surfaces_[0]->points().size();
     sets_ = DisjointSets(first_vertex_[1] + surfaces_[1]->points().size());
@@ -60,8 +63,12 @@ class ContactFinder {
   const Eigen::Vector3d& point(int side, int vertex) const {
     return surfaces_[side]->points()[static_cast<std::size_t>(vertex)];
   }
-  const PartSurface::Edge& edge(int side, int row) const { return surfaces_[side]->edges()[static_cast<std::size_t>(row)]; }
-  std::size_t vertex_set(int side, int vertex) const { return first_vertex_[side] + static_cast<std::size_t>(vertex); }
+  const PartSurface::Edge& edge(int side, int row) const {
+    return surfaces_[side]->edges()[static_cast<std::size_t>(row)];
+  }
+  std::size_t vertex_set(int side, int vertex) const {
+    return first_vertex_[side] + static_cast<std::size_t>(vertex);
+  }
 
   Segment segment(int side, int row) const {
     const auto& [u, v] = edge(side, row).vertices;
@@ -73,14 +80,16 @@ class ContactFinder {
   }
 
   template <std::size_t n>
-  static void add_box(std::vector<Box>& boxes, const std::array<Eigen::Vector3d, n>& points, double margin, int row,
-                      const PartSurface& near, double reach) {
+  static void add_box(std::vector<Box>& boxes, const std::array<Eigen::Vector3d, n>& points, double margin,
+                      int row, const PartSurface& near, double reach) {
     Eigen::Vector3d low = points[0], high = points[0];
     for (const Eigen::Vector3d& p : points) {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    if ((low.array() - reach > near.highest().array()).any() || (high.array() + reach < near.lowest().array()).any()) return;
+    if ((low.array() - reach > near.highest().array()).any() ||
+        (high.array() + reach < near.lowest().array()).any())
+      return;
     low.array() -= margin;
     high.array() += margin;
     boxes.emplace_back(CGAL::Bbox_3(low.x(), low.y(), low.z(), high.x(), high.y(), high.z()), row);
@@ -89,9 +98,11 @@ class ContactFinder {
   void find_meetings(int side) {
     std::vector<Box> edges, triangles;
     for (std::size_t e = 0; e < mine(side).edges().size(); ++e)
-      add_box(edges, segment(side, static_cast<int>(e)), options_.reach, static_cast<int>(e), other(side), options_.reach);
+      add_box(edges, segment(side, static_cast<int>(e)), options_.reach, static_cast<int>(e), other(side),
+              options_.reach);
     for (std::size_t t = 0; t < other(side).triangles().size(); ++t)
-      add_box(triangles, corners(1 - side, static_cast<int>(t)), 0, static_cast<int>(t), mine(side), options_.reach);
+      add_box(triangles, corners(1 - side, static_cast<int>(t)), 0, static_cast<int>(t), mine(side),
+              options_.reach);
     nearest_.assign(mine(side).edges().size(), Meeting{side, -1, -1, {options_.reach, 0, 0}});
     CGAL::box_intersection_d(edges.begin(), edges.end(), triangles.begin(), triangles.end(),
                              [&](const Box& e, const Box& t) { meet(side, e.info(), t.info()); });
@@ -114,7 +125,8 @@ class ContactFinder {
     if (distance > most) return;
     if (!is_short || touches(found))
       meetings_.push_back(found);
-    else if (nearest.edge < 0 || std::tie(distance, triangle) < std::tie(nearest.approach.distance, nearest.triangle))
+    else if (nearest.edge < 0 ||
+             std::tie(distance, triangle) < std::tie(nearest.approach.distance, nearest.triangle))
       nearest = found;
   }
 
@@ -123,8 +135,9 @@ class ContactFinder {
     return std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()}) <= options_.reach;
   }
 
-  /// Within reach of a triangle lies a convex piece of each triangle of the other surface. Neighbouring pieces share a
-  /// piece of an edge; so meetings belong together when they are about the same two triangles, or the same small one.
+  /// Within reach of a triangle lies a convex piece of each triangle of the other surface. Neighbouring
+  /// pieces share a piece of an edge; so meetings belong together when they are about the same two triangles,
+  /// or the same small one.
   void join_pieces() {
     std::vector<std::pair<std::uint64_t, std::size_t>> pieces;
     constexpr auto any = static_cast<std::uint64_t>(std::numeric_limits<std::uint32_t>::max());
@@ -137,7 +150,8 @@ class ContactFinder {
     for (std::size_t m = 0; m < meetings_.size(); ++m) {
       const Meeting& one = meetings_[m];
       for (const int t : edge(one.side, one.edge).triangles) {
-        const std::array<int, 2> rows = one.side == 0 ? std::array{t, one.triangle} : std::array{one.triangle, t};
+        const std::array<int, 2> rows =
+            one.side == 0 ? std::array{t, one.triangle} : std::array{one.triangle, t};
         const auto a = static_cast<std::uint64_t>(rows[0]), b = static_cast<std::uint64_t>(rows[1]);
         const bool small_a = small[0][a], small_b = small[1][b];
         if (small_a) pieces.emplace_back(a << 32 | any, m);
@@ -165,12 +179,14 @@ class ContactFinder {
 
   bool touches(const Meeting& meeting) const { return meeting.approach.distance <= resolution_; }
 
-  /// Stretches of edges between crossings that run inside the other surface tie together what lies along them.
+  /// Stretches of edges between crossings that run inside the other surface tie together what lies along
+  /// them.
   void join_inside(int side) {
     for (const auto& [row, range] : meetings_by_edge(side)) {
       std::vector<double> places = {0, 1};
       for (std::size_t m = range.begin; m < range.end; ++m)
-        if (touches(meetings_[m])) places.insert(places.end(), {meetings_[m].approach.low, meetings_[m].approach.high});
+        if (touches(meetings_[m]))
+          places.insert(places.end(), {meetings_[m].approach.low, meetings_[m].approach.high});
       if (places.size() == 2) continue;
       touched_[side].push_back(row);
       std::sort(places.begin(), places.end());
@@ -197,7 +213,8 @@ class ContactFinder {
     const auto& [u, v] = edge(side, row).vertices;
     std::vector<std::size_t> members;
     for (std::size_t m = range.begin; m < range.end; ++m)
-      if (meetings_[m].approach.high >= stretch[0] && meetings_[m].approach.low <= stretch[1]) members.push_back(m);
+      if (meetings_[m].approach.high >= stretch[0] && meetings_[m].approach.low <= stretch[1])
+        members.push_back(m);
     for (const auto& [vertex, is_end] : {std::pair(u, stretch[0] <= 0), std::pair(v, stretch[1] >= 1)}) {
       if (!is_end) continue;
       inside_[side][static_cast<std::size_t>(vertex)] = true;
@@ -206,8 +223,8 @@ class ContactFinder {
     for (const std::size_t member : members) sets_.join(members[0], member);
   }
 
-  /// From vertices known to be inside over edges that do not cross the other surface. What touches it nowhere is inside
-  /// or outside as a whole.
+  /// From vertices known to be inside over edges that do not cross the other surface. What touches it nowhere
+  /// is inside or outside as a whole.
   void spread_inside(int side) {
     const std::size_t count = mine(side).points().size();
     std::vector<bool> is_touched(mine(side).edges().size(), false);
@@ -219,10 +236,12 @@ class ContactFinder {
       if (!is_touched[e]) shells.join(static_cast<std::size_t>(u), static_cast<std::size_t>(v));
     }
     std::vector<bool> root_inside(count, false), meets(count, false);
-    for (const int row : touched_[side]) meets[whole.root(static_cast<std::size_t>(edge(side, row).vertices[0]))] = true;
+    for (const int row : touched_[side])
+      meets[whole.root(static_cast<std::size_t>(edge(side, row).vertices[0]))] = true;
     for (const Meeting& one : meetings_)  // a crossing of the other's edges is a meeting as well
       if (one.side != side && touches(one))
-        meets[whole.root(static_cast<std::size_t>(mine(side).triangles()[static_cast<std::size_t>(one.triangle)][0]))] = true;
+        meets[whole.root(static_cast<std::size_t>(
+            mine(side).triangles()[static_cast<std::size_t>(one.triangle)][0]))] = true;
     for (std::size_t v = 0; v < count; ++v) {
       if (inside_[side][v]) root_inside[shells.root(v)] = true;
       if (whole.root(v) == v && !meets[v] && other(side).is_closed() && in_box(side, v))
@@ -242,7 +261,8 @@ class ContactFinder {
 
   bool in_box(int side, std::size_t vertex) const {
     const Eigen::Vector3d& p = mine(side).points()[vertex];
-    return (p.array() >= other(side).lowest().array()).all() && (p.array() <= other(side).highest().array()).all();
+    return (p.array() >= other(side).lowest().array()).all() &&
+           (p.array() <= other(side).highest().array()).all();
   }
 
   struct Region {
@@ -265,12 +285,14 @@ class ContactFinder {
       Region& region = by_root[sets_.root(m)];
       for (const double place : {one.approach.low, one.approach.high}) {
         const Eigen::Vector3d p = ends[0] + place * (ends[1] - ends[0]);
-        region.add((p + nearest_on_triangle(p, corners(1 - one.side, one.triangle))) / 2, one.approach.distance);
+        region.add((p + nearest_on_triangle(p, corners(1 - one.side, one.triangle))) / 2,
+                   one.approach.distance);
       }
     }
     for (int side = 0; side < 2; ++side)
       for (std::size_t v = 0; v < inside_[side].size(); ++v)
-        if (inside_[side][v]) by_root[sets_.root(vertex_set(side, static_cast<int>(v)))].add(mine(side).points()[v], 0);
+        if (inside_[side][v])
+          by_root[sets_.root(vertex_set(side, static_cast<int>(v)))].add(mine(side).points()[v], 0);
     std::vector<Region> regions;
     for (auto& [root, region] : by_root) regions.push_back(std::move(region));
     return merged(regions);
@@ -298,18 +320,20 @@ class ContactFinder {
       Region all;
       for (std::size_t i = root; i < regions.size(); ++i)
         if (groups.root(i) == root)
-          for (std::size_t k = 0; k < regions[i].points.size(); ++k) all.add(regions[i].points[k], regions[i].gaps[k]);
+          for (std::size_t k = 0; k < regions[i].points.size(); ++k)
+            all.add(regions[i].points[k], regions[i].gaps[k]);
       result.push_back(place_of(all));
     }
     return result;
   }
 
-  /// What comes not quite as near as the nearest points counts when it makes the region longer or wider. Elsewhere it
-  /// would only tell how the surfaces beside the contact are cut into triangles.
+  /// What comes not quite as near as the nearest points counts when it makes the region longer or wider.
+  /// Elsewhere it would only tell how the surfaces beside the contact are cut into triangles.
   ContactSpot place_of(const Region& region) const {
     const double slack = place_share * options_.reach;
     const double gap = *std::min_element(region.gaps.begin(), region.gaps.end());
-    const HullSpread nearest = spread_within(region, gap + resolution_), near = spread_within(region, gap + slack);
+    const HullSpread nearest = spread_within(region, gap + resolution_),
+                     near = spread_within(region, gap + slack);
     const bool is_all = ((near.deviations - nearest.deviations).array() <= slack).all();
     return {is_all ? nearest : near, gap};
   }
@@ -319,7 +343,8 @@ class ContactFinder {
     for (std::size_t k = 0; k < region.points.size(); ++k)
       if (region.gaps[k] <= most) kept.push_back(region.points[k]);
     Points points(static_cast<Eigen::Index>(kept.size()), 3);
-    for (std::size_t k = 0; k < kept.size(); ++k) points.row(static_cast<Eigen::Index>(k)) = kept[k].transpose();
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      points.row(static_cast<Eigen::Index>(k)) = kept[k].transpose();
     return hull_spread(points, resolution_);
   }
 
@@ -330,13 +355,14 @@ class ContactFinder {
   std::vector<Meeting> nearest_;  ///< per edge of the side that is being looked at; no edge (-1): none yet
   std::array<std::size_t, 2> first_vertex_{};  ///< sets: meetings, then vertices of both sides
   DisjointSets sets_{0};
-  std::array<std::vector<bool>, 2> inside_;   ///< per vertex
-  std::array<std::vector<int>, 2> touched_;   ///< edges that touch or cross the other surface
+  std::array<std::vector<bool>, 2> inside_;  ///< per vertex
+  std::array<std::vector<int>, 2> touched_;  ///< edges that touch or cross the other surface
 };
 
 }  // namespace
 
-std::vector<ContactSpot> contact_spots(const PartSurface& a, const PartSurface& b, const ContactOptions& options) {
+std::vector<ContactSpot> contact_spots(const PartSurface& a, const PartSurface& b,
+                                       const ContactOptions& options) {
   return ContactFinder(a, b, options).run();
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 using Assignment = std::vector<int>;
 
-/// The relabellings of a box: axis a goes to axis `order[a]`, turned around where bit a of `flips` is set. The one that
-/// changes nothing comes first.
+/// The relabellings of a box: axis a goes to axis `order[a]`, turned around where bit a of `flips` is set.
+/// The one that changes nothing comes first.
 std::vector<Assignment> box_assignments() {
   std::vector<Assignment> all;
   std::array<int, 3> order = {0, 1, 2};
@@ -22,7 +22,8 @@ std::vector<Assignment> box_assignments() {
       Assignment corners(8, 0);
       for (int k = 0; k < 8; ++k)
         for (int a = 0; a < 3; ++a)
-          corners[static_cast<std::size_t>(k)] |= ((k ^ flips) >> a & 1) << order[static_cast<std::size_t>(a)];
+          corners[static_cast<std::size_t>(k)] |= ((k ^ flips) >> a & 1)
+                                                  << order[static_cast<std::size_t>(a)];
       all.push_back(corners);
     }
   } while (std::next_permutation(order.begin(), order.end()));
@@ -36,7 +37,8 @@ std::vector<Assignment> curve_assignments(int count, bool closed) {
     for (const int step : {1, -1}) {
       const int first = closed || step == 1 ? start : count - 1;
       Assignment sections(static_cast<std::size_t>(count));
-      for (int k = 0; k < count; ++k) sections[static_cast<std::size_t>(k)] = (first + step * k + count) % count;
+      for (int k = 0; k < count; ++k)
+        sections[static_cast<std::size_t>(k)] = (first + step * k + count) % count;
       all.push_back(sections);
     }
   return all;
@@ -51,7 +53,8 @@ double sum_of_squares(const Points& image, const Points& target, const Assignmen
 
 }  // namespace
 
-std::vector<int> control_correspondence(const Primitive& a, const Primitive& b, const Eigen::Isometry3d& map) {
+std::vector<int> control_correspondence(const Primitive& a, const Primitive& b,
+                                        const Eigen::Isometry3d& map) {
   const Points from = control_points(a), target = control_points(b);
   if (a.index() != b.index() || from.rows() != target.rows()) return {};
   std::vector<Assignment> candidates;

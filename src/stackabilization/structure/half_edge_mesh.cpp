@@ -63,7 +63,8 @@ ConnectedSurface connected_surface(const Shape& shape) {
   surface.vertex_of.resize(soup.points.size(), -1);
   for (std::size_t f = 0; f < before.size(); ++f)
     for (std::size_t k = 0; k < 3; ++k) {
-      // An orientation turned around keeps its first corner or swaps two; the copy is told by its coordinates.
+      // An orientation turned around keeps its first corner or swaps two; the copy is told by its
+      // coordinates.
       const std::size_t vertex = soup.polygons[f][k];
       for (const std::size_t old : before[f])
         if (soup.points[vertex] == soup.points[old]) surface.vertex_of[vertex] = row_of_place[old];

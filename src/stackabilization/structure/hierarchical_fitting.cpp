@@ -20,10 +20,12 @@ namespace {
 /// Patches to build volumes from, and chords to measure them with.
 constexpr int patch_count = 240, chord_count = 2400;
 
-/// Emptiness that one union may add, root mean square over the whole surface, fraction of the bounding-box diagonal.
+/// Emptiness that one union may add, root mean square over the whole surface, fraction of the bounding-box
+/// diagonal.
 constexpr double tolerated_emptiness = 0.018;
 
-/// How many times more a union costs across an edge of 90 degrees, concave or more so, than across a flat one.
+/// How many times more a union costs across an edge of 90 degrees, concave or more so, than across a flat
+/// one.
 constexpr double concave_factor = 6;
 
 /// Weight of the growth of the spread, beside emptiness: decides between unions that fit equally well.
@@ -32,11 +34,14 @@ constexpr double compactness = 0.0001;
 class VolumeClustering {
  public:
   VolumeClustering(const Shape& shape, const SurfaceGraph& graph)
-      : graph_(graph), patch_(surface_patches(shape, graph, patch_count)), chords_(chords(shape, graph, patch_, chord_count)) {
+      : graph_(graph),
+        patch_(surface_patches(shape, graph, patch_count)),
+        chords_(chords(shape, graph, patch_, chord_count)) {
     const auto count = static_cast<std::size_t>(*std::max_element(patch_.begin(), patch_.end())) + 1;
     clusters_.resize(count);
     for (std::size_t c = 0; c < chords_.size(); ++c)
-      at(patch_[static_cast<std::size_t>(chords_[c].triangle)]).chords.push_back(static_cast<std::int32_t>(c));
+      at(patch_[static_cast<std::size_t>(chords_[c].triangle)])
+          .chords.push_back(static_cast<std::int32_t>(c));
     Eigen::AlignedBox3d box;
     for (std::int32_t t = 0; t < graph.size(); ++t) {
       Cluster& cluster = at(patch_[static_cast<std::size_t>(t)]);
@@ -81,7 +86,7 @@ class VolumeClustering {
     std::map<std::int32_t, Border> borders;
     double area = 0, error = 0;
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();  ///< integral of the position
-    std::int32_t stamp = 0;  ///< counts the changes; -1 once merged into another
+    std::int32_t stamp = 0;                            ///< counts the changes; -1 once merged into another
   };
   struct Union {
     double cost;
@@ -95,7 +100,8 @@ class VolumeClustering {
   bool is_grown(const Cluster& cluster) const { return cluster.area > 0 && cluster.area >= smallest_area_; }
 
   void add_border(const SurfaceLink& link) {
-    const std::int32_t a = patch_[static_cast<std::size_t>(link.a)], b = patch_[static_cast<std::size_t>(link.b)];
+    const std::int32_t a = patch_[static_cast<std::size_t>(link.a)],
+                       b = patch_[static_cast<std::size_t>(link.b)];
     if (a == b) return;
     const double concave = std::clamp(-link.bend / (std::numbers::pi / 2), 0.0, 1.0);
     const double factor = 1 + (concave_factor - 1) * concave;
@@ -156,7 +162,8 @@ class VolumeClustering {
 
 }  // namespace
 
-std::vector<std::int32_t> fitted_parts(const Shape& shape, const SurfaceGraph& graph, int parts, double smallest) {
+std::vector<std::int32_t> fitted_parts(const Shape& shape, const SurfaceGraph& graph, int parts,
+                                       double smallest) {
   return VolumeClustering(shape, graph).run(parts, smallest);
 }
 

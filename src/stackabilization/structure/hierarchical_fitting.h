@@ -9,16 +9,20 @@
 /// Not installed.
 namespace stackabilization::detail {
 
-/// Cuts a shape whose graph is connected into parts that a cuboid, a solid of revolution or a ring holds; a number per
-/// triangle, every part connected.
+/// Cuts a shape whose graph is connected into parts that a cuboid, a solid of revolution or a ring holds; a
+/// number per triangle, every part connected.
 ///
 /// 1. Patches: `surface_patches` (Attene et al. 2006).
-/// 2. Volumes: patches are joined on, cheapest pair first. A pair costs what the volume of its primitive is filled worse
-///    (`volume_error`) than by the two apart, times more across concave edges than across convex ones. The closed faces
-///    of a box, and both walls of a vessel, join for nothing; a leg and the top it carries do not.
+/// 2. Volumes: patches are joined on, cheapest pair first. A pair costs what the volume of its primitive is
+/// filled worse
+///    (`volume_error`) than by the two apart, times more across concave edges than across convex ones. The
+///    closed faces of a box, and both walls of a vessel, join for nothing; a leg and the top it carries do
+///    not.
 ///
-/// `parts` is the number to end with; 0 stops where the root mean square emptiness that a union adds exceeds a fixed
-/// share of the bounding-box diagonal. Parts below `smallest` of the area are not counted, and join at last.
-std::vector<std::int32_t> fitted_parts(const Shape& shape, const SurfaceGraph& graph, int parts, double smallest);
+/// `parts` is the number to end with; 0 stops where the root mean square emptiness that a union adds exceeds
+/// a fixed share of the bounding-box diagonal. Parts below `smallest` of the area are not counted, and join
+/// at last.
+std::vector<std::int32_t> fitted_parts(const Shape& shape, const SurfaceGraph& graph, int parts,
+                                       double smallest);
 
 }  // namespace stackabilization::detail

@@ -20,8 +20,8 @@ struct Triangle {
   double area() const { return (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2; }
 };
 
-/// The boundary of a solid hull, a flat one cut from its middle to its sides, nothing for straight ones. Sums over the
-/// triangles do not depend on how they are cut.
+/// The boundary of a solid hull, a flat one cut from its middle to its sides, nothing for straight ones. Sums
+/// over the triangles do not depend on how they are cut.
 std::vector<Triangle> triangles_of(const HullFaces& hull) {
   std::vector<Triangle> triangles;
   if (hull.normals.rows() > 2) {
@@ -33,7 +33,8 @@ std::vector<Triangle> triangles_of(const HullFaces& hull) {
   }
   const Eigen::Vector3d middle = hull.points.colwise().mean().transpose();
   for (const auto& side : hull.edges.rowwise())
-    triangles.push_back({{middle, hull.points.row(side(0)).transpose(), hull.points.row(side(1)).transpose()}});
+    triangles.push_back(
+        {{middle, hull.points.row(side(0)).transpose(), hull.points.row(side(1)).transpose()}});
   return triangles;
 }
 

@@ -34,7 +34,8 @@ const Eigen::VectorXd* radii_of(const Primitive& primitive) {
   return cylinder ? &cylinder->radii : nullptr;
 }
 
-/// The image of a primitive. The corners of a mirrored cuboid are renamed, so that a right-handed box stays one.
+/// The image of a primitive. The corners of a mirrored cuboid are renamed, so that a right-handed box stays
+/// one.
 Primitive image_of(const Primitive& primitive, const Eigen::Isometry3d& map) {
   Primitive image = primitive;
   Points points = moved(control_points(primitive), map);
@@ -58,7 +59,8 @@ class Mean {
     const Points image = moved(control_points(primitive), map);
     for (std::size_t k = 0; k < to.size(); ++k) {
       points_.row(to[k]) += image.row(static_cast<Eigen::Index>(k));
-      if (const Eigen::VectorXd* radii = radii_of(primitive)) radii_(to[k]) += (*radii)(static_cast<Eigen::Index>(k));
+      if (const Eigen::VectorXd* radii = radii_of(primitive))
+        radii_(to[k]) += (*radii)(static_cast<Eigen::Index>(k));
     }
     ++count_;
   }
@@ -107,7 +109,8 @@ void align_axis(Eigen::Matrix3d& axes, std::vector<int>& fixed, const Eigen::Vec
   fixed.push_back(nearest);
 }
 
-/// A box turned to the mirror planes of `group`, its extents kept: a round plate holds a square box at any angle.
+/// A box turned to the mirror planes of `group`, its extents kept: a round plate holds a square box at any
+/// angle.
 Cuboid aligned(const Cuboid& cuboid, const std::vector<Eigen::Isometry3d>& group) {
   OrientedBox box = nearest_box(cuboid);
   std::vector<int> fixed;
@@ -152,7 +155,8 @@ class Idealiser {
     if (!boxes) return average(mean);
     // Averaging shrinks a box that lies askew a little; turning it does not, but may be the longer way.
     const Primitive turned = average(aligned(std::get<Cuboid>(primitive), orbit.group));
-    const bool turn = worst_miss(mean, orbit) > limit() || distance(turned, primitive) <= 1.5 * distance(mean, primitive);
+    const bool turn =
+        worst_miss(mean, orbit) > limit() || distance(turned, primitive) <= 1.5 * distance(mean, primitive);
     return average(turn ? turned : mean);
   }
 
@@ -169,11 +173,12 @@ class Idealiser {
 
   double error(int row, std::size_t kind) const {
     const PrimitiveFit& fit = structure_.parts[static_cast<std::size_t>(row)].fit;
-    return kind == 0 ? fit.cuboid_error : fit.cylinder_error.value_or(std::numeric_limits<double>::infinity());
+    return kind == 0 ? fit.cuboid_error
+                     : fit.cylinder_error.value_or(std::numeric_limits<double>::infinity());
   }
 
-  /// Same kind, same number of sections: the kind that fits better in sum, the best of its primitives copied to the
-  /// others.
+  /// Same kind, same number of sections: the kind that fits better in sum, the best of its primitives copied
+  /// to the others.
   void unify_kinds(const Orbit& orbit) {
     std::vector<std::size_t> best_of_kind;
     std::size_t winner = 0;
@@ -216,8 +221,9 @@ class Idealiser {
       const int row = static_cast<int>(r);
       if (symmetry_miss(structure_, relation) > most)
         return Contradiction{{row},
-                             describe(structure_, row) + " cannot hold exactly between primitives of this kind, "
-                                                         "together with the other symmetries of these parts"};
+                             describe(structure_, row) +
+                                 " cannot hold exactly between primitives of this kind, "
+                                 "together with the other symmetries of these parts"};
       for (const int one : relation.parts) try {
           validate(structure_.parts[static_cast<std::size_t>(one)].primitive, "");
         } catch (const InputError&) {
@@ -258,9 +264,13 @@ void Idealiser::idealise(const Orbit& orbit) {
 
 }  // namespace
 
-std::optional<Contradiction> try_idealise(Structure& structure) { return Idealiser(structure).run(); }
+std::optional<Contradiction> try_idealise(Structure& structure) {
+  return Idealiser(structure).run();
+}
 
-void make_symmetric(Structure& structure, const Orbit& orbit) { Idealiser(structure).idealise(orbit); }
+void make_symmetric(Structure& structure, const Orbit& orbit) {
+  Idealiser(structure).idealise(orbit);
+}
 
 double symmetry_miss(const Structure& structure, const Relation& relation) {
   return miss(structure.parts[static_cast<std::size_t>(relation.parts.front())].primitive,

@@ -33,7 +33,8 @@ std::vector<Action> actions_of(const Structure& structure) {
                                [&](const Action& one) { return equal(one.symmetry, relation.symmetry); });
     if (action == actions.end()) action = actions.insert(actions.end(), {relation.symmetry, {}});
     action->parts[relation.parts.front()] = relation.parts.back();
-    if (relation.symmetry.kind == SymmetryKind::reflection) action->parts[relation.parts.back()] = relation.parts.front();
+    if (relation.symmetry.kind == SymmetryKind::reflection)
+      action->parts[relation.parts.back()] = relation.parts.front();
   }
   return actions;
 }
@@ -42,7 +43,8 @@ Points moved(const Points& points, const Eigen::Isometry3d& map) {
   return (points * map.linear().transpose()).rowwise() + map.translation().transpose();
 }
 
-/// Largest distance between points of two joints, ends of lines either way; of a point and a line between their middles.
+/// Largest distance between points of two joints, ends of lines either way; of a point and a line between
+/// their middles.
 double distance(const Points& a, const Points& b) {
   if (a.rows() != b.rows()) return (a.colwise().mean() - b.colwise().mean()).norm();
   const Points reversed = b.colwise().reverse();
@@ -115,7 +117,8 @@ class JointSymmetry {
     const OrbitsOrContradiction found = find_orbits(curves);
     if (found.contradiction) return;
     for (const Orbit& orbit : found.orbits) make_symmetric(curves, orbit);
-    for (std::size_t k = 0; k < joints_.size(); ++k) joints_[k].points = control_points(curves.parts[k].primitive);
+    for (std::size_t k = 0; k < joints_.size(); ++k)
+      joints_[k].points = control_points(curves.parts[k].primitive);
   }
 
   const Structure& structure_;

@@ -23,7 +23,8 @@ using detail::PartSurface;
 constexpr double hidden_share = 0.75;
 
 void check(const JointOptions& options) {
-  if (!(options.reach > 0) || !std::isfinite(options.reach)) throw UsageError("the reach of joints must be positive");
+  if (!(options.reach > 0) || !std::isfinite(options.reach))
+    throw UsageError("the reach of joints must be positive");
   if (!(options.line_aspect >= 1)) throw UsageError("the aspect of line joints must be at least 1");
   if (!(options.least_line >= 0)) throw UsageError("the shortest line joint must not be negative");
   if (!(options.separate >= 0)) throw UsageError("the distance of separate joints must not be negative");
@@ -50,7 +51,8 @@ class JointFinder {
     std::vector<std::pair<int, int>> pairs;
     for (std::size_t a = 0; a < surfaces_.size(); ++a)
       for (std::size_t b = a + 1; b < surfaces_.size(); ++b)
-        if (may_meet(*surfaces_[a], *surfaces_[b])) pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
+        if (may_meet(*surfaces_[a], *surfaces_[b]))
+          pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
     std::vector<std::vector<Joint>> found(pairs.size());
     tbb::parallel_for(std::size_t{0}, pairs.size(),
                       [&](std::size_t k) { found[k] = joints_between(pairs[k].first, pairs[k].second); });
@@ -76,10 +78,12 @@ class JointFinder {
     const double smaller = std::min(first.size(), second.size());
     // Parts far smaller than the reach would meet everything around them.
     const double reach = std::min(options_.reach * size_, options_.separate * smaller);
-    std::vector<detail::ContactSpot> spots = contact_spots(first, second, {reach, options_.separate * smaller});
+    std::vector<detail::ContactSpot> spots =
+        contact_spots(first, second, {reach, options_.separate * smaller});
     if (const auto line = seam(spots, {a, b}, reach)) spots = {*line};
     std::vector<Joint> joints;
-    for (const detail::ContactSpot& spot : spots) joints.push_back({joint_at(spot, {a, b}, smaller), spot.region});
+    for (const detail::ContactSpot& spot : spots)
+      joints.push_back({joint_at(spot, {a, b}, smaller), spot.region});
     std::sort(joints.begin(), joints.end(), [](const Joint& one, const Joint& other) {
       const Points &p = one.relation.points, &q = other.relation.points;
       return std::lexicographical_compare(p.data(), p.data() + p.size(), q.data(), q.data() + q.size());
@@ -87,12 +91,14 @@ class JointFinder {
     return joints;
   }
 
-  /// Several spots in a row along the side of a cuboid are the seam that the cuboid has with the other part: a rail that
-  /// hangs on two pegs. The other part must be there between them; a bar between two arms has none.
-  std::optional<detail::ContactSpot> seam(const std::vector<detail::ContactSpot>& spots, const std::array<int, 2>& parts,
-                                          double reach) const {
+  /// Several spots in a row along the side of a cuboid are the seam that the cuboid has with the other part:
+  /// a rail that hangs on two pegs. The other part must be there between them; a bar between two arms has
+  /// none.
+  std::optional<detail::ContactSpot> seam(const std::vector<detail::ContactSpot>& spots,
+                                          const std::array<int, 2>& parts, double reach) const {
     const int bar = surface(parts[0]).size() < surface(parts[1]).size() ? 0 : 1;
-    if (spots.size() < 2 || !is_cuboid_[static_cast<std::size_t>(parts[static_cast<std::size_t>(bar)])]) return std::nullopt;
+    if (spots.size() < 2 || !is_cuboid_[static_cast<std::size_t>(parts[static_cast<std::size_t>(bar)])])
+      return std::nullopt;
     detail::ContactSpot all = spots[0];
     Points corners = spots[0].region.hull;
     for (std::size_t k = 1; k < spots.size(); ++k) {
@@ -120,8 +126,8 @@ class JointFinder {
 
   const PartSurface& surface(int part) const { return *surfaces_[static_cast<std::size_t>(part)]; }
 
-  /// Two bars that end in one leg overlap there, but it is the leg that holds them: what they share is smaller than what
-  /// each of them shares with the leg, and lies in it.
+  /// Two bars that end in one leg overlap there, but it is the leg that holds them: what they share is
+  /// smaller than what each of them shares with the leg, and lies in it.
   std::vector<Relation> without_hidden(const std::vector<Joint>& joints) const {
     const auto share_more = [&](int a, int b, const detail::HullSpread& region) {
       return std::any_of(joints.begin(), joints.end(), [&](const Joint& joint) {
@@ -155,7 +161,8 @@ class JointFinder {
     joint.parts = std::move(parts);
     joint.points.resize(line ? 2 : 1, 3);
     for (int k = 0; k < joint.points.rows(); ++k)
-      joint.points.row(k) = (region.centre + (line ? region.ranges(0, k) : 0) * region.axes.col(0)).transpose();
+      joint.points.row(k) =
+          (region.centre + (line ? region.ranges(0, k) : 0) * region.axes.col(0)).transpose();
     joint.residual = spot.gap / size_;
     return joint;
   }
@@ -168,9 +175,11 @@ class JointFinder {
 
 }  // namespace
 
-std::vector<Relation> find_joints(const Shape& shape, const std::vector<Part>& parts, const JointOptions& options) {
+std::vector<Relation> find_joints(const Shape& shape, const std::vector<Part>& parts,
+                                  const JointOptions& options) {
   check(options);
-  if (parts.size() != shape.part_names.size()) throw UsageError("joints need one primitive for each part of the shape");
+  if (parts.size() != shape.part_names.size())
+    throw UsageError("joints need one primitive for each part of the shape");
   return JointFinder(shape, parts, options).run();
 }
 

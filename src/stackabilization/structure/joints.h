@@ -7,9 +7,11 @@
 namespace stackabilization {
 
 struct JointOptions {
-  /// Parts whose surfaces come nearer than this meet, fraction of the diameter of the smallest ball around the shape.
+  /// Parts whose surfaces come nearer than this meet, fraction of the diameter of the smallest ball around
+  /// the shape.
   double reach = 0.01;
-  /// Regions of contact nearer than this are one joint, fraction of the diameter of the ball around the smaller part.
+  /// Regions of contact nearer than this are one joint, fraction of the diameter of the ball around the
+  /// smaller part.
   double separate = 0.15;
   /// A contact this many times longer than wide, and longer than `least_line`, is a line joint.
   double line_aspect = 4;
@@ -17,20 +19,22 @@ struct JointOptions {
   double least_line = 0.25;
 };
 
-/// Point and line joints of every pair of parts. Regions of contact are where the surfaces come within reach and what one
-/// part has inside the other: compact regions give a point joint at their centroid, elongated ones a line joint between
-/// their ends, separate ones a joint each. Whether a point is inside is decided by the part's surface where that is
-/// closed, else by its primitive, where that fits well. A joint inside a third part that both parts meet is left out: two
-/// bars that end in one leg are held by the leg. Several regions in a row along a cuboid, with the other part there between
-/// them, are one line joint, as the primitives would have it (a rail hung on pegs); a handle, which is a cylinder, keeps its
-/// two points.
+/// Point and line joints of every pair of parts. Regions of contact are where the surfaces come within reach
+/// and what one part has inside the other: compact regions give a point joint at their centroid, elongated
+/// ones a line joint between their ends, separate ones a joint each. Whether a point is inside is decided by
+/// the part's surface where that is closed, else by its primitive, where that fits well. A joint inside a
+/// third part that both parts meet is left out: two bars that end in one leg are held by the leg. Several
+/// regions in a row along a cuboid, with the other part there between them, are one line joint, as the
+/// primitives would have it (a rail hung on pegs); a handle, which is a cylinder, keeps its two points.
 ///
-/// The regions are found from edges and faces, without sampling; they are the same in every pose and at every scale, up
-/// to rounding and to the order of the joints of one pair, which is by their coordinates. Relation::residual is the gap
-/// left between the surfaces, fraction of the diameter of the ball around the shape.
+/// The regions are found from edges and faces, without sampling; they are the same in every pose and at every
+/// scale, up to rounding and to the order of the joints of one pair, which is by their coordinates.
+/// Relation::residual is the gap left between the surfaces, fraction of the diameter of the ball around the
+/// shape.
 ///
-/// `parts` are those of `shape`, in its order. Throws UsageError for options out of range, InputError when a part has no
-/// triangle of positive area.
-std::vector<Relation> find_joints(const Shape& shape, const std::vector<Part>& parts, const JointOptions& options = {});
+/// `parts` are those of `shape`, in its order. Throws UsageError for options out of range, InputError when a
+/// part has no triangle of positive area.
+std::vector<Relation> find_joints(const Shape& shape, const std::vector<Part>& parts,
+                                  const JointOptions& options = {});
 
 }  // namespace stackabilization

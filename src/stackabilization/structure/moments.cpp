@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-
 namespace stackabilization::detail {
 
 namespace {
@@ -51,7 +50,8 @@ Eigen::Vector3d cubic(const Moments& m) {
 Eigen::Matrix3d quartic(const Moments& m) {
   Eigen::Matrix3d sum;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) sum(i, j) = moment(m, i, j, 0, 0) + moment(m, i, j, 1, 1) + moment(m, i, j, 2, 2);
+    for (int j = 0; j < 3; ++j)
+      sum(i, j) = moment(m, i, j, 0, 0) + moment(m, i, j, 1, 1) + moment(m, i, j, 2, 2);
   return sum;
 }
 
@@ -71,14 +71,15 @@ double quartic_along(const Moments& m, const Eigen::Vector3d& d) {
   for (int x = 0; x <= 4; ++x)
     for (int y = 0; x + y <= 4; ++y) {
       const int z = 4 - x - y;
-      sum += factorial[4] / (factorial[x] * factorial[y] * factorial[z]) * std::pow(d.x(), x) * std::pow(d.y(), y) *
-             std::pow(d.z(), z) * m.monomials[static_cast<std::size_t>(order.row[x][y][z])];
+      sum += factorial[4] / (factorial[x] * factorial[y] * factorial[z]) * std::pow(d.x(), x) *
+             std::pow(d.y(), y) * std::pow(d.z(), z) *
+             m.monomials[static_cast<std::size_t>(order.row[x][y][z])];
     }
   return sum;
 }
 
-/// Circle (2 dimensions) or sphere (3) through a set, by the integrals of p p^T, p, p |p|^2, |p|^2 and |p|^4: the
-/// minimum of the integral of (|p|^2 + g . p + c)^2.
+/// Circle (2 dimensions) or sphere (3) through a set, by the integrals of p p^T, p, p |p|^2, |p|^2 and |p|^4:
+/// the minimum of the integral of (|p|^2 + g . p + c)^2.
 template <int Dimension>
 struct RoundFit {
   Eigen::Matrix<double, Dimension, Dimension> second;
@@ -107,7 +108,9 @@ Moments& Moments::operator+=(const Moments& other) {
   return *this;
 }
 
-Eigen::Vector3d Moments::first() const { return {moment(*this, 0), moment(*this, 1), moment(*this, 2)}; }
+Eigen::Vector3d Moments::first() const {
+  return {moment(*this, 0), moment(*this, 1), moment(*this, 2)};
+}
 
 Eigen::Matrix3d Moments::second() const {
   Eigen::Matrix3d sum;
@@ -125,8 +128,8 @@ Moments triangle_moments(const std::array<Eigen::Vector3d, 3>& corners, const Ei
   const double area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2;
   for (int ring = 0; ring < 2; ++ring)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Eigen::Vector3d p = (1 - 2 * place[ring]) * corners[k] +
-                                place[ring] * (corners[(k + 1) % 3] + corners[(k + 2) % 3]);
+      const Eigen::Vector3d p =
+          (1 - 2 * place[ring]) * corners[k] + place[ring] * (corners[(k + 1) % 3] + corners[(k + 2) % 3]);
       double power[3][5];
       for (int axis = 0; axis < 3; ++axis) {
         power[axis][0] = 1;
@@ -145,7 +148,8 @@ double plane_error(const Moments& m) {
   if (!(m.area() > 0)) return 0;
   const Eigen::Vector3d centre = m.first() / m.area();
   const Eigen::Matrix3d spread = m.second() - m.area() * centre * centre.transpose();
-  return std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>().computeDirect(spread, Eigen::EigenvaluesOnly)
+  return std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>()
+                           .computeDirect(spread, Eigen::EigenvaluesOnly)
                            .eigenvalues()(0));
 }
 

@@ -14,7 +14,8 @@ constexpr double size_tolerances = 10, absolute_size_tolerances = 0.1;
 double area_of(const Shape& shape) {
   double area = 0;
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-    area += (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0)).norm() / 2;
+    area +=
+        (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0)).norm() / 2;
   return area;
 }
 
@@ -65,7 +66,8 @@ std::optional<double> PartSurfaces::match(int a, int b, const Symmetry& symmetry
   }
   std::vector<double> both = distances(*from, *to, map);
   for (const double distance : distances(*to, *from, map.inverse())) both.push_back(distance);
-  const Agreement found = agreement(std::move(both), std::max(from->diagonal, to->diagonal) / unit_, options_);
+  const Agreement found =
+      agreement(std::move(both), std::max(from->diagonal, to->diagonal) / unit_, options_);
   if (!found.holds) return {};
   return found.residual * unit_ / diagonal_;
 }

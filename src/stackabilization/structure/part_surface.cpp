@@ -26,7 +26,9 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Triangle = Kernel::Triangle_3;
 using TrianglePrimitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>;
 
-Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) { return {p.x(), p.y(), p.z()}; }
+Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
 
 /// Fit error, fraction of the part's diagonal, up to which a primitive tells what is inside an open surface.
 constexpr double good_fit = 0.02;

@@ -10,8 +10,8 @@
 
 namespace stackabilization::detail {
 
-/// The surface of a part as what meets others: its triangles of positive area with their corners and edges, points of
-/// equal coordinates being one.
+/// The surface of a part as what meets others: its triangles of positive area with their corners and edges,
+/// points of equal coordinates being one.
 class PartSurface {
  public:
   struct Edge {
@@ -19,7 +19,8 @@ class PartSurface {
     std::vector<int> triangles;
   };
 
-  /// `part` stands in for a surface that is not closed: what its primitive holds is inside then, where it fits well.
+  /// `part` stands in for a surface that is not closed: what its primitive holds is inside then, where it
+  /// fits well.
   PartSurface(const Shape& surface, const Part& part);
   PartSurface(PartSurface&&) noexcept;
   ~PartSurface();
@@ -34,7 +35,8 @@ class PartSurface {
   /// Diameter of the smallest ball around the part, model units: its size in any pose.
   double size() const { return size_; }
 
-  /// For closed surfaces whether a ray from `point` meets the surface oddly often, the majority of three rays.
+  /// For closed surfaces whether a ray from `point` meets the surface oddly often, the majority of three
+  /// rays.
   bool contains(const Eigen::Vector3d& point) const;
 
   /// Distance from `point` to the surface, model units; looks at every triangle.

@@ -20,14 +20,14 @@ constexpr double nearly_parallel = 0.99, nearly_across = 0.05;  // cosines
 
 class PartSymmetry {
  public:
-  PartSymmetry(const Shape& shape, const std::vector<FoundSymmetry>& symmetries, const SymmetryOptions& options)
+  PartSymmetry(const Shape& shape, const std::vector<FoundSymmetry>& symmetries,
+               const SymmetryOptions& options)
       : options_(options), parts_(shape, options) {
     for (const FoundSymmetry& found : symmetries)
       if (found.symmetry.kind == SymmetryKind::reflection) candidates_.push_back(found.symmetry);
     for (const FoundSymmetry& found : symmetries)
       if (found.symmetry.kind == SymmetryKind::revolution)
-        for (const Symmetry& plane : detail::planes_through(found.symmetry))
-          candidates_.push_back(plane);
+        for (const Symmetry& plane : detail::planes_through(found.symmetry)) candidates_.push_back(plane);
   }
 
   std::vector<Relation> run() {
@@ -52,7 +52,9 @@ class PartSymmetry {
     });
   }
 
-  void append(const std::vector<Relation>& more) { relations_.insert(relations_.end(), more.begin(), more.end()); }
+  void append(const std::vector<Relation>& more) {
+    relations_.insert(relations_.end(), more.begin(), more.end());
+  }
 
   static Relation related(std::vector<int> parts, const Symmetry& symmetry, double residual) {
     const RelationType type = parts.size() == 1 ? RelationType::self_symmetry : RelationType::symmetry;
@@ -63,7 +65,8 @@ class PartSymmetry {
   std::pair<int, double> counterpart(int part, const Symmetry& plane) const {
     std::pair<int, double> best{-1, 0};
     for (int other = 0; other < parts_.count(); ++other)
-      if (const auto residual = parts_.match(part, other, plane); residual && (best.first < 0 || *residual < best.second))
+      if (const auto residual = parts_.match(part, other, plane);
+          residual && (best.first < 0 || *residual < best.second))
         best = {other, *residual};
     return best;
   }
@@ -82,8 +85,8 @@ class PartSymmetry {
     return relations;
   }
 
-  /// Three legs, five legs: planes that are not orthogonal to those there are count when they give a part the first
-  /// counterpart it has; otherwise its orbit under those there are is what the design keeps.
+  /// Three legs, five legs: planes that are not orthogonal to those there are count when they give a part the
+  /// first counterpart it has; otherwise its orbit under those there are is what the design keeps.
   void add_oblique_planes() {
     for (const Symmetry& candidate : candidates_) {
       const bool parallel = std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& plane) {
@@ -93,8 +96,8 @@ class PartSymmetry {
       const Symmetry plane = detail::fitted_to(planes_, candidate);
       const std::vector<Relation> relations = relations_under(plane);
       const bool joins = std::any_of(relations.begin(), relations.end(), [&](const Relation& relation) {
-        return relation.type == RelationType::symmetry &&
-               (!has(relation.parts[0], RelationType::symmetry) || !has(relation.parts[1], RelationType::symmetry));
+        return relation.type == RelationType::symmetry && (!has(relation.parts[0], RelationType::symmetry) ||
+                                                           !has(relation.parts[1], RelationType::symmetry));
       });
       if (!joins) continue;
       planes_.push_back(plane);
@@ -111,8 +114,9 @@ class PartSymmetry {
     return planes;
   }
 
-  /// The relations of a part of revolution; false when it is none. Bars that the shape mirrors end to end are left as bars:
-  /// their roundness is the business of their primitive, and being straight is none of the design's.
+  /// The relations of a part of revolution; false when it is none. Bars that the shape mirrors end to end are
+  /// left as bars: their roundness is the business of their primitive, and being straight is none of the
+  /// design's.
   bool add_revolution(int part) {
     const SymmetrySurface& surface = *parts_.part(part);
     const std::vector<Symmetry> axes = detail::revolutions(surface, options_, detail::Roundness::tolerant);
@@ -136,7 +140,8 @@ class PartSymmetry {
     if (through.empty())
       planes = detail::planes_through(axis);
     else if (through.size() == 1)
-      planes = {{SymmetryKind::reflection, axis.point, axis.axis.cross(through.front().axis).normalized(), 2}};
+      planes = {
+          {SymmetryKind::reflection, axis.point, axis.axis.cross(through.front().axis).normalized(), 2}};
     planes.push_back(axis);
     for (const Symmetry& symmetry : planes)
       relations_.push_back(related({part}, symmetry, parts_.match(part, part, symmetry).value_or(0)));
@@ -155,7 +160,8 @@ class PartSymmetry {
         planes.push_back(detail::to_model(surface, plane));
     }
     for (const Symmetry& plane : detail::canonical_reflections(surface, {&surface}, planes))
-      if (const auto residual = parts_.match(part, part, plane)) relations_.push_back(related({part}, plane, *residual));
+      if (const auto residual = parts_.match(part, part, plane))
+        relations_.push_back(related({part}, plane, *residual));
   }
 
   SymmetryOptions options_;

@@ -9,7 +9,8 @@ namespace stackabilization {
 
 namespace {
 
-/// Tangents, arc lengths and frusta all walk the pieces of the curve: piece i runs from section i to the next one.
+/// Tangents, arc lengths and frusta all walk the pieces of the curve: piece i runs from section i to the next
+/// one.
 Eigen::Index piece_count(const GeneralizedCylinder& cylinder) {
   return cylinder.centres.rows() - (cylinder.closed ? 0 : 1);
 }

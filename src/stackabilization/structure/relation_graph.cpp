@@ -19,18 +19,22 @@ Graph graph_of(const Structure& structure) {
   Graph graph(structure.parts.size());
   for (std::size_t r = 0; r < structure.relations.size(); ++r) {
     const std::vector<int>& parts = structure.relations[r].parts;
-    boost::add_edge(static_cast<std::size_t>(parts.front()), static_cast<std::size_t>(parts.back()), static_cast<int>(r),
-                    graph);
+    boost::add_edge(static_cast<std::size_t>(parts.front()), static_cast<std::size_t>(parts.back()),
+                    static_cast<int>(r), graph);
   }
   return graph;
 }
 
 std::string edge_style(RelationType type) {
   switch (type) {
-    case RelationType::symmetry: return "color=\"black:invis:black\"";
-    case RelationType::self_symmetry: return "style=dotted";
-    case RelationType::point_joint: return "color=green";
-    case RelationType::line_joint: return "color=red";
+    case RelationType::symmetry:
+      return "color=\"black:invis:black\"";
+    case RelationType::self_symmetry:
+      return "style=dotted";
+    case RelationType::point_joint:
+      return "color=green";
+    case RelationType::line_joint:
+      return "color=red";
   }
   return {};
 }
@@ -58,7 +62,9 @@ RelationGraph::RelationGraph(const Structure& structure) {
   data_ = std::move(data);
 }
 
-const std::vector<int>& RelationGraph::incident(int part) const { return data_->incident[static_cast<std::size_t>(part)]; }
+const std::vector<int>& RelationGraph::incident(int part) const {
+  return data_->incident[static_cast<std::size_t>(part)];
+}
 
 int RelationGraph::opposite(int relation, int part) const {
   const std::vector<int>& parts = data_->parts[static_cast<std::size_t>(relation)];

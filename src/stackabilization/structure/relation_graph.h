@@ -8,14 +8,15 @@
 
 namespace stackabilization {
 
-/// A structure as a graph: parts are nodes, relations edges, a self-symmetry a loop. What propagation walks along.
+/// A structure as a graph: parts are nodes, relations edges, a self-symmetry a loop. What propagation walks
+/// along.
 class RelationGraph {
  public:
   /// Precondition: every relation refers to existing parts (`validate`).
   explicit RelationGraph(const Structure& structure);
 
-  /// Rows of Structure::relations that name `part`, each once, in the order in which propagation follows them: symmetries,
-  /// self-symmetries, then joints, in each by row.
+  /// Rows of Structure::relations that name `part`, each once, in the order in which propagation follows
+  /// them: symmetries, self-symmetries, then joints, in each by row.
   const std::vector<int>& incident(int part) const;
 
   /// The part at the other end of `relation`, one of `incident(part)`; `part` itself for a self-symmetry.
@@ -32,8 +33,9 @@ class RelationGraph {
   std::shared_ptr<const Data> data_;
 };
 
-/// The graph in the DOT language, for Graphviz: a box for a cuboid, an ellipse for a cylinder; a double line for a
-/// symmetric pair, a dotted one for a self-symmetry, green for point joints, red for line joints. Deterministic.
+/// The graph in the DOT language, for Graphviz: a box for a cuboid, an ellipse for a cylinder; a double line
+/// for a symmetric pair, a dotted one for a self-symmetry, green for point joints, red for line joints.
+/// Deterministic.
 std::string graphviz(const Structure& structure);
 
 }  // namespace stackabilization

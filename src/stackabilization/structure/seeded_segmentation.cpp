@@ -79,7 +79,8 @@ void adopt_the_rest(const Shape& shape, std::vector<std::int32_t>& part) {
     Nearest& best = nearest[static_cast<std::size_t>(component[t])];
     for (int corner = 0; corner < 3; ++corner) {
       const SurfacePoint found = index.nearest(shape.corner(static_cast<Eigen::Index>(t), corner));
-      const std::int32_t owner = part[static_cast<std::size_t>(reached[static_cast<std::size_t>(found.triangle)])];
+      const std::int32_t owner =
+          part[static_cast<std::size_t>(reached[static_cast<std::size_t>(found.triangle)])];
       if (found.distance < best.distance) best = {found.distance, owner};
     }
   }

@@ -11,7 +11,8 @@ namespace stackabilization {
 namespace {
 
 PartSeeds& seeds_of(std::vector<PartSeeds>& parts, const std::string& name) {
-  const auto known = std::find_if(parts.begin(), parts.end(), [&](const PartSeeds& part) { return part.name == name; });
+  const auto known =
+      std::find_if(parts.begin(), parts.end(), [&](const PartSeeds& part) { return part.name == name; });
   if (known != parts.end()) return *known;
   parts.push_back({name, {}});
   return parts.back();
@@ -31,8 +32,8 @@ std::vector<PartSeeds> parse_seeds(std::string_view text, const std::string& nam
     for (; !token.empty(); token = cursor.token()) {
       const std::optional<std::int64_t> triangle = parse_integer(token);
       if (!triangle || *triangle < 0 || *triangle >= shape.triangle_count())
-        cursor.fail("expected a triangle between 0 and " + std::to_string(shape.triangle_count() - 1) + ", found " +
-                    in_quotes(token));
+        cursor.fail("expected a triangle between 0 and " + std::to_string(shape.triangle_count() - 1) +
+                    ", found " + in_quotes(token));
       const auto index = static_cast<std::size_t>(*triangle);
       if (seeded[index]) cursor.fail("triangle " + std::to_string(*triangle) + " is listed already");
       seeded[index] = true;

@@ -1,10 +1,9 @@
 #include "stackabilization/structure/segment_boundaries.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
-
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -29,7 +28,9 @@ constexpr double band_share = 0.5;
 /// ... and at most this share of the square root of the smaller part's area.
 constexpr double band_width = 0.2;
 
-double concavity(const SurfaceLink& link) { return std::clamp(-link.bend / (std::numbers::pi / 2), 0.0, 1.0); }
+double concavity(const SurfaceLink& link) {
+  return std::clamp(-link.bend / (std::numbers::pi / 2), 0.0, 1.0);
+}
 
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::bidirectionalS>;
 using FlowGraph = boost::adjacency_list<
@@ -37,7 +38,8 @@ using FlowGraph = boost::adjacency_list<
     boost::property<boost::vertex_index_t, long,
                     boost::property<boost::vertex_color_t, boost::default_color_type,
                                     boost::property<boost::vertex_distance_t, long,
-                                                    boost::property<boost::vertex_predecessor_t, Traits::edge_descriptor>>>>,
+                                                    boost::property<boost::vertex_predecessor_t,
+                                                                    Traits::edge_descriptor>>>>,
     boost::property<boost::edge_capacity_t, double,
                     boost::property<boost::edge_residual_capacity_t, double,
                                     boost::property<boost::edge_reverse_t, Traits::edge_descriptor>>>>;
@@ -101,7 +103,8 @@ class BoundarySmoother {
   double total_ = 1;  ///< more than any cut costs
 };
 
-std::vector<std::pair<std::int32_t, double>> BoundarySmoother::depths(std::int32_t of, std::int32_t other) const {
+std::vector<std::pair<std::int32_t, double>> BoundarySmoother::depths(std::int32_t of,
+                                                                      std::int32_t other) const {
   std::map<std::int32_t, double> depth;
   using Entry = std::pair<double, std::int32_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
@@ -121,7 +124,8 @@ std::vector<std::pair<std::int32_t, double>> BoundarySmoother::depths(std::int32
     if (distance > depth[t]) continue;
     for (const std::int32_t l : graph_.links_of[static_cast<std::size_t>(t)]) {
       const std::int32_t next = graph_.across(l, t);
-      if (part_at(next) == of) reach(next, distance + (graph_.centres.row(next) - graph_.centres.row(t)).norm());
+      if (part_at(next) == of)
+        reach(next, distance + (graph_.centres.row(next) - graph_.centres.row(t)).norm());
     }
   }
   return {depth.begin(), depth.end()};
@@ -163,14 +167,19 @@ void BoundarySmoother::recut(std::int32_t a, std::int32_t b) {
     }
   }
   const std::vector<char> with_a = cut.run();
-  for (std::size_t n = 0; n < triangles.size(); ++n) part_[static_cast<std::size_t>(triangles[n])] = with_a[n] ? a : b;
+  for (std::size_t n = 0; n < triangles.size(); ++n)
+    part_[static_cast<std::size_t>(triangles[n])] = with_a[n] ? a : b;
 }
 
 }  // namespace
 
-double crossing_cost(const SurfaceLink& link) { return 1 + (crossing_factor - 1) * concavity(link); }
+double crossing_cost(const SurfaceLink& link) {
+  return 1 + (crossing_factor - 1) * concavity(link);
+}
 
-double cutting_cost(const SurfaceLink& link) { return link.length / (1 + (cutting_factor - 1) * concavity(link)); }
+double cutting_cost(const SurfaceLink& link) {
+  return link.length / (1 + (cutting_factor - 1) * concavity(link));
+}
 
 std::vector<std::int32_t> with_smooth_boundaries(const SurfaceGraph& graph, std::vector<std::int32_t> part,
                                                  const std::vector<char>& fixed) {
@@ -194,7 +203,8 @@ std::vector<std::int32_t> without_crumbs(const SurfaceGraph& graph, const std::v
   }
   std::map<std::size_t, std::map<std::size_t, double>> ties;
   for (const SurfaceLink& link : graph.links) {
-    const std::size_t a = pieces.root(static_cast<std::size_t>(link.a)), b = pieces.root(static_cast<std::size_t>(link.b));
+    const std::size_t a = pieces.root(static_cast<std::size_t>(link.a)),
+                      b = pieces.root(static_cast<std::size_t>(link.b));
     if (a == b) continue;
     ties[a][b] += cutting_cost(link);
     ties[b][a] += cutting_cost(link);

@@ -8,18 +8,19 @@
 /// Not installed.
 namespace stackabilization::detail {
 
-/// What a step across a link costs a path that avoids concave edges, and what a cut along it costs: both times its
-/// length. 90 degrees and more count alike.
+/// What a step across a link costs a path that avoids concave edges, and what a cut along it costs: both
+/// times its length. 90 degrees and more count alike.
 double crossing_cost(const SurfaceLink& link);
 double cutting_cost(const SurfaceLink& link);
 
-/// Moves the boundary between each two neighbouring parts to the cheapest cut near it: short, along concave edges
-/// (minimum cut, after Katz and Tal 2003). Triangles for which `fixed` is set keep their part; it may be empty.
+/// Moves the boundary between each two neighbouring parts to the cheapest cut near it: short, along concave
+/// edges (minimum cut, after Katz and Tal 2003). Triangles for which `fixed` is set keep their part; it may
+/// be empty.
 std::vector<std::int32_t> with_smooth_boundaries(const SurfaceGraph& graph, std::vector<std::int32_t> part,
                                                  const std::vector<char>& fixed);
 
-/// Makes every part connected and at least `smallest_area` large: lesser pieces join the neighbour they are tied to
-/// most, the smallest first. Parts are renumbered in order of their first triangles.
+/// Makes every part connected and at least `smallest_area` large: lesser pieces join the neighbour they are
+/// tied to most, the smallest first. Parts are renumbered in order of their first triangles.
 std::vector<std::int32_t> without_crumbs(const SurfaceGraph& graph, const std::vector<std::int32_t>& part,
                                          double smallest_area);
 

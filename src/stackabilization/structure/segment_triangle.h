@@ -14,7 +14,8 @@ Eigen::Vector3d nearest_on_triangle(const Eigen::Vector3d& point, const Corners&
 /// Where a segment comes nearest to a triangle.
 struct Approach {
   double distance = 0;
-  double low = 0, high = 0;  ///< from here to there, in [0, 1] along the segment, it is as near, up to `resolution`
+  double low = 0,
+         high = 0;  ///< from here to there, in [0, 1] along the segment, it is as near, up to `resolution`
 };
 
 /// Precondition: segment of positive length, triangle of positive area. `resolution` is in model units.

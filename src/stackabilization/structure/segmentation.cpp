@@ -22,9 +22,12 @@ void check(const SegmentationOptions& options) {
     throw UsageError("the share of the smallest part must be at least 0 and below 1");
 }
 
-std::int32_t count_of(const std::vector<std::int32_t>& part) { return *std::max_element(part.begin(), part.end()) + 1; }
+std::int32_t count_of(const std::vector<std::int32_t>& part) {
+  return *std::max_element(part.begin(), part.end()) + 1;
+}
 
-/// `shape` with the parts of `part`, a number per triangle, by falling area; equal ones by their first triangles.
+/// `shape` with the parts of `part`, a number per triangle, by falling area; equal ones by their first
+/// triangles.
 Shape with_parts_by_area(const Shape& shape, const std::vector<std::int32_t>& part) {
   const auto count = static_cast<std::size_t>(count_of(part));
   std::vector<double> area(count, 0);
@@ -48,7 +51,8 @@ Shape with_parts_by_area(const Shape& shape, const std::vector<std::int32_t>& pa
     rank[order[k]] = static_cast<std::int32_t>(k);
     result.part_names.push_back("part_" + std::to_string(k + 1));
   }
-  for (std::size_t t = 0; t < part.size(); ++t) result.triangle_part[t] = rank[static_cast<std::size_t>(part[t])];
+  for (std::size_t t = 0; t < part.size(); ++t)
+    result.triangle_part[t] = rank[static_cast<std::size_t>(part[t])];
   return result;
 }
 
@@ -59,14 +63,16 @@ std::vector<std::int32_t> cut(const Shape& component, const SegmentationOptions&
   for (Eigen::Index t = 0; t < component.triangle_count(); ++t)
     for (int k = 0; k < 3; ++k) box.extend(component.corner(t, k));
   detail::link_shells(graph, component, detail::ContactRule().reach * box.diagonal().norm());
-  std::vector<std::int32_t> part = options.method == SegmentationMethod::shape_diameter
-                                       ? detail::shape_diameter_parts(component, graph, options.parts)
-                                       : detail::fitted_parts(component, graph, options.parts, options.smallest_part);
+  std::vector<std::int32_t> part =
+      options.method == SegmentationMethod::shape_diameter
+          ? detail::shape_diameter_parts(component, graph, options.parts)
+          : detail::fitted_parts(component, graph, options.parts, options.smallest_part);
   part = detail::with_smooth_boundaries(graph, std::move(part), {});
   return detail::without_crumbs(graph, part, options.smallest_part * graph.areas.sum());
 }
 
-Shape cut_components(const Shape& shape, const std::vector<std::int32_t>& component, const SegmentationOptions& options) {
+Shape cut_components(const Shape& shape, const std::vector<std::int32_t>& component,
+                     const SegmentationOptions& options) {
   std::vector<std::vector<std::int32_t>> rows(static_cast<std::size_t>(count_of(component)));
   for (std::size_t t = 0; t < component.size(); ++t)
     rows[static_cast<std::size_t>(component[t])].push_back(static_cast<std::int32_t>(t));
@@ -74,7 +80,8 @@ Shape cut_components(const Shape& shape, const std::vector<std::int32_t>& compon
   std::int32_t next = 0;
   for (const std::vector<std::int32_t>& members : rows) {
     const std::vector<std::int32_t> pieces = cut(detail::extracted(shape, members), options);
-    for (std::size_t k = 0; k < members.size(); ++k) part[static_cast<std::size_t>(members[k])] = next + pieces[k];
+    for (std::size_t k = 0; k < members.size(); ++k)
+      part[static_cast<std::size_t>(members[k])] = next + pieces[k];
     next += count_of(pieces);
   }
   return with_parts_by_area(shape, part);
@@ -89,7 +96,8 @@ Shape segmented(const Shape& shape, const SegmentationOptions& options) {
   if (options.method == SegmentationMethod::automatic && shape.part_count() > 1) return shape;
   const std::vector<std::int32_t> component = detail::merged_components(shape);
   const bool components_do = options.method == SegmentationMethod::automatic && count_of(component) > 1;
-  if (options.method == SegmentationMethod::components || components_do) return with_parts_by_area(shape, component);
+  if (options.method == SegmentationMethod::components || components_do)
+    return with_parts_by_area(shape, component);
   return cut_components(shape, component, options);
 }
 

@@ -13,33 +13,35 @@ enum class SegmentationMethod {
   components,      ///< connected components, those that touch over an area merged
   primitives,      ///< components, each cut by hierarchical fitting of primitives (Attene et al. 2006)
   shape_diameter,  ///< components, each cut by the shape-diameter function (Shapira et al. 2008, CGAL)
-  automatic,       ///< given when the shape has several parts; else components when there are several; else primitives
+  automatic,       ///< given when the shape has several parts; else components when there are several; else
+                   ///< primitives
 };
 
 struct SegmentationOptions {
   SegmentationMethod method = SegmentationMethod::automatic;
-  int parts = 0;                ///< parts to end with per component; 0: as many as the shape has by the method's measure
-  double smallest_part = 0.005;  ///< crumbs below this share of the component's area join a neighbour; in [0, 1)
+  int parts = 0;  ///< parts to end with per component; 0: as many as the shape has by the method's measure
+  double smallest_part =
+      0.005;  ///< crumbs below this share of the component's area join a neighbour; in [0, 1)
 };
 
-/// `shape` with its parts replaced: same vertices and triangles in the same order. Parts are called "part_1" and on,
-/// largest area first, except with `given`. Boundaries between parts run along short, concave paths; every part of a
-/// component is connected. Deterministic.
+/// `shape` with its parts replaced: same vertices and triangles in the same order. Parts are called "part_1"
+/// and on, largest area first, except with `given`. Boundaries between parts run along short, concave paths;
+/// every part of a component is connected. Deterministic.
 ///
-/// Guarantee: one label per triangle, also for open, non-manifold and several-shelled shapes. Throws UsageError for
-/// options outside their ranges and InputError when `validate(shape)` fails.
+/// Guarantee: one label per triangle, also for open, non-manifold and several-shelled shapes. Throws
+/// UsageError for options outside their ranges and InputError when `validate(shape)` fails.
 Shape segmented(const Shape& shape, const SegmentationOptions& options = {});
 
 /// Triangles that a user has marked as belonging to a part.
 struct PartSeeds {
-  std::string name;                    ///< of the part
+  std::string name;                     ///< of the part
   std::vector<std::int32_t> triangles;  ///< at least one
 };
 
-/// Interactive segmentation (after Meng et al. 2011): every triangle gets the part whose seeds it is nearest to, over
-/// the surface, where crossing a concave edge costs most. `shape`'s own parts are not looked at. Components without
-/// seeds go to the part that is nearest in space. Throws UsageError when a part has no seed, a triangle is seeded twice
-/// or does not exist.
+/// Interactive segmentation (after Meng et al. 2011): every triangle gets the part whose seeds it is nearest
+/// to, over the surface, where crossing a concave edge costs most. `shape`'s own parts are not looked at.
+/// Components without seeds go to the part that is nearest in space. Throws UsageError when a part has no
+/// seed, a triangle is seeded twice or does not exist.
 Shape segmented(const Shape& shape, const std::vector<PartSeeds>& seeds);
 
 }  // namespace stackabilization

@@ -57,18 +57,23 @@ OutwardMesh outward_mesh(const Shape& shape, const SurfaceGraph& graph) {
 }
 
 /// Segments of the faces for a number of clusters.
-std::vector<std::int32_t> segments(const Mesh& mesh, const std::vector<double>& diameters, std::size_t clusters) {
+std::vector<std::int32_t> segments(const Mesh& mesh, const std::vector<double>& diameters,
+                                   std::size_t clusters) {
   std::vector<std::size_t> segment(diameters.size());
-  const auto diameter_map = boost::make_iterator_property_map(diameters.begin(), get(boost::face_index, mesh));
+  const auto diameter_map =
+      boost::make_iterator_property_map(diameters.begin(), get(boost::face_index, mesh));
   const auto segment_map = boost::make_iterator_property_map(segment.begin(), get(boost::face_index, mesh));
   CGAL::segmentation_from_sdf_values(mesh, diameter_map, segment_map, clusters);
   return {segment.begin(), segment.end()};
 }
 
-std::size_t different(const std::vector<std::int32_t>& part) { return std::set<std::int32_t>(part.begin(), part.end()).size(); }
+std::size_t different(const std::vector<std::int32_t>& part) {
+  return std::set<std::int32_t>(part.begin(), part.end()).size();
+}
 
 /// Lets the smallest part join the neighbour it is tied to most until `parts` are left.
-std::vector<std::int32_t> reduced(const SurfaceGraph& graph, std::vector<std::int32_t> part, std::size_t parts) {
+std::vector<std::int32_t> reduced(const SurfaceGraph& graph, std::vector<std::int32_t> part,
+                                  std::size_t parts) {
   while (different(part) > parts) {
     std::map<std::int32_t, double> area;
     for (std::size_t t = 0; t < part.size(); ++t) area[part[t]] += graph.areas(static_cast<Eigen::Index>(t));
@@ -89,9 +94,11 @@ std::vector<std::int32_t> shape_diameter_parts(const Shape& shape, const Surface
   if (outward.triangle_of_face.empty()) return whole;
   std::vector<double> diameters(outward.triangle_of_face.size());
   try {
-    const auto map = boost::make_iterator_property_map(diameters.begin(), get(boost::face_index, outward.mesh));
+    const auto map =
+        boost::make_iterator_property_map(diameters.begin(), get(boost::face_index, outward.mesh));
     const auto [least, most] = CGAL::sdf_values(outward.mesh, map);
-    if (!(least < most) || !std::all_of(diameters.begin(), diameters.end(), [](double d) { return d >= 0 && d <= 1; }))
+    if (!(least < most) ||
+        !std::all_of(diameters.begin(), diameters.end(), [](double d) { return d >= 0 && d <= 1; }))
       return whole;
     std::vector<std::int32_t> found;
     std::size_t clusters = parts > 0 ? 2 : default_clusters;
@@ -100,7 +107,8 @@ std::vector<std::int32_t> shape_diameter_parts(const Shape& shape, const Surface
     } while (parts > 0 && different(found) < static_cast<std::size_t>(parts) && ++clusters <= most_clusters);
     // Triangles without area have no face: a part of their own, which is no part but a crumb.
     std::vector<std::int32_t> part(whole.size(), -1);
-    for (std::size_t f = 0; f < found.size(); ++f) part[static_cast<std::size_t>(outward.triangle_of_face[f])] = found[f];
+    for (std::size_t f = 0; f < found.size(); ++f)
+      part[static_cast<std::size_t>(outward.triangle_of_face[f])] = found[f];
     part = without_crumbs(graph, part, 0);
     return parts > 0 ? reduced(graph, std::move(part), static_cast<std::size_t>(parts)) : part;
   } catch (const std::exception&) {  // CGAL's own checks

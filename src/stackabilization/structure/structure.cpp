@@ -6,7 +6,9 @@ namespace stackabilization {
 
 namespace {
 
-bool is_joint(RelationType type) { return type == RelationType::point_joint || type == RelationType::line_joint; }
+bool is_joint(RelationType type) {
+  return type == RelationType::point_joint || type == RelationType::line_joint;
+}
 
 void validate_relation(const Relation& relation, std::size_t part_count, const std::string& place) {
   const std::size_t wanted = relation.type == RelationType::self_symmetry ? 1 : 2;
@@ -14,8 +16,10 @@ void validate_relation(const Relation& relation, std::size_t part_count, const s
     throw InputError(place + " needs " + std::to_string(wanted) + " part(s), found " +
                      std::to_string(relation.parts.size()));
   for (const int part : relation.parts)
-    if (part < 0 || static_cast<std::size_t>(part) >= part_count) throw InputError(place + " names a part that does not exist");
-  if (wanted == 2 && relation.parts[0] == relation.parts[1]) throw InputError(place + " relates a part to itself");
+    if (part < 0 || static_cast<std::size_t>(part) >= part_count)
+      throw InputError(place + " names a part that does not exist");
+  if (wanted == 2 && relation.parts[0] == relation.parts[1])
+    throw InputError(place + " relates a part to itself");
   if (is_joint(relation.type)) {
     const Eigen::Index points = relation.type == RelationType::point_joint ? 1 : 2;
     if (relation.points.rows() != points || !relation.points.allFinite())
@@ -33,10 +37,14 @@ void validate_relation(const Relation& relation, std::size_t part_count, const s
 
 std::string name_of(RelationType type) {
   switch (type) {
-    case RelationType::symmetry: return "symmetry";
-    case RelationType::self_symmetry: return "self_symmetry";
-    case RelationType::point_joint: return "point_joint";
-    case RelationType::line_joint: return "line_joint";
+    case RelationType::symmetry:
+      return "symmetry";
+    case RelationType::self_symmetry:
+      return "self_symmetry";
+    case RelationType::point_joint:
+      return "point_joint";
+    case RelationType::line_joint:
+      return "line_joint";
   }
   return {};
 }
@@ -50,8 +58,8 @@ void validate(const StructuredShape& structured) {
   for (std::size_t k = 0; k < structure.parts.size(); ++k) {
     const Part& part = structure.parts[k];
     if (part.name != structured.shape.part_names[k])
-      throw InputError("part " + std::to_string(k) + " of the structure is called '" + part.name + "', that of the shape '" +
-                       structured.shape.part_names[k] + "'");
+      throw InputError("part " + std::to_string(k) + " of the structure is called '" + part.name +
+                       "', that of the shape '" + structured.shape.part_names[k] + "'");
     validate(part.primitive, part.name);
   }
   for (std::size_t k = 0; k < structure.relations.size(); ++k)

@@ -12,9 +12,9 @@ namespace stackabilization {
 
 /// How well the two kinds of primitive hold a part: see fitting.h for what the errors measure.
 struct PrimitiveFit {
-  double cuboid_error = 0;              ///< fraction of the part's bounding-box diagonal
+  double cuboid_error = 0;               ///< fraction of the part's bounding-box diagonal
   std::optional<double> cylinder_error;  ///< the same; nothing where no cylinder could be fitted
-  std::string note;                     ///< one clause on what was done to the part first; may be empty
+  std::string note;                      ///< one clause on what was done to the part first; may be empty
 };
 
 /// A part of a shape and what stands for it.
@@ -37,8 +37,8 @@ struct Relation {
 
 /// Parts, primitives and relations of one shape at rest.
 ///
-/// The primitives satisfy every symmetry relation exactly, up to rounding, also where the mesh does so only nearly:
-/// they are the idealised design, and the mesh rides on them with its irregularities.
+/// The primitives satisfy every symmetry relation exactly, up to rounding, also where the mesh does so only
+/// nearly: they are the idealised design, and the mesh rides on them with its irregularities.
 struct Structure {
   std::vector<Part> parts;           ///< one per part of the shape, in its order
   std::vector<Symmetry> symmetries;  ///< of the whole shape, best first
@@ -55,8 +55,8 @@ struct StructuredShape {
 /// "symmetry", "self_symmetry", "point_joint", "line_joint".
 std::string name_of(RelationType type);
 
-/// Throws InputError, naming the part or relation, unless there is one primitive per part of `shape` under its name
-/// and every relation refers to existing parts and has what its type needs.
+/// Throws InputError, naming the part or relation, unless there is one primitive per part of `shape` under
+/// its name and every relation refers to existing parts and has what its type needs.
 void validate(const StructuredShape& structured);
 
 }  // namespace stackabilization

@@ -126,12 +126,15 @@ void GraphBuilder::turn_outward() {
   DisjointSets pieces(places_.size());
   for_each_edge(sides_, [&](std::size_t begin, std::size_t end) {
     if (end - begin == 2)
-      pieces.join(static_cast<std::size_t>(sides_[begin].triangle), static_cast<std::size_t>(sides_[begin + 1].triangle));
+      pieces.join(static_cast<std::size_t>(sides_[begin].triangle),
+                  static_cast<std::size_t>(sides_[begin + 1].triangle));
   });
   const Eigen::Index m = shape_.triangle_count();
   Points moment = Points::Zero(m, 3);
   Eigen::VectorXd area = Eigen::VectorXd::Zero(m), volume = Eigen::VectorXd::Zero(m);
-  const auto piece = [&](Eigen::Index t) { return static_cast<Eigen::Index>(pieces.root(static_cast<std::size_t>(t))); };
+  const auto piece = [&](Eigen::Index t) {
+    return static_cast<Eigen::Index>(pieces.root(static_cast<std::size_t>(t)));
+  };
   for (Eigen::Index t = 0; t < m; ++t) {
     moment.row(piece(t)) += graph_.areas(t) * graph_.centres.row(t);
     area(piece(t)) += graph_.areas(t);
@@ -139,7 +142,8 @@ void GraphBuilder::turn_outward() {
   for (Eigen::Index t = 0; t < m; ++t) {
     const Eigen::Index p = piece(t);
     if (area(p) > 0)
-      volume(p) += graph_.areas(t) * (graph_.centres.row(t) - moment.row(p) / area(p)).dot(graph_.normals.row(t));
+      volume(p) +=
+          graph_.areas(t) * (graph_.centres.row(t) - moment.row(p) / area(p)).dot(graph_.normals.row(t));
   }
   for (Eigen::Index t = 0; t < m; ++t)
     if (volume(piece(t)) < 0) graph_.normals.row(t) *= -1;
@@ -149,7 +153,8 @@ double GraphBuilder::bend(const Side& a, const Side& b) const {
   const Eigen::Vector3d n = graph_.normals.row(a.triangle), m = graph_.normals.row(b.triangle);
   if (n.isZero(0) || m.isZero(0)) return 0;
   const double angle = std::atan2(n.cross(m).norm(), n.dot(m));
-  const Eigen::Vector3d across = (graph_.centres.row(b.triangle) - graph_.centres.row(a.triangle)).transpose();
+  const Eigen::Vector3d across =
+      (graph_.centres.row(b.triangle) - graph_.centres.row(a.triangle)).transpose();
   return across.dot(n - m) <= 0 ? angle : -angle;
 }
 
@@ -162,7 +167,8 @@ void GraphBuilder::link_across_edges() {
         const auto k = std::find(corners.begin(), corners.end(), place) - corners.begin();
         return shape_.corner(a.triangle, static_cast<int>(k));
       };
-      // Where sheets meet there is no outside to tell convex from concave by: a corner on one side at least is concave.
+      // Where sheets meet there is no outside to tell convex from concave by: a corner on one side at least
+      // is concave.
       double angle = bend(a, b);
       if (end - begin > 2) angle = -std::min(std::abs(angle), std::numbers::pi - std::abs(angle));
       link(a.triangle, b.triangle, (corner(a.low) - corner(a.high)).norm(), angle);
@@ -176,7 +182,8 @@ void GraphBuilder::link_across_points() {
     for (const std::int32_t place : places_[t]) {
       std::int32_t& known = first[static_cast<std::size_t>(place)];
       if (known < 0) known = static_cast<std::int32_t>(t);
-      if (joined_.root(static_cast<std::size_t>(known)) != joined_.root(t)) link(known, static_cast<std::int32_t>(t), 0, 0);
+      if (joined_.root(static_cast<std::size_t>(known)) != joined_.root(t))
+        link(known, static_cast<std::int32_t>(t), 0, 0);
     }
 }
 
@@ -193,7 +200,9 @@ std::vector<std::int32_t> numbered(DisjointSets& sets, std::size_t count) {
 
 }  // namespace
 
-SurfaceGraph surface_graph(const Shape& shape) { return GraphBuilder(shape).run(); }
+SurfaceGraph surface_graph(const Shape& shape) {
+  return GraphBuilder(shape).run();
+}
 
 std::vector<std::int32_t> connected_components(const Shape& shape) {
   const std::vector<Corners> places = places_of(shape);
@@ -256,7 +265,8 @@ void link_shells(SurfaceGraph& graph, const Shape& shape, double reach) {
   for (std::size_t t = 0; t < shell.size(); ++t) {
     if (shell[t] == largest) continue;
     const SurfacePoint found = index.nearest(graph.centres.row(static_cast<Eigen::Index>(t)).transpose());
-    const Contact contact{found.distance, static_cast<std::int32_t>(t), host[static_cast<std::size_t>(found.triangle)]};
+    const Contact contact{found.distance, static_cast<std::int32_t>(t),
+                          host[static_cast<std::size_t>(found.triangle)]};
     Contact& best = nearest[static_cast<std::size_t>(shell[t])];
     if (contact.distance < best.distance) best = contact;
     if (contact.distance <= reach) add(contact);

@@ -13,14 +13,15 @@ namespace stackabilization::detail {
 struct SurfaceLink {
   std::int32_t a, b;
   double length;  ///< of the shared edge, model units; 0 where they share a point or nothing but their place
-  double bend;    ///< angle between the normals in radians, positive across a convex edge, negative across a concave one
+  double bend;    ///< angle between the normals in radians, positive across a convex edge, negative across a
+                  ///< concave one
 };
 
 /// Triangles as nodes, neighbourhood as links.
 struct SurfaceGraph {
-  Eigen::VectorXd areas;     ///< model units squared
-  Points centres;            ///< of the triangles
-  Points normals;            ///< unit and outward as far as that can be told; zero where the area is
+  Eigen::VectorXd areas;  ///< model units squared
+  Points centres;         ///< of the triangles
+  Points normals;         ///< unit and outward as far as that can be told; zero where the area is
   std::vector<SurfaceLink> links;
   std::vector<std::vector<std::int32_t>> links_of;  ///< per triangle rows of `links`
 
@@ -31,16 +32,16 @@ struct SurfaceGraph {
   }
 };
 
-/// The graph of all triangles, degenerate ones included. It is connected where the triangles are through common
-/// points: across edges first, across points where no edge does. A piece of surface is turned so that its volume seen
-/// from its centre is positive.
+/// The graph of all triangles, degenerate ones included. It is connected where the triangles are through
+/// common points: across edges first, across points where no edge does. A piece of surface is turned so that
+/// its volume seen from its centre is positive.
 SurfaceGraph surface_graph(const Shape& shape);
 
 /// Numbers of connected components through common points, per triangle, in order of their first triangles.
 std::vector<std::int32_t> connected_components(const Shape& shape);
 
-/// Joins the shells of a graph that belong together in space: each is linked to the largest one where it lies within
-/// `reach` (model units) of it, at its nearest triangle otherwise.
+/// Joins the shells of a graph that belong together in space: each is linked to the largest one where it lies
+/// within `reach` (model units) of it, at its nearest triangle otherwise.
 void link_shells(SurfaceGraph& graph, const Shape& shape, double reach);
 
 /// Rows of `shape`, in their order, as a shape of one part.

@@ -33,13 +33,14 @@ class SurfaceIndex {
 
 /// Points spread over a surface.
 struct SurfaceSamples {
-  Points points;                       ///< n x 3
-  Points normals;                      ///< n x 3 unit normals of their triangles
+  Points points;                        ///< n x 3
+  Points normals;                       ///< n x 3 unit normals of their triangles
   std::vector<std::int32_t> triangles;  ///< n
 };
 
-/// `count` points, each standing for the same area: stratified along the triangles in their order, low-discrepancy within
-/// them. Deterministic, and moves with the shape. Throws InputError when no triangle has a positive area.
+/// `count` points, each standing for the same area: stratified along the triangles in their order,
+/// low-discrepancy within them. Deterministic, and moves with the shape. Throws InputError when no triangle
+/// has a positive area.
 SurfaceSamples surface_samples(const Shape& shape, int count);
 
 }  // namespace stackabilization

@@ -27,8 +27,10 @@ class PatchClustering {
     const double scale = box.diagonal().norm() > 0 ? 1 / box.diagonal().norm() : 1;
     for (std::int32_t t = 0; t < graph.size(); ++t) {
       std::array<Eigen::Vector3d, 3> corners;
-      for (int k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)] = (shape.corner(t, k) - box.center()) * scale;
-      clusters_[static_cast<std::size_t>(t)].moments = triangle_moments(corners, graph.normals.row(t).transpose());
+      for (int k = 0; k < 3; ++k)
+        corners[static_cast<std::size_t>(k)] = (shape.corner(t, k) - box.center()) * scale;
+      clusters_[static_cast<std::size_t>(t)].moments =
+          triangle_moments(corners, graph.normals.row(t).transpose());
     }
     for (const SurfaceLink& link : graph.links) {
       clusters_[static_cast<std::size_t>(link.a)].neighbours.insert(link.b);

@@ -19,8 +19,8 @@ struct Symmetry {
   int order = 2;                                    ///< of a rotation; not used otherwise
 };
 
-/// The map p -> Q p + t of a symmetry: its reflection (det Q = -1), its rotation by 2 pi / order, and for a revolution
-/// the half turn, whose fixed points are the axis.
+/// The map p -> Q p + t of a symmetry: its reflection (det Q = -1), its rotation by 2 pi / order, and for a
+/// revolution the half turn, whose fixed points are the axis.
 Eigen::Isometry3d isometry_of(const Symmetry& symmetry);
 
 /// The reflection that swaps a and b. Precondition: a != b.

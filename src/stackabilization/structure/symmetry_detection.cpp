@@ -23,8 +23,8 @@ using detail::SymmetrySurface;
 constexpr int dense_samples = 1200;
 constexpr double rough_reach = 0.1;  // of candidates, own frame
 constexpr double same_normal = 0.999, same_offset = 0.02;
-constexpr double nearly_across = 0.05;                         // cosine
-constexpr double off_principal = 0.05;                         // of the trace of the second moments
+constexpr double nearly_across = 0.05;  // cosine
+constexpr double off_principal = 0.05;  // of the trace of the second moments
 constexpr double shadow_cosine = 0.85, shadow_factor = 10;
 constexpr std::size_t most_reflections = 64;
 constexpr int highest_order = 12;
@@ -43,7 +43,8 @@ class Detection {
   std::vector<FoundSymmetry> run() {
     revolutions_ = detail::revolutions(surface_, options_, detail::Roundness::faceted);
     // A body of revolution is symmetric in every plane through its axis; those are left out.
-    for (const Symmetry& axis : revolutions_) try_reflection({SymmetryKind::reflection, axis.point, axis.axis, 2});
+    for (const Symmetry& axis : revolutions_)
+      try_reflection({SymmetryKind::reflection, axis.point, axis.axis, 2});
     if (revolutions_.empty()) {
       find_reflections();
       drop_shadows();
@@ -79,7 +80,8 @@ class Detection {
   }
 
   void find_reflections() {
-    const Eigen::Matrix3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(surface_.spread).eigenvectors();
+    const Eigen::Matrix3d moments =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(surface_.spread).eigenvectors();
     for (const Eigen::Matrix3d& axes : {surface_.box.axes, moments})
       for (int k = 0; k < 3; ++k)
         try_reflection({SymmetryKind::reflection, Eigen::Vector3d::Zero(), axes.col(k), 2});
@@ -99,7 +101,8 @@ class Detection {
         }
   }
 
-  /// Facets and flutes make planes between true ones fit nearly, too. A plane goes when one at a small angle is far better.
+  /// Facets and flutes make planes between true ones fit nearly, too. A plane goes when one at a small angle
+  /// is far better.
   void drop_shadows() {
     const auto shadow = [&](const FoundSymmetry& found) {
       return std::any_of(reflections_.begin(), reflections_.end(), [&](const FoundSymmetry& other) {
@@ -175,9 +178,8 @@ class Detection {
       for (std::size_t j = 0; j < i; ++j) {
         const Eigen::Vector3d line =
             reflections_[i].symmetry.axis.cross(reflections_[j].symmetry.axis).normalized();
-        if (std::any_of(axes.begin(), axes.end(), [&](const Symmetry& axis) {
-              return std::abs(axis.axis.dot(line)) > same_normal;
-            }))
+        if (std::any_of(axes.begin(), axes.end(),
+                        [&](const Symmetry& axis) { return std::abs(axis.axis.dot(line)) > same_normal; }))
           continue;
         axes.push_back(common_axis(line));
       }
@@ -198,7 +200,8 @@ class Detection {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(normals);
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (int k = 1; k < 3; ++k)
-      point += solver.eigenvectors().col(k) * solver.eigenvectors().col(k).dot(offsets) / solver.eigenvalues()(k);
+      point +=
+          solver.eigenvectors().col(k) * solver.eigenvectors().col(k).dot(offsets) / solver.eigenvalues()(k);
     return {SymmetryKind::rotation, point, solver.eigenvectors().col(0), count};
   }
 
@@ -209,7 +212,8 @@ class Detection {
   }
 
   std::vector<Symmetry> axis_candidates() const {
-    const Eigen::Matrix3d moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(surface_.spread).eigenvectors();
+    const Eigen::Matrix3d moments =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(surface_.spread).eigenvectors();
     std::vector<Symmetry> axes;
     const auto add = [&](const Eigen::Vector3d& axis) {
       const bool known = std::any_of(axes.begin(), axes.end(), [&](const Symmetry& other) {
@@ -229,8 +233,9 @@ class Detection {
     const auto plausible = [&](int order) {
       axis.order = order;
       const Symmetry rough = detail::refined(surface_, axis, rough_reach, Effort::sparse);
-      return detail::verify(surface_, rough, detail::loosened(options_), Effort::sparse).holds ? std::optional(rough)
-                                                                                               : std::nullopt;
+      return detail::verify(surface_, rough, detail::loosened(options_), Effort::sparse).holds
+                 ? std::optional(rough)
+                 : std::nullopt;
     };
     // A power of it is a rotation of prime order.
     const std::array primes{2, 3, 5, 7, 11};
@@ -240,7 +245,8 @@ class Detection {
       if (!rough) continue;
       const double reach = 3 * options_.tolerance * surface_.scale;
       const Symmetry fine = detail::refined(surface_, *rough, reach, Effort::dense);
-      if (detail::verify(surface_, fine, options_, Effort::dense).holds && stands_out(fine) && !on_reflection(fine.axis))
+      if (detail::verify(surface_, fine, options_, Effort::dense).holds && stands_out(fine) &&
+          !on_reflection(fine.axis))
         return fine;
     }
     return {};
@@ -254,7 +260,8 @@ class Detection {
       Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
       map.linear() = turn;
       map.translation() = rotation.point - turn * rotation.point;
-      return detail::agreement(detail::image_distances(surface_.index, surface_.medium.points, map), 1, options_)
+      return detail::agreement(detail::image_distances(surface_.index, surface_.medium.points, map), 1,
+                               options_)
           .residual;
     };
     const double here = misfit(1);

@@ -10,7 +10,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// The symmetry group of the icosahedron, the largest that is no symmetry of a body of revolution, has 120 members.
+/// The symmetry group of the icosahedron, the largest that is no symmetry of a body of revolution, has 120
+/// members.
 constexpr std::size_t largest_group = 120;
 
 class OrbitFinder {
@@ -28,10 +29,11 @@ class OrbitFinder {
 
  private:
   bool has_symmetry(int part) const {
-    return std::any_of(structure_.relations.begin(), structure_.relations.end(), [&](const Relation& relation) {
-      return (relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry) &&
-             std::count(relation.parts.begin(), relation.parts.end(), part) > 0;
-    });
+    return std::any_of(
+        structure_.relations.begin(), structure_.relations.end(), [&](const Relation& relation) {
+          return (relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry) &&
+                 std::count(relation.parts.begin(), relation.parts.end(), part) > 0;
+        });
   }
 
   void reach(int part, const Eigen::Isometry3d& from_first) {
@@ -64,20 +66,24 @@ class OrbitFinder {
 
   Eigen::Isometry3d from_first(int part) const {
     const auto p = static_cast<std::size_t>(part);
-    return result_.orbits[static_cast<std::size_t>(orbit_of_[p])].from_first[static_cast<std::size_t>(place_[p])];
+    return result_.orbits[static_cast<std::size_t>(orbit_of_[p])]
+        .from_first[static_cast<std::size_t>(place_[p])];
   }
 
   /// Largest coordinate that matters: what rounding is measured by.
   double scale(const Orbit& orbit) const {
-    const Points points = control_points(structure_.parts[static_cast<std::size_t>(orbit.parts[0])].primitive);
+    const Points points =
+        control_points(structure_.parts[static_cast<std::size_t>(orbit.parts[0])].primitive);
     return points.cwiseAbs().maxCoeff() + structure_.diagonal;
   }
 
   bool same(const Orbit& orbit, const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
-    const Points points = control_points(structure_.parts[static_cast<std::size_t>(orbit.parts[0])].primitive);
+    const Points points =
+        control_points(structure_.parts[static_cast<std::size_t>(orbit.parts[0])].primitive);
     const double limit = tolerance::relative * scale(orbit);
     const Eigen::Vector3d middle = points.colwise().mean().transpose();
-    return (a * middle - b * middle).norm() <= limit && (a.linear() - b.linear()).norm() <= tolerance::relative;
+    return (a * middle - b * middle).norm() <= limit &&
+           (a.linear() - b.linear()).norm() <= tolerance::relative;
   }
 
   bool close_group(Orbit& orbit) {
@@ -87,7 +93,8 @@ class OrbitFinder {
     for (std::size_t r = 0; r < structure_.relations.size(); ++r) {
       const Relation& relation = structure_.relations[r];
       const bool is_self = relation.type == RelationType::self_symmetry;
-      if ((!is_self && relation.type != RelationType::symmetry) || std::count(tree_.begin(), tree_.end(), r) > 0 ||
+      if ((!is_self && relation.type != RelationType::symmetry) ||
+          std::count(tree_.begin(), tree_.end(), r) > 0 ||
           std::count(orbit.parts.begin(), orbit.parts.end(), relation.parts[0]) == 0)
         continue;
       const Eigen::Isometry3d generator = from_first(relation.parts.back()).inverse() *
@@ -103,7 +110,8 @@ class OrbitFinder {
   }
 
   bool contains(const Orbit& orbit, const Eigen::Isometry3d& map) const {
-    return std::any_of(orbit.group.begin(), orbit.group.end(), [&](const auto& one) { return same(orbit, one, map); });
+    return std::any_of(orbit.group.begin(), orbit.group.end(),
+                       [&](const auto& one) { return same(orbit, one, map); });
   }
 
   bool generate(Orbit& orbit, const std::vector<Eigen::Isometry3d>& generators) const {
@@ -119,8 +127,7 @@ class OrbitFinder {
   void contradict(const std::vector<int>& relations) {
     Contradiction contradiction;
     const int parts = structure_.relations[static_cast<std::size_t>(relations.back())].parts.front();
-    const Orbit& orbit =
-        result_.orbits[static_cast<std::size_t>(orbit_of_[static_cast<std::size_t>(parts)])];
+    const Orbit& orbit = result_.orbits[static_cast<std::size_t>(orbit_of_[static_cast<std::size_t>(parts)])];
     for (const std::size_t r : tree_)
       if (std::count(orbit.parts.begin(), orbit.parts.end(), structure_.relations[r].parts[0]) > 0)
         contradiction.relations.push_back(static_cast<int>(r));
@@ -144,7 +151,9 @@ class OrbitFinder {
 
 }  // namespace
 
-OrbitsOrContradiction find_orbits(const Structure& structure) { return OrbitFinder(structure).run(); }
+OrbitsOrContradiction find_orbits(const Structure& structure) {
+  return OrbitFinder(structure).run();
+}
 
 std::string describe(const Structure& structure, int relation) {
   const Relation& one = structure.relations[static_cast<std::size_t>(relation)];

@@ -11,9 +11,10 @@ namespace stackabilization::detail {
 
 /// Parts that symmetry relations tie together, with how each of them is reached from the first.
 struct Orbit {
-  std::vector<int> parts;                  ///< in the order they are reached, the least first
+  std::vector<int> parts;                     ///< in the order they are reached, the least first
   std::vector<Eigen::Isometry3d> from_first;  ///< per entry of `parts`: takes the first part there
-  std::vector<Eigen::Isometry3d> group;    ///< what must take the first part onto itself; the identity comes first
+  std::vector<Eigen::Isometry3d>
+      group;  ///< what must take the first part onto itself; the identity comes first
 };
 
 /// Relations that cannot hold together.
@@ -27,9 +28,9 @@ struct OrbitsOrContradiction {
   std::optional<Contradiction> contradiction;
 };
 
-/// Follows the symmetry relations breadth first. What a loop of relations, or a self-symmetry, does to the first part
-/// generates a group, which must be finite: two mirror planes a little apart, say, generate translations, which no part
-/// allows.
+/// Follows the symmetry relations breadth first. What a loop of relations, or a self-symmetry, does to the
+/// first part generates a group, which must be finite: two mirror planes a little apart, say, generate
+/// translations, which no part allows.
 OrbitsOrContradiction find_orbits(const Structure& structure);
 
 /// "relation 3 (symmetry of 'leg_1' and 'leg_2')".

@@ -51,7 +51,9 @@ struct Linearization {
     const double square = scale * scale;
     return (square / (square + distances.array().square())).square();
   }
-  Information information(double scale) const { return slopes.transpose() * weights(scale).asDiagonal() * slopes; }
+  Information information(double scale) const {
+    return slopes.transpose() * weights(scale).asDiagonal() * slopes;
+  }
 };
 
 Linearization linearized(const SymmetrySurface& surface, const Symmetry& symmetry, const Points& points) {
@@ -64,15 +66,16 @@ Linearization linearized(const SymmetrySurface& surface, const Symmetry& symmetr
       const Eigen::Vector3d image = map * points.row(k).transpose();
       const SurfacePoint nearest = surface.index.nearest(image);
       // On the surface itself the distance has no gradient; a step along the normal is what leaves it.
-      const Eigen::Vector3d gradient = nearest.distance > tolerance::relative
-                                           ? Eigen::Vector3d((image - nearest.point) / nearest.distance)
-                                           : Eigen::Vector3d(surface.normals.row(nearest.triangle).transpose());
+      const Eigen::Vector3d gradient =
+          nearest.distance > tolerance::relative
+              ? Eigen::Vector3d((image - nearest.point) / nearest.distance)
+              : Eigen::Vector3d(surface.normals.row(nearest.triangle).transpose());
       const Eigen::Vector3d arm = points.row(k).transpose() - symmetry.point, turned_arm = map.linear() * arm;
       result.distances(k) = nearest.distance;
       for (int f = 0; f < freedoms; ++f) {
         const auto& [turn, shift] = motions[static_cast<std::size_t>(f)];
-        result.slopes(k, f) =
-            gradient.dot(turn.cross(turned_arm) - map.linear() * turn.cross(arm) + shift - map.linear() * shift);
+        result.slopes(k, f) = gradient.dot(turn.cross(turned_arm) - map.linear() * turn.cross(arm) + shift -
+                                           map.linear() * shift);
       }
     }
   });
@@ -82,7 +85,8 @@ Linearization linearized(const SymmetrySurface& surface, const Symmetry& symmetr
 /// The smallest share of the knowledge about any freedom that `part` keeps of `whole`.
 double share(const Information& part, const Information& whole) {
   const Information floor = Information::Identity() * (tolerance::relative * (whole.trace() + 1));
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Information>(part + floor, whole + floor, Eigen::EigenvaluesOnly)
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Information>(part + floor, whole + floor,
+                                                               Eigen::EigenvaluesOnly)
       .eigenvalues()
       .minCoeff();
 }

@@ -169,13 +169,15 @@ Agreement agreement(std::vector<double> distances, double diagonal, const Symmet
   Agreement result;
   result.residual = std::sqrt(inner / std::max<double>(1, static_cast<double>(supported)));
   result.support = static_cast<double>(first_outer - distances.begin()) / count;
-  result.holds = result.residual <= options.tolerance && result.support >= options.support &&
-                 std::sqrt(outer / count) <= options.tolerance &&
-                 distances[quantile(distances.size(), outlying_samples)] <= deepest_detail(options) * diagonal;
+  result.holds =
+      result.residual <= options.tolerance && result.support >= options.support &&
+      std::sqrt(outer / count) <= options.tolerance &&
+      distances[quantile(distances.size(), outlying_samples)] <= deepest_detail(options) * diagonal;
   return result;
 }
 
-std::vector<double> image_distances(const SurfaceIndex& index, const Points& points, const Eigen::Affine3d& map) {
+std::vector<double> image_distances(const SurfaceIndex& index, const Points& points,
+                                    const Eigen::Affine3d& map) {
   std::vector<double> distances(static_cast<std::size_t>(points.rows()));
   tbb::parallel_for(tbb::blocked_range<Eigen::Index>(0, points.rows(), 64), [&](const auto& range) {
     for (Eigen::Index k = range.begin(); k < range.end(); ++k)
@@ -190,7 +192,8 @@ Agreement verify(const SymmetrySurface& surface, const Symmetry& symmetry, const
   const Eigen::Isometry3d map = isometry_of(symmetry);
   std::vector<double> distances = image_distances(surface.index, points, map);
   if (symmetry.kind == SymmetryKind::rotation && symmetry.order > 2)
-    for (const double distance : image_distances(surface.index, points, map.inverse())) distances.push_back(distance);
+    for (const double distance : image_distances(surface.index, points, map.inverse()))
+      distances.push_back(distance);
   for (double& distance : distances) distance /= surface.scale;
   Agreement result = agreement(std::move(distances), 1 / surface.scale, options);
   result.residual *= surface.scale;
@@ -240,12 +243,12 @@ bool turns_into_itself(const SymmetrySurface& surface, const Symmetry& axis, con
     std::vector<double> distances = image_distances(surface.index, samples.points, isometry_of(turn));
     const Eigen::Map<const Eigen::ArrayXd> all(distances.data(), samples.points.rows());
     const double close = counterpart * options.tolerance * surface.scale;
-    const double square =
-        (all <= close).select(all.square(), 0).matrix().dot(sideways.weights);
+    const double square = (all <= close).select(all.square(), 0).matrix().dot(sideways.weights);
     least = std::min(least, square);
     most = std::max(most, square);
     for (double& distance : distances) distance /= surface.scale;
-    if (!agreement(std::move(distances), 1 / surface.scale, {options.tolerance, without_detail}).holds) return false;
+    if (!agreement(std::move(distances), 1 / surface.scale, {options.tolerance, without_detail}).holds)
+      return false;
   }
   return roundness == Roundness::tolerant ||
          std::sqrt(most - least) <= facet_allowance * options.tolerance * sideways.radius;
@@ -261,7 +264,8 @@ std::optional<Symmetry> revolution_about(const SymmetrySurface& surface, const E
   const Symmetry start{SymmetryKind::revolution, Eigen::Vector3d::Zero(), direction.normalized(), 2};
   if (!balanced(surface.spread, start.axis)) return {};
   if (!verify(surface, start, loosened(options), Effort::sparse).holds) return {};
-  const Symmetry better = refined(surface, start, counterpart * options.tolerance * surface.scale, Effort::dense);
+  const Symmetry better =
+      refined(surface, start, counterpart * options.tolerance * surface.scale, Effort::dense);
   // The moments know the axis exactly when nothing is missing, also of prisms with an odd number of sides.
   const Agreement before = verify(surface, start, options, Effort::dense);
   const Agreement after = verify(surface, better, options, Effort::dense);
@@ -274,8 +278,10 @@ std::optional<Symmetry> revolution_about(const SymmetrySurface& surface, const E
 
 }  // namespace
 
-std::vector<Symmetry> revolutions(const SymmetrySurface& surface, const SymmetryOptions& options, Roundness roundness) {
-  const Eigen::Matrix3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(surface.spread).eigenvectors();
+std::vector<Symmetry> revolutions(const SymmetrySurface& surface, const SymmetryOptions& options,
+                                  Roundness roundness) {
+  const Eigen::Matrix3d principal =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(surface.spread).eigenvectors();
   std::vector<Symmetry> found;
   for (const Eigen::Matrix3d& axes : {principal, surface.box.axes})
     for (int k = 0; k < 3; ++k) {
@@ -284,7 +290,8 @@ std::vector<Symmetry> revolutions(const SymmetrySurface& surface, const Symmetry
         return std::abs(other.axis.dot(axis)) > same_direction;
       });
       if (known || found.size() == 3) continue;
-      if (const auto revolution = revolution_about(surface, axis, options, roundness)) found.push_back(*revolution);
+      if (const auto revolution = revolution_about(surface, axis, options, roundness))
+        found.push_back(*revolution);
     }
   return found;
 }

@@ -10,16 +10,16 @@
 
 namespace stackabilization::detail {
 
-/// A surface prepared for questions about its symmetries, in a frame of its own: origin in the area centroid, unit the
-/// diagonal of the minimal oriented box, so that nothing depends on pose and size.
+/// A surface prepared for questions about its symmetries, in a frame of its own: origin in the area centroid,
+/// unit the diagonal of the minimal oriented box, so that nothing depends on pose and size.
 struct SymmetrySurface {
   Eigen::Vector3d centroid;  ///< of the area, model units
   double diagonal;           ///< of the minimal box, model units; positive
   OrientedBox box;           ///< minimal, own frame
   Eigen::Matrix3d spread;    ///< second moments of the area per area, own frame
   double area;               ///< model units squared
-  /// What tolerances are fractions of, own frame: 1, but for slender shapes three times the middle extent of the box. A bar
-  /// would otherwise be symmetric in any plane along it.
+  /// What tolerances are fractions of, own frame: 1, but for slender shapes three times the middle extent of
+  /// the box. A bar would otherwise be symmetric in any plane along it.
   double scale;
   SurfaceIndex index;                    ///< own frame
   Points normals;                        ///< unit, per triangle; 0 for those without area
@@ -44,32 +44,36 @@ struct Agreement {
   bool holds = false;
 };
 
-/// Do the distances, in the unit that `options.tolerance` is a fraction of, tell of a symmetry? So when: the share
-/// `options.support` of them has at most the tolerance as root mean square and lies within three times of it; the others,
-/// spread over all, add at most the tolerance again; and all but outliers stay below 0.4 (1 - `options.support`) of the
-/// diagonal. The last two tell missing detail (a label, a button) from missing members (a leg, a handle), which may have
-/// even less area. The diagonal is `diagonal` in that unit.
+/// Do the distances, in the unit that `options.tolerance` is a fraction of, tell of a symmetry? So when: the
+/// share `options.support` of them has at most the tolerance as root mean square and lies within three times
+/// of it; the others, spread over all, add at most the tolerance again; and all but outliers stay below 0.4
+/// (1 - `options.support`) of the diagonal. The last two tell missing detail (a label, a button) from missing
+/// members (a leg, a handle), which may have even less area. The diagonal is `diagonal` in that unit.
 Agreement agreement(std::vector<double> distances, double diagonal, const SymmetryOptions& options);
 
 /// Distances of the images of `points` under `map` from the surface.
-std::vector<double> image_distances(const SurfaceIndex& index, const Points& points, const Eigen::Affine3d& map);
+std::vector<double> image_distances(const SurfaceIndex& index, const Points& points,
+                                    const Eigen::Affine3d& map);
 
 enum class Effort { sparse, dense };
 
 /// Is `symmetry` (own frame) one of the surface? Residual as a fraction of the diagonal.
-Agreement verify(const SymmetrySurface& surface, const Symmetry& symmetry, const SymmetryOptions& options, Effort effort);
+Agreement verify(const SymmetrySurface& surface, const Symmetry& symmetry, const SymmetryOptions& options,
+                 Effort effort);
 
 /// What may be called a surface of revolution.
 enum class Roundness {
   /// It agrees with itself turned by any angle, without any detail that stands out.
   tolerant,
-  /// And facets, where it faces sideways, stand out by less than one and a half tolerances of its radius: regular prisms of
+  /// And facets, where it faces sideways, stand out by less than one and a half tolerances of its radius:
+  /// regular prisms of
   /// 14 sides and more are round, of 12 and less are not.
   faceted,
 };
 
 /// All axes (own frame) of revolution through, or near, the centroid; three for a sphere.
-std::vector<Symmetry> revolutions(const SymmetrySurface& surface, const SymmetryOptions& options, Roundness roundness);
+std::vector<Symmetry> revolutions(const SymmetrySurface& surface, const SymmetryOptions& options,
+                                  Roundness roundness);
 
 /// What a symmetry that is not refined yet must satisfy.
 SymmetryOptions loosened(const SymmetryOptions& options);

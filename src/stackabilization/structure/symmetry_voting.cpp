@@ -12,17 +12,18 @@ namespace stackabilization::detail {
 namespace {
 
 constexpr int distance_bins = 16;
-constexpr Eigen::Index voter_stride = 5;        // every fifth sample votes, with all others
+constexpr Eigen::Index voter_stride = 5;         // every fifth sample votes, with all others
 constexpr double most_different = 0.03;          // share of the area within any of the distances
 constexpr double most_nearer = 0.05;             // difference of the distances from the centroid, own frame
-constexpr double least_turn = 0.4;                // radians
+constexpr double least_turn = 0.4;               // radians
 constexpr double least_pair = 0.1;               // pairs nearer than this say little, own frame
 constexpr double facing = 0.9;                   // cosine from which on normals count as agreeing
 constexpr double weight_of_disagreeing = 0.2;    // noise spoils normals, so they do not veto
 constexpr double cell = 0.12, bandwidth = 0.12;  // of unit normals and of offsets, own frame
 constexpr std::size_t most_seeds = 60, most_peaks = 24;
 
-/// Per sample the share of the surface within growing distances: a shape distribution (Osada et al. 2002) seen from it.
+/// Per sample the share of the surface within growing distances: a shape distribution (Osada et al. 2002)
+/// seen from it.
 using Signatures = Eigen::Matrix<float, Eigen::Dynamic, distance_bins, Eigen::RowMajor>;
 
 Signatures signatures_of(const Points& points) {
@@ -41,8 +42,8 @@ Signatures signatures_of(const Points& points) {
   return counts / static_cast<float>(points.rows());
 }
 
-/// A point of the space of planes or axes: the unit normal, or axis, and the offset from the centroid. (n, d) and (-n, -d)
-/// are the same plane.
+/// A point of the space of planes or axes: the unit normal, or axis, and the offset from the centroid. (n, d)
+/// and (-n, -d) are the same plane.
 struct Vote {
   Eigen::Vector4d place;
   double weight;
@@ -50,7 +51,8 @@ struct Vote {
 
 std::array<int, 4> cell_of(const Eigen::Vector4d& place) {
   std::array<int, 4> key;
-  for (int k = 0; k < 4; ++k) key[static_cast<std::size_t>(k)] = static_cast<int>(std::floor(place(k) / cell));
+  for (int k = 0; k < 4; ++k)
+    key[static_cast<std::size_t>(k)] = static_cast<int>(std::floor(place(k) / cell));
   return key;
 }
 
@@ -64,13 +66,15 @@ std::vector<Peak> fullest_cells(const std::vector<Vote>& votes) {
   std::map<std::array<int, 4>, Peak> cells;
   for (const Vote& vote : votes)
     for (const double sign : {1.0, -1.0}) {
-      Peak& peak = cells.try_emplace(cell_of(sign * vote.place), Peak{Eigen::Vector4d::Zero(), 0}).first->second;
+      Peak& peak =
+          cells.try_emplace(cell_of(sign * vote.place), Peak{Eigen::Vector4d::Zero(), 0}).first->second;
       peak.place += sign * vote.weight * vote.place;
       peak.weight += vote.weight;
     }
   std::vector<Peak> peaks;
   for (const auto& [key, peak] : cells) peaks.push_back({peak.place / peak.weight, peak.weight});
-  std::stable_sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.weight > b.weight; });
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const Peak& a, const Peak& b) { return a.weight > b.weight; });
   if (peaks.size() > most_seeds) peaks.resize(most_seeds);
   return peaks;
 }
@@ -102,7 +106,8 @@ std::vector<Peak> peaks_of(const std::vector<Vote>& votes) {
     });
     if (!known) peaks.push_back(peak);
   }
-  std::stable_sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return a.weight > b.weight; });
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const Peak& a, const Peak& b) { return a.weight > b.weight; });
   if (peaks.size() > most_peaks) peaks.resize(most_peaks);
   return peaks;
 }
@@ -119,7 +124,8 @@ void for_each_pair(const Points& points, const Visit& visit) {
         visit(i, j);
 }
 
-/// Columns: towards the point, the normal across that, and their cross product; nothing where they hardly differ.
+/// Columns: towards the point, the normal across that, and their cross product; nothing where they hardly
+/// differ.
 std::optional<Eigen::Matrix3d> frame_of(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
   if (point.norm() < least_pair) return {};
   Eigen::Matrix3d frame;
@@ -145,7 +151,8 @@ std::vector<Symmetry> voted_reflections(const SymmetrySurface& surface, const Sy
     if (std::abs(offset) > reach) return;
     const Eigen::Vector3d image = isometry_of(plane).linear() * samples.normals.row(i).transpose();
     const bool agree = std::abs(image.dot(samples.normals.row(j))) >= facing;
-    votes.push_back({{plane.axis.x(), plane.axis.y(), plane.axis.z(), offset}, agree ? 1 : weight_of_disagreeing});
+    votes.push_back(
+        {{plane.axis.x(), plane.axis.y(), plane.axis.z(), offset}, agree ? 1 : weight_of_disagreeing});
   });
   std::vector<Symmetry> planes;
   for (const Peak& peak : peaks_of(votes)) {
@@ -162,7 +169,8 @@ std::vector<Symmetry> voted_axes(const SymmetrySurface& surface) {
     const auto from = frame_of(samples.points.row(i), samples.normals.row(i));
     const auto to = frame_of(samples.points.row(j), samples.normals.row(j));
     if (!from || !to) return;
-    if (std::abs((*from).col(0).dot(samples.normals.row(i)) - (*to).col(0).dot(samples.normals.row(j))) > 1 - facing)
+    if (std::abs((*from).col(0).dot(samples.normals.row(i)) - (*to).col(0).dot(samples.normals.row(j))) >
+        1 - facing)
       return;
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(*to * from->transpose()));
     if (turn.angle() < least_turn) return;

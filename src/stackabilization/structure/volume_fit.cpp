@@ -26,8 +26,9 @@ class VolumeFit {
     for (const Eigen::Matrix3d& frame : frames()) {
       best = std::min(best, cuboid(frame));
       for (int axis = 0; axis < 3; ++axis) {
-        const Eigen::Matrix3d turned = (Eigen::Matrix3d() << frame.col((axis + 1) % 3), frame.col((axis + 2) % 3),
-                                        frame.col(axis)).finished();
+        const Eigen::Matrix3d turned =
+            (Eigen::Matrix3d() << frame.col((axis + 1) % 3), frame.col((axis + 2) % 3), frame.col(axis))
+                .finished();
         best = std::min({best, revolution(turned), ring(turned)});
       }
     }
@@ -53,8 +54,8 @@ Eigen::Matrix3d frame_along(const Eigen::Vector3d& first, const Eigen::Vector3d&
   return frame;
 }
 
-/// Axes of the normals, which avoid the axis of a cylinder and gather along those of a box; axes of the solid; and the
-/// normals of the two largest faces across each other, for cubes.
+/// Axes of the normals, which avoid the axis of a cylinder and gather along those of a box; axes of the
+/// solid; and the normals of the two largest faces across each other, for cubes.
 std::vector<Eigen::Matrix3d> VolumeFit::frames() const {
   Eigen::Matrix3d normals = Eigen::Matrix3d::Zero(), spread = Eigen::Matrix3d::Zero();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -66,7 +67,8 @@ std::vector<Eigen::Matrix3d> VolumeFit::frames() const {
   centre /= area;
   for (const Chord* c : chords_) {
     normals += c->area * c->normal * c->normal.transpose();
-    for (const Eigen::Vector3d& p : {c->start, c->end}) spread += c->area * (p - centre) * (p - centre).transpose();
+    for (const Eigen::Vector3d& p : {c->start, c->end})
+      spread += c->area * (p - centre) * (p - centre).transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> of_normals(normals), of_spread(spread);
   return {of_normals.eigenvectors(), of_spread.eigenvectors(), dominant_frame()};
@@ -149,7 +151,8 @@ struct Revolution {
   double squared_radius(double z) const { return profile(0) + z * (profile(1) + z * profile(2)); }
   double excess(const Eigen::Vector3d& p) const { return p.head<2>().squaredNorm() - squared_radius(p.z()); }
 
-  /// Length of the solid from `p` along the unit vector `d`; how far `p` is off the surface when it is outside.
+  /// Length of the solid from `p` along the unit vector `d`; how far `p` is off the surface when it is
+  /// outside.
   double exit(const Eigen::Vector3d& p, const Eigen::Vector3d& d) const {
     const double c = excess(p);
     if (c >= 0) return p.head<2>().norm() - std::sqrt(std::max(0.0, squared_radius(p.z())));
@@ -168,7 +171,9 @@ struct Revolution {
 };
 
 /// Of a chord through the wall of a vessel the end on its outside.
-const Eigen::Vector3d& outer_end(const Chord& chord) { return chord.openness >= 0.5 ? chord.start : chord.end; }
+const Eigen::Vector3d& outer_end(const Chord& chord) {
+  return chord.openness >= 0.5 ? chord.start : chord.end;
+}
 
 double VolumeFit::revolution(const Eigen::Matrix3d& frame) const {
   std::vector<Eigen::Vector2d> side;
