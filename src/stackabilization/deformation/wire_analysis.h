@@ -67,7 +67,9 @@ struct WireAnalysisOptions {
   /// Largest distance of a curve's vertices from the segment, circle or plane that it is taken for, fraction
   /// of its length.
   double form_tolerance = 2e-3;
-  double angle_tolerance = 0.5;  ///< between parallel, from orthogonal directions, degrees
+  /// Between parallel, from orthogonal directions, degrees; wide enough for the edges of a tapered leg, which
+  /// an edit should treat as one.
+  double angle_tolerance = 2;
   double size_tolerance = 2e-3;  ///< of equal lengths and radii, fraction of them
   /// Of vertices from a common plane, from mirror images; fraction of the diagonal of the shape's bounding
   /// box.

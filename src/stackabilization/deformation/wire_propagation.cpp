@@ -24,6 +24,7 @@ constexpr double weight_of_links = 64;  ///< linked wires keep their offset
 /// Symmetries are held more exactly than what is measured with noise.
 constexpr double factor_of_symmetry = 32;
 constexpr int most_rounds = 16;
+constexpr double thin_angle = 0.1;  ///< sine below which two directions to slide along count as one
 
 /// A way for a wire to change: p -> p + q matrix (p - centre).
 struct Mode {
@@ -287,13 +288,27 @@ class PropagationProblem {
     }
   }
 
+  /// Takes out of `across` the direction in which something linked to inner vertices of a straight wire
+  /// slides along it.
+  void let_slide(int k, int node, Eigen::Matrix3d& across) const {
+    if (wire(k).form != WireForm::straight || node == nodes(k).front() || node == nodes(k).back()) return;
+    const Eigen::Vector3d left = across * axis(k);
+    if (left.norm() > thin_angle) across -= left.normalized() * left.normalized().transpose();
+  }
+
   void wish_links() {
     for (const WireLink& link : network_.links) {
       const Eigen::Vector3d a = point(link.wire_a, link.node_a), b = point(link.wire_b, link.node_b);
       const Rows3 rows = difference(displacement(link.wire_a, a), displacement(link.wire_b, b));
       const Eigen::Vector3d right = turned(link.wire_b, b) - turned(link.wire_a, a);
+      Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
+      let_slide(link.wire_a, link.node_a, across);
+      let_slide(link.wire_b, link.node_b, across);
       const double strength = weight_of_links * std::min(weight(link.wire_a), weight(link.wire_b));
-      for (int c = 0; c < 3; ++c) problem_->wish(rows[static_cast<std::size_t>(c)], right(c), strength);
+      for (int c = 0; c < 3; ++c) {
+        const Eigen::Vector3d along = across.col(c);
+        problem_->wish(combined(rows, along), along.dot(right), strength);
+      }
     }
   }
 
