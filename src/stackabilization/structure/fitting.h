@@ -13,27 +13,31 @@ struct FitOptions {
   int sections = 24;                  ///< cross-sections of a generalized cylinder, >= 4
 };
 
-/// The primitive that holds a part, with the errors of both kinds. An error is the two-sided distance of the surfaces of
-/// part and primitive, the end discs of a cylinder included: root mean square over both by area, as a fraction of the
-/// diagonal of the part's oriented box. The inner wall of a hollow body (a cup) and its mouth count alike for both kinds,
-/// so they do not tip the choice.
+/// The primitive that holds a part, with the errors of both kinds. An error is the two-sided distance of the
+/// surfaces of part and primitive, the end discs of a cylinder included: root mean square over both by area,
+/// as a fraction of the diagonal of the part's oriented box. The inner wall of a hollow body (a cup) and its
+/// mouth count alike for both kinds, so they do not tip the choice.
 ///
-/// * Cuboid: the minimal oriented box; where others are as good to the eye, the one best aligned with the file's axes or
-///   the part's own, so that round and square parts of a model get boxes alike. Its axes are in the order and signs that
-///   lie nearest to the file's. A box thinner than tolerance::least_thickness is thickened to it.
-/// * Generalized cylinder of a body of revolution, hollow or not: along its axis, radii those of its outermost points;
+/// * Cuboid: the minimal oriented box; where others are as good to the eye, the one best aligned with the
+/// file's axes or
+///   the part's own, so that round and square parts of a model get boxes alike. Its axes are in the order and
+///   signs that lie nearest to the file's. A box thinner than tolerance::least_thickness is thickened to it.
+/// * Generalized cylinder of a body of revolution, hollow or not: along its axis, radii those of its
+/// outermost points;
 ///   or, of a ring, around it, closed.
-/// * Of any other part: a straight axis of the box (radii: mean distance of the outline from it), or where that and the
-///   box hold it badly and the curve does better by a fifth, the mean curvature flow skeleton (Tagliasacchi et al. 2012):
-///   its longest path, extended to the ends of the part, or its closed loop; radii are mean distances from the curve to
-///   the surface. A part that is open, not manifold or of several shells is wrapped (Portaneri et al. 2022) for that.
+/// * Of any other part: a straight axis of the box (radii: mean distance of the outline from it), or where
+/// that and the
+///   box hold it badly and the curve does better by a fifth, the mean curvature flow skeleton (Tagliasacchi
+///   et al. 2012): its longest path, extended to the ends of the part, or its closed loop; radii are mean
+///   distances from the curve to the surface. A part that is open, not manifold or of several shells is
+///   wrapped (Portaneri et al. 2022) for that.
 ///
-/// The better fit wins. The note tells which curve a cylinder follows and what was done to the part for it. The result is
-/// a function of the part alone, and moves with it except where the file's axes decide. Radii are at least a hundredth of
-/// the largest.
+/// The better fit wins, a cylinder when its error is less than 0.85 of the cuboid's. The note tells which
+/// curve a cylinder follows and what was done to the part for it. The result is a function of the part alone,
+/// and moves with it except where the file's axes decide. Radii are at least a hundredth of the largest.
 ///
-/// Throws InputError when the part has no triangle of positive area, and UsageError for fewer than 4 sections and when a
-/// cylinder is demanded of a flat part: one without extent across some plane.
+/// Throws InputError when the part has no triangle of positive area, and UsageError for fewer than 4 sections
+/// and when a cylinder is demanded of a flat part: one without extent across some plane.
 struct FittedPrimitive {
   Primitive primitive;
   PrimitiveFit fit;

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -118,6 +119,14 @@ PartBox part_box(const PartSurface& part) {
   }
   const Eigen::Vector3d extents = box_with_axes(hull.points(), box.axes).half_extents;
   return {box, extents.minCoeff() <= tolerance::relative * extents.norm(), extents != box.half_extents};
+}
+
+std::array<int, 3> axes_by_length(const OrientedBox& box) {
+  std::array<int, 3> axes{2, 1, 0};
+  const double step = tolerance::relative * box.half_extents.norm();
+  const auto length = [&](int k) { return std::round(box.half_extents(k) / step); };
+  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return length(a) > length(b); });
+  return axes;
 }
 
 }  // namespace stackabilization::detail
