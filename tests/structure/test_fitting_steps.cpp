@@ -233,6 +233,24 @@ TEST_CASE("a curve is moved to the middle of its tube and drawn out to its ends"
   CHECK_FALSE(curved_cylinder(PartSurface(rod), nowhere, 12));
 }
 
+TEST_CASE("loops run counter-clockwise about their upward side, from the side of the first axis on") {
+  const Shape rim = solids::torus({});
+  const std::optional<GeneralizedCylinder> ring =
+      ring_cylinder(PartSurface(rim), {Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ()}, 24);
+  REQUIRE(ring);
+  Curve backward{Points(40, 3), true};
+  for (int k = 0; k < 40; ++k) backward.points.row(k) << 3 * solids::circle_point(57 - k, 40).transpose(), 0;
+  const std::optional<GeneralizedCylinder> loop = curved_cylinder(PartSurface(rim), backward, 24);
+  REQUIRE(loop);
+  CHECK(loop->closed);
+  for (int k = 0; k < 24; ++k) {
+    const Eigen::Vector2d expected = 3 * solids::circle_point(k, 24);
+    CHECK((ring->centres.row(k).head<2>().transpose() - expected).norm() < 1e-9);
+    CHECK((loop->centres.row(k).head<2>().transpose() - expected).norm() < 0.05);
+    CHECK(loop->radii(k) == Approx(1).epsilon(0.04));
+  }
+}
+
 TEST_CASE("the slanted end of a rod does not shrink its last circle") {
   Shape rod = solids::cylinder(1, 10, 32);
   for (auto vertex : rod.vertices.rowwise())

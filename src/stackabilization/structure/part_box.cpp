@@ -9,6 +9,7 @@
 
 #include "stackabilization/shape/direction.h"
 #include "stackabilization/shape/tolerances.h"
+#include "stackabilization/structure/file_axes.h"
 
 namespace stackabilization::detail {
 
@@ -43,15 +44,11 @@ OrientedBox box_with_axes(const Points& points, const Eigen::Matrix3d& axes) {
   return {origin.transpose() + axes * (low + high) / 2, axes, (high - low) / 2};
 }
 
-/// The frame with its third axis along `pole` that lies nearest to the file's: the file axis that stands most
-/// upright on the pole gives the first.
+/// The frame with its third axis along `pole` that lies nearest to the file's.
 Eigen::Matrix3d turned_to_file(const Eigen::Vector3d& pole) {
-  Eigen::Index upright = 0;
-  for (Eigen::Index k = 1; k < 3; ++k)
-    if (std::abs(pole(k)) < std::abs(pole(upright)) - tolerance::relative) upright = k;
   Eigen::Matrix3d axes;
   axes.col(2) = pole;
-  axes.col(0) = (Eigen::Vector3d::Unit(upright) - pole(upright) * pole).normalized();
+  axes.col(0) = across(pole);
   axes.col(1) = axes.col(2).cross(axes.col(0));
   return axes;
 }
