@@ -6,6 +6,7 @@
 
 #include "stackabilization/shape/direction.h"
 #include "stackabilization/structure/cylinder_sections.h"
+#include "stackabilization/structure/file_axes.h"
 
 namespace stackabilization::detail {
 
@@ -46,6 +47,26 @@ Curve resampled(const Curve& curve, int n) {
   return even;
 }
 
+/// A loop counter-clockwise about its upward normal, from its side toward the file's axes on; other curves as
+/// they are.
+Curve ordered(const Curve& curve) {
+  if (!curve.closed) return curve;
+  const Eigen::Index n = curve.points.rows();
+  const Eigen::RowVector3d centre = curve.points.colwise().mean();
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < n; ++i)
+    normal += (curve.points.row(i) - centre).cross(curve.points.row((i + 1) % n) - centre).transpose();
+  if (!(normal.norm() > 0)) return curve;
+  const bool clockwise = upward(normal) != normal;
+  const Eigen::RowVector3d start = across(normal.normalized()).transpose();
+  Eigen::Index first = 0;
+  ((curve.points.rowwise() - centre).rowwise().normalized() * start.transpose()).maxCoeff(&first);
+  Curve turned = curve;
+  for (Eigen::Index i = 0; i < n; ++i)
+    turned.points.row(i) = curve.points.row((first + (clockwise ? n - i : i)) % n);
+  return turned;
+}
+
 /// Each row moved halfway to the middle of its neighbours, ends kept.
 Points smoothed(const Points& rows, bool closed) {
   Points smooth = rows;
@@ -83,7 +104,7 @@ struct Ring {
 class Fit {
  public:
   Fit(const PartSurface& part, const Curve& curve, int sections)
-      : samples_(surface_samples(part.shape, sample_count)), curve_(resampled(curve, sections)) {
+      : samples_(surface_samples(part.shape, sample_count)), curve_(resampled(ordered(curve), sections)) {
     for (int pass = 0; pass < smoothing; ++pass) curve_.points = smoothed(curve_.points, curve_.closed);
   }
 

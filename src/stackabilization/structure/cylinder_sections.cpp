@@ -9,6 +9,7 @@
 
 #include "stackabilization/shape/direction.h"
 #include "stackabilization/shape/tolerances.h"
+#include "stackabilization/structure/file_axes.h"
 
 namespace stackabilization::detail {
 
@@ -21,14 +22,6 @@ constexpr int direction_count = 48;
 constexpr double least_radius = 0.01;
 
 using Segment = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
-
-/// The same line, directed up: toward z, of horizontal ones toward y, else x.
-AxisLine upward(const AxisLine& axis) {
-  for (const int k : {2, 1, 0})
-    if (std::abs(axis.direction(k)) > tolerance::relative)
-      return {axis.point, axis.direction(k) > 0 ? axis.direction : Eigen::Vector3d(-axis.direction)};
-  return axis;
-}
 
 /// The segments that the plane third coordinate = height cuts out of the triangles, seen from the axis.
 class Sections {
@@ -124,7 +117,7 @@ void hold_ends(Eigen::VectorXd& radii) {
 
 std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const AxisLine& line, int sections,
                                                      SectionRadius radius) {
-  const AxisLine axis = upward(line);
+  const AxisLine axis{line.point, upward(line.direction)};
   const Range range = range_along(part, axis.direction);
   const double offset = axis.direction.dot(axis.point);
   std::vector<double> heights;
@@ -152,8 +145,9 @@ std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Ax
   return cylinder;
 }
 
-std::optional<GeneralizedCylinder> ring_cylinder(const PartSurface& part, const AxisLine& axis,
+std::optional<GeneralizedCylinder> ring_cylinder(const PartSurface& part, const AxisLine& line,
                                                  int sections) {
+  const AxisLine axis{line.point, upward(line.direction)};
   const Frame frame = frame_of(Direction(axis.direction));
   const auto profile = [&](const auto& row) -> Eigen::Vector2d {
     const Eigen::Vector3d local = frame.to_local(row.transpose() - axis.point);
@@ -179,12 +173,8 @@ std::optional<GeneralizedCylinder> ring_cylinder(const PartSurface& part, const 
   GeneralizedCylinder ring{.centres = Points(sections, 3),
                            .radii = Eigen::VectorXd::Constant(sections, radius)};
   ring.closed = true;
-  // It starts toward the file axis that stands most upright on its own, so that equal rings start alike.
-  Eigen::Index start = 0;
-  axis.direction.cwiseAbs().minCoeff(&start);
-  const Eigen::Vector3d u =
-      (Eigen::Vector3d::Unit(start) - axis.direction(start) * axis.direction).normalized();
-  const Eigen::Vector3d v = axis.direction.cross(u), centre = axis.point + middle.y() * axis.direction;
+  const Eigen::Vector3d u = across(axis.direction), v = axis.direction.cross(u);
+  const Eigen::Vector3d centre = axis.point + middle.y() * axis.direction;
   for (int i = 0; i < sections; ++i) {
     const double angle = i * 2 * std::numbers::pi / sections;
     ring.centres.row(i) = (centre + middle.x() * (u * std::cos(angle) + v * std::sin(angle))).transpose();

@@ -20,7 +20,8 @@ enum class SectionRadius {
 std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const AxisLine& axis, int sections,
                                                      SectionRadius radius);
 
-/// A closed one around the axis of a body of revolution, through the middle of its profile. Nothing when the
+/// A closed one around the axis of a body of revolution, through the middle of its profile, counter-clockwise
+/// about its upward side. Nothing when the
 /// profile reaches the axis.
 std::optional<GeneralizedCylinder> ring_cylinder(const PartSurface& part, const AxisLine& axis, int sections);
 

@@ -1,12 +1,11 @@
 #include "stackabilization/structure/fitting.h"
 
-#include <algorithm>
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/structure/canonical_pose.h"
 #include "stackabilization/structure/closed_part.h"
 #include "stackabilization/structure/curve_skeleton.h"
 #include "stackabilization/structure/cylinder_sections.h"
@@ -28,6 +27,8 @@ constexpr double held = 0.01;
 /// another straight axis than the longest, a less simple curve has to be clearly better.
 constexpr double other_axis = 0.95;
 constexpr double other_curve = 0.8;
+constexpr double wrapped_curve = 0.6;  // the finer points of a wrapped surface are not the part's
+constexpr double other_kind = 0.85;    // between a panel and a flat curved tube, the panel
 
 /// Least length of a cylinder along another axis of the box than the longest, as a fraction of its largest
 /// radius: flatter ones are plates, which a box holds as well.
@@ -54,7 +55,7 @@ class CylinderFit {
             "a ring about its axis of revolution");
       if (best_) return std::move(best_);
     }
-    for (const int k : axes_by_length()) offer_straight(k);
+    for (const int k : detail::axes_by_length(box_)) offer_straight(k);
     if (box_error > enough && !(best_ && best_->error <= enough)) follow_skeleton();
     return std::move(best_);
   }
@@ -74,15 +75,9 @@ class CylinderFit {
     offer(std::move(cylinder), other_axis, "along an axis of its box");
   }
 
-  /// In the frame of the box, longest axis first: what depends on the pose of a part (wrapping does) shall
-  /// not tell equal parts of a model apart.
   void follow_skeleton() {
-    Eigen::Matrix3d axes;
-    const std::array<int, 3> order = axes_by_length();
-    for (int k = 0; k < 3; ++k) axes.col(k) = box_.axes.col(order[static_cast<std::size_t>(k)]);
-    if (axes.determinant() < 0) axes.col(2) *= -1;
-    const std::optional<detail::ClosedPart> closed =
-        detail::closed_part(transformed(part_.shape, axes.transpose(), -axes.transpose() * box_.centre));
+    const detail::CanonicalPose pose = detail::canonical_pose(part_.shape, box_);
+    const std::optional<detail::ClosedPart> closed = detail::closed_part(pose.part);
     const std::optional<detail::Skeleton> skeleton =
         closed ? detail::curve_skeleton(closed->surface) : std::nullopt;
     std::optional<detail::Curve> curve = skeleton ? detail::main_curve(*skeleton) : std::nullopt;
@@ -90,17 +85,10 @@ class CylinderFit {
       if (best_) best_->note += ", for it has no curve skeleton";
       return;
     }
-    curve->points = (curve->points * axes.transpose()).rowwise() + box_.centre.transpose();
-    offer(detail::curved_cylinder(part_, *curve, sections_), other_curve,
+    curve->points = (curve->points * pose.axes.transpose()).rowwise() + pose.centre.transpose();
+    offer(detail::curved_cylinder(part_, *curve, sections_), closed->wrapped ? wrapped_curve : other_curve,
           closed->wrapped ? "along the curve skeleton of a surface wrapped around it"
                           : "along its curve skeleton");
-  }
-
-  std::array<int, 3> axes_by_length() const {
-    std::array<int, 3> axes{0, 1, 2};
-    std::stable_sort(axes.begin(), axes.end(),
-                     [&](int a, int b) { return box_.half_extents(a) > box_.half_extents(b); });
-    return axes;
   }
 
   const detail::PartSurface& part_;
@@ -128,8 +116,8 @@ FittedPrimitive fit_primitive(const Shape& part, const FitOptions& options) {
 
   if (options.kind == PrimitiveKind::cylinder && !cylinder)
     throw UsageError("a flat part has no generalized cylinder: it has no extent across its plane");
-  const bool round =
-      options.kind ? options.kind == PrimitiveKind::cylinder : cylinder && cylinder->error < box_error;
+  const bool round = options.kind ? options.kind == PrimitiveKind::cylinder
+                                  : cylinder && cylinder->error < other_kind * box_error;
   if (round) {
     fitted.primitive = std::move(cylinder->cylinder);
     fitted.fit.note = cylinder->note;

@@ -32,9 +32,9 @@ struct FitOptions {
 ///   distances from the curve to the surface. A part that is open, not manifold or of several shells is
 ///   wrapped (Portaneri et al. 2022) for that.
 ///
-/// The better fit wins. The note tells which curve a cylinder follows and what was done to the part for it.
-/// The result is a function of the part alone, and moves with it except where the file's axes decide. Radii
-/// are at least a hundredth of the largest.
+/// The better fit wins, a cylinder when its error is less than 0.85 of the cuboid's. The note tells which
+/// curve a cylinder follows and what was done to the part for it. The result is a function of the part alone,
+/// and moves with it except where the file's axes decide. Radii are at least a hundredth of the largest.
 ///
 /// Throws InputError when the part has no triangle of positive area, and UsageError for fewer than 4 sections
 /// and when a cylinder is demanded of a flat part: one without extent across some plane.

@@ -3,11 +3,13 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <vector>
 
 #include "stackabilization/shape/direction.h"
 #include "stackabilization/shape/tolerances.h"
+#include "stackabilization/structure/file_axes.h"
 
 namespace stackabilization::detail {
 
@@ -42,15 +44,11 @@ OrientedBox box_with_axes(const Points& points, const Eigen::Matrix3d& axes) {
   return {origin.transpose() + axes * (low + high) / 2, axes, (high - low) / 2};
 }
 
-/// The frame with its third axis along `pole` that lies nearest to the file's: the file axis that stands most
-/// upright on the pole gives the first.
+/// The frame with its third axis along `pole` that lies nearest to the file's.
 Eigen::Matrix3d turned_to_file(const Eigen::Vector3d& pole) {
-  Eigen::Index upright = 0;
-  for (Eigen::Index k = 1; k < 3; ++k)
-    if (std::abs(pole(k)) < std::abs(pole(upright)) - tolerance::relative) upright = k;
   Eigen::Matrix3d axes;
   axes.col(2) = pole;
-  axes.col(0) = (Eigen::Vector3d::Unit(upright) - pole(upright) * pole).normalized();
+  axes.col(0) = across(pole);
   axes.col(1) = axes.col(2).cross(axes.col(0));
   return axes;
 }
@@ -118,6 +116,14 @@ PartBox part_box(const PartSurface& part) {
   }
   const Eigen::Vector3d extents = box_with_axes(hull.points(), box.axes).half_extents;
   return {box, extents.minCoeff() <= tolerance::relative * extents.norm(), extents != box.half_extents};
+}
+
+std::array<int, 3> axes_by_length(const OrientedBox& box) {
+  std::array<int, 3> axes{2, 1, 0};
+  const double step = tolerance::relative * box.half_extents.norm();
+  const auto length = [&](int k) { return std::round(box.half_extents(k) / step); };
+  std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return length(a) > length(b); });
+  return axes;
 }
 
 }  // namespace stackabilization::detail

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "stackabilization/shape/boxes.h"
 #include "stackabilization/structure/fit_error.h"
@@ -31,5 +32,8 @@ struct PartBox {
 /// model get boxes alike, and tapered ones symmetric boxes. Axes are ordered and signed to lie nearest to the
 /// file's.
 PartBox part_box(const PartSurface& part);
+
+/// Columns of `box.axes`, longest first; of equally long ones (tolerance::relative) the later first.
+std::array<int, 3> axes_by_length(const OrientedBox& box);
 
 }  // namespace stackabilization::detail
