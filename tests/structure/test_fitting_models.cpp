@@ -85,7 +85,7 @@ void compare_with_authors(const std::filesystem::path& controls) {
     if (!(fields >> kind >> name)) continue;
     INFO(controls << ": " << name);
     const Shape part = part_named(shape, name);
-    const detail::PartSurface surface(part);
+    const detail::FitSurface surface(part);
     const FittedPrimitive fitted = fit_primitive(part);
     const double diagonal = 2 * detail::part_box(surface).box.half_extents.norm();
     const auto* cylinder = std::get_if<GeneralizedCylinder>(&fitted.primitive);

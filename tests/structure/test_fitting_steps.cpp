@@ -63,12 +63,12 @@ TEST_CASE("the distance to a cylinder counts its wall and its ends, a closed one
 
 TEST_CASE("errors are two-sided, and zero on the surface itself") {
   const Shape box = solids::box({1, 2, 3});
-  const PartSurface part(box);
+  const FitSurface part(box);
   CHECK(fit_error(axis_aligned_box(box.vertices), part) == Approx(0).margin(1e-12));
   // Two opposite walls lie on the box; all of its other four faces are up to half a unit away from them.
   const Shape walls =
       concatenate(solids::box({0, 0, 0}, {1e-6, 1, 1}), solids::box({1, 0, 0}, {1 + 1e-6, 1, 1}));
-  const PartSurface hollow(walls);
+  const FitSurface hollow(walls);
   const OrientedBox cube = axis_aligned_box(walls.vertices);
   CHECK(distance_to_surface(cube, hollow) == Approx(0).margin(1e-5));
   // Over a face the mean square of min(x, 1 - x) is 1 / 12, over the six faces 4 / 72; halved for the other
@@ -91,7 +91,7 @@ TEST_CASE("the axis of a body of revolution is found in any pose, from few facet
       solids::FrustumShell options;
       options.segments = segments;
       const Shape cup = transformed(solids::frustum_shell(options), solids::random_rotation(seed), {5, 6, 7});
-      const std::optional<AxisLine> axis = revolution_axis(PartSurface(cup));
+      const std::optional<AxisLine> axis = revolution_axis(FitSurface(cup));
       REQUIRE(axis);
       const Eigen::Vector3d expected = solids::random_rotation(seed).col(2);
       CHECK(angle_between(axis->direction, expected) < 1e-7);
@@ -102,7 +102,7 @@ TEST_CASE("the axis of a body of revolution is found in any pose, from few facet
 TEST_CASE("of what is no body of revolution no axis is found") {
   for (const Shape& shape : {solids::box({1, 1, 3}), solids::box({1, 2, 3}), solids::stairs({}),
                              solids::u_shape(5, 1), solids::cylinder(1, 2, 5), solids::table({})})
-    CHECK_FALSE(revolution_axis(PartSurface(shape)));
+    CHECK_FALSE(revolution_axis(FitSurface(shape)));
 }
 
 TEST_CASE("the box of a tapered leg stands along the leg, and mirrors with it") {
@@ -111,10 +111,10 @@ TEST_CASE("the box of a tapered leg stands along the leg, and mirrors with it") 
   const Shape leg =
       transformed(solids::surface_of_revolution({{0, 0}, {0.8, 0}, {1, 15}, {0, 15}}, 4),
                   splay * Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitZ()), {0, 0, 0});
-  const PartBox box = part_box(PartSurface(leg));
+  const PartBox box = part_box(FitSurface(leg));
   CHECK(angle_between(box.box.axes.col(2), splay.col(2)) < 1e-6);
   const Eigen::Matrix3d mirror = Eigen::Vector3d(-1, 1, 1).asDiagonal();
-  const PartBox other = part_box(PartSurface(transformed(leg, mirror, {0, 0, 0})));
+  const PartBox other = part_box(FitSurface(transformed(leg, mirror, {0, 0, 0})));
   CHECK((mirror * box.box.centre - other.box.centre).norm() < 1e-9);
   CHECK((box.box.half_extents - other.box.half_extents).norm() < 1e-9);
   for (int k = 0; k < 3; ++k)
@@ -132,13 +132,13 @@ TEST_CASE("axes of equal length keep their order whatever rounding says") {
 TEST_CASE("copies of a part are equal in their canonical pose, mirrored ones too") {
   Shape part = solids::stairs({});
   part.vertices.col(1).array() *= 1 + 0.1 * part.vertices.col(0).array();  // no symmetry left
-  const CanonicalPose pose = canonical_pose(part, part_box(PartSurface(part)).box);
+  const CanonicalPose pose = canonical_pose(part, part_box(FitSurface(part)).box);
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Eigen::Matrix3d linear = solids::random_rotation(seed);
     if (seed % 2 == 0) linear.col(0) *= -1;
     Shape copy = transformed(part, linear, {1, -2, 3});
     if (seed % 2 == 0) copy.triangles.col(1).swap(copy.triangles.col(2));  // turned outward again
-    const CanonicalPose again = canonical_pose(copy, part_box(PartSurface(copy)).box);
+    const CanonicalPose again = canonical_pose(copy, part_box(FitSurface(copy)).box);
     CHECK((pose.part.vertices - again.part.vertices).norm() == Approx(0).margin(1e-6));
     CHECK(pose.part.triangles == again.part.triangles);
     const Points back = (again.part.vertices * again.axes.transpose()).rowwise() + again.centre.transpose();
@@ -221,7 +221,7 @@ TEST_CASE("a curve is moved to the middle of its tube and drawn out to its ends"
   Curve curve{Points(3, 3)};
   curve.points << (2 * axis + 0.3 * across).transpose(), (5 * axis - 0.2 * across).transpose(),
       (7 * axis).transpose();
-  const std::optional<GeneralizedCylinder> cylinder = curved_cylinder(PartSurface(rod), curve, 12);
+  const std::optional<GeneralizedCylinder> cylinder = curved_cylinder(FitSurface(rod), curve, 12);
   REQUIRE(cylinder);
   for (int i = 0; i < 12; ++i) {
     CHECK(cylinder->radii(i) == Approx(1).epsilon(0.02));
@@ -230,17 +230,17 @@ TEST_CASE("a curve is moved to the middle of its tube and drawn out to its ends"
   CHECK(cylinder->centres.row(0).dot(axis.transpose()) == Approx(0).margin(0.02));
   CHECK(cylinder->centres.row(11).dot(axis.transpose()) == Approx(10).margin(0.02));
   const Curve nowhere{Points(Points::Constant(2, 3, 1))};
-  CHECK_FALSE(curved_cylinder(PartSurface(rod), nowhere, 12));
+  CHECK_FALSE(curved_cylinder(FitSurface(rod), nowhere, 12));
 }
 
 TEST_CASE("loops run counter-clockwise about their upward side, from the side of the first axis on") {
   const Shape rim = solids::torus({});
   const std::optional<GeneralizedCylinder> ring =
-      ring_cylinder(PartSurface(rim), {Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ()}, 24);
+      ring_cylinder(FitSurface(rim), {Eigen::Vector3d::Zero(), -Eigen::Vector3d::UnitZ()}, 24);
   REQUIRE(ring);
   Curve backward{Points(40, 3), true};
   for (int k = 0; k < 40; ++k) backward.points.row(k) << 3 * solids::circle_point(57 - k, 40).transpose(), 0;
-  const std::optional<GeneralizedCylinder> loop = curved_cylinder(PartSurface(rim), backward, 24);
+  const std::optional<GeneralizedCylinder> loop = curved_cylinder(FitSurface(rim), backward, 24);
   REQUIRE(loop);
   CHECK(loop->closed);
   for (int k = 0; k < 24; ++k) {

@@ -103,7 +103,7 @@ struct Ring {
 
 class Fit {
  public:
-  Fit(const PartSurface& part, const Curve& curve, int sections)
+  Fit(const FitSurface& part, const Curve& curve, int sections)
       : samples_(surface_samples(part.shape, sample_count)), curve_(resampled(ordered(curve), sections)) {
     for (int pass = 0; pass < smoothing; ++pass) curve_.points = smoothed(curve_.points, curve_.closed);
   }
@@ -224,8 +224,7 @@ class Fit {
 
 }  // namespace
 
-std::optional<GeneralizedCylinder> curved_cylinder(const PartSurface& part, const Curve& curve,
-                                                   int sections) {
+std::optional<GeneralizedCylinder> curved_cylinder(const FitSurface& part, const Curve& curve, int sections) {
   Fit fit(part, curve, sections);
   for (int round = 0; round < rounds && fit.usable(); ++round) fit.refine();
   return fit.usable() ? fit.sections() : std::nullopt;

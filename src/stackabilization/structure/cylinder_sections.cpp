@@ -145,8 +145,7 @@ std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Ax
   return cylinder;
 }
 
-std::optional<GeneralizedCylinder> ring_cylinder(const PartSurface& part, const AxisLine& line,
-                                                 int sections) {
+std::optional<GeneralizedCylinder> ring_cylinder(const FitSurface& part, const AxisLine& line, int sections) {
   const AxisLine axis{line.point, upward(line.direction)};
   const Frame frame = frame_of(Direction(axis.direction));
   const auto profile = [&](const auto& row) -> Eigen::Vector2d {

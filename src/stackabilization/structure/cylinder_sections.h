@@ -23,11 +23,11 @@ std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Ax
 /// A closed one around the axis of a body of revolution, through the middle of its profile, counter-clockwise
 /// about its upward side. Nothing when the
 /// profile reaches the axis.
-std::optional<GeneralizedCylinder> ring_cylinder(const PartSurface& part, const AxisLine& axis, int sections);
+std::optional<GeneralizedCylinder> ring_cylinder(const FitSurface& part, const AxisLine& axis, int sections);
 
 /// Circles at even arc lengths of a curve that is first moved to the middle of the part and, when open,
 /// extended to its ends; the radius is the mean distance of the surface whose nearest point of the curve is
 /// there. Nothing when the curve leaves the part.
-std::optional<GeneralizedCylinder> curved_cylinder(const PartSurface& part, const Curve& curve, int sections);
+std::optional<GeneralizedCylinder> curved_cylinder(const FitSurface& part, const Curve& curve, int sections);
 
 }  // namespace stackabilization::detail

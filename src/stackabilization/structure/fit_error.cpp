@@ -116,7 +116,7 @@ double mean_square_to(const Solid& solid, const Points& points) {
 }
 
 template <class Solid>
-double two_sided(const Solid& solid, const PartSurface& part) {
+double two_sided(const Solid& solid, const FitSurface& part) {
   const Points points = surface_points(solid);
   double back = 0;
   for (const auto& point : points.rowwise()) {
@@ -129,7 +129,7 @@ double two_sided(const Solid& solid, const PartSurface& part) {
 
 }  // namespace
 
-PartSurface::PartSurface(const Shape& part)
+FitSurface::FitSurface(const Shape& part)
     : shape(part), index(part), samples(surface_samples(part, sample_count)) {}
 
 double distance_to_surface(const OrientedBox& box, const Eigen::Vector3d& point) {
@@ -154,15 +154,15 @@ double distance_to_surface(const GeneralizedCylinder& cylinder, const Eigen::Vec
   return least;
 }
 
-double distance_to_surface(const OrientedBox& box, const PartSurface& part) {
+double distance_to_surface(const OrientedBox& box, const FitSurface& part) {
   return std::sqrt(mean_square_to(box, part.samples.points));
 }
 
-double fit_error(const OrientedBox& box, const PartSurface& part) {
+double fit_error(const OrientedBox& box, const FitSurface& part) {
   return two_sided(box, part);
 }
 
-double fit_error(const GeneralizedCylinder& cylinder, const PartSurface& part) {
+double fit_error(const GeneralizedCylinder& cylinder, const FitSurface& part) {
   return two_sided(cylinder, part);
 }
 

@@ -10,9 +10,9 @@
 namespace stackabilization::detail {
 
 /// A part with what every fit asks of it again and again. Refers to the shape it was made of.
-struct PartSurface {
+struct FitSurface {
   /// Throws InputError when no triangle has a positive area.
-  explicit PartSurface(const Shape& part);
+  explicit FitSurface(const Shape& part);
 
   const Shape& shape;
   SurfaceIndex index;
@@ -27,12 +27,12 @@ double distance_to_surface(const OrientedBox& box, const Eigen::Vector3d& point)
 double distance_to_surface(const GeneralizedCylinder& cylinder, const Eigen::Vector3d& point);
 
 /// Root mean square distance from the surface of the part to the box's, model units.
-double distance_to_surface(const OrientedBox& box, const PartSurface& part);
+double distance_to_surface(const OrientedBox& box, const FitSurface& part);
 
 /// Two-sided distance of the surfaces, model units: root of the mean of both mean squares, part to primitive
 /// and primitive to part, both by area. One side alone would call a frame well held by the box around its
 /// hole.
-double fit_error(const OrientedBox& box, const PartSurface& part);
-double fit_error(const GeneralizedCylinder& cylinder, const PartSurface& part);
+double fit_error(const OrientedBox& box, const FitSurface& part);
+double fit_error(const GeneralizedCylinder& cylinder, const FitSurface& part);
 
 }  // namespace stackabilization::detail

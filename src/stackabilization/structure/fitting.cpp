@@ -43,7 +43,7 @@ struct FittedCylinder {
 /// Tries cylinders, the simplest curves first.
 class CylinderFit {
  public:
-  CylinderFit(const detail::PartSurface& part, const OrientedBox& box, int sections)
+  CylinderFit(const detail::FitSurface& part, const OrientedBox& box, int sections)
       : part_(part), box_(box), sections_(sections) {}
 
   std::optional<FittedCylinder> best(double box_error) {
@@ -91,7 +91,7 @@ class CylinderFit {
                           : "along its curve skeleton");
   }
 
-  const detail::PartSurface& part_;
+  const detail::FitSurface& part_;
   const OrientedBox& box_;
   int sections_;
   std::optional<FittedCylinder> best_;
@@ -103,7 +103,7 @@ FittedPrimitive fit_primitive(const Shape& part, const FitOptions& options) {
   if (options.sections < fewest_sections)
     throw UsageError("a generalized cylinder needs at least 4 cross-sections, not " +
                      std::to_string(options.sections));
-  const detail::PartSurface surface(part);
+  const detail::FitSurface surface(part);
   const detail::PartBox box = detail::part_box(surface);
   const double diagonal = 2 * box.box.half_extents.norm();
 

@@ -94,7 +94,7 @@ SurfaceMoments surface_moments(const Shape& part) {
   return moments;
 }
 
-PartBox part_box(const PartSurface& part) {
+PartBox part_box(const FitSurface& part) {
   const HullSupport hull(part.shape);
   const std::vector<Eigen::Matrix3d> candidates =
       candidate_axes(hull, surface_moments(part.shape).covariance);

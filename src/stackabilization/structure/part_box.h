@@ -31,7 +31,7 @@ struct PartBox {
 /// volume, and at most 20 % more root mean square distance from the surface. So round and square parts of a
 /// model get boxes alike, and tapered ones symmetric boxes. Axes are ordered and signed to lie nearest to the
 /// file's.
-PartBox part_box(const PartSurface& part);
+PartBox part_box(const FitSurface& part);
 
 /// Columns of `box.axes`, longest first; of equally long ones (tolerance::relative) the later first.
 std::array<int, 3> axes_by_length(const OrientedBox& box);

@@ -76,7 +76,7 @@ Eigen::Vector3d least_direction(const Eigen::Matrix3d& residual, double area) {
 }
 
 /// Root mean square distance from the part to itself turned about the axis.
-double miss_when_turned(const PartSurface& part, const AxisLine& axis) {
+double miss_when_turned(const FitSurface& part, const AxisLine& axis) {
   const Eigen::Index stride = 4;
   double sum = 0, count = 0;
   for (int turn = 1; turn <= 3; ++turn) {
@@ -93,7 +93,7 @@ double miss_when_turned(const PartSurface& part, const AxisLine& axis) {
 
 }  // namespace
 
-std::optional<AxisLine> revolution_axis(const PartSurface& part) {
+std::optional<AxisLine> revolution_axis(const FitSurface& part) {
   const SurfaceMoments moments = surface_moments(part.shape);
   const double scale = std::sqrt(moments.covariance.trace());
   const NormalComplex complex = normal_complex(part.shape, moments.centre, scale);

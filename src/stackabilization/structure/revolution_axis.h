@@ -18,6 +18,6 @@ struct AxisLine {
 /// Computing 60, 1998), integrated over the triangles, so that it does not depend on how they are oriented or
 /// sampled. Nothing when the part, turned about it by several angles, misses itself by more than a regular
 /// octagon would.
-std::optional<AxisLine> revolution_axis(const PartSurface& part);
+std::optional<AxisLine> revolution_axis(const FitSurface& part);
 
 }  // namespace stackabilization::detail
