@@ -27,7 +27,7 @@ std::optional<Skeleton> curve_skeleton(const Shape& closed_surface);
 
 /// What of a skeleton a generalized cylinder follows: its loop, when it has one that makes up half of its
 /// length; else the longest of the shortest paths in it, from its lower end (by z, y, x). Nothing for a
-/// skeleton without edges.
+/// skeleton without edges, or one of which that path leaves out more than 15 %: a rack of bars is no tube.
 std::optional<Curve> main_curve(const Skeleton& skeleton);
 
 }  // namespace stackabilization::detail

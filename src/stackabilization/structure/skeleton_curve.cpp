@@ -11,8 +11,10 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Share of the length of a skeleton from which on its loop stands for it.
+/// Shares of the length of a skeleton from which on its loop, or the longest path in it, stands for it: what
+/// branches is no tube.
 constexpr double loop_share = 0.5;
+constexpr double path_share = 0.85;
 
 class Graph {
  public:
@@ -84,6 +86,12 @@ class Graph {
     return (skeleton_.points.row(a) - skeleton_.points.row(b)).norm();
   }
 
+  double length_of(const std::vector<int>& path) const {
+    double sum = 0;
+    for (std::size_t k = 1; k < path.size(); ++k) sum += edge_length(path[k - 1], path[k]);
+    return sum;
+  }
+
   double total_length() const {
     double sum = 0;
     for (const auto& [a, b] : skeleton_.edges) sum += edge_length(a, b);
@@ -110,13 +118,12 @@ std::optional<Curve> main_curve(const Skeleton& skeleton) {
   if (skeleton.edges.empty()) return std::nullopt;
   const Graph graph(skeleton);
   const std::vector<int> ring = graph.loop();
-  double length = 0;
-  for (std::size_t k = 0; k < ring.size(); ++k)
-    length += graph.edge_length(ring[k], ring[(k + 1) % ring.size()]);
-  if (length > loop_share * graph.total_length()) return curve_through(skeleton, ring, true);
+  if (!ring.empty() && graph.length_of(ring) + graph.edge_length(ring.back(), ring.front()) >
+                           loop_share * graph.total_length())
+    return curve_through(skeleton, ring, true);
 
   std::vector<int> path = graph.farthest_path(graph.farthest_path(skeleton.edges.front()[0]).front());
-  if (path.size() < 2) return std::nullopt;
+  if (path.size() < 2 || graph.length_of(path) < path_share * graph.total_length()) return std::nullopt;
   const auto place = [&](int row) {
     const auto p = skeleton.points.row(row);
     return std::make_tuple(p.z(), p.y(), p.x());
