@@ -74,6 +74,11 @@ inline constexpr double same_symmetry = 0.01;
 /// times above what rounding leaves.
 inline constexpr double idealised = 1e-13;
 
+/// Step to which project files round the centres and axes of boxes, as a fraction of a power of two above
+/// their largest coordinate: 16 times the rounding of what they are computed from, so that writing, reading
+/// and writing again gives the same text.
+inline constexpr double project_grid = 0x1p-48;
+
 /// A relation holds when it is off by no more than this, as a fraction of the bounding-box diagonal.
 inline constexpr double relation = 1e-6;
 

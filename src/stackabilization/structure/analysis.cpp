@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/structure/bounding_diagonal.h"
 #include "stackabilization/structure/idealise.h"
 #include "stackabilization/structure/joint_symmetry.h"
 #include "stackabilization/structure/symmetry_orbit.h"
@@ -16,12 +17,6 @@
 namespace stackabilization {
 
 namespace {
-
-double diagonal_of(const Shape& shape) {
-  Eigen::Vector3d extent;
-  for (int a = 0; a < 3; ++a) extent(a) = range_along(shape, Eigen::Vector3d::Unit(a)).length();
-  return extent.norm();
-}
 
 PrimitiveKind kind_of(const Primitive& primitive) {
   return std::holds_alternative<Cuboid>(primitive) ? PrimitiveKind::cuboid : PrimitiveKind::cylinder;
@@ -69,7 +64,7 @@ class Analysis {
   }
 
   void fit_parts() {
-    structure().diagonal = diagonal_of(result_.shape);
+    structure().diagonal = bounding_diagonal(result_.shape);
     structure().parts.resize(names().size());
     tbb::parallel_for(std::size_t{0}, names().size(), [&](std::size_t k) {
       const int row = static_cast<int>(k);
