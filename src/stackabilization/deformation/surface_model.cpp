@@ -101,6 +101,25 @@ bool in_range(const Points& points) {
   return (points.array().abs() <= tolerance::largest_coordinate).all();
 }
 
+/// How the surface around a point at rest moves: a turn about the point, then a translation.
+struct RigidMotion {
+  Eigen::Matrix3d turn;
+  Eigen::Vector3d by;
+};
+
+RigidMotion motion_at(const Shape& rest, const SurfacePoint& point, const RotatedPoints& now) {
+  const Eigen::Vector3d weights = corner_weights(rest, point);
+  Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+  RigidMotion motion{{}, Eigen::Vector3d::Zero()};
+  for (int k = 0; k < 3; ++k) {
+    const std::int32_t corner = rest.triangles(point.triangle, k);
+    motion.by += weights(k) * (now.points.row(corner) - rest.vertices.row(corner)).transpose();
+    turn += weights(k) * now.rotations[at(corner)];
+  }
+  motion.turn = Eigen::Quaterniond(turn).normalized().toRotationMatrix();
+  return motion;
+}
+
 class SurfaceModel : public DeformationModel {
  public:
   SurfaceModel(const Shape& shape, const SurfaceModelOptions& options)
@@ -127,6 +146,7 @@ class SurfaceModel : public DeformationModel {
   std::vector<bool> hold_the_rest(Targets& targets, const std::vector<std::int32_t>& fixed) const;
   RotatedPoints solved(const Targets& targets, const std::vector<bool>& stays) const;
   void follow(RotatedPoints& now, const Targets& targets) const;
+  std::vector<SurfacePoint> nearest_leaders(const Shape& leaders, const std::vector<bool>& led) const;
   std::vector<std::int32_t> vertices_at(const std::vector<bool>& places) const;
 
   Shape shape_;
@@ -195,45 +215,41 @@ RotatedPoints SurfaceModel::solved(const Targets& targets, const std::vector<boo
       .deformed(targets.is_held, std::move(start), options_.rigidity);
 }
 
-void SurfaceModel::follow(RotatedPoints& now, const Targets& targets) const {
+/// What hangs on nothing follows the rest: by shell the nearest point on `leaders` to any of its places.
+std::vector<SurfacePoint> SurfaceModel::nearest_leaders(const Shape& leaders,
+                                                        const std::vector<bool>& led) const {
   const std::vector<std::int32_t>& shells = surface_.shells();
-  std::vector<bool> bound(shells.size());  // by shell
-  for (std::size_t p = 0; p < shells.size(); ++p)
-    if (targets.is_held[p]) bound[at(shells[p])] = true;
-  const bool all =
-      std::all_of(shells.begin(), shells.end(), [&](std::int32_t shell) { return bound[at(shell)]; });
-  if (all) return;
-  Shape leaders{targets.background, {}, {}, {}};
-  std::vector<Eigen::Index> rows;
-  for (Eigen::Index t = 0; t < places_.triangles.rows(); ++t)
-    if (bound[at(shells[at(places_.triangles(t, 0))])] && places_.area(t) > 0) rows.push_back(t);
-  if (rows.empty()) return;
-  leaders.triangles = places_.triangles(rows, Eigen::all);
   const SurfaceIndex index(leaders);
-  std::vector<SurfacePoint> nearest(shells.size());  // by shell
+  std::vector<SurfacePoint> nearest(led.size());
   for (std::size_t p = 0; p < shells.size(); ++p) {
     const std::size_t shell = at(shells[p]);
-    if (bound[shell]) continue;
-    const SurfacePoint point =
-        index.nearest(targets.background.row(static_cast<Eigen::Index>(p)).transpose());
+    if (!led[shell]) continue;
+    const SurfacePoint point = index.nearest(leaders.vertices.row(static_cast<Eigen::Index>(p)).transpose());
     if (nearest[shell].triangle < 0 || point.distance < nearest[shell].distance) nearest[shell] = point;
   }
+  return nearest;
+}
+
+void SurfaceModel::follow(RotatedPoints& now, const Targets& targets) const {
+  const std::vector<std::int32_t>& shells = surface_.shells();
+  std::vector<bool> led(at(*std::max_element(shells.begin(), shells.end())) + 1, true);  // by shell
+  for (std::size_t p = 0; p < shells.size(); ++p)
+    if (targets.is_held[p]) led[at(shells[p])] = false;
+  if (std::find(led.begin(), led.end(), true) == led.end()) return;
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index t = 0; t < places_.triangles.rows(); ++t)
+    if (!led[at(shells[at(places_.triangles(t, 0))])] && places_.area(t) > 0) rows.push_back(t);
+  if (rows.empty()) return;
+
+  const Shape leaders{targets.background, places_.triangles(rows, Eigen::all), {}, {}};
+  const std::vector<SurfacePoint> nearest = nearest_leaders(leaders, led);
   for (std::size_t p = 0; p < shells.size(); ++p) {
     const std::size_t shell = at(shells[p]);
-    if (bound[shell]) continue;
-    const Eigen::Vector3d weights = corner_weights(leaders, nearest[shell]);
-    Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
-    for (int k = 0; k < 3; ++k) {
-      const std::int32_t corner = leaders.triangles(nearest[shell].triangle, k);
-      moved += weights(k) * (now.points.row(corner) - targets.background.row(corner)).transpose();
-      turn += weights(k) * now.rotations[at(corner)];
-    }
-    const Eigen::Quaterniond mean(turn);
+    if (!led[shell]) continue;
+    const RigidMotion motion = motion_at(leaders, nearest[shell], now);
     const auto row = static_cast<Eigen::Index>(p);
-    const Eigen::Vector3d arm = targets.background.row(row).transpose() - nearest[shell].point;
-    now.points.row(row) +=
-        ((mean.normalized().toRotationMatrix() - Eigen::Matrix3d::Identity()) * arm + moved).transpose();
+    const Eigen::Vector3d arm = leaders.vertices.row(row).transpose() - nearest[shell].point;
+    now.points.row(row) += ((motion.turn - Eigen::Matrix3d::Identity()) * arm + motion.by).transpose();
   }
 }
 
@@ -251,6 +267,7 @@ DeformationResult SurfaceModel::deformed(const std::vector<Edit>& edits,
   Targets targets = this->targets(edits);
   Points places = targets.held.points;
   std::vector<bool> stays(targets.is_held.size());
+  for (const std::int32_t vertex : fixed) stays[at(places_.of_vertex[at(vertex)])] = true;
   if (targets.held.points != targets.background && in_range(targets.held.points) &&
       in_range(targets.background)) {
     stays = hold_the_rest(targets, fixed);
@@ -263,10 +280,11 @@ DeformationResult SurfaceModel::deformed(const std::vector<Edit>& edits,
     if (places_.of_vertex[v] >= 0)
       result.shape.vertices.row(static_cast<Eigen::Index>(v)) = places.row(places_.of_vertex[v]);
 
-  ConstrainedVertices kept{Refusal{}, {}};
-  if (constraints.keep_extent && !targets.whole)
-    kept = constrained(shape_, result.shape.vertices, constraints, vertices_at(stays));
-  if (kept.refusal) kept = constrained(shape_, std::move(result.shape.vertices), constraints, fixed);
+  ConstrainedVertices kept = constrained(shape_, result.shape.vertices, constraints, fixed);
+  if (constraints.keep_extent && !targets.whole) {
+    ConstrainedVertices local = constrained(shape_, result.shape.vertices, constraints, vertices_at(stays));
+    if (!local.refusal) kept = std::move(local);
+  }
   result.shape.vertices = std::move(kept.vertices);
   result.refusal = std::move(kept.refusal);
   return result;
