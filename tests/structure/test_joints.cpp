@@ -121,6 +121,29 @@ TEST_CASE("a rail under a plate has a line joint along its middle, and the ends 
   CHECK(point[0].type == RelationType::point_joint);
 }
 
+TEST_CASE("a rim on a cup is joined at four sides of the ring, not at the middle of nothing") {
+  const solids::Polygon wall = {{0, 0}, {3, 0}, {3, 5}, {2.75, 5}, {2.75, 0.25}, {0, 0.25}};
+  const solids::Polygon ring = {{2.5, 5}, {3.25, 5}, {3.25, 5.5}, {2.5, 5.5}};
+  const std::vector<Relation> joints = joints_of(
+      assembled({solids::surface_of_revolution(wall, 32), solids::surface_of_revolution(ring, 32)}));
+  REQUIRE(joints.size() == 4);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Relation& joint : joints) {
+    CHECK(joint.type == RelationType::point_joint);
+    REQUIRE(joint.points.rows() == 1);
+    const Eigen::Vector3d point = joint.points.row(0).transpose();
+    CHECK(point.z() == Approx(5));
+    CHECK(point.head<2>().norm() == Approx(3).epsilon(1e-9));
+    CHECK(point.head<2>().cwiseAbs().minCoeff() == Approx(0).margin(1e-9));
+    sum += point;
+  }
+  CHECK(sum.head<2>().norm() == Approx(0).margin(1e-9));
+  // A tube on a plate meets it in a ring as well, but is thin enough to stand on one point.
+  const solids::Polygon tube = {{0.5, 0}, {0.75, 0}, {0.75, 20}, {0.5, 20}};
+  CHECK(joints_of(assembled({solids::box({-9, -9, -1}, {9, 9, 0}), solids::surface_of_revolution(tube, 16)}))
+            .size() == 1);
+}
+
 TEST_CASE("a handle on a body has two point joints, flush or grown into it") {
   for (const double depth : {0.0, 0.25}) {
     const Shape shape = assembled({solids::box({-4, -1, -5}, {depth, 2, 5}), half_ring()});

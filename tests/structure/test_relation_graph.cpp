@@ -1,5 +1,4 @@
 #include "stackabilization/structure/relation_graph.h"
-
 #include "support/catch.h"
 
 using namespace stackabilization;
@@ -13,12 +12,14 @@ Relation relation(RelationType type, std::vector<int> parts) {
 /// Top with two legs, a bar between the legs, and a ball that nothing holds.
 Structure trestle() {
   Structure structure;
-  for (const char* name : {"top", "leg \"a\"", "leg b", "ball", "bar"}) structure.parts.push_back({name, cuboid_of({}), {}});
+  for (const char* name : {"top", "leg \"a\"", "leg b", "ball", "bar"})
+    structure.parts.push_back({name, cuboid_of({}), {}});
   structure.parts[3].primitive = GeneralizedCylinder{};
-  structure.relations = {relation(RelationType::point_joint, {0, 1}), relation(RelationType::point_joint, {2, 0}),
-                         relation(RelationType::self_symmetry, {0}), relation(RelationType::symmetry, {1, 2}),
-                         relation(RelationType::line_joint, {1, 4}), relation(RelationType::point_joint, {4, 2}),
-                         relation(RelationType::point_joint, {0, 1})};
+  structure.relations = {
+      relation(RelationType::point_joint, {0, 1}), relation(RelationType::point_joint, {2, 0}),
+      relation(RelationType::self_symmetry, {0}),  relation(RelationType::symmetry, {1, 2}),
+      relation(RelationType::line_joint, {1, 4}),  relation(RelationType::point_joint, {4, 2}),
+      relation(RelationType::point_joint, {0, 1})};
   return structure;
 }
 

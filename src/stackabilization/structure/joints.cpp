@@ -22,6 +22,9 @@ using detail::PartSurface;
 /// Share of a region, about its centre, that a third part must hold to hide it.
 constexpr double hidden_share = 0.75;
 
+/// Width over length of a region from which on it has no longest direction.
+constexpr double round_share = 0.9;
+
 void check(const JointOptions& options) {
   if (!(options.reach > 0) || !std::isfinite(options.reach))
     throw UsageError("the reach of joints must be positive");
@@ -83,7 +86,8 @@ class JointFinder {
     if (const auto line = seam(spots, {a, b}, reach)) spots = {*line};
     std::vector<Joint> joints;
     for (const detail::ContactSpot& spot : spots)
-      joints.push_back({joint_at(spot, {a, b}, smaller), spot.region});
+      for (Relation& joint : joints_at(spot, {a, b}, smaller))
+        joints.push_back({std::move(joint), spot.region});
     std::sort(joints.begin(), joints.end(), [](const Joint& one, const Joint& other) {
       const Points &p = one.relation.points, &q = other.relation.points;
       return std::lexicographical_compare(p.data(), p.data() + p.size(), q.data(), q.data() + q.size());
@@ -153,18 +157,60 @@ class JointFinder {
     return surface.contains(region.centre);
   }
 
-  Relation joint_at(const detail::ContactSpot& spot, std::vector<int> parts, double smaller) const {
+  std::vector<Relation> joints_at(const detail::ContactSpot& spot, const std::array<int, 2>& parts,
+                                  double smaller) const {
     const detail::HullSpread& region = spot.region;
-    const bool line = is_line(region, smaller);
+    const Eigen::Vector3d along = region.axes.col(0);
+    if (is_line(region, smaller)) {
+      Points ends(2, 3);
+      for (int k = 0; k < 2; ++k) ends.row(k) = (region.centre + region.ranges(0, k) * along).transpose();
+      return {relation(RelationType::line_joint, parts, ends, spot.gap)};
+    }
+    if (is_shared(region.centre, parts))
+      return {relation(RelationType::point_joint, parts, region.centre.transpose(), spot.gap)};
+    std::vector<Relation> joints;
+    for (const Eigen::RowVector3d& point : extremes(region))
+      joints.push_back(relation(RelationType::point_joint, parts, point, spot.gap));
+    return joints;
+  }
+
+  Relation relation(RelationType type, const std::array<int, 2>& parts, const Points& points,
+                    double gap) const {
     Relation joint;
-    joint.type = line ? RelationType::line_joint : RelationType::point_joint;
-    joint.parts = std::move(parts);
-    joint.points.resize(line ? 2 : 1, 3);
-    for (int k = 0; k < joint.points.rows(); ++k)
-      joint.points.row(k) =
-          (region.centre + (line ? region.ranges(0, k) : 0) * region.axes.col(0)).transpose();
-    joint.residual = spot.gap / size_;
+    joint.type = type;
+    joint.parts.assign(parts.begin(), parts.end());
+    joint.points = points;
+    joint.residual = gap / size_;
     return joint;
+  }
+
+  /// False for the middle of a ring: where a rim sits on a cup neither of them is there.
+  bool is_shared(const Eigen::Vector3d& point, const std::array<int, 2>& parts) const {
+    return std::all_of(parts.begin(), parts.end(), [&](int part) {
+      return surface(part).contains(point) ||
+             surface(part).distance(point) <= options_.separate * surface(part).size();
+    });
+  }
+
+  /// Corners of a region farthest out to four sides: along its two longest axes, or, where it is as long as
+  /// wide, so that every choice is as good, along the projections of the file's axes.
+  static std::vector<Eigen::RowVector3d> extremes(const detail::HullSpread& region) {
+    Eigen::Vector3d u = region.axes.col(0);
+    const Eigen::Vector3d normal = region.axes.col(2);
+    if (region.deviations(1) > round_share * region.deviations(0)) {
+      Eigen::Index flattest = 0;
+      normal.cwiseAbs().minCoeff(&flattest);
+      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(flattest);
+      u = (axis - axis.dot(normal) * normal).normalized();
+    }
+    std::vector<Eigen::RowVector3d> corners;
+    for (const Eigen::Vector3d& side : {u, Eigen::Vector3d(normal.cross(u))})
+      for (const double sign : {-1.0, 1.0}) {
+        Eigen::Index farthest = 0;
+        (region.hull * (sign * side)).maxCoeff(&farthest);
+        corners.emplace_back(region.hull.row(farthest));
+      }
+    return corners;
   }
 
   JointOptions options_;

@@ -96,7 +96,8 @@ class ProjectReader {
     const Eigen::Matrix3d half_axes = node["half_axes"].table(3, 3);
     for (int k = 0; k < 8; ++k) {
       cuboid.corners.row(k) = centre.transpose();
-      for (int a = 0; a < 3; ++a) cuboid.corners.row(k) += ((k >> a & 1) != 0 ? 1.0 : -1.0) * half_axes.row(a);
+      for (int a = 0; a < 3; ++a)
+        cuboid.corners.row(k) += ((k >> a & 1) != 0 ? 1.0 : -1.0) * half_axes.row(a);
     }
     return cuboid;
   }
@@ -131,7 +132,8 @@ class ProjectReader {
       shape.triangle_part.push_back(static_cast<std::int32_t>(row[3].integer(0, shape.part_count() - 1)));
     }
     for (std::size_t k = 0; k < names_.size(); ++k)
-      if (std::count(shape.triangle_part.begin(), shape.triangle_part.end(), static_cast<std::int32_t>(k)) == 0)
+      if (std::count(shape.triangle_part.begin(), shape.triangle_part.end(), static_cast<std::int32_t>(k)) ==
+          0)
         triangles.fail("part '" + names_[k] + "' has no triangle");
     validate(shape);
     result_.structure.diagonal = bounding_diagonal(shape);
@@ -141,8 +143,9 @@ class ProjectReader {
   static Symmetry symmetry(const JsonNode& node) {
     node.expect_keys({"kind", "point", "axis", "order"}, 1);
     Symmetry result;
-    result.kind = std::vector{SymmetryKind::reflection, SymmetryKind::rotation, SymmetryKind::revolution}[node["kind"].one_of(
-        {"reflection", "rotation", "revolution"})];
+    result.kind =
+        std::vector{SymmetryKind::reflection, SymmetryKind::rotation,
+                    SymmetryKind::revolution}[node["kind"].one_of({"reflection", "rotation", "revolution"})];
     result.point = vector(node["point"]);
     result.axis = vector(node["axis"]);
     const double length = result.axis.stableNorm();
@@ -157,16 +160,18 @@ class ProjectReader {
 
   Relation relation(const JsonNode& node) const {
     node.expect_keys({"type", "parts", "symmetry", "points", "residual"}, 3);
-    const std::vector<RelationType> types = {RelationType::symmetry, RelationType::self_symmetry, RelationType::point_joint,
-                                             RelationType::line_joint};
+    const std::vector<RelationType> types = {RelationType::symmetry, RelationType::self_symmetry,
+                                             RelationType::point_joint, RelationType::line_joint};
     std::vector<std::string> type_names;
     for (const RelationType type : types) type_names.push_back(name_of(type));
     Relation result;
     result.type = types[node["type"].one_of(type_names)];
     const std::size_t part_count = result.type == RelationType::self_symmetry ? 1 : 2;
     node["parts"].expect_size(part_count);
-    for (std::size_t k = 0; k < part_count; ++k) result.parts.push_back(static_cast<int>(node["parts"][k].one_of(names_)));
-    if (result.parts.front() == result.parts.back() && part_count == 2) node["parts"].fail("expected two different parts");
+    for (std::size_t k = 0; k < part_count; ++k)
+      result.parts.push_back(static_cast<int>(node["parts"][k].one_of(names_)));
+    if (result.parts.front() == result.parts.back() && part_count == 2)
+      node["parts"].fail("expected two different parts");
     if (result.type == RelationType::symmetry || result.type == RelationType::self_symmetry) {
       node.expect_keys({"type", "parts", "symmetry", "residual"}, 1);
       result.symmetry = symmetry(node["symmetry"]);

@@ -11,8 +11,8 @@ namespace stackabilization {
 /// Suffix of project files by convention.
 inline constexpr std::string_view project_suffix = ".stackabilize.json";
 
-/// A structured shape as one JSON text for people to read and correct: parts with their primitives, symmetries, relations
-/// by part names, and last the mesh, a vertex or triangle per line.
+/// A structured shape as one JSON text for people to read and correct: parts with their primitives,
+/// symmetries, relations by part names, and last the mesh, a vertex or triangle per line.
 ///
 ///     {"format": "stackabilize project", "version": 1, "unit": "mm",
 ///      "parts": [{"name": "leg", "primitive": {"kind": "cuboid", "centre": [0, 0, 0],
@@ -20,13 +20,15 @@ inline constexpr std::string_view project_suffix = ".stackabilize.json";
 ///                 "fit": {"cuboid_error": 0.01, "cylinder_error": 0.2, "note": ""}}, ...],
 ///      "symmetries": [{"kind": "reflection", "point": [0, 0, 0], "axis": [1, 0, 0]}],
 ///      "relations": [{"type": "symmetry", "parts": ["leg", "leg_2"], "symmetry": {...}, "residual": 0},
-///                    {"type": "point_joint", "parts": ["leg", "top"], "points": [[0, 0, 3]], "residual": 0}],
+///                    {"type": "point_joint", "parts": ["leg", "top"], "points": [[0, 0, 3]], "residual":
+///                    0}],
 ///      "mesh": {"vertices": [[x, y, z], ...], "triangles": [[a, b, c, part], ...]}}
 ///
-/// A primitive is a cuboid by `centre` and `half_axes` (vectors from the centre to three faces), once it is no such box by
-/// its eight `corners`, or {"kind": "cylinder", "closed": false, "sections": [[x, y, z, radius], ...]}, with "rotation":
-/// [w, x, y, z] where it was turned. `unit` is um, mm, cm, m, in, ft or unknown. Numbers are written so that they read back
-/// as the same doubles; `centre` and `half_axes` are rounded to 2^-48 of the cuboid's largest coordinate first, once.
+/// A primitive is a cuboid by `centre` and `half_axes` (vectors from the centre to three faces), once it is
+/// no such box by its eight `corners`, or {"kind": "cylinder", "closed": false, "sections": [[x, y, z,
+/// radius], ...]}, with "rotation": [w, x, y, z] where it was turned. `unit` is um, mm, cm, m, in, ft or
+/// unknown. Numbers are written so that they read back as the same doubles; `centre` and `half_axes` are
+/// rounded to 2^-48 of the cuboid's largest coordinate first, once.
 ///
 /// Throws InputError when `structured` is invalid or a part name is not UTF-8.
 std::string project_text(const StructuredShape& structured);
@@ -36,10 +38,10 @@ void write_project(const StructuredShape& structured, const std::filesystem::pat
 
 /// Reads a project. Primitives that miss a symmetry, after editing by hand, are made symmetric (`idealise`).
 ///
-/// Throws InputError, one sentence with `name`, the place as a JSON pointer ("/parts/2/primitive/half_axes"; the line for
-/// text that is no JSON) and what was expected there, for anything that is not as described above: unknown and repeated
-/// keys, missing entries, wrong types and sizes, names of parts that do not exist, numbers that are not finite, relations
-/// that contradict each other.
+/// Throws InputError, one sentence with `name`, the place as a JSON pointer ("/parts/2/primitive/half_axes";
+/// the line for text that is no JSON) and what was expected there, for anything that is not as described
+/// above: unknown and repeated keys, missing entries, wrong types and sizes, names of parts that do not
+/// exist, numbers that are not finite, relations that contradict each other.
 StructuredShape project_of_text(std::string_view text, const std::string& name);
 
 /// The same with the text of a file; "-" is standard input.

@@ -44,13 +44,14 @@ std::string number(double value) {
   return text;
 }
 
-/// Centre and half axes (rows 0 to 3) that give the corners of a cuboid to rounding, themselves rounded so that they are
-/// the same when they are computed from those corners again.
+/// Centre and half axes (rows 0 to 3) that give the corners of a cuboid to rounding, themselves rounded so
+/// that they are the same when they are computed from those corners again.
 std::optional<Eigen::Matrix<double, 4, 3>> affine_box(const Cuboid& cuboid) {
   Eigen::Matrix<double, 4, 3> box = Eigen::Matrix<double, 4, 3>::Zero();
   for (int k = 0; k < 8; ++k) {
     box.row(0) += cuboid.corners.row(k) / 8;
-    for (int a = 0; a < 3; ++a) box.row(1 + a) += ((k >> a & 1) != 0 ? 1.0 : -1.0) / 8 * cuboid.corners.row(k);
+    for (int a = 0; a < 3; ++a)
+      box.row(1 + a) += ((k >> a & 1) != 0 ? 1.0 : -1.0) / 8 * cuboid.corners.row(k);
   }
   const double largest = cuboid.corners.cwiseAbs().maxCoeff();
   if (!(largest > 0)) return std::nullopt;
@@ -107,8 +108,10 @@ std::string text_of(const Relation& relation, const std::vector<Part>& parts) {
   std::string text = "    {\"type\": " + quoted(name_of(relation.type)) + ", \"parts\": [";
   for (std::size_t k = 0; k < relation.parts.size(); ++k)
     text += (k > 0 ? ", " : "") + quoted(parts[static_cast<std::size_t>(relation.parts[k])].name);
-  const bool is_joint = relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
-  text += is_joint ? "], \"points\": " + list_of_lists(relation.points) : "], \"symmetry\": " + text_of(relation.symmetry);
+  const bool is_joint =
+      relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
+  text += is_joint ? "], \"points\": " + list_of_lists(relation.points)
+                   : "], \"symmetry\": " + text_of(relation.symmetry);
   return text + ", \"residual\": " + number(relation.residual) + "}";
 }
 
@@ -145,7 +148,8 @@ std::string project_text(const StructuredShape& structured) {
   text += "],\n \"symmetries\": [";
   text += lines(structure.symmetries, [](const Symmetry& symmetry) { return "    " + text_of(symmetry); });
   text += "],\n \"relations\": [";
-  text += lines(structure.relations, [&](const Relation& relation) { return text_of(relation, structured.structure.parts); });
+  text += lines(structure.relations,
+                [&](const Relation& relation) { return text_of(relation, structured.structure.parts); });
   return text + "],\n \"mesh\": " + mesh_text(shape) + "}\n";
 }
 

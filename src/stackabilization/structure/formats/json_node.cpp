@@ -45,18 +45,21 @@ std::string shown(const Json& value) {
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& name) {
   std::vector<std::set<std::string>> keys;
   const auto check = [&](int depth, Json::parse_event_t event, Json& value) {
-    if (depth > deepest) throw InputError(name + ": expected a project, found JSON that is nested too deeply");
+    if (depth > deepest)
+      throw InputError(name + ": expected a project, found JSON that is nested too deeply");
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
-      throw InputError(name + ": the key " + in_quotes(value.get<std::string>()) + " occurs twice in one object");
+      throw InputError(name + ": the key " + in_quotes(value.get<std::string>()) +
+                       " occurs twice in one object");
     return true;
   };
   try {
     return Json::parse(text, check);
   } catch (const Json::parse_error& error) {
     const std::size_t at = std::min(error.byte, text.size());
-    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at > 0 ? at - 1 : 0), '\n');
+    const auto line =
+        1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at > 0 ? at - 1 : 0), '\n');
     throw InputError(name + ":" + std::to_string(line) + ": expected JSON, found something else at byte " +
                      std::to_string(at));
   } catch (const Json::exception&) {
@@ -77,7 +80,9 @@ void JsonNode::expect_keys(const std::vector<std::string_view>& keys, std::size_
     if (!has(keys[k])) fail("the key '" + known[k] + "' is missing");
 }
 
-bool JsonNode::has(std::string_view key) const { return value_->contains(std::string(key)); }
+bool JsonNode::has(std::string_view key) const {
+  return value_->contains(std::string(key));
+}
 
 JsonNode JsonNode::operator[](std::string_view key) const {
   return {value_->at(std::string(key)), *name_, place_ + "/" + std::string(key)};
@@ -88,7 +93,9 @@ std::size_t JsonNode::list_size() const {
   return value_->size();
 }
 
-JsonNode JsonNode::operator[](std::size_t row) const { return {value_->at(row), *name_, place_ + "/" + std::to_string(row)}; }
+JsonNode JsonNode::operator[](std::size_t row) const {
+  return {value_->at(row), *name_, place_ + "/" + std::to_string(row)};
+}
 
 void JsonNode::expect_size(std::size_t size) const {
   if (!value_->is_array() || value_->size() != size) fail_expected("a list of " + std::to_string(size));
@@ -100,8 +107,9 @@ double JsonNode::number() const {
 }
 
 std::int64_t JsonNode::integer(std::int64_t low, std::int64_t high) const {
-  const bool fits = value_->is_number_integer() && (!value_->is_number_unsigned() ||
-                                                    value_->get<std::uint64_t>() <= static_cast<std::uint64_t>(INT64_MAX));
+  const bool fits =
+      value_->is_number_integer() && (!value_->is_number_unsigned() ||
+                                      value_->get<std::uint64_t>() <= static_cast<std::uint64_t>(INT64_MAX));
   if (!fits || value_->get<std::int64_t>() < low || value_->get<std::int64_t>() > high)
     fail_expected("an integer from " + std::to_string(low) + " to " + std::to_string(high));
   return value_->get<std::int64_t>();
@@ -125,7 +133,8 @@ std::size_t JsonNode::one_of(const std::vector<std::string>& names) const {
   std::string all;
   for (std::size_t k = 0; k < names.size() && names.size() <= most_listed; ++k)
     all += (k == 0 ? "" : k + 1 < names.size() ? ", " : " or ") + in_quotes(names[k]);
-  fail("expected " + (all.empty() ? "the name of a part" : all) + ", found " + in_quotes(found) + nearest_hint(found, names));
+  fail("expected " + (all.empty() ? "the name of a part" : all) + ", found " + in_quotes(found) +
+       nearest_hint(found, names));
 }
 
 Eigen::VectorXd JsonNode::numbers(std::size_t size) const {
@@ -135,10 +144,11 @@ Eigen::VectorXd JsonNode::numbers(std::size_t size) const {
   return result;
 }
 
-Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> JsonNode::table(std::size_t columns,
-                                                                                     std::size_t least) const {
+Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> JsonNode::table(
+    std::size_t columns, std::size_t least) const {
   if (!value_->is_array() || value_->size() < least)
-    fail_expected("a list of at least " + std::to_string(least) + " times " + std::to_string(columns) + " numbers");
+    fail_expected("a list of at least " + std::to_string(least) + " times " + std::to_string(columns) +
+                  " numbers");
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows(
       static_cast<Eigen::Index>(value_->size()), static_cast<Eigen::Index>(columns));
   for (std::size_t k = 0; k < value_->size(); ++k)
@@ -150,7 +160,9 @@ void JsonNode::fail(const std::string& message) const {
   throw InputError(*name_ + ": " + (place_.empty() ? "/" : place_) + ": " + message);
 }
 
-void JsonNode::fail_expected(const std::string& what) const { fail("expected " + what + ", found " + shown(*value_)); }
+void JsonNode::fail_expected(const std::string& what) const {
+  fail("expected " + what + ", found " + shown(*value_));
+}
 
 std::string nearest_hint(std::string_view word, const std::vector<std::string>& names) {
   constexpr std::size_t longest = 64;  // of words worth comparing

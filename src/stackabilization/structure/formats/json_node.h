@@ -27,8 +27,8 @@ class JsonNode {
   bool has(std::string_view key) const;
   JsonNode operator[](std::string_view key) const;  ///< precondition: `has(key)`
 
-  std::size_t list_size() const;                     ///< demands a list
-  JsonNode operator[](std::size_t row) const;        ///< precondition: row < list_size()
+  std::size_t list_size() const;               ///< demands a list
+  JsonNode operator[](std::size_t row) const;  ///< precondition: row < list_size()
   /// Demands a list of `size` entries.
   void expect_size(std::size_t size) const;
 
@@ -40,7 +40,8 @@ class JsonNode {
   std::size_t one_of(const std::vector<std::string>& names) const;
   Eigen::VectorXd numbers(std::size_t size) const;
   /// Rows of `columns` numbers, at least `least`.
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table(std::size_t columns, std::size_t least) const;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table(std::size_t columns,
+                                                                               std::size_t least) const;
 
   [[noreturn]] void fail(const std::string& message) const;
   [[noreturn]] void fail_expected(const std::string& what) const;
