@@ -200,7 +200,14 @@ class EditSolution {
     fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.joints.size()),
                      constraints.end()};
     state_ = solved(rig_, bases_, constraints, std::move(state_));
-    if (watch_.bounds().empty()) return;
+    if (watch_.bounds().empty() || largest_gap(rig_, constraints, state_) > tolerance::relation * diagonal()) return;
+    const SolverState unbounded = state_;
+    bound_extents(constraints);
+    // Relations give way when bounds cannot be met: then the bounds are what is to be reported.
+    if (!(largest_gap(rig_, constraints, state_) <= tolerance::relation * diagonal())) state_ = unbounded;
+  }
+
+  void bound_extents(std::vector<Constraint>& constraints) {
     for (int round = 0; round < kExtentRounds; ++round) {
       const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
       if (state_.levels.size() == 0) state_.levels = watch_.levels(vertices);
