@@ -82,7 +82,7 @@ class CylinderFit {
         closed ? detail::curve_skeleton(closed->surface) : std::nullopt;
     std::optional<detail::Curve> curve = skeleton ? detail::main_curve(*skeleton) : std::nullopt;
     if (!curve) {
-      if (best_) best_->note += ", for it has no curve skeleton";
+      if (best_) best_->note += ", for its skeleton is no single curve";
       return;
     }
     curve->points = (curve->points * pose.axes.transpose()).rowwise() + pose.centre.transpose();

@@ -18,19 +18,18 @@ struct FitOptions {
 /// as a fraction of the diagonal of the part's oriented box. The inner wall of a hollow body (a cup) and its
 /// mouth count alike for both kinds, so they do not tip the choice.
 ///
-/// * Cuboid: the minimal oriented box; where others are as good to the eye, the one best aligned with the
-/// file's axes or
-///   the part's own, so that round and square parts of a model get boxes alike. Its axes are in the order and
-///   signs that lie nearest to the file's. A box thinner than tolerance::least_thickness is thickened to it.
+/// * Cuboid: the minimal oriented box; where others are as good to the eye, the one best aligned with
+///   the file's axes or the part's own, so that round and square parts of a model get boxes alike. Its
+///   axes are in the order and signs that lie nearest to the file's. A box thinner than
+///   tolerance::least_thickness is thickened to it.
 /// * Generalized cylinder of a body of revolution, hollow or not: along its axis, radii those of its
-/// outermost points;
-///   or, of a ring, around it, closed.
-/// * Of any other part: a straight axis of the box (radii: mean distance of the outline from it), or where
-/// that and the
-///   box hold it badly and the curve does better by a fifth, the mean curvature flow skeleton (Tagliasacchi
-///   et al. 2012): its longest path, extended to the ends of the part, or its closed loop; radii are mean
-///   distances from the curve to the surface. A part that is open, not manifold or of several shells is
-///   wrapped (Portaneri et al. 2022) for that.
+///   outermost points; or, of a ring, around it, closed.
+/// * Of any other part: a straight axis of the box, radii the mean distance of the outline from it; or,
+///   where box and axis hold the part badly and the curve does so clearly better, its mean curvature
+///   flow skeleton (Tagliasacchi et al. 2012): the longest path in it, extended to the ends of the
+///   part, or its closed loop, unless it branches; radii are mean distances from the curve to the
+///   surface. A part that is open, not manifold, of several shells or of very many triangles is wrapped
+///   for that (Portaneri et al. 2022).
 ///
 /// The better fit wins, a cylinder when its error is less than 0.85 of the cuboid's. The note tells which
 /// curve a cylinder follows and what was done to the part for it. The result is a function of the part alone,
