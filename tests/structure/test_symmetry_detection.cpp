@@ -1,3 +1,5 @@
+#include <tbb/global_control.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -171,6 +173,21 @@ TEST_CASE("the order and number of triangles do not matter") {
     const auto found = find_symmetries(variant);
     CHECK(found.size() == 1);
     CHECK(has_plane(found, {0, 0, 0}, {1, 0, 0}, 1e-9));
+  }
+}
+
+TEST_CASE("the same bytes for any number of threads") {
+  const Shape cup = solids::noisy(solids::cup_with_handle(), 0.002, 1);
+  const auto run = [&](std::size_t threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    return find_symmetries(cup);
+  };
+  const auto one = run(1), four = run(4);
+  REQUIRE(one.size() == four.size());
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    CHECK(one[k].symmetry.axis == four[k].symmetry.axis);
+    CHECK(one[k].symmetry.point == four[k].symmetry.point);
+    CHECK(one[k].residual == four[k].residual);
   }
 }
 

@@ -154,8 +154,7 @@ class PartSymmetry {
     std::vector<Symmetry> planes;
     for (int k = 0; k < 3; ++k) {
       const Symmetry start{SymmetryKind::reflection, Eigen::Vector3d::Zero(), surface.box.axes.col(k), 2};
-      const double reach = 3 * options_.tolerance * surface.scale;
-      const Symmetry plane = detail::refined(surface, start, reach, detail::Effort::dense);
+      const Symmetry plane = detail::refined(surface, start, detail::counterpart_reach(surface, options_));
       if (detail::verify(surface, plane, options_, detail::Effort::dense).holds)
         planes.push_back(detail::to_model(surface, plane));
     }

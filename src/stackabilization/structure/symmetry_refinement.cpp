@@ -119,25 +119,47 @@ Points measured_points(const SymmetrySurface& surface, Effort effort) {
   return points;
 }
 
-}  // namespace
+/// A symmetry under refinement.
+struct Approach {
+  const SymmetrySurface& surface;
+  Points points;
+  Symmetry symmetry;
+  Linearization at;
 
-Symmetry refined(const SymmetrySurface& surface, const Symmetry& start, double reach, Effort effort) {
-  const Points points = measured_points(surface, effort);
-  Symmetry best = start;
-  Linearization at = linearized(surface, best, points);
-  for (double scale = reach;; scale *= shrink) {
+  Approach(const SymmetrySurface& of, const Symmetry& start, Effort effort)
+      : surface(of), points(measured_points(of, effort)), symmetry(start), at(linearized(of, start, points)) {}
+
+  /// Steps at one scale until they are small. False when one was larger than `reach`: nothing holds the plane there.
+  bool settle(double scale, double reach) {
     for (int step = 0; step < steps_per_scale; ++step) {
       const Eigen::Matrix<double, freedoms, 1> motion = best_step(at, scale);
-      if (motion.norm() > reach) return best;  // nothing holds the plane here
-      best = moved(best, motion);
-      at = linearized(surface, best, points);
+      if (motion.norm() > reach) return false;
+      symmetry = moved(symmetry, motion);
+      at = linearized(surface, symmetry, points);
       if (motion.norm() < settled * scale) break;
     }
-    const bool exact = at.distances.cwiseProduct(at.weights(scale)).maxCoeff() < tolerance::relative;
-    if (effort == Effort::sparse || exact || scale * shrink < tolerance::relative ||
-        share(at.information(scale * shrink), at.information(reach)) < least_information)
-      return best;
+    return true;
   }
+};
+
+}  // namespace
+
+Symmetry approached(const SymmetrySurface& surface, const Symmetry& start, double reach, Effort effort) {
+  Approach approach(surface, start, effort);
+  approach.settle(reach, reach);
+  return approach.symmetry;
+}
+
+Symmetry refined(const SymmetrySurface& surface, const Symmetry& start, double reach) {
+  Approach approach(surface, start, Effort::dense);
+  for (double scale = reach; approach.settle(scale, reach); scale *= shrink) {
+    const Linearization& at = approach.at;
+    const bool exact = at.distances.cwiseProduct(at.weights(scale)).maxCoeff() < tolerance::relative;
+    if (exact || scale * shrink < tolerance::relative ||
+        share(at.information(scale * shrink), at.information(reach)) < least_information)
+      break;
+  }
+  return approach.symmetry;
 }
 
 }  // namespace stackabilization::detail

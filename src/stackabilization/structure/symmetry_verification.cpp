@@ -242,7 +242,7 @@ bool turns_into_itself(const SymmetrySurface& surface, const Symmetry& axis, con
     const Symmetry turn{SymmetryKind::rotation, axis.point, axis.axis, 2 * polygon};
     std::vector<double> distances = image_distances(surface.index, samples.points, isometry_of(turn));
     const Eigen::Map<const Eigen::ArrayXd> all(distances.data(), samples.points.rows());
-    const double close = counterpart * options.tolerance * surface.scale;
+    const double close = counterpart_reach(surface, options);
     const double square = (all <= close).select(all.square(), 0).matrix().dot(sideways.weights);
     least = std::min(least, square);
     most = std::max(most, square);
@@ -265,7 +265,7 @@ std::optional<Symmetry> revolution_about(const SymmetrySurface& surface, const E
   if (!balanced(surface.spread, start.axis)) return {};
   if (!verify(surface, start, loosened(options), Effort::sparse).holds) return {};
   const Symmetry better =
-      refined(surface, start, counterpart * options.tolerance * surface.scale, Effort::dense);
+      refined(surface, start, counterpart_reach(surface, options));
   // The moments know the axis exactly when nothing is missing, also of prisms with an odd number of sides.
   const Agreement before = verify(surface, start, options, Effort::dense);
   const Agreement after = verify(surface, better, options, Effort::dense);
@@ -297,7 +297,11 @@ std::vector<Symmetry> revolutions(const SymmetrySurface& surface, const Symmetry
 }
 
 SymmetryOptions loosened(const SymmetryOptions& options) {
-  return {rough_allowance * options.tolerance, options.support / rough_allowance};
+  return {rough_allowance * options.tolerance, std::max(0.0, 1 - rough_allowance * (1 - options.support))};
+}
+
+double counterpart_reach(const SymmetrySurface& surface, const SymmetryOptions& options) {
+  return counterpart * options.tolerance * surface.scale;
 }
 
 void validate(const SymmetryOptions& options) {

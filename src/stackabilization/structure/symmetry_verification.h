@@ -55,7 +55,10 @@ Agreement agreement(std::vector<double> distances, double diagonal, const Symmet
 std::vector<double> image_distances(const SurfaceIndex& index, const Points& points,
                                     const Eigen::Affine3d& map);
 
-enum class Effort { sparse, dense };
+enum class Effort {
+  sparse,  ///< few points
+  dense,   ///< all points
+};
 
 /// Is `symmetry` (own frame) one of the surface? Residual as a fraction of the diagonal.
 Agreement verify(const SymmetrySurface& surface, const Symmetry& symmetry, const SymmetryOptions& options,
@@ -77,6 +80,9 @@ std::vector<Symmetry> revolutions(const SymmetrySurface& surface, const Symmetry
 
 /// What a symmetry that is not refined yet must satisfy.
 SymmetryOptions loosened(const SymmetryOptions& options);
+
+/// Up to this distance (own frame) two points count as counterparts.
+double counterpart_reach(const SymmetrySurface& surface, const SymmetryOptions& options);
 
 /// Throws UsageError unless the options lie in their ranges.
 void validate(const SymmetryOptions& options);
