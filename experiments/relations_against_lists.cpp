@@ -1,14 +1,15 @@
-// Question: does the analysis of a shape find the relations that people, or other programs, have listed for it?
+// Question: does the analysis of a shape find the relations that people, or other programs, have listed for
+// it?
 //
 //     relations_against_lists [--paper-data FOLDER] [--ikea FOLDER] [--threads N] [-o FILE.csv]
 //
-// --paper-data: every `.grp` file of the authors' data is compared with what analyse_structure finds on the OBJ file of
-// the same name beside it (dashes and underscores being one). --ikea: every JSON file with a list of joined parts is
-// compared with the pairs of parts that get a joint.
+// --paper-data: every `.grp` file of the authors' data is compared with what analyse_structure finds on the
+// OBJ file of the same name beside it (dashes and underscores being one). --ikea: every JSON file with a list
+// of joined parts is compared with the pairs of parts that get a joint.
 //
-// One row per model and kind of relation: how many are listed, found, and both; recall and precision; what is missing
-// and what is not listed. A self-symmetry counts once per part, joints as often as a pair of parts has them. The last
-// rows are the sums. Exit status 3 when a folder holds nothing to compare.
+// One row per model and kind of relation: how many are listed, found, and both; recall and precision; what is
+// missing and what is not listed. A self-symmetry counts once per part, joints as often as a pair of parts
+// has them. The last rows are the sums. Exit status 3 when a folder holds nothing to compare.
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -87,7 +88,9 @@ Counts compare(const std::map<std::string, int>& listed, const std::map<std::str
   return counts;
 }
 
-double share(int part, int whole) { return whole == 0 ? 1 : static_cast<double>(part) / whole; }
+double share(int part, int whole) {
+  return whole == 0 ? 1 : static_cast<double>(part) / whole;
+}
 
 /// Rows of the table and their sums.
 class Table {
@@ -111,7 +114,8 @@ class Table {
   bool empty() const { return rows_.empty(); }
 
   std::string text() const {
-    std::string all = "model,input_hash,list,kind,listed,found,both,recall,precision,missing,not_listed\n" + rows_;
+    std::string all =
+        "model,input_hash,list,kind,listed,found,both,recall,precision,missing,not_listed\n" + rows_;
     for (const auto& [kind, counts] : sums_) all += "all,,," + kind + row(counts);
     return all;
   }
@@ -139,7 +143,8 @@ std::vector<fs::path> files_below(const fs::path& folder, const std::string& ext
   return files;
 }
 
-/// The file of the same name with another extension, dashes and underscores being one; empty when there is none.
+/// The file of the same name with another extension, dashes and underscores being one; empty when there is
+/// none.
 fs::path sibling(const fs::path& file, const std::string& extension) {
   const auto plain = [](std::string name) {
     std::replace(name.begin(), name.end(), '-', '_');
@@ -190,7 +195,8 @@ void compare_joined_parts(const fs::path& folder, Table& table) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Does the analysis of a shape find the relations that people, or other programs, have listed?"};
+  CLI::App app{
+      "Does the analysis of a shape find the relations that people, or other programs, have listed?"};
   int threads = tbb::info::default_concurrency();
   std::string output = "-", paper_data, ikea;
   app.add_option("--paper-data", paper_data, "folder of the authors' data, with .grp files");
@@ -204,10 +210,12 @@ int main(int argc, char** argv) {
     Table table;
     if (!paper_data.empty()) compare_groups(paper_data, table);
     if (!ikea.empty()) compare_joined_parts(ikea, table);
-    if (table.empty()) throw InputError("nothing to compare: no folder given, or no list beside a mesh in it");
-    write_file_atomically(output, provenance_lines({"relations_against_lists",
-                                                    std::vector<std::string>(argv + 1, argv + argc), threads}) +
-                                      table.text());
+    if (table.empty())
+      throw InputError("nothing to compare: no folder given, or no list beside a mesh in it");
+    write_file_atomically(
+        output, provenance_lines(
+                    {"relations_against_lists", std::vector<std::string>(argv + 1, argv + argc), threads}) +
+                    table.text());
     return 0;
   } catch (const InputError& error) {
     std::cerr << "relations_against_lists: " << error.what() << "\n";

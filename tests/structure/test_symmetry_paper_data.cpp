@@ -24,7 +24,8 @@ namespace {
 
 using Pair = std::set<std::string>;
 
-/// What a hand-made list says, or what was found: pairs of parts, and per part the number of its mirror planes.
+/// What a hand-made list says, or what was found: pairs of parts, and per part the number of its mirror
+/// planes.
 struct Symmetries {
   std::set<Pair> pairs;
   std::map<std::string, int> own;
@@ -55,14 +56,16 @@ Symmetries found_in(const Shape& shape, const std::vector<Relation>& relations) 
   return found;
 }
 
-/// The farthest that a vertex of the first part of `relation` is, mirrored, from the second; fraction of the diagonal.
+/// The farthest that a vertex of the first part of `relation` is, mirrored, from the second; fraction of the
+/// diagonal.
 double farthest(const Shape& shape, const Relation& relation) {
   const double diagonal = (shape.vertices.colwise().maxCoeff() - shape.vertices.colwise().minCoeff()).norm();
   const Shape first = extract_part(shape, relation.parts.front());
   const SurfaceIndex second(extract_part(shape, relation.parts.back()));
   double most = 0;
   for (Eigen::Index v = 0; v < first.vertex_count(); ++v)
-    most = std::max(most, second.nearest(isometry_of(relation.symmetry) * first.vertices.row(v).transpose()).distance);
+    most = std::max(
+        most, second.nearest(isometry_of(relation.symmetry) * first.vertices.row(v).transpose()).distance);
   return most / diagonal;
 }
 
@@ -124,7 +127,8 @@ TEST_CASE("the symmetries that the authors listed by hand are found") {
       const auto planes = [&](const Symmetries& in) { return in.own.count(part) ? in.own.at(part) : 0; };
       of_own.count(planes(listed) > 0, planes(found) > 0 && planes(found) >= planes(listed));
     }
-    // The lists leave out what bars and rims are symmetric in by themselves; what is found must hold for every vertex.
+    // The lists leave out what bars and rims are symmetric in by themselves; what is found must hold for
+    // every vertex.
     for (const Relation& relation : relations)
       if (relation.symmetry.kind == SymmetryKind::reflection) CHECK(farthest(*shape, relation) <= 0.03);
 

@@ -200,7 +200,8 @@ class EditSolution {
     fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.joints.size()),
                      constraints.end()};
     state_ = solved(rig_, bases_, constraints, std::move(state_));
-    if (watch_.bounds().empty() || largest_gap(rig_, constraints, state_) > tolerance::relation * diagonal()) return;
+    if (watch_.bounds().empty() || largest_gap(rig_, constraints, state_) > tolerance::relation * diagonal())
+      return;
     const SolverState unbounded = state_;
     bound_extents(constraints);
     // Relations give way when bounds cannot be met: then the bounds are what is to be reported.

@@ -58,7 +58,8 @@ class ReflectionSearch {
 
  private:
   void consider(const Symmetry& candidate) {
-    if (found_.size() >= most_reflections || !is_principal(surface_, candidate.axis) || known(candidate)) return;
+    if (found_.size() >= most_reflections || !is_principal(surface_, candidate.axis) || known(candidate))
+      return;
     const Symmetry rough = roughly(surface_, candidate);
     if (known(rough)) return;
     tried_.push_back(rough);
@@ -89,8 +90,8 @@ class ReflectionSearch {
         }
   }
 
-  /// Facets and flutes make planes between true ones fit nearly, too. A plane goes when one at a small angle is far
-  /// better.
+  /// Facets and flutes make planes between true ones fit nearly, too. A plane goes when one at a small angle
+  /// is far better.
   void drop_shadows() {
     const auto shadow = [&](const FoundSymmetry& found) {
       return std::any_of(found_.begin(), found_.end(), [&](const FoundSymmetry& other) {

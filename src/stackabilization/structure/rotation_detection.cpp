@@ -14,9 +14,9 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr double rough_reach = 0.1;  // of candidates, own frame
+constexpr double rough_reach = 0.1;                       // of candidates, own frame
 constexpr double same_axis = 0.99, nearly_across = 0.05;  // cosines
-constexpr int highest_order = 12;                          // of rotations without reflections through their axis
+constexpr int highest_order = 12;  // of rotations without reflections through their axis
 
 class RotationSearch {
  public:
@@ -97,19 +97,22 @@ class RotationSearch {
   std::optional<Symmetry> plausible(Symmetry axis, int order) const {
     axis.order = order;
     axis = approached(surface_, axis, rough_reach, Effort::sparse);
-    return verify(surface_, axis, loosened(options_), Effort::sparse).holds ? std::optional(axis) : std::nullopt;
+    return verify(surface_, axis, loosened(options_), Effort::sparse).holds ? std::optional(axis)
+                                                                            : std::nullopt;
   }
 
   std::optional<Symmetry> highest_rotation(const Symmetry& axis) const {
     // A power of a rotation is a rotation of prime order.
     const std::array primes{2, 3, 5, 7, 11};
-    if (std::none_of(primes.begin(), primes.end(), [&](int order) { return plausible(axis, order).has_value(); }))
+    if (std::none_of(primes.begin(), primes.end(),
+                     [&](int order) { return plausible(axis, order).has_value(); }))
       return {};
     for (int order = highest_order; order >= 2; --order) {
       const std::optional<Symmetry> rough = plausible(axis, order);
       if (!rough) continue;
       const Symmetry fine = refined(surface_, *rough, counterpart_reach(surface_, options_));
-      if (verify(surface_, fine, options_, Effort::dense).holds && stands_out(fine) && !on_reflection(fine.axis))
+      if (verify(surface_, fine, options_, Effort::dense).holds && stands_out(fine) &&
+          !on_reflection(fine.axis))
         return fine;
     }
     return {};
@@ -134,7 +137,8 @@ class RotationSearch {
 
 }  // namespace
 
-std::vector<FoundSymmetry> find_rotations(const SymmetrySurface& surface, const std::vector<FoundSymmetry>& reflections,
+std::vector<FoundSymmetry> find_rotations(const SymmetrySurface& surface,
+                                          const std::vector<FoundSymmetry>& reflections,
                                           const SymmetryOptions& options) {
   return RotationSearch(surface, reflections, options).run();
 }

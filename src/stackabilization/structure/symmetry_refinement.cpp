@@ -127,9 +127,13 @@ struct Approach {
   Linearization at;
 
   Approach(const SymmetrySurface& of, const Symmetry& start, Effort effort)
-      : surface(of), points(measured_points(of, effort)), symmetry(start), at(linearized(of, start, points)) {}
+      : surface(of),
+        points(measured_points(of, effort)),
+        symmetry(start),
+        at(linearized(of, start, points)) {}
 
-  /// Steps at one scale until they are small. False when one was larger than `reach`: nothing holds the plane there.
+  /// Steps at one scale until they are small. False when one was larger than `reach`: nothing holds the plane
+  /// there.
   bool settle(double scale, double reach) {
     for (int step = 0; step < steps_per_scale; ++step) {
       const Eigen::Matrix<double, freedoms, 1> motion = best_step(at, scale);
