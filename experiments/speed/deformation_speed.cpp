@@ -1,13 +1,14 @@
-// Question: how long does the analysis of a shape take, and how long an edit of its controllers with everything that
-// follows from it?
+// Question: how long does the analysis of a shape take, and how long an edit of its controllers with
+// everything that follows from it?
 //
 //     deformation_speed MODEL... [--triangles N] [--edits N] [--seed N] [-o FILE.csv]
 //
-// One row per model, on one core: milliseconds of the analysis (segmentation, primitives with skeletons, symmetries,
-// joints) of the model as given; then, on its mesh subdivided to at least N triangles (default 10,000), milliseconds to
-// prepare the controllers, and median and largest milliseconds of an accepted edit - moves, turns and scalings of a few
-// per cent of random handles, each from rest - in two shares: propagation and solve, and the transfer to the mesh.
-// edit_ms and transfer_ms are medians of each, total_ms and slowest_ms median and largest of their sum.
+// One row per model, on one core: milliseconds of the analysis (segmentation, primitives with skeletons,
+// symmetries, joints) of the model as given; then, on its mesh subdivided to at least N triangles (default
+// 10,000), milliseconds to prepare the controllers, and median and largest milliseconds of an accepted edit -
+// moves, turns and scalings of a few per cent of random handles, each from rest - in two shares: propagation
+// and solve, and the transfer to the mesh. edit_ms and transfer_ms are medians of each, total_ms and
+// slowest_ms median and largest of their sum.
 
 #include <tbb/global_control.h>
 
@@ -54,7 +55,8 @@ Shape refined(const Shape& shape) {
     const int a = shape.triangles(t, 0), b = shape.triangles(t, 1), c = shape.triangles(t, 2);
     const int ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
     fine.triangles.middleRows<4>(4 * t) << a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca;
-    for (int k = 0; k < 4; ++k) fine.triangle_part.push_back(shape.triangle_part[static_cast<std::size_t>(t)]);
+    for (int k = 0; k < 4; ++k)
+      fine.triangle_part.push_back(shape.triangle_part[static_cast<std::size_t>(t)]);
   }
   fine.vertices.conservativeResize(shape.vertex_count() + static_cast<Eigen::Index>(added.size()), 3);
   for (std::size_t i = 0; i < added.size(); ++i)
@@ -118,7 +120,8 @@ std::string row_of(const std::string& path, const Options& options) {
   const double analysis_ms = 1e3 * (now() - start);
   while (structured.shape.triangle_count() < options.triangles) structured.shape = refined(structured.shape);
   const auto triangles = static_cast<long>(structured.shape.triangle_count());
-  const std::size_t parts = structured.structure.parts.size(), relations = structured.structure.relations.size();
+  const std::size_t parts = structured.structure.parts.size(),
+                    relations = structured.structure.relations.size();
   start = now();
   const ControllerModel model(std::move(structured));
   const double prepare_ms = 1e3 * (now() - start);
@@ -126,30 +129,33 @@ std::string row_of(const std::string& path, const Options& options) {
   if (times.total.empty()) throw InputError(path + ": none of the edits was accepted");
   char numbers[256];
   std::snprintf(numbers, sizeof numbers, ",%ld,%zu,%zu,%.1f,%ld,%.1f,%d,%zu,%.4f,%.4f,%.4f,%.4f\n",
-                static_cast<long>(shape.triangle_count()), parts, relations, analysis_ms, triangles, prepare_ms,
-                options.edits, times.total.size(), median(times.edit), median(times.transfer), median(times.total),
-                *std::max_element(times.total.begin(), times.total.end()));
+                static_cast<long>(shape.triangle_count()), parts, relations, analysis_ms, triangles,
+                prepare_ms, options.edits, times.total.size(), median(times.edit), median(times.transfer),
+                median(times.total), *std::max_element(times.total.begin(), times.total.end()));
   return std::filesystem::path(path).stem().string() + "," + file_hash(path) + numbers;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Time of structure analysis, and of edits of controllers with propagation, solve and mesh transfer."};
+  CLI::App app{
+      "Time of structure analysis, and of edits of controllers with propagation, solve and mesh transfer."};
   Options options;
   std::vector<std::string> models;
   std::string output = "-";
   app.add_option("models", models, "mesh files")->required()->check(CLI::ExistingFile);
-  app.add_option("--triangles", options.triangles, "subdivide until a mesh has this many")->check(CLI::Range(1, 1 << 24));
+  app.add_option("--triangles", options.triangles, "subdivide until a mesh has this many")
+      ->check(CLI::Range(1, 1 << 24));
   app.add_option("--edits", options.edits, "random edits per model")->check(CLI::Range(1, 1000000));
   app.add_option("--seed", options.seed, "of the random edits");
   app.add_option("-o", output, "CSV file; - is standard output");
   CLI11_PARSE(app, argc, argv);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   try {
-    std::string csv = provenance_lines({"deformation_speed", std::vector<std::string>(argv + 1, argv + argc), 1}) +
-                      "model,input_hash,triangles,parts,relations,analysis_ms,fine_triangles,prepare_ms,edits,accepted,"
-                      "edit_ms,transfer_ms,total_ms,slowest_ms\n";
+    std::string csv =
+        provenance_lines({"deformation_speed", std::vector<std::string>(argv + 1, argv + argc), 1}) +
+        "model,input_hash,triangles,parts,relations,analysis_ms,fine_triangles,prepare_ms,edits,accepted,"
+        "edit_ms,transfer_ms,total_ms,slowest_ms\n";
     for (const std::string& model : models) csv += row_of(model, options);
     write_file_atomically(output, csv);
   } catch (const Error& error) {

@@ -12,8 +12,8 @@ namespace stackabilization::random_edits {
 
 namespace {
 
-/// Edits of a few per cent: moves up to 5 % of the diagonal in any direction or along an axis, turns up to 0.1, factors
-/// up to 1.1 and down to 1 / 1.1.
+/// Edits of a few per cent: moves up to 5 % of the diagonal in any direction or along an axis, turns up to
+/// 0.1, factors up to 1.1 and down to 1 / 1.1.
 class RandomEdits {
  public:
   RandomEdits(const ControllerModel& model, std::uint64_t seed)
@@ -27,7 +27,9 @@ class RandomEdits {
 
   Edit next() {
     Edit edit;
-    const auto any = [&](const auto& list) -> const auto& { return list[random_.below(list.size())]; };
+    const auto any = [&](const auto& list) -> const auto& {
+      return list[random_.below(list.size())];
+    };
     edit.handle = any(any(any(by_kind_)));
     const bool whole = edit.handle.kind == HandleKind::part, face = edit.handle.kind == HandleKind::face;
     const std::uint64_t choice = random_.below(3);
@@ -52,7 +54,8 @@ class RandomEdits {
   /// Every other one is an axis: those are what symmetric parts allow.
   Eigen::Vector3d direction() {
     if (random_.below(2) == 0) return random_.on_sphere();
-    return (random_.below(2) == 0 ? 1 : -1) * Eigen::Vector3d::Unit(static_cast<Eigen::Index>(random_.below(3)));
+    return (random_.below(2) == 0 ? 1 : -1) *
+           Eigen::Vector3d::Unit(static_cast<Eigen::Index>(random_.below(3)));
   }
 
   std::vector<std::vector<std::vector<Handle>>> by_kind_;  ///< per part, per kind: all equally likely
@@ -63,7 +66,8 @@ class RandomEdits {
 std::string kind_of(const Edit& edit, const DeformationConstraints& constraints) {
   const char* operations[] = {"move", "rotate", "scale"};
   const char* handles[] = {"part", "face", "corner", "section"};
-  return std::string(operations[edit.operation.index()]) + ' ' + handles[static_cast<std::size_t>(edit.handle.kind)] +
+  return std::string(operations[edit.operation.index()]) + ' ' +
+         handles[static_cast<std::size_t>(edit.handle.kind)] +
          (constraints.keep_extent || constraints.box_tolerance ? ", bounded" : "");
 }
 
@@ -73,7 +77,8 @@ double smallest_corner_ratio(const Cuboid& rest, const Cuboid& now) {
   for (int k = 0; k < 8; ++k) {
     const auto volume_at = [&](const Cuboid& c) {
       Eigen::Matrix3d edges;
-      for (int a = 0; a < 3; ++a) edges.col(a) = (c.corners.row(k | 1 << a) - c.corners.row(k & ~(1 << a))).transpose();
+      for (int a = 0; a < 3; ++a)
+        edges.col(a) = (c.corners.row(k | 1 << a) - c.corners.row(k & ~(1 << a))).transpose();
       return edges.determinant();
     };
     least = std::min(least, volume_at(now) / volume_at(rest));
@@ -82,9 +87,11 @@ double smallest_corner_ratio(const Cuboid& rest, const Cuboid& now) {
 }
 
 /// Everything that must hold of an accepted edit, checked from the result alone.
-void check_accepted(const ControllerModel& model, const EditOutcome& outcome, const DeformationConstraints& constraints) {
+void check_accepted(const ControllerModel& model, const EditOutcome& outcome,
+                    const DeformationConstraints& constraints) {
   const StructuredShape& rest = model.rest();
-  for (const double residual : relation_residuals(rest.structure, outcome.primitives)) REQUIRE(residual <= 1e-6);
+  for (const double residual : relation_residuals(rest.structure, outcome.primitives))
+    REQUIRE(residual <= 1e-6);
   for (std::size_t part = 0; part < outcome.primitives.size(); ++part) {
     if (const auto* cuboid = std::get_if<Cuboid>(&outcome.primitives[part])) {
       if (volume(rest.structure.parts[part].primitive) > 1e-12 * std::pow(rest.structure.diagonal, 3))
@@ -104,7 +111,8 @@ void check_accepted(const ControllerModel& model, const EditOutcome& outcome, co
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d r = Eigen::Vector3d::Unit(axis);
       const double before = range_along(rest.shape, r).length();
-      REQUIRE(std::abs(range_along(shape, r).length() - before) <= (*constraints.box_tolerance + 1e-9) * before);
+      REQUIRE(std::abs(range_along(shape, r).length() - before) <=
+              (*constraints.box_tolerance + 1e-9) * before);
     }
 }
 
@@ -136,8 +144,8 @@ std::map<std::string, Tally> run(const ControllerModel& model, int count, std::u
 
 void report(const std::string& name, const std::map<std::string, Tally>& tallies) {
   for (const auto& [kind, tally] : tallies)
-    std::printf("%-24s %-24s accepted %4d, against a symmetry %4d, otherwise refused %4d\n", name.c_str(), kind.c_str(),
-                tally.accepted, tally.contradicted, tally.broken);
+    std::printf("%-24s %-24s accepted %4d, against a symmetry %4d, otherwise refused %4d\n", name.c_str(),
+                kind.c_str(), tally.accepted, tally.contradicted, tally.broken);
 }
 
 double acceptance(const std::map<std::string, Tally>& tallies) {

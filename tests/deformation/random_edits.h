@@ -15,8 +15,8 @@ struct Tally {
   int broken = 0;        ///< refused for another reason
 };
 
-/// Makes `count` edits, each on what the accepted ones of the last five led to; every fifth starts from rest and has
-/// to keep an extent or the box. By kind of edit.
+/// Makes `count` edits, each on what the accepted ones of the last five led to; every fifth starts from rest
+/// and has to keep an extent or the box. By kind of edit.
 std::map<std::string, Tally> run(const ControllerModel& model, int count, std::uint64_t seed);
 
 void report(const std::string& name, const std::map<std::string, Tally>& tallies);

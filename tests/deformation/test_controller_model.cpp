@@ -1,9 +1,8 @@
-#include "stackabilization/deformation/controller_model.h"
-
 #include <cmath>
 #include <numbers>
 
 #include "deformation/structures.h"
+#include "stackabilization/deformation/controller_model.h"
 #include "stackabilization/deformation/relation_residual.h"
 #include "stackabilization/shape/errors.h"
 #include "support/catch.h"
@@ -22,11 +21,14 @@ const GeneralizedCylinder& cylinder(const std::vector<Primitive>& now, int part)
 
 double largest_residual(const ControllerModel& model, const std::vector<Primitive>& now) {
   double largest = 0;
-  for (const double residual : relation_residuals(model.rest().structure, now)) largest = std::max(largest, residual);
+  for (const double residual : relation_residuals(model.rest().structure, now))
+    largest = std::max(largest, residual);
   return largest;
 }
 
-double difference(const Points& a, const Points& b) { return (a - b).rowwise().norm().maxCoeff(); }
+double difference(const Points& a, const Points& b) {
+  return (a - b).rowwise().norm().maxCoeff();
+}
 
 const Handle kWhole{HandleKind::part, 0, 0};
 enum TablePart { kTop, kLeg1, kLeg2, kLeg3, kLeg4, kBar1, kBar2, kBar3, kBar4 };
@@ -34,7 +36,8 @@ enum TablePart { kTop, kLeg1, kLeg2, kLeg3, kLeg4, kBar1, kBar2, kBar3, kBar4 };
 }  // namespace
 
 TEST_CASE("no edit changes no bit, and neither does an edit by nothing") {
-  for (const StructuredShape& rest : {structures::table(1), structures::mug(), structures::post_with_ring()}) {
+  for (const StructuredShape& rest :
+       {structures::table(1), structures::mug(), structures::post_with_ring()}) {
     const ControllerModel model(rest);
     CHECK(model.deformed({}).shape.vertices == rest.shape.vertices);
     for (const Handle& handle : model.handles()) {
@@ -57,12 +60,13 @@ TEST_CASE("a cuboid alone takes affine edits exactly") {
   CHECK(difference(model.deformed({{kWhole, Rotate{axis, 0.7}}}).shape.vertices, before * turn.transpose()) <
         1e-12 * diagonal);
   const Eigen::Matrix3d stretch = Eigen::Matrix3d::Identity() + 0.5 * axis * axis.transpose();
-  CHECK(difference(model.deformed({{kWhole, Scale{1.5, Eigen::Vector3d(1, 2, -1)}}}).shape.vertices, before * stretch) <
-        1e-12 * diagonal);
+  CHECK(difference(model.deformed({{kWhole, Scale{1.5, Eigen::Vector3d(1, 2, -1)}}}).shape.vertices,
+                   before * stretch) < 1e-12 * diagonal);
   // A face moved along its normal stretches the box.
   Points longer = before;
   longer.col(0) = (before.col(0).array() + 2) * 1.25 - 2;
-  CHECK(difference(model.deformed({{{HandleKind::face, 0, 1}, Move{{1, 0, 0}}}}).shape.vertices, longer) < 1e-12 * diagonal);
+  CHECK(difference(model.deformed({{{HandleKind::face, 0, 1}, Move{{1, 0, 0}}}}).shape.vertices, longer) <
+        1e-12 * diagonal);
   // Edits follow one another.
   const DeformationResult twice = model.deformed({{kWhole, Scale{2, {}}}, {kWhole, Scale{0.5, {}}}});
   CHECK(difference(twice.shape.vertices, before) < 1e-12 * diagonal);
@@ -70,18 +74,20 @@ TEST_CASE("a cuboid alone takes affine edits exactly") {
 
 TEST_CASE("generalized cylinders alone take rigid motions and uniform scalings exactly") {
   for (const GeneralizedCylinder& curve :
-       {structures::straight_cylinder({0, 0, 0}, {1, 2, 3}, 0.5, 5), structures::arc_cylinder(3, 0.4, 0, 2.5, 9),
-        structures::ring_cylinder(2, 0.3, 12)}) {
+       {structures::straight_cylinder({0, 0, 0}, {1, 2, 3}, 0.5, 5),
+        structures::arc_cylinder(3, 0.4, 0, 2.5, 9), structures::ring_cylinder(2, 0.3, 12)}) {
     const StructuredShape rest = structures::tube_alone(curve, 10);
     const ControllerModel model(rest);
     const Points& before = rest.shape.vertices;
     const Eigen::RowVector3d centre = model.centre(kWhole).transpose();
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(2.5, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
-    const DeformationResult result =
-        model.deformed({{kWhole, Rotate{{1, 2, -1}, 2.5}}, {kWhole, Scale{1.3, {}}}, {kWhole, Move{{1, 0, 0}}}});
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(2.5, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
+    const DeformationResult result = model.deformed(
+        {{kWhole, Rotate{{1, 2, -1}, 2.5}}, {kWhole, Scale{1.3, {}}}, {kWhole, Move{{1, 0, 0}}}});
     REQUIRE_FALSE(result.refusal);
-    const Points expected = ((1.3 * (before.rowwise() - centre) * turn.transpose()).rowwise() + centre).rowwise() +
-                            Eigen::RowVector3d(1, 0, 0);
+    const Points expected =
+        ((1.3 * (before.rowwise() - centre) * turn.transpose()).rowwise() + centre).rowwise() +
+        Eigen::RowVector3d(1, 0, 0);
     CHECK(difference(result.shape.vertices, expected) < 1e-12 * rest.structure.diagonal);
   }
 }
@@ -116,14 +122,21 @@ TEST_CASE("moving the foot of one leg outwards splays all four, and every joint 
     const Eigen::RowVector3d corner = cuboid(result.primitives, kLeg1).corners.row(k);
     CHECK((corner - rest.corners.row(k) - Eigen::RowVector3d(-0.5, -0.5, 0)).norm() < 1e-14);
     // Corner k of leg 1 is seen in the mirrors as the corners with bit 0 or bit 1 changed.
-    CHECK((cuboid(result.primitives, kLeg2).corners.row(k ^ 1) - corner.cwiseProduct(Eigen::RowVector3d(-1, 1, 1))).norm() < 1e-14);
-    CHECK((cuboid(result.primitives, kLeg4).corners.row(k ^ 2) - corner.cwiseProduct(Eigen::RowVector3d(1, -1, 1))).norm() < 1e-14);
-    CHECK((cuboid(result.primitives, kLeg3).corners.row(k ^ 3) - corner.cwiseProduct(Eigen::RowVector3d(-1, -1, 1))).norm() < 1e-14);
+    CHECK((cuboid(result.primitives, kLeg2).corners.row(k ^ 1) -
+           corner.cwiseProduct(Eigen::RowVector3d(-1, 1, 1)))
+              .norm() < 1e-14);
+    CHECK((cuboid(result.primitives, kLeg4).corners.row(k ^ 2) -
+           corner.cwiseProduct(Eigen::RowVector3d(1, -1, 1)))
+              .norm() < 1e-14);
+    CHECK((cuboid(result.primitives, kLeg3).corners.row(k ^ 3) -
+           corner.cwiseProduct(Eigen::RowVector3d(-1, -1, 1)))
+              .norm() < 1e-14);
   }
   // The bars got longer by what the legs spread at their height, not more; the top stayed nearly as it was.
   const Cuboid& bar = cuboid(result.primitives, kBar1);
   CHECK((bar.corners.row(1) - bar.corners.row(0)).norm() > 6.2 + 0.3);
-  CHECK(difference(cuboid(result.primitives, kTop).corners, cuboid(model.rest_primitives(), kTop).corners) < 0.1);
+  CHECK(difference(cuboid(result.primitives, kTop).corners, cuboid(model.rest_primitives(), kTop).corners) <
+        0.1);
 }
 
 TEST_CASE("a moved leg takes along its mirror images and what is joined to them") {
@@ -132,9 +145,12 @@ TEST_CASE("a moved leg takes along its mirror images and what is joined to them"
     const DeformationResult result = model.deformed({{{HandleKind::part, kLeg3, 0}, Move{{0.4, 0.2, 0}}}});
     REQUIRE_FALSE(result.refusal);
     CHECK(largest_residual(model, result.primitives) < 1e-9);
-    CHECK(difference(cuboid(result.primitives, kLeg3).corners,
-                     (cuboid(model.rest_primitives(), kLeg3).corners.rowwise() + Eigen::RowVector3d(0.4, 0.2, 0)).eval()) < 1e-14);
-    const Eigen::RowVector3d size = cuboid(result.primitives, kTop).corners.row(7) - cuboid(result.primitives, kTop).corners.row(0);
+    CHECK(difference(
+              cuboid(result.primitives, kLeg3).corners,
+              (cuboid(model.rest_primitives(), kLeg3).corners.rowwise() + Eigen::RowVector3d(0.4, 0.2, 0))
+                  .eval()) < 1e-14);
+    const Eigen::RowVector3d size =
+        cuboid(result.primitives, kTop).corners.row(7) - cuboid(result.primitives, kTop).corners.row(0);
     CHECK(size.x() == Approx(8 * 3.9 / 3.5).epsilon(0.05));
     CHECK(size.y() == Approx(8 * 3.7 / 3.5).epsilon(0.05));
   }
@@ -175,17 +191,20 @@ TEST_CASE("what would break a joint or a primitive is refused with the reason") 
   const ControllerModel model(structures::table());
   DeformationConstraints others_fixed;
   others_fixed.fixed_parts = {kTop, kBar1, kBar2};
-  const DeformationResult apart = model.deformed({{{HandleKind::part, kLeg1, 0}, Move{{-0.2, 0, 0}}}}, others_fixed);
+  const DeformationResult apart =
+      model.deformed({{{HandleKind::part, kLeg1, 0}, Move{{-0.2, 0, 0}}}}, others_fixed);
   REQUIRE(apart.refusal);
   REQUIRE(apart.refusal->relation);
-  const Relation& joint = model.rest().structure.relations[static_cast<std::size_t>(*apart.refusal->relation)];
+  const Relation& joint =
+      model.rest().structure.relations[static_cast<std::size_t>(*apart.refusal->relation)];
   CHECK(joint.type == RelationType::point_joint);
   CHECK(apart.refusal->amount == Approx(0.2 / model.rest().structure.diagonal).epsilon(0.01));
   CHECK(apart.refusal->reason.find("point_joint of '") != std::string::npos);
 
   DeformationConstraints pair_fixed;
   pair_fixed.fixed_parts = {kLeg1};
-  const DeformationResult fixed = model.deformed({{{HandleKind::part, kLeg3, 0}, Move{{0, 0, 1}}}}, pair_fixed);
+  const DeformationResult fixed =
+      model.deformed({{{HandleKind::part, kLeg3, 0}, Move{{0, 0, 1}}}}, pair_fixed);
   REQUIRE(fixed.refusal);
   CHECK(fixed.refusal->reason.find("'leg_3'") != std::string::npos);
 
@@ -194,7 +213,8 @@ TEST_CASE("what would break a joint or a primitive is refused with the reason") 
   REQUIRE(inverted.refusal);
   CHECK(inverted.refusal->reason.find("inside out") != std::string::npos);
   CHECK(box.deformed({{{HandleKind::part, 0, 0}, Scale{1e-5, {}}}}).refusal);
-  const ControllerModel tube(structures::tube_alone(structures::straight_cylinder({0, 0, 0}, {0, 0, 5}, 1, 6), 8));
+  const ControllerModel tube(
+      structures::tube_alone(structures::straight_cylinder({0, 0, 0}, {0, 0, 5}, 1, 6), 8));
   CHECK(tube.deformed({{{HandleKind::section, 0, 3}, Move{{0, 0, 4}}}}).refusal);
 }
 
@@ -202,7 +222,8 @@ TEST_CASE("fixed parts and points stay while the rest is edited") {
   const ControllerModel model(structures::table(1));
   DeformationConstraints constraints;
   constraints.fixed_parts = {kTop};
-  const DeformationResult result = model.deformed({{{HandleKind::face, kLeg1, 4}, Move{{-0.3, -0.2, 0}}}}, constraints);
+  const DeformationResult result =
+      model.deformed({{{HandleKind::face, kLeg1, 4}, Move{{-0.3, -0.2, 0}}}}, constraints);
   REQUIRE_FALSE(result.refusal);
   CHECK(cuboid(result.primitives, kTop).corners == cuboid(model.rest_primitives(), kTop).corners);
   CHECK(largest_residual(model, result.primitives) < 1e-9);

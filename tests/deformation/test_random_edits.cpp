@@ -8,10 +8,11 @@ using namespace stackabilization;
 using namespace stackabilization::random_edits;
 
 TEST_CASE("a thousand random edits leave no broken relation, and most of them are made") {
-  const std::map<std::string, StructuredShape> rests = {{"table", structures::table(1)},
-                                                        {"table with line joints", structures::table_with_line_joints()},
-                                                        {"mug", structures::mug(12)},
-                                                        {"post with ring", structures::post_with_ring()}};
+  const std::map<std::string, StructuredShape> rests = {
+      {"table", structures::table(1)},
+      {"table with line joints", structures::table_with_line_joints()},
+      {"mug", structures::mug(12)},
+      {"post with ring", structures::post_with_ring()}};
   for (const auto& [name, rest] : rests) {
     const ControllerModel model(rest);
     const std::map<std::string, Tally> tallies = run(model, 1000, 42);
