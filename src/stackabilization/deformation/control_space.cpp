@@ -8,6 +8,7 @@
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
 #include "stackabilization/structure/correspondence.h"
+#include "stackabilization/structure/relation_graph.h"
 
 namespace stackabilization {
 
@@ -76,14 +77,15 @@ ControlSpace::ControlSpace(const Structure& rest) : images_(rest.parts.size()), 
                                                                     rest_[at(relation.parts.back())],
                                                                     isometry_of(relation.symmetry))
                                            : std::vector<int>());
+  const RelationGraph graph(rest);
   for (int part = 0; part < static_cast<int>(rest_.size()); ++part)
-    if (class_of(part) < 0) spread_class(part, rest, orders);
+    if (class_of(part) < 0) spread_class(part, rest, graph, orders);
   for (std::size_t k = 0; k < orders.size(); ++k)
     if (is_symmetry(rest.relations[k]) && !tree_[k]) add_stabiliser(static_cast<int>(k), rest, orders[k]);
   for (Class& of_class : classes_) prepare_projectors(of_class);
 }
 
-void ControlSpace::spread_class(int first, const Structure& rest,
+void ControlSpace::spread_class(int first, const Structure& rest, const RelationGraph& graph,
                                 const std::vector<std::vector<int>>& orders) {
   Image& image = images_[at(first)];
   image.of_class = class_count();
@@ -92,22 +94,20 @@ void ControlSpace::spread_class(int first, const Structure& rest,
   image.inverse_order = image.order;
   std::vector<int> members = {first};
   for (std::size_t next = 0; next < members.size(); ++next)
-    for (std::size_t k = 0; k < orders.size(); ++k) {
-      const Relation& relation = rest.relations[k];
-      if (relation.type != RelationType::symmetry) continue;
-      const int known = members[next];
+    for (const int row : graph.incident(members[next])) {
+      const Relation& relation = rest.relations[at(row)];
+      const int known = members[next], other = graph.opposite(row, known);
+      if (relation.type != RelationType::symmetry || class_of(other) >= 0) continue;
       const bool forward = relation.parts[0] == known;
-      if (!forward && relation.parts[1] != known) continue;
-      const int other = relation.parts[forward ? 1 : 0];
-      if (class_of(other) >= 0) continue;
+      const std::vector<int>& order = orders[at(row)];
       const Image& from = images_[at(known)];
       const Eigen::Matrix3d map = isometry_of(relation.symmetry).linear();
       Image& to = images_[at(other)];
       to.of_class = from.of_class;
       to.linear = (forward ? map : Eigen::Matrix3d(map.transpose())) * from.linear;
-      to.order = composed(from.order, forward ? orders[k] : inverse(orders[k]));
+      to.order = composed(from.order, forward ? order : inverse(order));
       to.inverse_order = inverse(to.order);
-      tree_[k] = true;
+      tree_[at(row)] = true;
       members.push_back(other);
     }
   std::sort(members.begin(), members.end());

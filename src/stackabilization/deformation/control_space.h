@@ -8,6 +8,8 @@
 
 namespace stackabilization {
 
+class RelationGraph;
+
 /// Where the controls of a primitive are, since rest.
 struct ControlState {
   /// Displacements of the n control points, point by point; of a generalized cylinder then the changes of its
@@ -77,7 +79,10 @@ class ControlSpace {
     Eigen::Matrix3d rotation_projector;  ///< of rotation vectors
   };
 
-  void spread_class(int first, const Structure& rest, const std::vector<std::vector<int>>& orders);
+  /// Walks from `first` along the pairs of the graph; `orders` are the correspondences of the symmetry
+  /// relations.
+  void spread_class(int first, const Structure& rest, const RelationGraph& graph,
+                    const std::vector<std::vector<int>>& orders);
   void add_stabiliser(int relation, const Structure& rest, const std::vector<int>& order);
   void prepare_projectors(Class& of_class) const;
 

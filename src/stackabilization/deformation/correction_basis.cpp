@@ -13,13 +13,13 @@ namespace stackabilization {
 namespace {
 
 /// Standard deviation of the spread of an edit, fraction of the arc length.
-constexpr double kSpread = 0.2;
+constexpr double spread_sigma = 0.2;
 /// Length of the columns relative to that of affine motions: a price of 1 over their square.
-constexpr double kBending = 0.3;
-constexpr double kCorners = 0.1;
-constexpr double kRadii = 0.1;
+constexpr double bending_length = 0.3;
+constexpr double corner_length = 0.1;
+constexpr double radius_length = 0.1;
 /// Smooth functions along the curve below this fraction of the strongest are left out.
-constexpr double kWeakestMode = 1e-3;  // no tolerance: it bounds the number of columns, not a rounding error
+constexpr double weakest_mode = 0.001;
 
 /// Kronecker product with the unit matrix of size 3: a function along the points becomes three columns.
 void append_moves(const Eigen::MatrixXd& functions, double factor, Eigen::MatrixXd& basis,
@@ -34,7 +34,7 @@ Eigen::MatrixXd smooth_functions(const GeneralizedCylinder& cylinder) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gaussian_spread(cylinder));
   const Eigen::VectorXd& strength = solver.eigenvalues();
   Eigen::Index first = 0;
-  while (strength(first) < kWeakestMode * strength(strength.size() - 1)) ++first;
+  while (strength(first) < weakest_mode * strength(strength.size() - 1)) ++first;
   const Eigen::Index count = strength.size() - first;
   return solver.eigenvectors().rightCols(count) * strength.tail(count).cwiseSqrt().asDiagonal();
 }
@@ -60,8 +60,8 @@ Eigen::MatrixXd basis_of(const GeneralizedCylinder& cylinder) {
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(4 * n, moves + smooth.cols());
   Eigen::Index column = 0;
   append_moves(affine, 1, basis, column);
-  append_moves(smooth, kBending, basis, column);
-  basis.bottomRightCorner(n, smooth.cols()) = kRadii * smooth;
+  append_moves(smooth, bending_length, basis, column);
+  basis.bottomRightCorner(n, smooth.cols()) = radius_length * smooth;
   return basis;
 }
 
@@ -77,7 +77,7 @@ Eigen::MatrixXd basis_of(const Cuboid&) {
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(24, 24);
   Eigen::Index column = 0;
   append_moves(affine, 1, basis, column);
-  append_moves(bent, kCorners, basis, column);
+  append_moves(bent, corner_length, basis, column);
   return basis;
 }
 
@@ -85,7 +85,7 @@ Eigen::MatrixXd basis_of(const Cuboid&) {
 
 Eigen::MatrixXd gaussian_spread(const GeneralizedCylinder& rest) {
   const Eigen::VectorXd s = section_arc_lengths(rest);
-  const double whole = s(s.size() - 1), sigma = kSpread * whole;
+  const double whole = s(s.size() - 1), sigma = spread_sigma * whole;
   const Eigen::Index n = rest.centres.rows();
   Eigen::MatrixXd spread(n, n);
   for (Eigen::Index i = 0; i < n; ++i)

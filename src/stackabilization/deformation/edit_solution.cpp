@@ -18,9 +18,9 @@ namespace {
 
 /// How much the part that carries the handle resists corrections of what the edit left open of it: length of
 /// its columns relative to those of other parts.
-constexpr double kStiffness = 0.3;
+constexpr double stiffness = 0.3;
 /// Rounds in which vertices that a solve made outermost are held as well.
-constexpr int kExtentRounds = 10;
+constexpr int extent_rounds = 10;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -162,7 +162,7 @@ class EditSolution {
     state_.controls[at(class_)].values += change;
     Eigen::MatrixXd& basis = bases_[at(class_)];
     const Eigen::MatrixXd rows = handle_rows(basis);
-    basis = kStiffness * (basis - basis * (pseudo_inverse(rows) * rows));
+    basis = stiffness * (basis - basis * (pseudo_inverse(rows) * rows));
     return std::nullopt;
   }
 
@@ -209,7 +209,7 @@ class EditSolution {
   }
 
   void bound_extents(std::vector<Constraint>& constraints) {
-    for (int round = 0; round < kExtentRounds; ++round) {
+    for (int round = 0; round < extent_rounds; ++round) {
       const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
       if (state_.levels.size() == 0) state_.levels = watch_.levels(vertices);
       bool held = false;

@@ -19,11 +19,11 @@ Eigen::Vector3d cube_corner(int k) {
 }
 
 /// Farthest from the centre, in half sides of the cube, that the formula is used.
-constexpr double kReach = 2;
+constexpr double reach = 2;
 
 /// The point moved within reach, and into the planes of those faces that it all but lies in.
 Eigen::Vector3d tamed(const Eigen::Vector3d& point) {
-  Eigen::Vector3d tame = point.cwiseMax(-kReach).cwiseMin(kReach);
+  Eigen::Vector3d tame = point.cwiseMax(-reach).cwiseMin(reach);
   for (double& x : tame)
     if (std::abs(std::abs(x) - 1) <= tolerance::relative) x = std::copysign(1.0, x);
   return tame;

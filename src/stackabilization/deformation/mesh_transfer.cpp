@@ -10,7 +10,7 @@ namespace stackabilization {
 namespace {
 
 /// Reach of a part beyond its border with another, fraction of the diagonal of the smaller of both.
-constexpr double kBand = 0.15;
+constexpr double reach_of_parts = 0.15;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -63,10 +63,10 @@ class Shares {
     if (borders.empty()) return;
     const std::map<int, std::set<int>> edges = edges_of(part);
     for (const auto& [other, border] : borders) {
-      const double band = kBand * std::min(diagonal(part), diagonal(other));
-      for (const auto& [vertex, distance] : distances(edges, border, band)) {
+      const double reach = reach_of_parts * std::min(diagonal(part), diagonal(other));
+      for (const auto& [vertex, distance] : distances(edges, border, reach)) {
         double& share = shares[at(vertex)][other];
-        share = std::max(share, fall_off(distance / band));
+        share = std::max(share, fall_off(distance / reach));
       }
     }
   }

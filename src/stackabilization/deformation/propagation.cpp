@@ -10,9 +10,9 @@ namespace stackabilization {
 namespace {
 
 /// Pulls what the joints leave undetermined of a rotation towards none; relative to their spread.
-constexpr double kRotationPull = 0x1p-20;
+constexpr double rotation_pull = 0.000001;
 /// The same for the strain.
-constexpr double kStrainPull = 0x1p-10;
+constexpr double strain_pull = 0.001;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -33,13 +33,13 @@ AffineMotion fitted(const Points& p, const Points& q) {
   const double spread = from.squaredNorm();
   if (!(spread > 0)) return motion;
   const Eigen::Matrix3d covariance =
-      to.transpose() * from + kRotationPull * spread * Eigen::Matrix3d::Identity();
+      to.transpose() * from + rotation_pull * spread * Eigen::Matrix3d::Identity();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double sign = svd.matrixU().determinant() * svd.matrixV().determinant() < 0 ? -1 : 1;
   motion.rotation = svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
   const Points turned = from * motion.rotation.transpose();
   const Eigen::Matrix3d moments =
-      turned.transpose() * turned + kStrainPull * spread * Eigen::Matrix3d::Identity();
+      turned.transpose() * turned + strain_pull * spread * Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d strain = ((to - turned).transpose() * turned) * moments.inverse();
   motion.linear = motion.rotation + strain * motion.rotation;
   return motion;

@@ -10,11 +10,11 @@ namespace stackabilization {
 
 namespace {
 
-constexpr int kMostSteps = 20;
+constexpr int most_steps = 20;
 /// A step that leaves more of the gap than this, twice in a row, is the last.
-constexpr double kProgress = 0.9;
+constexpr double idle_ratio = 0.9;
 /// Longest step of a control, fraction of the diagonal.
-constexpr double kLongestStep = 0.25;
+constexpr double longest_step = 0.25;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -83,12 +83,12 @@ class Solver {
   SolverState run() {
     double before = std::numeric_limits<double>::infinity();
     int idle = 0;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < most_steps; ++step) {
       now_ = rig_.space.primitives(state_.controls);
       const Eigen::VectorXd gap = gaps();
       const double largest = gap.size() > 0 ? gap.cwiseAbs().maxCoeff() : 0;
       if (!(largest > tolerance::solve * rig_.rest.diagonal)) break;
-      idle = largest > kProgress * before ? idle + 1 : 0;
+      idle = largest > idle_ratio * before ? idle + 1 : 0;
       if (idle == 2) break;
       before = largest;
       const Eigen::MatrixXd jacobian = slopes();
@@ -182,7 +182,7 @@ class Solver {
       changes.push_back(bases_[c] * step.segment(offsets_[c], bases_[c].cols()));
       if (changes[c].size() > 0) longest = std::max(longest, changes[c].cwiseAbs().maxCoeff());
     }
-    const double scale = std::min(1.0, kLongestStep * rig_.rest.diagonal / longest);
+    const double scale = std::min(1.0, longest_step * rig_.rest.diagonal / longest);
     for (std::size_t c = 0; c < bases_.size(); ++c) {
       if (bases_[c].cols() == 0) continue;
       ControlState& state = state_.controls[c];
