@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "stackabilization/deformation/merged_places.h"
+#include "stackabilization/deformation/places.h"
 #include "stackabilization/shape/disjoint_sets.h"
 #include "stackabilization/shape/errors.h"
 
@@ -15,14 +15,13 @@ namespace stackabilization {
 
 namespace {
 
-using detail::MergedPlaces;
-using Places = std::vector<int>;
+using Chained = std::vector<int>;
 
 /// Cosine of a degree: segments that turn by less belong to one straight run.
 const double straight_cosine = std::cos(std::numbers::pi / 180);
 
 struct Chain {
-  Places places;
+  Chained places;
   bool closed = false;
 };
 
@@ -33,30 +32,34 @@ void check(const FeatureCurveOptions& options) {
       throw UsageError("angles and lengths of feature curves must be finite and not negative");
 }
 
-Eigen::Vector3d unit_normal(const MergedPlaces& surface, const std::array<int, 3>& t) {
-  const auto at = [&](std::size_t k) { return surface.points[static_cast<std::size_t>(t[k])]; };
+Eigen::Vector3d point_at(const Places& surface, int place) {
+  return surface.points.row(place).transpose();
+}
+
+Eigen::Vector3d unit_normal(const Places& surface, Eigen::Index triangle) {
+  const auto at = [&](int k) { return point_at(surface, surface.triangles(triangle, k)); };
   return (at(1) - at(0)).cross(at(2) - at(0)).stableNormalized();
 }
 
 /// One side of a triangle.
 struct Side {
-  std::size_t triangle;
+  Eigen::Index triangle;
   bool forward;  ///< from the lesser to the greater place
 };
 
 /// The graph of feature edges.
 class FeatureGraph {
  public:
-  FeatureGraph(const MergedPlaces& surface, const FeatureCurveOptions& options)
+  FeatureGraph(const Places& surface, const FeatureCurveOptions& options)
       : surface_(surface),
         crease_cosine_(std::cos(options.crease_angle * std::numbers::pi / 180)),
         corner_cosine_(std::cos(options.corner_angle * std::numbers::pi / 180)),
-        neighbours_(surface.points.size()),
-        cut_(surface.points.size(), 0) {
+        neighbours_(static_cast<std::size_t>(surface.points.rows())),
+        cut_(neighbours_.size(), 0) {
     std::map<std::pair<int, int>, std::vector<Side>> edges;
-    for (std::size_t t = 0; t < surface.triangles.size(); ++t)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const int a = surface.triangles[t][k], b = surface.triangles[t][(k + 1) % 3];
+    for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t)
+      for (int k = 0; k < 3; ++k) {
+        const int a = surface.triangles(t, k), b = surface.triangles(t, (k + 1) % 3);
         if (a != b) edges[std::minmax(a, b)].push_back({t, a < b});
       }
     for (const auto& [edge, sides] : edges)
@@ -75,7 +78,7 @@ class FeatureGraph {
       for (const int next : neighbours(start)) {
         Chain chain = walk(start, next);
         // Each open chain is met from both its ends, a loop at a corner in both directions: take the lesser.
-        Places reverse(chain.places.rbegin(), chain.places.rend());
+        Chained reverse(chain.places.rbegin(), chain.places.rend());
         if (chain.closed) std::rotate(reverse.begin(), reverse.end() - 1, reverse.end());
         if (reverse < chain.places) continue;
         for (const int place : chain.places) seen[static_cast<std::size_t>(place)] = 1;
@@ -133,19 +136,29 @@ class FeatureGraph {
   }
 
   int place_count() const { return static_cast<int>(neighbours_.size()); }
-  const Places& neighbours(int place) const { return neighbours_[static_cast<std::size_t>(place)]; }
-  const Eigen::Vector3d& point(int place) const { return surface_.points[static_cast<std::size_t>(place)]; }
+  const Chained& neighbours(int place) const { return neighbours_[static_cast<std::size_t>(place)]; }
+  Eigen::Vector3d point(int place) const { return point_at(surface_, place); }
 
   bool is_feature(const std::vector<Side>& sides) const {
-    if (sides.size() != 2) return true;
-    const Eigen::Vector3d a = unit_normal(surface_, surface_.triangles[sides[0].triangle]);
-    const Eigen::Vector3d b = unit_normal(surface_, surface_.triangles[sides[1].triangle]);
-    if (a.isZero(0) || b.isZero(0)) return false;
-    return (sides[0].forward == sides[1].forward ? -1 : 1) * a.dot(b) < crease_cosine_;
+    if (sides.size() == 1) return true;
+    for (std::size_t i = 0; i < sides.size(); ++i)
+      for (std::size_t j = i + 1; j < sides.size(); ++j) {
+        const double turn =
+            unit_normal(surface_, sides[i].triangle).dot(unit_normal(surface_, sides[j].triangle));
+        // Collapsed triangles have no normal. Of many triangles nobody knows which continues which.
+        if (turn == 0 && (collapsed(sides[i].triangle) || collapsed(sides[j].triangle))) continue;
+        const double flat = sides.size() > 2                       ? std::abs(turn)
+                            : sides[i].forward == sides[j].forward ? -turn
+                                                                   : turn;
+        if (flat < crease_cosine_) return true;
+      }
+    return false;
   }
 
+  bool collapsed(Eigen::Index triangle) const { return unit_normal(surface_, triangle).isZero(0); }
+
   bool is_corner(int place) const {
-    const Places& around = neighbours(place);
+    const Chained& around = neighbours(place);
     if (around.size() != 2 || cut_[static_cast<std::size_t>(place)]) return true;
     const Eigen::Vector3d in = (point(place) - point(around[0])).stableNormalized();
     const Eigen::Vector3d out = (point(around[1]) - point(place)).stableNormalized();
@@ -157,7 +170,7 @@ class FeatureGraph {
     int previous = start;
     while (next != start && !is_corner(next)) {
       chain.places.push_back(next);
-      const Places& around = neighbours(next);
+      const Chained& around = neighbours(next);
       previous = std::exchange(next, around[0] == previous ? around[1] : around[0]);
     }
     chain.closed = next == start;
@@ -165,31 +178,30 @@ class FeatureGraph {
     return chain;
   }
 
-  const MergedPlaces& surface_;
+  const Places& surface_;
   double crease_cosine_, corner_cosine_;
-  std::vector<Places> neighbours_;
+  std::vector<Chained> neighbours_;
   std::vector<char> cut_;
 };
 
-double length_of(const MergedPlaces& surface, const Chain& chain) {
+double length_of(const Places& surface, const Chain& chain) {
   double length = 0;
   const std::size_t n = chain.places.size();
   for (std::size_t i = 0; i + (chain.closed ? 0 : 1) < n; ++i)
-    length += (surface.points[static_cast<std::size_t>(chain.places[(i + 1) % n])] -
-               surface.points[static_cast<std::size_t>(chain.places[i])])
-                  .norm();
+    length += (point_at(surface, chain.places[(i + 1) % n]) - point_at(surface, chain.places[i])).norm();
   return length;
 }
 
 /// Which chains are long enough to matter.
-std::vector<char> significant(const MergedPlaces& surface, const FeatureGraph& graph,
+std::vector<char> significant(const Places& surface, const FeatureGraph& graph,
                               const std::vector<Chain>& chains, double smallest) {
-  DisjointSets networks(surface.points.size());
+  DisjointSets networks(static_cast<std::size_t>(surface.points.rows()));
   for (const Chain& chain : chains)
     for (const int place : chain.places)
       networks.join(static_cast<std::size_t>(chain.places.front()), static_cast<std::size_t>(place));
-  std::vector<Eigen::AlignedBox3d> boxes(surface.points.size());
-  for (std::size_t p = 0; p < surface.points.size(); ++p) boxes[networks.root(p)].extend(surface.points[p]);
+  std::vector<Eigen::AlignedBox3d> boxes(static_cast<std::size_t>(surface.points.rows()));
+  for (int p = 0; p < surface.points.rows(); ++p)
+    boxes[networks.root(static_cast<std::size_t>(p))].extend(point_at(surface, p));
   std::vector<char> keep;
   for (const Chain& chain : chains) {
     const auto& box = boxes[networks.root(static_cast<std::size_t>(chain.places.front()))];
@@ -204,12 +216,10 @@ std::vector<char> significant(const MergedPlaces& surface, const FeatureGraph& g
 
 std::vector<FeatureCurve> feature_curves(const Shape& shape, const FeatureCurveOptions& options) {
   check(options);
-  const MergedPlaces surface = detail::merged_places(shape);
+  const Places surface = places_of(shape);
   FeatureGraph graph(surface, options);
-  Eigen::AlignedBox3d box;
-  for (const auto& triangle : surface.triangles)
-    for (const int place : triangle) box.extend(surface.points[static_cast<std::size_t>(place)]);
-  const double smallest = options.smallest_length * box.diagonal().norm();
+  const double smallest = options.smallest_length *
+                          (surface.points.colwise().maxCoeff() - surface.points.colwise().minCoeff()).norm();
   graph.cut_straight_runs(graph.chains(), smallest, options.straight_run_ratio);
   const std::vector<Chain> chains = graph.chains();
   const std::vector<char> keep = significant(surface, graph, chains, smallest);
@@ -218,7 +228,7 @@ std::vector<FeatureCurve> feature_curves(const Shape& shape, const FeatureCurveO
     if (!keep[i]) continue;
     FeatureCurve curve{{}, chains[i].closed};
     for (const int place : chains[i].places)
-      curve.vertices.push_back(surface.vertex_of[static_cast<std::size_t>(place)]);
+      curve.vertices.push_back(surface.vertex[static_cast<std::size_t>(place)]);
     curves.push_back(std::move(curve));
   }
   return curves;

@@ -23,12 +23,12 @@ struct FeatureCurveOptions {
 /// A chain of feature edges of a surface.
 struct FeatureCurve {
   /// Rows of Shape::vertices in the order of the curve, neighbours at different coordinates. Of several rows
-  /// with equal coordinates the first one stands for all.
+  /// with equal coordinates the one that triangles use first stands for all.
   std::vector<std::int32_t> vertices;
   bool closed = false;  ///< the last vertex is followed by the first, which is not repeated
 };
 
-/// The feature curves of a surface: creases, boundaries and edges of three and more triangles, chained
+/// The feature curves of a surface: creases and boundaries, chained
 /// between the places where more or fewer than two of them meet, where they turn sharply and where straight
 /// runs end (Gal et al. 2009, section 4). Triangles may be turned either way, vertices of equal coordinates
 /// are one. Smooth closed surfaces have none.

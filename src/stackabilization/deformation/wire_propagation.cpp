@@ -6,8 +6,8 @@
 #include <limits>
 
 #include "stackabilization/deformation/constrained_least_squares.h"
+#include "stackabilization/deformation/wire_modes.h"
 #include "stackabilization/deformation/wire_turns.h"
-#include "stackabilization/shape/disjoint_sets.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
@@ -25,12 +25,6 @@ constexpr double weight_of_links = 64;  ///< linked wires keep their offset
 constexpr double factor_of_symmetry = 32;
 constexpr int most_rounds = 16;
 constexpr double thin_angle = 0.1;  ///< sine below which two directions to slide along count as one
-
-/// A way for a wire to change: p -> p + q matrix (p - centre).
-struct Mode {
-  int variable;
-  Eigen::Matrix3d matrix;
-};
 
 /// What an equation is about, for the message when it does not hold.
 struct Demand {
@@ -64,8 +58,8 @@ class PropagationProblem {
     for (std::size_t k = 0; k < structure.wires.size(); ++k)
       centres_.push_back(now[k] * structure.wires[k].centre);
     make_axes();
-    make_modes();
-    problem_.emplace(variables_);
+    modes_ = wire_modes(structure, axes_, edit);
+    problem_.emplace(modes_.variables);
     fix_edited();
     wish_to_stay();
     wish_links();
@@ -90,7 +84,7 @@ class PropagationProblem {
       if (flattened.empty()) return result_of(solution);
       for (const int k : flattened) {
         if (k == edit_.wire) return flattened_result(k);
-        for (const Mode& mode : modes(k)) problem_->fix(mode.variable, 0);
+        for (const WireMode& mode : modes(k)) problem_->fix(mode.variable, 0);
       }
     }
     return flattened_result(edit_.wire);
@@ -102,7 +96,7 @@ class PropagationProblem {
 
   Eigen::Matrix3d change(int k, const Eigen::VectorXd& values) const {
     Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
-    for (const Mode& mode : modes(k)) linear += values(mode.variable) * mode.matrix;
+    for (const WireMode& mode : modes(k)) linear += values(mode.variable) * mode.matrix;
     return linear;
   }
 
@@ -142,7 +136,7 @@ class PropagationProblem {
     return result;
   }
 
-  const std::vector<Mode>& modes(int k) const { return modes_[static_cast<std::size_t>(k)]; }
+  const std::vector<WireMode>& modes(int k) const { return modes_.of_wire[static_cast<std::size_t>(k)]; }
   const Eigen::Matrix3d& turn(int k) const { return turns_[static_cast<std::size_t>(k)]; }
   const Eigen::Vector3d& centre(int k) const { return centres_[static_cast<std::size_t>(k)]; }
   const Eigen::Vector3d& axis(int k) const { return axes_[static_cast<std::size_t>(k)]; }
@@ -164,57 +158,10 @@ class PropagationProblem {
     }
   }
 
-  /// Wires that change their size by the same factor.
-  DisjointSets size_groups() const {
-    DisjointSets groups(structure_.wires.size());
-    for (const WireSymmetry& pair : structure_.symmetric)
-      groups.join(static_cast<std::size_t>(pair.wire), static_cast<std::size_t>(pair.image));
-    const std::size_t edited = groups.root(static_cast<std::size_t>(edit_.wire));
-    const bool released = edit_.motion == WireMotion::scale && wire(edit_.wire).form == WireForm::circular;
-    for (const auto& group : structure_.congruent) {
-      std::vector<std::size_t> members;
-      for (const int k : group)
-        if (!released || groups.root(static_cast<std::size_t>(k)) != edited)
-          members.push_back(static_cast<std::size_t>(k));
-      for (const std::size_t member : members) groups.join(members.front(), member);
-    }
-    return groups;
-  }
-
-  void make_modes() {
-    DisjointSets groups = size_groups();
-    std::vector<int> shared(structure_.wires.size(), -1);
-    variables_ = 3 * count();
-    modes_.resize(structure_.wires.size());
-    for (int k = 0; k < count(); ++k) {
-      const std::size_t root = groups.root(static_cast<std::size_t>(k));
-      // A variable is a length: how far a wire of the group's size moves at its ends.
-      const double scale = 2 / structure_.wires[root].length;
-      auto& own = modes_[static_cast<std::size_t>(k)];
-      const Eigen::Matrix3d along = axis(k) * axis(k).transpose();
-      if (wire(k).form == WireForm::straight || wire(k).form == WireForm::circular) {
-        if (shared[root] < 0) shared[root] = variables_++;
-        const Eigen::Matrix3d matrix =
-            wire(k).form == WireForm::straight ? along : Eigen::Matrix3d(Eigen::Matrix3d::Identity() - along);
-        own.push_back({shared[root], scale * matrix});
-        continue;
-      }
-      const bool planar = wire(k).form == WireForm::planar;
-      Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
-      if (planar) {
-        frame.col(0) = axis(k).unitOrthogonal();
-        frame.col(1) = axis(k).cross(frame.col(0));
-      }
-      for (int i = 0; i < (planar ? 2 : 3); ++i)
-        for (int j = 0; j < (planar ? 2 : 3); ++j)
-          own.push_back({variables_++, scale * frame.col(i) * frame.col(j).transpose()});
-    }
-  }
-
   void fix_edited() {
     const int k = edit_.wire;
     for (int c = 0; c < 3; ++c) problem_->fix(3 * k + c, edit_.motion == WireMotion::move ? edit_.by(c) : 0);
-    for (const Mode& mode : modes(k)) {
+    for (const WireMode& mode : modes(k)) {
       const double growth = edit_.motion == WireMotion::scale ? edit_.factor - 1 : 0;
       // Each mode is a multiple of a projection or of an elementary matrix e_i e_j^T, whose trace tells i =
       // j.
@@ -228,7 +175,7 @@ class PropagationProblem {
     const Eigen::Vector3d arm = turn(k) * (x - centre(k));
     Rows3 rows;
     for (int c = 0; c < 3; ++c) rows[static_cast<std::size_t>(c)].push_back({3 * k + c, 1});
-    for (const Mode& mode : modes(k)) {
+    for (const WireMode& mode : modes(k)) {
       const Eigen::Vector3d change = mode.matrix * arm;
       for (int c = 0; c < 3; ++c)
         if (change(c) != 0) rows[static_cast<std::size_t>(c)].push_back({mode.variable, change(c)});
@@ -283,17 +230,19 @@ class PropagationProblem {
         for (const Row& row : displacement(k, point(k, node)))
           problem_->wish(row, 0, weight(k) / static_cast<double>(held.size()));
       if (!straight)
-        for (const Mode& mode : modes(k))
+        for (const WireMode& mode : modes(k))
           problem_->wish({{mode.variable, 1}}, 0, weight_of_shape * weight(k));
     }
   }
 
-  /// Takes out of `across` the direction in which something linked to inner vertices of a straight wire
-  /// slides along it.
-  void let_slide(int k, int node, Eigen::Matrix3d& across) const {
-    if (wire(k).form != WireForm::straight || node == nodes(k).front() || node == nodes(k).back()) return;
+  /// The part of the projection `across` in which a link to a node of wire k holds: to inner vertices of a
+  /// straight wire it slides along that.
+  Eigen::Matrix3d without_sliding(int k, int node, const Eigen::Matrix3d& across) const {
+    if (wire(k).form != WireForm::straight || node == nodes(k).front() || node == nodes(k).back())
+      return across;
     const Eigen::Vector3d left = across * axis(k);
-    if (left.norm() > thin_angle) across -= left.normalized() * left.normalized().transpose();
+    if (left.norm() <= thin_angle) return across;
+    return across - left.normalized() * left.normalized().transpose();
   }
 
   void wish_links() {
@@ -301,9 +250,8 @@ class PropagationProblem {
       const Eigen::Vector3d a = point(link.wire_a, link.node_a), b = point(link.wire_b, link.node_b);
       const Rows3 rows = difference(displacement(link.wire_a, a), displacement(link.wire_b, b));
       const Eigen::Vector3d right = turned(link.wire_b, b) - turned(link.wire_a, a);
-      Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
-      let_slide(link.wire_a, link.node_a, across);
-      let_slide(link.wire_b, link.node_b, across);
+      const Eigen::Matrix3d across = without_sliding(
+          link.wire_a, link.node_a, without_sliding(link.wire_b, link.node_b, Eigen::Matrix3d::Identity()));
       const double strength = weight_of_links * std::min(weight(link.wire_a), weight(link.wire_b));
       for (int c = 0; c < 3; ++c) {
         const Eigen::Vector3d along = across.col(c);
@@ -380,8 +328,8 @@ class PropagationProblem {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         Row row;
-        for (const Mode& mode : modes(b)) row.push_back({mode.variable, size * mode.matrix(i, j)});
-        for (const Mode& mode : modes(a))
+        for (const WireMode& mode : modes(b)) row.push_back({mode.variable, size * mode.matrix(i, j)});
+        for (const WireMode& mode : modes(a))
           row.push_back({mode.variable, -size * (q * mode.matrix * q.transpose())(i, j)});
         demand(row, 0, about);
       }
@@ -410,8 +358,7 @@ class PropagationProblem {
   const WireEdit& edit_;
   Turns turns_;
   std::vector<Eigen::Vector3d> centres_, axes_;
-  std::vector<std::vector<Mode>> modes_;
-  int variables_ = 0;
+  WireModes modes_;
   std::optional<ConstrainedLeastSquares> problem_;
   std::vector<Demand> demands_;
 };

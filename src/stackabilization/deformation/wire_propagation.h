@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "stackabilization/deformation/wire_modes.h"
 #include "stackabilization/deformation/wire_network.h"
 
 /// Not installed.
@@ -12,21 +13,6 @@ namespace stackabilization::detail {
 
 /// Where wires are: the map that takes each of them from rest to now.
 using WireMaps = std::vector<Eigen::Affine3d>;
-
-enum class WireMotion {
-  move,   ///< keeps size and direction
-  scale,  ///< changes the size
-  turn,   ///< changes the direction
-};
-
-/// What an edit does to a wire.
-struct WireEdit {
-  int wire = 0;
-  WireMotion motion = WireMotion::move;
-  Eigen::Vector3d by = Eigen::Vector3d::Zero();          ///< of move
-  double factor = 1;                                     ///< of scale, about the wire's centre
-  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();  ///< of turn, about the wire's centre
-};
 
 /// What may not move while wires are propagated.
 struct WireHolds {

@@ -33,10 +33,10 @@ std::array<double, 3> cotangent_weights(const std::array<Eigen::Vector3d, 3>& p)
 WireSurface::WireSurface(const Shape& rest, const WireNetwork& network,
                          const std::vector<std::int32_t>& pinned)
     : network_(network),
-      surface_(merged_places(rest)),
+      surface_(places_of(rest)),
       rest_(rest.vertices),
-      node_of_(surface_.points.size(), -1),
-      pinned_(surface_.points.size(), 0) {
+      node_of_(place_count(), -1),
+      pinned_(place_count(), 0) {
   for (std::size_t i = 0; i < network.vertices.size(); ++i)
     node_of_[static_cast<std::size_t>(surface_.of_vertex[static_cast<std::size_t>(network.vertices[i])])] =
         static_cast<int>(i);
@@ -63,21 +63,23 @@ void WireSurface::find_patches() {
     }
     wires_of_[all_wires].push_back(static_cast<int>(k));
   }
-  DisjointSets patches(surface_.triangles.size());
+  const Eigen::Index count = surface_.triangles.rows();
+  DisjointSets patches(static_cast<std::size_t>(count));
   std::map<std::pair<int, int>, std::size_t> first;
-  std::vector<std::pair<std::size_t, int>> beside;
-  for (std::size_t t = 0; t < surface_.triangles.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
+  std::vector<std::pair<Eigen::Index, int>> beside;
+  for (Eigen::Index t = 0; t < count; ++t)
+    for (int k = 0; k < 3; ++k) {
       const std::pair<int, int> edge =
-          std::minmax(surface_.triangles[t][k], surface_.triangles[t][(k + 1) % 3]);
+          std::minmax<int>(surface_.triangles(t, k), surface_.triangles(t, (k + 1) % 3));
       if (const auto wire = wire_at.find(edge); wire != wire_at.end())
         beside.emplace_back(t, wire->second);
       else if (edge.first != edge.second)
-        patches.join(first.emplace(edge, t).first->second, t);
+        patches.join(first.emplace(edge, t).first->second, static_cast<std::size_t>(t));
     }
-  for (std::size_t t = 0; t < surface_.triangles.size(); ++t)
-    patch_of_.push_back(static_cast<int>(patches.root(t)));
-  for (const auto& [triangle, wire] : beside) wires_of_[patch_of_[triangle]].push_back(wire);
+  for (Eigen::Index t = 0; t < count; ++t)
+    patch_of_.push_back(static_cast<int>(patches.root(static_cast<std::size_t>(t))));
+  for (const auto& [triangle, wire] : beside)
+    wires_of_[patch_of_[static_cast<std::size_t>(triangle)]].push_back(wire);
   for (auto& [patch, wires] : wires_of_) {
     std::sort(wires.begin(), wires.end());
     wires.erase(std::unique(wires.begin(), wires.end()), wires.end());
@@ -124,10 +126,10 @@ int WireSurface::rim_of(int patch, int place) {
 }
 
 void WireSurface::find_followers() {
-  const std::size_t count = surface_.points.size();
+  const std::size_t count = place_count();
   DisjointSets pieces(count);
-  for (const auto& t : surface_.triangles)
-    for (const int corner : t) pieces.join(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(corner));
+  for (const auto& t : surface_.triangles.rowwise())
+    for (const int corner : t) pieces.join(static_cast<std::size_t>(t(0)), static_cast<std::size_t>(corner));
   std::vector<char> led(count, 0);
   for (std::size_t p = 0; p < count; ++p)
     if (node_of_[p] >= 0 || pinned_[p]) led[pieces.root(p)] = 1;
@@ -137,7 +139,7 @@ void WireSurface::find_followers() {
     auto& best =
         nearest.try_emplace(pieces.root(p), std::numeric_limits<double>::infinity(), -1).first->second;
     for (std::size_t i = 0; i < network_.points.size(); ++i) {
-      const double distance = (network_.points[i] - surface_.points[p]).squaredNorm();
+      const double distance = (network_.points[i] - point(static_cast<int>(p))).squaredNorm();
       if (distance < best.first) best = {distance, static_cast<int>(i)};
     }
   }
@@ -150,27 +152,29 @@ void WireSurface::find_followers() {
 }
 
 void WireSurface::find_columns() {
-  column_.assign(surface_.points.size(), -1);
-  std::vector<char> following(surface_.points.size(), 0);
+  column_.assign(place_count(), -1);
+  std::vector<char> following(place_count(), 0);
   for (const Follower& f : followers_) following[static_cast<std::size_t>(f.place)] = 1;
   for (std::size_t p = 0; p < column_.size(); ++p)
     if (node_of_[p] < 0 && !pinned_[p] && !following[p]) column_[p] = columns_++;
 }
 
 void WireSurface::make_elements() {
-  for (std::size_t t = 0; t < surface_.triangles.size(); ++t) {
-    Element element{surface_.triangles[t], {}, {-1, -1, -1}, {}};
+  for (Eigen::Index t = 0; t < surface_.triangles.rows(); ++t) {
+    Element element{{}, {}, {-1, -1, -1}, {}};
     std::array<Eigen::Vector3d, 3> corners;
     bool free = false;
     for (std::size_t k = 0; k < 3; ++k) {
+      element.place[k] = surface_.triangles(t, static_cast<int>(k));
       const auto place = static_cast<std::size_t>(element.place[k]);
-      corners[k] = surface_.points[place];
+      corners[k] = point(element.place[k]);
       element.column[k] = column_[place];
       free = free || column_[place] >= 0;
     }
     if (!free) continue;
     for (std::size_t k = 0; k < 3; ++k)
-      if (element.column[k] < 0) element.rim[k] = rim_of(patch_of_[t], element.place[k]);
+      if (element.column[k] < 0)
+        element.rim[k] = rim_of(patch_of_[static_cast<std::size_t>(t)], element.place[k]);
     element.weight = cotangent_weights(corners);
     elements_.push_back(element);
   }
@@ -205,45 +209,57 @@ Eigen::MatrixXd WireSurface::guidance(const std::vector<Eigen::Matrix3d>& rims) 
   return factor_.solve(right);
 }
 
+/// Displacements of the places on wires, of pinned ones and of followers; zero for the others.
+std::vector<Eigen::Vector3d> WireSurface::known_displacements(
+    const std::vector<Eigen::Vector3d>& nodes, const std::vector<Eigen::Matrix3d>& maps) const {
+  std::vector<Eigen::Vector3d> moved(place_count(), Eigen::Vector3d::Zero());
+  for (std::size_t p = 0; p < moved.size(); ++p)
+    if (node_of_[p] >= 0 && !pinned_[p])
+      moved[p] = nodes[static_cast<std::size_t>(node_of_[p])] - point(static_cast<int>(p));
+  for (const Follower& f : followers_) {
+    const AffineFit& fit = fits_[static_cast<std::size_t>(f.fit)];
+    const Eigen::Vector3d from = point(f.place);
+    moved[static_cast<std::size_t>(f.place)] =
+        fit.moved_centre(nodes) + maps[static_cast<std::size_t>(f.fit)] * (from - fit.centre()) - from;
+  }
+  return moved;
+}
+
+/// What one triangle contributes to the right side; `maps` are those at its corners, less the identity.
+void WireSurface::add_guided(const Element& element, const std::array<Eigen::Matrix3d, 3>& maps,
+                             const std::vector<Eigen::Vector3d>& moved, Eigen::MatrixXd& right) const {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+    const Eigen::Vector3d edge =
+        (maps[i] + maps[j]) * (point(element.place[i]) - point(element.place[j])) / 2;
+    // Free places have not moved yet, so `moved` adds what is known only.
+    if (element.column[i] >= 0)
+      right.row(element.column[i]) +=
+          element.weight[k] * (moved[static_cast<std::size_t>(element.place[j])] + edge).transpose();
+    if (element.column[j] >= 0)
+      right.row(element.column[j]) +=
+          element.weight[k] * (moved[static_cast<std::size_t>(element.place[i])] - edge).transpose();
+  }
+}
+
 Points WireSurface::deformed(const std::vector<Eigen::Vector3d>& nodes) const {
   std::vector<Eigen::Matrix3d> maps, rims;
   for (const AffineFit& fit : fits_) maps.push_back(fit.linear(nodes));
   for (const Rim& rim : rims_) {
-    Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
-    for (const int fit : rim)
-      mean += (maps[static_cast<std::size_t>(fit)] - Eigen::Matrix3d::Identity()) /
-              static_cast<double>(rim.size());
-    rims.push_back(mean);
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (const int fit : rim) sum += maps[static_cast<std::size_t>(fit)] - Eigen::Matrix3d::Identity();
+    rims.push_back(sum / std::max(1.0, static_cast<double>(rim.size())));
   }
-  std::vector<Eigen::Vector3d> moved(surface_.points.size(), Eigen::Vector3d::Zero());
-  for (std::size_t p = 0; p < moved.size(); ++p)
-    if (node_of_[p] >= 0 && !pinned_[p])
-      moved[p] = nodes[static_cast<std::size_t>(node_of_[p])] - surface_.points[p];
-  for (const Follower& f : followers_) {
-    const AffineFit& fit = fits_[static_cast<std::size_t>(f.fit)];
-    const Eigen::Vector3d& from = surface_.points[static_cast<std::size_t>(f.place)];
-    moved[static_cast<std::size_t>(f.place)] =
-        fit.moved_centre(nodes) + maps[static_cast<std::size_t>(f.fit)] * (from - fit.centre()) - from;
-  }
+  std::vector<Eigen::Vector3d> moved = known_displacements(nodes, maps);
   if (columns_ > 0) {
     const Eigen::MatrixXd inner = guidance(rims);
     Eigen::MatrixXd right = Eigen::MatrixXd::Zero(columns_, 3);
     for (const Element& e : elements_) {
-      std::array<Eigen::Matrix3d, 3> map;
+      std::array<Eigen::Matrix3d, 3> at_corners;
       for (std::size_t k = 0; k < 3; ++k)
-        map[k] = e.rim[k] >= 0 ? rims[static_cast<std::size_t>(e.rim[k])]
-                               : Eigen::Matrix3d(inner.row(e.column[k]).reshaped(3, 3));
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-        const auto a = static_cast<std::size_t>(e.place[i]), b = static_cast<std::size_t>(e.place[j]);
-        const Eigen::Vector3d edge = (map[i] + map[j]) * (surface_.points[a] - surface_.points[b]) / 2;
-        if (e.column[i] >= 0)
-          right.row(e.column[i]) +=
-              e.weight[k] * (edge + (e.column[j] < 0 ? moved[b] : Eigen::Vector3d::Zero())).transpose();
-        if (e.column[j] >= 0)
-          right.row(e.column[j]) +=
-              e.weight[k] * ((e.column[i] < 0 ? moved[a] : Eigen::Vector3d::Zero()) - edge).transpose();
-      }
+        at_corners[k] = e.rim[k] >= 0 ? rims[static_cast<std::size_t>(e.rim[k])]
+                                      : Eigen::Matrix3d(inner.row(e.column[k]).reshaped(3, 3));
+      add_guided(e, at_corners, moved, right);
     }
     const Eigen::MatrixXd free = factor_.solve(right);
     for (std::size_t p = 0; p < moved.size(); ++p)

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "stackabilization/deformation/merged_places.h"
+#include "stackabilization/deformation/places.h"
 #include "stackabilization/deformation/wire_fit.h"
 #include "stackabilization/deformation/wire_network.h"
 
@@ -27,7 +27,7 @@ namespace stackabilization::detail {
 /// span it; flat patches stay flat when their rim does; between two circles of a cylinder whose vertices lie
 /// in rings, the straight lines of the cone.
 ///
-/// Connected pieces without a wire, and vertices that no triangle uses, follow the map fitted to their
+/// Connected pieces without a wire follow the map fitted to their
 /// nearest wire and its neighbours.
 class WireSurface {
  public:
@@ -56,12 +56,18 @@ class WireSurface {
   void make_elements();
   void factorize();
   int fit_of(const std::vector<int>& wires);
+  std::size_t place_count() const { return static_cast<std::size_t>(surface_.points.rows()); }
+  Eigen::Vector3d point(int place) const { return surface_.points.row(place).transpose(); }
   int fit_around(int patch, int wire);
   int rim_of(int patch, int place);
+  std::vector<Eigen::Vector3d> known_displacements(const std::vector<Eigen::Vector3d>& nodes,
+                                                   const std::vector<Eigen::Matrix3d>& maps) const;
   Eigen::MatrixXd guidance(const std::vector<Eigen::Matrix3d>& rims) const;
+  void add_guided(const Element& element, const std::array<Eigen::Matrix3d, 3>& maps,
+                  const std::vector<Eigen::Vector3d>& moved, Eigen::MatrixXd& right) const;
 
   const WireNetwork& network_;
-  MergedPlaces surface_;
+  Places surface_;
   Points rest_;
   std::vector<int> node_of_;                  ///< of each place, -1 off the wires
   std::vector<char> pinned_;                  ///< of each place
