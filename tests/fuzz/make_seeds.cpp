@@ -7,6 +7,7 @@
 #include "stackabilization/shape/formats/zip.h"
 #include "stackabilization/shape/write.h"
 #include "stackabilization/shape/write_file.h"
+#include "stackabilization/structure/project_file.h"
 
 using namespace stackabilization;
 
@@ -52,6 +53,28 @@ const char* const gltf =
     R"({"byteLength":60,"uri":"data:application/octet-stream;base64,)"
     R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAIBAAEDAQIDAAMC"}]})";
 
+const char* const controls =
+    "CUBOID\ta\t0 0 0.5\t1 0 0\t0 1 0\t0 0 1\t1\t2\t3\t1\t1\t1\t1\t1\t1\t1\t\r\nFOO 1\r\n"
+    "GC\tb\t1.2\t16\t1.5\t2\t0 0 1\t0 0 -1\t0.1\t1.0e-001\t\r\n";
+const char* const groups =
+    "SYMMETRY\t2\ta\tb\t\r\nPOINTJOINT\t2\ta\tb\t0 0 1\r\nLINEJOINT 2 a b 0 0 0 1 1 1\nJOINT 2 b a 0 0 0\n"
+    "SELF_SYMMETRY\ta\t2\t1 0 0\t0 1 0\t\r\nSELF_SYMMETRY\tb\t1\t-6.27744e+066 1 1\r\n";
+
+StructuredShape two_primitives() {
+  StructuredShape result{two_parts(), {}};
+  Cuboid cuboid = cuboid_of({});
+  result.structure.parts = {{"a", cuboid, {}}, {"b", cuboid, {}}};
+  cuboid.corners(0, 0) = 2;
+  result.structure.parts[1].primitive = cuboid;
+  result.structure.diagonal = 1;
+  const Symmetry symmetry;
+  result.structure.symmetries = {symmetry};
+  result.structure.relations = {
+      {.type = RelationType::self_symmetry, .parts = {0}, .symmetry = symmetry, .points = {}},
+      {.type = RelationType::line_joint, .parts = {0, 1}, .symmetry = symmetry, .points = Points::Identity(2, 3)}};
+  return result;
+}
+
 void write_seeds(const std::filesystem::path& folder) {
   const auto seed = [&folder](const char* target, const char* name, const std::string& bytes) {
     std::filesystem::create_directories(folder / target);
@@ -74,6 +97,9 @@ void write_seeds(const std::filesystem::path& folder) {
   seed("labels", "seg", "2\nlabels a b\n1 0\n0 1\n2 1\n3 0\n");
   seed("labels", "names", "leg\nseat\nleg\n# c\nleg\n");
   seed("labels", "numbers", "0\n3\n3\n1\n");
+  seed("project", "written", project_text(two_primitives()));
+  seed("authors_files", "controls", controls);
+  seed("authors_files", "groups", groups);
 }
 
 }  // namespace

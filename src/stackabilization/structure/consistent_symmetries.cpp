@@ -16,6 +16,10 @@ namespace {
 
 constexpr double angle_tolerance = tolerance::same_symmetry;
 
+/// Cosine of the largest angle between the axes of symmetries that may be the same: of small parts a plane is not known
+/// better than to some degrees.
+constexpr double least_cosine = 0.98;
+
 bool is_symmetry(const Relation& relation) {
   return relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry;
 }
@@ -66,6 +70,8 @@ class SymmetrySet {
       const Symmetry& other = members_[i].symmetry;
       if (other.kind != relation.symmetry.kind || isometry_order(other) != isometry_order(relation.symmetry))
         continue;
+      // The control points of a straight curve do not tell planes through it apart.
+      if (std::abs(other.axis.dot(relation.symmetry.axis)) < least_cosine) continue;
       const double miss = difference(relation.symmetry, other, structure_.parts[part].primitive);
       if (miss > least || (best && miss == least)) continue;
       least = miss;

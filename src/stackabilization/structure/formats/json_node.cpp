@@ -8,6 +8,7 @@
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/formats/text.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
 
@@ -102,7 +103,9 @@ void JsonNode::expect_size(std::size_t size) const {
 }
 
 double JsonNode::number() const {
-  if (!value_->is_number() || !std::isfinite(value_->get<double>())) fail_expected("a finite number");
+  if (!value_->is_number()) fail_expected("a number");
+  if (!(std::abs(value_->get<double>()) <= tolerance::largest_coordinate))
+    fail_expected("a number of magnitude at most 1e60");
   return value_->get<double>();
 }
 

@@ -1,0 +1,21 @@
+#include <cstdint>
+#include <string_view>
+
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/structure/authors_text.h"
+
+using namespace stackabilization;
+
+/// The same bytes as primitives and as relations.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  for (const bool controls : {true, false}) try {
+      const detail::AuthorsFrame frame{Eigen::Vector3d::Zero(), 1};
+      if (controls)
+        detail::authors_primitives({text, "fuzz"}, {"a", "b"}, frame);
+      else
+        detail::authors_relations({text, "fuzz"}, {"a", "b"}, frame);
+    } catch (const InputError&) {
+    }
+  return 0;
+}
