@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "apps/values.h"
+#include "stackabilization/structure/authors_files.h"
 #include "stackabilization/structure/project_file.h"
 #include "stackabilization/structure/seeds.h"
 
@@ -65,6 +66,14 @@ AnalysisOptions analysis_options(const AnalysisArguments& arguments) {
   return options;
 }
 
+/// The structure as the authors of the paper wrote it down.
+StructuredShape authored(const Shape& shape, const AnalysisArguments& arguments) {
+  AuthorsFiles files;
+  if (arguments.controllers) files.controls = *arguments.controllers;
+  if (arguments.relations) files.groups = *arguments.relations;
+  return {shape, read_authors_structure(shape, files)};
+}
+
 StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& arguments) {
   if (arguments.seeds && arguments.options.segmentation.method != SegmentationMethod::automatic)
     throw UsageError("--seeds says what the parts are, so it does not go with --segmentation");
@@ -76,7 +85,9 @@ StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& a
     shape = segmented(shape, read_seeds(*arguments.seeds, shape));
     options.segmentation.method = SegmentationMethod::given;
   }
-  result.structured = named(result.model, [&] { return analyse_structure(shape, options); });
+  result.structured = arguments.controllers || arguments.relations
+                          ? authored(shape, arguments)
+                          : named(result.model, [&] { return analyse_structure(shape, options); });
   shape = result.structured.shape;
   return result;
 }
@@ -101,9 +112,9 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
              "Largest deviation of a symmetry, fraction of the diagonal (default: 0.01)");
   add_number(command, "--joint-reach", arguments.joint_reach,
              "Parts that come nearer than this meet, fraction of the diagonal (default: 0.01)");
-  command.add_option("--ctrl", arguments.controllers, "Primitives from a .ctrl file of the paper's authors")
+  command.add_option("--ctrl", arguments.controllers, "Primitives from a .ctrl file of the paper's authors; the structure is not analysed")
       ->type_name("FILE");
-  command.add_option("--grp", arguments.relations, "Relations from a .grp file of the paper's authors")
+  command.add_option("--grp", arguments.relations, "Relations from a .grp file of the paper's authors; the structure is not analysed")
       ->type_name("FILE");
 }
 
