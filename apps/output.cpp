@@ -44,6 +44,8 @@ void check_kind(const OutputRequest& request) {
                        std::string(writable_extensions()) + ", found '" + path.string() + "'");
     }
   }
+  if (request.kind == OutputKind::project && path != "-" && path.extension() != ".json")
+    throw UsageError(request.option + " expects a file name ending in .json, found '" + path.string() + "'");
   if (request.kind == OutputKind::picture && path.extension() != ".png" && path.extension() != ".svg")
     throw UsageError(request.option + " expects a file name ending in .png or .svg, found '" + path.string() +
                      "'");

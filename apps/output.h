@@ -11,7 +11,7 @@
 namespace stackabilization::apps {
 
 /// What kind of file an output option names.
-enum class OutputKind { text, mesh, picture };
+enum class OutputKind { text, mesh, picture, project };
 
 /// An output as asked for on the command line.
 struct OutputRequest {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/measurement.h"
+#include "stackabilization/deformation/deformation_model.h"
 #include "stackabilization/envelope/height_field.h"
 #include "stackabilization/stacking/map.h"
 #include "stackabilization/stacking/validation.h"
@@ -49,5 +51,15 @@ struct PlacedCopies {
   std::vector<std::string> notes;
 };
 void write_stack_picture(const PictureFile& file, const PlacedCopies& stack);
+void write_structure_picture(const PictureFile& file, const StructuredShape& structured);
+/// A shape before and after edits that were not refused; `notes` are lines below the heading.
+struct EditedShape {
+  const StructuredShape& rest;
+  const DeformationResult& result;
+  const std::vector<Edit>& edits;
+  const std::vector<std::vector<std::int32_t>>& curves;  ///< vertices along edited feature curves
+  std::vector<std::string> notes;
+};
+void write_deformation_picture(const PictureFile& file, const EditedShape& edited);
 
 }  // namespace stackabilization::apps

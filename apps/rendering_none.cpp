@@ -37,4 +37,12 @@ void write_stack_picture(const PictureFile&, const PlacedCopies&) {
   refuse();
 }
 
+void write_structure_picture(const PictureFile&, const StructuredShape&) {
+  refuse();
+}
+
+void write_deformation_picture(const PictureFile&, const EditedShape&) {
+  refuse();
+}
+
 }  // namespace stackabilization::apps

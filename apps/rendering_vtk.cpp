@@ -55,4 +55,20 @@ void write_stack_picture(const PictureFile& file, const PlacedCopies& stack) {
   write(file, stack_picture(stack.copies, stack.direction, options));
 }
 
+void write_structure_picture(const PictureFile& file, const StructuredShape& structured) {
+  StructurePictureOptions options;
+  options.title = file.title;
+  write(file, structure_picture(structured, options));
+}
+
+void write_deformation_picture(const PictureFile& file, const EditedShape& edited) {
+  DeformationPictureOptions options;
+  options.title = file.title;
+  options.notes = edited.notes;
+  options.curves = edited.curves;
+  std::vector<Handle> handles;
+  for (const Edit& edit : edited.edits) handles.push_back(edit.handle);
+  write(file, deformation_picture(edited.rest, edited.result, handles, options));
+}
+
 }  // namespace stackabilization::apps

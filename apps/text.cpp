@@ -53,6 +53,10 @@ std::string percent(double fraction) {
   return (number == "-0.0" ? "0.0" : number) + " %";
 }
 
+std::string small_percent(double fraction) {
+  return chars(100 * fraction, std::chars_format::general, 2) + " %";
+}
+
 std::string vector_text(const Eigen::Vector3d& vector) {
   return exact_digits(vector.x()) + " " + exact_digits(vector.y()) + " " + exact_digits(vector.z());
 }
@@ -81,6 +85,19 @@ std::string TextTable::text() const {
     lines += padded(row.label, labels) + "  ";
     lines += row.explanation.empty() ? row.value : padded(row.value, values) + "  " + row.explanation;
     lines += '\n';
+  }
+  return lines;
+}
+
+std::string ColumnTable::text() const {
+  std::vector<std::size_t> widths(rows_.front().size());
+  for (const std::vector<std::string>& row : rows_)
+    for (std::size_t i = 0; i < widths.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  std::string lines;
+  for (const std::vector<std::string>& row : rows_) {
+    std::string line;
+    for (std::size_t i = 0; i < widths.size(); ++i) line += padded(row[i], widths[i]) + "  ";
+    lines += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
   }
   return lines;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stackabilization/shape/shape.h"
@@ -19,6 +20,8 @@ std::string stackability_text(double value);
 std::string quantity(double value, Unit unit, int power = 1);
 /// "50.9 %"
 std::string percent(double fraction);
+/// "0.012 %", two significant digits: for errors.
+std::string small_percent(double fraction);
 /// "0 0 1", all digits.
 std::string vector_text(const Eigen::Vector3d& vector);
 /// "(0.1, 0.2, 0.3)", rounded.
@@ -37,6 +40,19 @@ class TextTable {
     std::string label, value, explanation;
   };
   std::vector<Row> rows_;
+};
+
+/// Rows of any number of columns below a heading, two blanks between columns.
+class ColumnTable {
+ public:
+  explicit ColumnTable(std::vector<std::string> headings) : rows_{std::move(headings)} {}
+  /// As many cells as headings.
+  void add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+  bool empty() const { return rows_.size() == 1; }
+  std::string text() const;
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
 };
 
 }  // namespace stackabilization::apps

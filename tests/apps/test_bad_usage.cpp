@@ -131,7 +131,7 @@ TEST_CASE("no output replaces a file that the command reads, however it is spell
   for (const std::string& output : {cup, detour, link})
     for (const std::string option : {"-o", "--json"})
       check_refused(folder, {"stack", folder.box, "--into", cup, option, output}, "replace the container");
-  for (const std::string command : {"inspect", "measure", "search", "map", "stack", "validate"})
+  for (const std::string command : {"inspect", "measure", "search", "map", "stack", "validate", "structure"})
     check_refused(folder, {command, folder.box, "--labels", labels, "--json", labels}, "replace the labels");
   check_refused(folder, {"map", folder.box, "--labels", labels, "-o", labels}, "replace the labels");
   CHECK(bytes_of(cup) == cup_bytes);

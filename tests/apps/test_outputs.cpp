@@ -26,7 +26,9 @@ std::vector<Arguments> every_command(const std::string& model) {
           {"search", model, "--cone-degrees", "5"},
           {"map", model, "--step-degrees", "20"},
           {"stack", model, "-n", "4", "--twist-degrees", "auto", "--within", "100"},
-          {"validate", model}};
+          {"validate", model},
+          {"structure", model},
+          {"deform", model, "--edit", "shape scale 0.9"}};
 }
 
 }  // namespace

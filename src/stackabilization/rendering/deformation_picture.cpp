@@ -21,10 +21,24 @@ Points closed(Points points) {
   return points;
 }
 
-/// Lines that show a handle on a shape and its primitives; empty for parts, which are coloured, and for what
-/// is not known here, such as feature curves.
-std::vector<Points> handle_lines(const Handle& handle, const Shape& shape,
-                                 const std::vector<Primitive>& primitives) {
+struct Side {
+  const Shape& shape;
+  const std::vector<Primitive>& primitives;
+  Colour colour;
+  std::string caption;
+};
+
+/// What was edited.
+struct Edited {
+  const std::vector<Handle>& handles;
+  const std::vector<std::vector<std::int32_t>>& curves;
+};
+
+/// Lines that show a handle; empty for parts, which are coloured, and for what is not known here, such as
+/// wires.
+std::vector<Points> handle_lines(const Handle& handle, const Side& side) {
+  const Shape& shape = side.shape;
+  const std::vector<Primitive>& primitives = side.primitives;
   const auto index = static_cast<Eigen::Index>(handle.index);
   if (handle.kind == HandleKind::shape) return detail::outline(cuboid_of(axis_aligned_box(shape.vertices)));
   if (handle.kind == HandleKind::point && index < shape.vertex_count()) return {shape.vertices.row(index)};
@@ -43,12 +57,14 @@ std::vector<Points> handle_lines(const Handle& handle, const Shape& shape,
   return {};
 }
 
-struct Side {
-  const Shape& shape;
-  const std::vector<Primitive>& primitives;
-  Colour colour;
-  std::string caption;
-};
+std::vector<Points> lines_of(const Edited& edited, const Side& side) {
+  std::vector<Points> lines;
+  for (const Handle& handle : edited.handles)
+    for (Points& line : handle_lines(handle, side)) lines.push_back(std::move(line));
+  for (const std::vector<std::int32_t>& curve : edited.curves)
+    lines.emplace_back(side.shape.vertices(curve, Eigen::all));
+  return lines;
+}
 
 /// The shape; parts that were edited as a whole are red.
 Scene scene_of(const Side& side, const std::vector<Handle>& handles) {
@@ -62,22 +78,19 @@ Scene scene_of(const Side& side, const std::vector<Handle>& handles) {
 }
 
 /// The other handles, drawn over the picture: many lie inside the surface.
-detail::Elements handle_marks(const Side& side, const std::vector<Handle>& handles, const View& view,
-                              const Rectangle& place) {
-  detail::Elements marks;
-  for (const Handle& handle : handles)
-    for (const Points& line : handle_lines(handle, side.shape, side.primitives)) {
-      PlanePoints points(line.rows(), 2);
-      for (Eigen::Index i = 0; i < line.rows(); ++i)
-        points.row(i) =
-            (Eigen::Vector2d(place.x, place.y) + view.project(line.row(i).transpose())).transpose();
-      if (points.rows() == 1)
-        marks.emplace_back(
-            FilledPolygon{detail::circle(points.row(0).transpose(), 2 * handle_width), palette::contact});
-      else
-        marks.emplace_back(Polyline{std::move(points), palette::contact, handle_width});
-    }
-  return marks;
+detail::Elements marks(const std::vector<Points>& lines, const View& view, const Rectangle& place) {
+  detail::Elements elements;
+  for (const Points& line : lines) {
+    PlanePoints points(line.rows(), 2);
+    for (Eigen::Index i = 0; i < line.rows(); ++i)
+      points.row(i) = (Eigen::Vector2d(place.x, place.y) + view.project(line.row(i).transpose())).transpose();
+    if (points.rows() == 1)
+      elements.emplace_back(
+          FilledPolygon{detail::circle(points.row(0).transpose(), 2 * handle_width), palette::contact});
+    else
+      elements.emplace_back(Polyline{std::move(points), palette::contact, handle_width});
+  }
+  return elements;
 }
 
 }  // namespace
@@ -86,9 +99,11 @@ Drawing deformation_picture(const StructuredShape& rest, const DeformationResult
                             const std::vector<Handle>& handles, const DeformationPictureOptions& options) {
   if (result.refusal) throw UsageError("an edit that was refused has no picture");
   std::vector<Primitive> at_rest;
-  for (const Part& part : rest.structure.parts) at_rest.push_back(part.primitive);
+  if (!result.primitives.empty())  // else the handles are not those of primitives
+    for (const Part& part : rest.structure.parts) at_rest.push_back(part.primitive);
   const std::array<Side, 2> sides{{{rest.shape, at_rest, palette::input, "before"},
                                    {result.shape, result.primitives, palette::output, "after"}}};
+  const Edited edited{handles, options.curves};
   const double size = options.width / 60.0, margin = 1.5 * size;
   Drawing drawing{options.width, options.height, {}};
   const detail::Heading heading = detail::heading(options.title, options.notes, options.width, size);
@@ -101,14 +116,12 @@ Drawing deformation_picture(const StructuredShape& rest, const DeformationResult
   const std::array<Scene, 2> scenes{scene_of(sides[0], handles), scene_of(sides[1], handles)};
   Scene both = scenes[0];
   both.add(scenes[1]);
-  for (const Side& side : sides)
-    for (const Handle& handle : handles)
-      both.add(SceneLines{handle_lines(handle, side.shape, side.primitives)});
+  for (const Side& side : sides) both.add(SceneLines{lines_of(edited, side)});
   const View view = fit_view(both, Direction(0, 0, 1), view_options);
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const Rectangle place{margin + static_cast<double>(k) * (column + margin), top, column, height};
     drawing.add(PlacedImage{place, render(scenes[k], view)});
-    drawing.add(handle_marks(sides[k], handles, view, place));
+    drawing.add(marks(lines_of(edited, sides[k]), view, place));
     std::vector<detail::LegendEntry> entries{{LegendMark::swatch, sides[k].colour, sides[k].caption}};
     if (!handles.empty()) entries.push_back({LegendMark::line, palette::contact, "what was edited"});
     drawing.add(detail::legend(entries, {place.x, place.bottom() + 0.3 * size, column, 2 * size}, size));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,8 @@ struct DeformationPictureOptions {
   int width = 1200, height = 760;  ///< pixels
   std::string title;               ///< heading; may be empty
   std::vector<std::string> notes;  ///< lines under the heading, such as the edits and what they moved
+  std::vector<std::vector<std::int32_t>>
+      curves;  ///< vertices of the shape along curves to be shown as edited
 };
 
 /// A shape before (yellow) and after (green) edits, side by side from one viewpoint and in one scale, with

@@ -1,0 +1,138 @@
+#include <memory>
+
+#include "apps/command.h"
+#include "apps/deform_run.h"
+#include "apps/deformation_models.h"
+#include "apps/output.h"
+#include "apps/rendering.h"
+#include "apps/values.h"
+#include "stackabilization/deformation/settled.h"
+#include "stackabilization/structure/project_file.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+void check(const DeformCommandOptions& options) {
+  check_outputs(options.common,
+                {{"--output", options.output, OutputKind::mesh},
+                 {"--picture", options.picture, OutputKind::picture},
+                 {"--save", options.save, OutputKind::project}},
+                analysis_inputs(options.analysis));
+  if (options.picture) require_rendering();
+  if (options.edits.empty() && !options.list_handles)
+    throw UsageError("expected --edit with what to do, or --list-handles");
+  if (!options.edits.empty() && options.list_handles)
+    throw UsageError("--list-handles changes nothing, so it does not go with --edit");
+  if (options.list_handles && (options.output || options.picture || options.save))
+    throw UsageError("--list-handles changes nothing, so there is nothing to write");
+  if (options.direction && options.kind != ModelKind::gap_scaling)
+    throw UsageError("--direction is that of --model gap-scaling: the others have none");
+  if (options.save && options.kind != ModelKind::controllers)
+    throw UsageError("--save needs --model controllers: the others move no primitives");
+}
+
+int list_handles(const CLI::App& command, const DeformCommandOptions& options, const Stopwatch& watch) {
+  const StructuredModel input = load_structured(command, options.common, options.analysis);
+  const auto model = make_deformation_model(options, input.structured);
+  Json document = document_head(command, input.model);
+  document["deformation"] = name_of(options.kind);
+  document["handles"] = handles_json(*model, input.structured.shape);
+  add_document_tail(document, options.common, input.model, watch);
+  deliver(options.common, document, handles_text(*model, input.structured.shape));
+  return status_done;
+}
+
+void write_result(const DeformCommandOptions& options, const DeformRun& run, const Model& model) {
+  if (options.output) write_mesh_output(options.common, *options.output, run.result.shape);
+  if (options.save) write_output(*options.save, project_text(settled(run.rest, run.result)));
+  if (options.picture)
+    write_deformation_picture({*options.picture, title_of(model)},
+                              {run.rest, run.result, run.edits, run.curves, deformation_notes(run)});
+}
+
+int run(const CLI::App& command, const DeformCommandOptions& options) {
+  const Stopwatch watch;
+  check(options);
+  const ThreadLimit limit(options.common);
+  if (options.list_handles) return list_handles(command, options, watch);
+  const StructuredModel input = load_structured(command, options.common, options.analysis);
+  const DeformRun run = run_deform(options, input);
+  const bool refused = run.result.refusal.has_value();
+
+  Json document = document_head(command, input.model);
+  add_deformation(document, run);
+  add_document_tail(document, options.common, input.model, watch);
+  if (!refused) write_result(options, run, input.model);
+  const std::string essential =
+      refused ? "refused\n"
+              : exact_digits(displacement(run.rest.shape, run.result.shape).root_mean_square) + "\n";
+  deliver(options.common, document,
+          options.save == "-"    ? ""
+          : options.common.quiet ? essential
+                                 : deformation_text(run, input.model));
+  return refused ? status_no : status_done;
+}
+
+void add_constraint_options(CLI::App& command, DeformCommandOptions& options) {
+  add_direction(command, "--keep-extent", options.keep_extent,
+                "Keep the extent along this direction exactly");
+  add_number(command, "--box-tolerance", options.box_tolerance,
+             "Fraction by which the sides of the box along x, y and z may change");
+  command.add_option("--fix", options.fixed_parts, "Part that stays as it is; repeatable")
+      ->type_size(1)
+      ->allow_extra_args(false)
+      ->type_name("PART");
+  const auto take = [&options](const std::vector<std::string>& texts) {
+    for (std::size_t i = 0; i + 2 < texts.size(); i += 3)
+      options.fixed_points.emplace_back(parse_number("--fix-point", texts[i]),
+                                        parse_number("--fix-point", texts[i + 1]),
+                                        parse_number("--fix-point", texts[i + 2]));
+  };
+  command
+      .add_option_function<std::vector<std::string>>("--fix-point", take,
+                                                     "Point of the surface that stays; repeatable")
+      ->type_size(3)
+      ->expected(-1)
+      ->allow_extra_args(false)
+      ->type_name("X Y Z");
+}
+
+}  // namespace
+
+Command make_deform_command(CLI::App& program) {
+  const auto options = std::make_shared<DeformCommandOptions>();
+  CLI::App* const command = add_command(
+      program, "deform", "Edit a shape so that its symmetries and joints stay",
+      "stackabilize deform chair.json --edit \"seat/face=+z move 0 0 0.02\" -o higher.obj\n\n"
+      "An edit is a handle (PART, PART/face=-z, PART/corner=0, PART/section=3, point=7, wire=2, shape)\n"
+      "and move X Y Z, rotate DEGREES about X Y Z, or scale FACTOR [along X Y Z].");
+  add_common_options(*command, options->common);
+  add_analysis_options(*command, options->analysis);
+  command
+      ->add_option("--edit", options->edits,
+                   "What to do, \"HANDLE OPERATION NUMBERS\"; repeatable, made in order")
+      ->type_size(1)
+      ->allow_extra_args(false)
+      ->type_name("EDIT");
+  const Choices<ModelKind> kinds = {{"controllers", ModelKind::controllers},
+                                    {"surface", ModelKind::surface},
+                                    {"iwires", ModelKind::iwires},
+                                    {"gap-scaling", ModelKind::gap_scaling}};
+  add_choice(*command, "--model", options->kind, kinds, "What moves the mesh (default: controllers)");
+  add_direction(*command, "--direction", options->direction,
+                "Direction of --model gap-scaling, along which the gap is scaled (default: 0 0 1)");
+  add_constraint_options(*command, *options);
+  command->add_flag("--list-handles", options->list_handles,
+                    "Print everything that can be edited, with its centre");
+  command
+      ->add_option("-o,--output", options->output,
+                   "Write the shape as a mesh (" + std::string(writable_extensions()) + ")")
+      ->type_name("FILE");
+  command->add_option("--save", options->save, "Write the result as a project file")->type_name("PROJECT");
+  command->add_option("--picture", options->picture, "Draw the shape before and after (.png or .svg)")
+      ->type_name("FILE");
+  return {command, [command, options] { return run(*command, *options); }};
+}
+
+}  // namespace stackabilization::apps

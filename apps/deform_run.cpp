@@ -1,0 +1,66 @@
+#include "apps/deform_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "apps/deformation_models.h"
+#include "apps/edit_grammar.h"
+#include "stackabilization/deformation/relation_residual.h"
+#include "stackabilization/shape/errors.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+DeformationConstraints constraints_of(const DeformCommandOptions& options, const Shape& shape) {
+  DeformationConstraints constraints;
+  if (options.keep_extent) constraints.keep_extent = Direction(*options.keep_extent);
+  if (options.box_tolerance && !(*options.box_tolerance >= 0))
+    throw UsageError("--box-tolerance expects a number from 0 up, found " +
+                     exact_digits(*options.box_tolerance));
+  constraints.box_tolerance = options.box_tolerance;
+  for (const std::string& name : options.fixed_parts) {
+    const auto found = std::find(shape.part_names.begin(), shape.part_names.end(), name);
+    if (found == shape.part_names.end())
+      throw UsageError("--fix expects the name of a part, and there is no part '" + name + "'");
+    constraints.fixed_parts.push_back(static_cast<int>(found - shape.part_names.begin()));
+  }
+  constraints.fixed_points = options.fixed_points;
+  return constraints;
+}
+
+}  // namespace
+
+DeformRun run_deform(const DeformCommandOptions& options, const StructuredModel& input) {
+  DeformRun run;
+  run.kind = options.kind;
+  run.rest = input.structured;
+  for (const std::string& text : options.edits)
+    run.edits.push_back(parse_edit(text, run.rest.shape.part_names));
+  run.constraints = constraints_of(options, run.rest.shape);
+  const std::unique_ptr<DeformationModel> model = make_deformation_model(options, run.rest);
+  run.result = model->deformed(run.edits, run.constraints);
+  run.curves = edited_curves(*model, run.edits);
+  if (!run.result.refusal && !run.result.primitives.empty())
+    run.residuals = relation_residuals(run.rest.structure, run.result.primitives);
+  return run;
+}
+
+Displacement displacement(const Shape& before, const Shape& after) {
+  std::vector<bool> used(static_cast<std::size_t>(before.vertex_count()));
+  for (const std::int32_t vertex : before.triangles.reshaped<Eigen::RowMajor>())
+    used[static_cast<std::size_t>(vertex)] = true;
+  double squares = 0, largest = 0;
+  Eigen::Index count = 0;
+  for (Eigen::Index v = 0; v < before.vertex_count(); ++v) {
+    if (!used[static_cast<std::size_t>(v)]) continue;
+    const double length = (after.vertices.row(v) - before.vertices.row(v)).norm();
+    squares += length * length;
+    largest = std::max(largest, length);
+    ++count;
+  }
+  return {std::sqrt(squares / static_cast<double>(std::max<Eigen::Index>(count, 1))), largest};
+}
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/model.h"
+#include "apps/output.h"
+#include "stackabilization/structure/analysis.h"
+
+namespace stackabilization::apps {
+
+/// How a mesh becomes a structure, as typed.
+struct AnalysisArguments {
+  AnalysisOptions options;
+  std::optional<double> symmetry_tolerance;  ///< --symmetry-tolerance
+  std::optional<double> joint_reach;         ///< --joint-reach
+  std::optional<std::string> seeds;          ///< --seeds
+  std::optional<std::string> controllers;    ///< --ctrl
+  std::optional<std::string> relations;      ///< --grp
+};
+
+/// --segmentation, --segments, --seeds, --primitive, --sections, --symmetry-tolerance, --joint-reach, --ctrl,
+/// --grp.
+void add_analysis_options(CLI::App& command, AnalysisArguments& arguments);
+
+/// The files among them, for check_outputs.
+std::vector<InputFile> analysis_inputs(const AnalysisArguments& arguments);
+
+/// A model with its structure; `structured.shape` is `model.shape`.
+struct StructuredModel {
+  Model model;
+  StructuredShape structured;
+};
+
+/// Is it the name of a project file, which ends in .json?
+bool is_project(const std::string& path);
+
+/// Reads MODEL: a project file as it is, a mesh by analysing it. Throws InputError, and UsageError when
+/// options that belong to a mesh are given with a project file.
+StructuredModel load_structured(const CLI::App& command, const CommonOptions& common,
+                                const AnalysisArguments& arguments);
+
+}  // namespace stackabilization::apps
