@@ -112,9 +112,13 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
              "Largest deviation of a symmetry, fraction of the diagonal (default: 0.01)");
   add_number(command, "--joint-reach", arguments.joint_reach,
              "Parts that come nearer than this meet, fraction of the diagonal (default: 0.01)");
-  command.add_option("--ctrl", arguments.controllers, "Primitives from a .ctrl file of the paper's authors; the structure is not analysed")
+  command
+      .add_option("--ctrl", arguments.controllers,
+                  "Primitives from a .ctrl file of the paper's authors; the structure is not analysed")
       ->type_name("FILE");
-  command.add_option("--grp", arguments.relations, "Relations from a .grp file of the paper's authors; the structure is not analysed")
+  command
+      .add_option("--grp", arguments.relations,
+                  "Relations from a .grp file of the paper's authors; the structure is not analysed")
       ->type_name("FILE");
 }
 
