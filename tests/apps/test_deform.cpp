@@ -37,7 +37,7 @@ json deformed(const Arguments& arguments) {
 }
 
 Eigen::Vector3d vector_of(const json& numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
+  return {numbers[0].get<double>(), numbers[1].get<double>(), numbers[2].get<double>()};
 }
 
 double largest_difference(const Shape& a, const Shape& b) {
