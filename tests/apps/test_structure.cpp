@@ -34,7 +34,7 @@ json relations_of(const json& document, const std::string& type) {
 }
 
 Eigen::Vector3d vector_of(const json& numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
+  return {numbers[0].get<double>(), numbers[1].get<double>(), numbers[2].get<double>()};
 }
 
 const json& primitive_of(const json& document, const std::string& part) {

@@ -60,6 +60,17 @@ class Sections {
     return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
   }
 
+  /// Centroid of the outline, in the plane across the axis; NaN where nothing is cut.
+  Eigen::Vector2d middle(std::size_t section) const {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    double length = 0;
+    for (const auto& [a, b] : segments_[section]) {
+      sum += (b - a).norm() / 2 * (a + b);
+      length += (b - a).norm();
+    }
+    return sum / length;
+  }
+
  private:
   static void cut(const Eigen::Matrix3d& local, double height, std::vector<Segment>& segments) {
     std::vector<Eigen::Vector2d> ends;
@@ -113,34 +124,63 @@ void hold_ends(Eigen::VectorXd& radii) {
   radii(n - 1) = last;
 }
 
+/// Even heights over the axis point from end to end of the part.
+struct Heights {
+  Range range;  ///< of the part along the axis, above the axis point
+  std::vector<double> planes;
+
+  Heights(const Shape& part, const AxisLine& axis, int sections) : range(range_along(part, axis.direction)) {
+    const double offset = axis.direction.dot(axis.point);
+    range = {range.low - offset, range.high - offset};
+    // A plane through an end misses it as often as not: the outermost two pass just inside.
+    for (int i = 0; i < sections; ++i)
+      planes.push_back(
+          std::lerp(range.low, range.high,
+                    std::clamp(i / (sections - 1.0), tolerance::relative, 1 - tolerance::relative)));
+  }
+};
+
 }  // namespace
+
+std::optional<AxisLine> middle_line(const Shape& part, const AxisLine& line, int sections) {
+  const AxisLine axis{line.point, upward(line.direction)};
+  const Heights heights(part, axis, sections);
+  const Sections cuts(part, axis, heights.planes);
+  std::vector<Eigen::Vector3d> middles;
+  for (std::size_t i = 0; i < heights.planes.size(); ++i)
+    if (const Eigen::Vector2d middle = cuts.middle(i); middle.allFinite())
+      middles.emplace_back(middle.x(), middle.y(), heights.planes[i]);
+  if (2 * middles.size() < heights.planes.size()) return std::nullopt;
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& middle : middles) mean += middle / static_cast<double>(middles.size());
+  Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  double squares = 0;
+  for (const Eigen::Vector3d& middle : middles) {
+    slope += (middle.z() - mean.z()) * (middle - mean).head<2>();
+    squares += (middle.z() - mean.z()) * (middle.z() - mean.z());
+  }
+  if (!(squares > 0)) return std::nullopt;
+  slope /= squares;
+  const Frame frame = frame_of(Direction(axis.direction));
+  return AxisLine{axis.point + frame.to_world(mean), frame.to_world({slope.x(), slope.y(), 1}).normalized()};
+}
 
 std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const AxisLine& line, int sections,
                                                      SectionRadius radius) {
   const AxisLine axis{line.point, upward(line.direction)};
-  const Range range = range_along(part, axis.direction);
-  const double offset = axis.direction.dot(axis.point);
-  std::vector<double> heights;
-  for (int i = 0; i < sections; ++i) {
-    const double t = i / static_cast<double>(sections - 1);
-    // A plane through an end misses it as often as not: the outermost two pass just inside.
-    heights.push_back(
-        std::lerp(range.low, range.high, std::clamp(t, tolerance::relative, 1 - tolerance::relative)) -
-        offset);
-  }
-  const Sections cuts(part, axis, heights);
+  const Heights heights(part, axis, sections);
+  const Sections cuts(part, axis, heights.planes);
   GeneralizedCylinder cylinder{.centres = Points(sections, 3), .radii = Eigen::VectorXd(sections)};
   for (int i = 0; i < sections; ++i) {
     const auto row = static_cast<std::size_t>(i);
-    const double t = i / static_cast<double>(sections - 1);
-    const double height = std::lerp(range.low, range.high, t) - offset;
+    const double height = std::lerp(heights.range.low, heights.range.high, i / (sections - 1.0));
     cylinder.centres.row(i) = (axis.point + height * axis.direction).transpose();
     cylinder.radii(i) = radius == SectionRadius::outermost ? cuts.outermost(row) : cuts.mean(row);
   }
   fill_gaps(cylinder.radii);
   hold_ends(cylinder.radii);
   const double largest = cylinder.radii.maxCoeff();
-  if (!(range.length() > 0) || !(largest > 0)) return std::nullopt;
+  if (!(heights.range.length() > 0) || !(largest > 0)) return std::nullopt;
   cylinder.radii = cylinder.radii.cwiseMax(least_radius * largest);
   return cylinder;
 }

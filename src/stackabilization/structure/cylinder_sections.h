@@ -20,6 +20,10 @@ enum class SectionRadius {
 std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const AxisLine& axis, int sections,
                                                      SectionRadius radius);
 
+/// The straight line nearest to the middles of the part's outlines across `axis`, for legs that lean in their
+/// box: least squares. Nothing when fewer than half of the sections have an outline.
+std::optional<AxisLine> middle_line(const Shape& part, const AxisLine& axis, int sections);
+
 /// A closed one around the axis of a body of revolution, through the middle of its profile, counter-clockwise
 /// about its upward side. Nothing when the
 /// profile reaches the axis.

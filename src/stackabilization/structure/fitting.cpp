@@ -73,6 +73,10 @@ class CylinderFit {
                                               detail::SectionRadius::mean);
     if (cylinder && best_ && 2 * box_.half_extents(k) < least_length * cylinder->radii.maxCoeff()) return;
     offer(std::move(cylinder), other_axis, "along an axis of its box");
+    if (const std::optional<detail::AxisLine> line =
+            detail::middle_line(part_.shape, {box_.centre, box_.axes.col(k)}, sections_))
+      offer(detail::straight_cylinder(part_.shape, *line, sections_, detail::SectionRadius::mean), other_axis,
+            "along the middle of its outlines");
   }
 
   void follow_skeleton() {
