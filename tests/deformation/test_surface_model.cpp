@@ -172,6 +172,21 @@ TEST_CASE("surface: beyond the influence nothing moves, to the bit") {
   }
 }
 
+TEST_CASE("surface: a thick slice is scaled across the axis only, also when it has been turned") {
+  const Shape shape = tube();
+  const auto surface =
+      surface_model(shape, with(&SurfaceModelOptions::sections, 4));  // the first one below 1.5
+  const Handle slice{HandleKind::section, 0, 0};
+  const Shape wide = deformed(*surface, {{slice, Scale{1.5, {}}}});
+  for (const int v : vertices_between(shape, 0, 1)) {
+    CHECK((wide.vertices.row(v).head(2) - 1.5 * shape.vertices.row(v).head(2)).norm() < 1e-12);
+    CHECK(wide.vertices(v, 2) == Approx(shape.vertices(v, 2)).margin(1e-12));
+  }
+  const Edit turn{slice, Rotate{{1, 0, 0}, 0.6}}, back{slice, Rotate{{1, 0, 0}, -0.6}};
+  CHECK(difference(deformed(*surface, {turn, {slice, Scale{1.5, {}}}, back}).vertices, wide.vertices) <
+        1e-12);
+}
+
 TEST_CASE("surface: a symmetric edit gives a symmetric shape") {
   // cylinder(…, 12) is its own image under a turn by 30 degrees.
   const Shape shape = tube();
