@@ -70,7 +70,6 @@ class SymmetrySet {
       const Symmetry& other = members_[i].symmetry;
       if (other.kind != relation.symmetry.kind || isometry_order(other) != isometry_order(relation.symmetry))
         continue;
-      // The control points of a straight curve do not tell planes through it apart.
       if (std::abs(other.axis.dot(relation.symmetry.axis)) < least_cosine) continue;
       const double miss = difference(relation.symmetry, other, structure_.parts[part].primitive);
       if (miss > least || (best && miss == least)) continue;
@@ -184,12 +183,13 @@ class SymmetrySet {
 double difference(const Symmetry& a, const Symmetry& b, const Primitive& primitive) {
   const Eigen::Isometry3d to_a = isometry_of(a), to_b = isometry_of(b);
   const Points points = control_points(primitive);
+  const Eigen::RowVector3d middle = points.colwise().mean();
   double most = 0;
   for (const auto& row : points.rowwise()) {
     const Eigen::Vector3d p = row.transpose();
     most = std::max(most, (to_a * p - to_b * p).norm());
   }
-  return most;
+  return most + (to_a.linear() - to_b.linear()).norm() * (points.rowwise() - middle).rowwise().norm().maxCoeff();
 }
 
 void make_consistent(Structure& structure) {

@@ -4,7 +4,8 @@
 
 namespace stackabilization::detail {
 
-/// Largest distance between where two symmetries take the control points of `primitive`, model units.
+/// Largest distance between where two symmetries take the control points of `primitive`, and how far they turn it
+/// differently, model units. (The control points of a straight curve alone do not tell planes through it apart.)
 double difference(const Symmetry& a, const Symmetry& b, const Primitive& primitive);
 
 /// Makes the symmetries of `structure` fit together, so that their products close into finite groups in
@@ -12,7 +13,7 @@ double difference(const Symmetry& a, const Symmetry& b, const Primitive& primiti
 ///
 /// * a relation whose symmetry takes the control points of its part within tolerance::same_symmetry of where
 /// a global
-///   symmetry, or that of an earlier relation, takes them, gets that one;
+///   symmetry, or that of an earlier relation, does to it, gets that one;
 /// * mirror planes that bear on the same parts and meet within tolerance::same_symmetry (radians) of 90
 /// degrees, or of
 ///   another multiple of 180 / n degrees with n up to 8, meet at exactly that angle; axes of rotation lie
