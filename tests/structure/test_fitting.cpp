@@ -155,6 +155,16 @@ TEST_CASE("the radii of a cone frustum grow evenly") {
   }
 }
 
+TEST_CASE("a leg that leans in its box is followed along its middle") {
+  Eigen::Matrix3d lean = Eigen::Matrix3d::Identity();
+  lean.col(2) = Eigen::Vector3d(0.1, -0.06, 1);
+  const Shape leg =
+      transformed(solids::surface_of_revolution({{0, 0}, {2, 0}, {1, 20}, {0, 20}}, 12), lean, {3, 4, 5});
+  const GeneralizedCylinder cylinder =
+      cylinder_of(fit_primitive(leg, {.kind = PrimitiveKind::cylinder, .sections = 24}));
+  CHECK(farthest_from_line(cylinder.centres, {3, 4, 5}, lean.col(2)) < 1e-3 * 20);
+}
+
 TEST_CASE("a cup is held by its outer wall around its axis") {
   const solids::FrustumShell options;
   const GeneralizedCylinder cylinder = cylinder_of(fit_primitive(solids::frustum_shell(options)));

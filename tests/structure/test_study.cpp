@@ -43,8 +43,8 @@ Counts counts_of(const Structure& structure, RelationType type) {
   return counts;
 }
 
-/// Two point joints on a line joint hold the same line: a rail on two pegs, which one takes for a cuboid, the other for a
-/// curve. They count as that line joint.
+/// Two point joints on a line joint hold the same line: a rail on two pegs, which one takes for a cuboid, the
+/// other for a curve. They count as that line joint.
 Counts as_lines(Counts points, Counts& lines, const Counts& listed_lines) {
   for (const auto& [key, times] : listed_lines)
     if (lines.count(key) == 0 && points[key] == 2 * times) {

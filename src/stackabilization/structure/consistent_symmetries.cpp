@@ -189,7 +189,8 @@ double difference(const Symmetry& a, const Symmetry& b, const Primitive& primiti
     const Eigen::Vector3d p = row.transpose();
     most = std::max(most, (to_a * p - to_b * p).norm());
   }
-  return most + (to_a.linear() - to_b.linear()).norm() * (points.rowwise() - middle).rowwise().norm().maxCoeff();
+  return most +
+         (to_a.linear() - to_b.linear()).norm() * (points.rowwise() - middle).rowwise().norm().maxCoeff();
 }
 
 void make_consistent(Structure& structure) {

@@ -4,8 +4,9 @@
 
 namespace stackabilization::detail {
 
-/// Largest distance between where two symmetries take the control points of `primitive`, and how far they turn it
-/// differently, model units. (The control points of a straight curve alone do not tell planes through it apart.)
+/// Largest distance between where two symmetries take the control points of `primitive`, and how far they
+/// turn it differently, model units. (The control points of a straight curve alone do not tell planes through
+/// it apart.)
 double difference(const Symmetry& a, const Symmetry& b, const Primitive& primitive);
 
 /// Makes the symmetries of `structure` fit together, so that their products close into finite groups in
