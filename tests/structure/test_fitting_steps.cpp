@@ -1,6 +1,7 @@
 // The steps behind fit_primitive, each against its own closed forms.
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 #include "stackabilization/shape/tolerances.h"
 #include "stackabilization/structure/canonical_pose.h"
@@ -8,6 +9,7 @@
 #include "stackabilization/structure/curve_skeleton.h"
 #include "stackabilization/structure/cylinder_sections.h"
 #include "stackabilization/structure/fit_error.h"
+#include "stackabilization/structure/fitting.h"
 #include "stackabilization/structure/part_box.h"
 #include "stackabilization/structure/revolution_axis.h"
 #include "support/catch.h"
@@ -249,6 +251,20 @@ TEST_CASE("loops run counter-clockwise about their upward side, from the side of
     CHECK((loop->centres.row(k).head<2>().transpose() - expected).norm() < 0.05);
     CHECK(loop->radii(k) == Approx(1).epsilon(0.04));
   }
+}
+
+TEST_CASE("the middle line of a leaning prism leans with it") {
+  // Every horizontal outline is the same square, moved: the middles lie on one line exactly.
+  Shape leg = solids::box({1, 1, 10});
+  for (auto vertex : leg.vertices.rowwise()) vertex.x() += 0.2 * vertex.z();
+  const std::optional<AxisLine> line =
+      middle_line(leg, {Eigen::Vector3d(5, -3, 2), -Eigen::Vector3d::UnitZ()}, 12);
+  REQUIRE(line);
+  CHECK((line->direction - Eigen::Vector3d(0.2, 0, 1).normalized()).norm() == Approx(0).margin(1e-9));
+  CHECK((line->point - Eigen::Vector3d(0.5, 0.5, 0)).cross(line->direction).norm() == Approx(0).margin(1e-9));
+  const FittedPrimitive fitted = fit_primitive(leg, {.kind = PrimitiveKind::cylinder});
+  const auto& cylinder = std::get<GeneralizedCylinder>(fitted.primitive);
+  CHECK(section_tangents(cylinder).row(6).dot(line->direction.transpose()) == Approx(1).epsilon(1e-4));
 }
 
 TEST_CASE("the slanted end of a rod does not shrink its last circle") {

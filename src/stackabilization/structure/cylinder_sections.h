@@ -24,9 +24,8 @@ std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Ax
 /// box: least squares. Nothing when fewer than half of the sections have an outline.
 std::optional<AxisLine> middle_line(const Shape& part, const AxisLine& axis, int sections);
 
-/// A closed one around the axis of a body of revolution, through the middle of its profile, counter-clockwise
-/// about its upward side. Nothing when the
-/// profile reaches the axis.
+/// A closed one around the axis of a body of revolution, through the middle of its profile,
+/// counter-clockwise about its upward side. Nothing when the profile reaches the axis.
 std::optional<GeneralizedCylinder> ring_cylinder(const FitSurface& part, const AxisLine& axis, int sections);
 
 /// Circles at even arc lengths of a curve that is first moved to the middle of the part and, when open,

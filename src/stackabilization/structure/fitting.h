@@ -24,12 +24,12 @@ struct FitOptions {
 ///   tolerance::least_thickness is thickened to it.
 /// * Generalized cylinder of a body of revolution, hollow or not: along its axis, radii those of its
 ///   outermost points; or, of a ring, around it, closed.
-/// * Of any other part: a straight axis of the box, radii the mean distance of the outline from it; or,
-///   where box and axis hold the part badly and the curve does so clearly better, its mean curvature
-///   flow skeleton (Tagliasacchi et al. 2012): the longest path in it, extended to the ends of the
-///   part, or its closed loop, unless it branches; radii are mean distances from the curve to the
-///   surface. A part that is open, not manifold, of several shells or of very many triangles is wrapped
-///   for that (Portaneri et al. 2022).
+/// * Of any other part: a straight axis of the box or line through the middle of its outlines, radii
+///   the mean distance of the outline from it; or, where box and line hold the part badly and the curve
+///   does so clearly better, its mean curvature flow skeleton (Tagliasacchi et al. 2012): the longest
+///   path in it, extended to the ends of the part, or its closed loop, unless it branches; radii are
+///   mean distances from the curve to the surface. A part that is open, not manifold, of several shells
+///   or of very many triangles is wrapped for that (Portaneri et al. 2022).
 ///
 /// The better fit wins, a cylinder when its error is less than 0.85 of the cuboid's. The note tells which
 /// curve a cylinder follows and what was done to the part for it. The result is a function of the part alone,
