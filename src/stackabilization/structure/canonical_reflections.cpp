@@ -10,8 +10,9 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr double aligned = 0.999, across = 0.05;  // cosines
-constexpr double weight_of_whole = 0.5;           // against the share of the area of each part
+constexpr double aligned = 0.999;        // cosine
+constexpr double across = 0.05;          // cosine
+constexpr double weight_of_whole = 0.5;  // against the share of the area of each part
 constexpr int highest_order = 12;
 
 bool along_box(const OrientedBox& box, const Eigen::Vector3d& axis) {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "stackabilization/structure/symmetry_verification.h"
+#include "stackabilization/structure/symmetry_surface.h"
 
 namespace stackabilization::detail {
 

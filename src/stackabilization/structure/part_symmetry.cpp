@@ -7,6 +7,7 @@
 
 #include "stackabilization/structure/canonical_reflections.h"
 #include "stackabilization/structure/part_match.h"
+#include "stackabilization/structure/symmetry_candidates.h"
 #include "stackabilization/structure/symmetry_detection.h"
 #include "stackabilization/structure/symmetry_refinement.h"
 
@@ -16,7 +17,8 @@ namespace {
 
 using detail::SymmetrySurface;
 
-constexpr double nearly_parallel = 0.99, nearly_across = 0.05;  // cosines
+constexpr double nearly_parallel = 0.99;  // cosine
+constexpr double nearly_across = 0.05;    // cosine
 
 class PartSymmetry {
  public:

@@ -12,8 +12,9 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr double rough_reach = 0.1;  // of candidates, own frame
-constexpr double same_normal = 0.999, same_offset = 0.02;
+constexpr double rough_reach = 0.1;    // of candidates, own frame
+constexpr double same_normal = 0.999;  // cosine
+constexpr double same_offset = 0.02;
 constexpr double off_principal = 0.05;  // of the trace of the second moments
 constexpr double shadow_cosine = 0.85, shadow_factor = 10;
 constexpr std::size_t most_reflections = 64;
@@ -46,7 +47,7 @@ class ReflectionSearch {
       : surface_(surface), options_(options) {}
 
   std::vector<FoundSymmetry> run() {
-    for (const auto& axis : axes_of(surface_).colwise())
+    for (const Eigen::Vector3d axis : axes_of(surface_).colwise())
       consider({SymmetryKind::reflection, Eigen::Vector3d::Zero(), axis, 2});
     for (const Symmetry& plane : voted_reflections(surface_, options_)) consider(plane);
     drop_shadows();
@@ -143,7 +144,7 @@ bool is_principal(const SymmetrySurface& surface, const Eigen::Vector3d& axis) {
 
 Eigen::Matrix<double, 3, 6> axes_of(const SymmetrySurface& surface) {
   Eigen::Matrix<double, 3, 6> axes;
-  axes << surface.box.axes, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(surface.spread).eigenvectors();
+  axes << Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(surface.spread).eigenvectors(), surface.box.axes;
   return axes;
 }
 

@@ -14,9 +14,10 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr double rough_reach = 0.1;                       // of candidates, own frame
-constexpr double same_axis = 0.99, nearly_across = 0.05;  // cosines
-constexpr int highest_order = 12;  // of rotations without reflections through their axis
+constexpr double rough_reach = 0.1;     // of candidates, own frame
+constexpr double same_axis = 0.99;      // cosine
+constexpr double nearly_across = 0.05;  // cosine
+constexpr int highest_order = 12;       // of rotations without reflections through their axis
 
 class RotationSearch {
  public:
@@ -89,7 +90,7 @@ class RotationSearch {
       if (!contains(axes, axis) && is_principal(surface_, axis) && !on_reflection(axis))
         axes.push_back({SymmetryKind::rotation, Eigen::Vector3d::Zero(), axis, 2});
     };
-    for (const auto& axis : axes_of(surface_).colwise()) add(axis);
+    for (const Eigen::Vector3d axis : axes_of(surface_).colwise()) add(axis);
     for (const Symmetry& axis : voted_axes(surface_)) add(axis.axis);
     return axes;
   }

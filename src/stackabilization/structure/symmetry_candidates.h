@@ -24,11 +24,25 @@ std::vector<FoundSymmetry> find_rotations(const SymmetrySurface& surface,
                                           const std::vector<FoundSymmetry>& reflections,
                                           const SymmetryOptions& options);
 
+/// What may be called a surface of revolution.
+enum class Roundness {
+  /// It agrees with itself turned by any angle, without any detail that stands out.
+  tolerant,
+  /// And facets, where it faces sideways, stand out by less than one and a half tolerances of its radius:
+  /// regular prisms of
+  /// 14 sides and more are round, of 12 and less are not.
+  faceted,
+};
+
+/// All axes (own frame) of revolution through, or near, the centroid; three for a sphere.
+std::vector<Symmetry> revolutions(const SymmetrySurface& surface, const SymmetryOptions& options,
+                                  Roundness roundness);
+
 /// Can `axis` be the normal of a reflection or the axis of a rotation: is it one of the second moments,
 /// nearly?
 bool is_principal(const SymmetrySurface& surface, const Eigen::Vector3d& axis);
 
-/// Axes of the box and of the second moments, six columns.
+/// Axes of the second moments and of the box, in columns.
 Eigen::Matrix<double, 3, 6> axes_of(const SymmetrySurface& surface);
 
 }  // namespace stackabilization::detail

@@ -17,7 +17,7 @@ namespace {
 constexpr int freedoms = 4;  // two turns and at most two shifts of the plane or axis
 constexpr double least_information = 0.5;
 constexpr double shrink = 0.25;
-constexpr double settled = 1e-3;  // tolerance of a step, of the scale
+constexpr double settled = 0.001;  // step, fraction of the scale
 constexpr int steps_per_scale = 6;
 
 using Information = Eigen::Matrix<double, freedoms, freedoms>;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "stackabilization/structure/symmetry_verification.h"
+#include "stackabilization/structure/symmetry_surface.h"
 
 namespace stackabilization::detail {
 
