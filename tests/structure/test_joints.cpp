@@ -139,8 +139,9 @@ TEST_CASE("a rim on a cup is joined at four sides of the ring, not at the middle
   }
   CHECK(sum.head<2>().norm() == Approx(0).margin(1e-9));
   // The sides follow the shape: here along and across the direction of a knob.
-  const Shape knobbed = assembled({solids::surface_of_revolution(wall, 32), solids::surface_of_revolution(ring, 32),
-                                   solids::box({3, -1, 1}, {6, 1, 2})});
+  const Shape knobbed =
+      assembled({solids::surface_of_revolution(wall, 32), solids::surface_of_revolution(ring, 32),
+                 solids::box({3, -1, 1}, {6, 1, 2})});
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 2) / 3).toRotationMatrix();
   for (const Shape& shape : {knobbed, transformed(knobbed, turn, {1, 2, 3})}) {
     int along = 0;

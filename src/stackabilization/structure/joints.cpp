@@ -216,8 +216,8 @@ class JointFinder {
     });
   }
 
-  /// How far a region reaches to four sides of its centre: along its two longest axes, or, where it is as long as
-  /// wide, so that every choice is as good, along the axes of the shape.
+  /// How far a region reaches to four sides of its centre: along its two longest axes, or, where it is as
+  /// long as wide, so that every choice is as good, along the axes of the shape.
   std::vector<Eigen::RowVector3d> extremes(const detail::HullSpread& region) const {
     const Eigen::Vector3d normal = region.axes.col(2);
     const bool is_round = region.deviations(1) > round_share * region.deviations(0);
@@ -225,7 +225,8 @@ class JointFinder {
     std::vector<Eigen::RowVector3d> points;
     for (const Eigen::Vector3d& side : {u, Eigen::Vector3d(normal.cross(u))})
       for (const double sign : {-1.0, 1.0}) {
-        const double out = sign * (sign * side.transpose() * (region.hull.transpose().colwise() - region.centre)).maxCoeff();
+        const double out =
+            sign * (sign * side.transpose() * (region.hull.transpose().colwise() - region.centre)).maxCoeff();
         points.emplace_back((region.centre + out * side).transpose());
       }
     return points;
