@@ -138,6 +138,23 @@ TEST_CASE("a rim on a cup is joined at four sides of the ring, not at the middle
     sum += point;
   }
   CHECK(sum.head<2>().norm() == Approx(0).margin(1e-9));
+  // The sides follow the shape: here along and across the direction of a knob.
+  const Shape knobbed =
+      assembled({solids::surface_of_revolution(wall, 32), solids::surface_of_revolution(ring, 32),
+                 solids::box({3, -1, 1}, {6, 1, 2})});
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 2) / 3).toRotationMatrix();
+  for (const Shape& shape : {knobbed, transformed(knobbed, turn, {1, 2, 3})}) {
+    int along = 0;
+    for (const Relation& joint : joints_of(shape)) {
+      if (joint.parts != std::vector<int>{0, 1}) continue;
+      Eigen::Vector3d point = joint.points.row(0).transpose();
+      if (shape.vertices != knobbed.vertices) point = turn.transpose() * (point - Eigen::Vector3d(1, 2, 3));
+      CHECK(point.head<2>().cwiseAbs().minCoeff() == Approx(0).margin(1e-9));
+      CHECK(point.head<2>().norm() == Approx(3).epsilon(1e-9));
+      ++along;
+    }
+    CHECK(along == 4);
+  }
   // A tube on a plate meets it in a ring as well, but is thin enough to stand on one point.
   const solids::Polygon tube = {{0.5, 0}, {0.75, 0}, {0.75, 20}, {0.5, 20}};
   CHECK(joints_of(assembled({solids::box({-9, -9, -1}, {9, 9, 0}), solids::surface_of_revolution(tube, 16)}))

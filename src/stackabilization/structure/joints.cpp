@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +13,7 @@
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
 #include "stackabilization/structure/contact_spots.h"
+#include "stackabilization/structure/file_axes.h"
 #include "stackabilization/structure/part_surface.h"
 
 namespace stackabilization {
@@ -24,6 +27,9 @@ constexpr double hidden_share = 0.75;
 
 /// Width over length of a region from which on it has no longest direction.
 constexpr double round_share = 0.9;
+
+/// The same for the second moments of a shape across an axis.
+constexpr double round_moment = 0.99;
 
 void check(const JointOptions& options) {
   if (!(options.reach > 0) || !std::isfinite(options.reach))
@@ -40,10 +46,28 @@ double size_of(const Shape& shape) {
   return detail::enclosing_diameter(corners);
 }
 
+/// Second moment of the surface of a shape about its centroid: tells directions that belong to the shape.
+Eigen::Matrix3d surface_moment(const Shape& shape) {
+  const Eigen::Vector3d origin = shape.corner(0, 0);
+  double area = 0;
+  Eigen::Vector3d first = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+    Eigen::Matrix3d corners;
+    for (int k = 0; k < 3; ++k) corners.col(k) = shape.corner(t, k) - origin;
+    const double share = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm();
+    const Eigen::Vector3d sum = corners.rowwise().sum();
+    area += share;
+    first += share / 3 * sum;
+    second += share / 12 * (corners * corners.transpose() + sum * sum.transpose());
+  }
+  return second / area - first * first.transpose() / (area * area);
+}
+
 class JointFinder {
  public:
   JointFinder(const Shape& shape, const std::vector<Part>& parts, const JointOptions& options)
-      : options_(options), size_(size_of(shape)), surfaces_(parts.size()) {
+      : options_(options), size_(size_of(shape)), moment_(surface_moment(shape)), surfaces_(parts.size()) {
     for (const Part& part : parts) is_cuboid_.push_back(std::holds_alternative<Cuboid>(part.primitive));
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
       surfaces_[k].emplace(extract_part(shape, static_cast<Eigen::Index>(k)), parts[k]);
@@ -192,29 +216,35 @@ class JointFinder {
     });
   }
 
-  /// Corners of a region farthest out to four sides: along its two longest axes, or, where it is as long as
-  /// wide, so that every choice is as good, along the projections of the file's axes.
-  static std::vector<Eigen::RowVector3d> extremes(const detail::HullSpread& region) {
-    Eigen::Vector3d u = region.axes.col(0);
+  /// How far a region reaches to four sides of its centre: along its two longest axes, or, where it is as
+  /// long as wide, so that every choice is as good, along the axes of the shape.
+  std::vector<Eigen::RowVector3d> extremes(const detail::HullSpread& region) const {
     const Eigen::Vector3d normal = region.axes.col(2);
-    if (region.deviations(1) > round_share * region.deviations(0)) {
-      Eigen::Index flattest = 0;
-      normal.cwiseAbs().minCoeff(&flattest);
-      const Eigen::Vector3d axis = Eigen::Vector3d::Unit(flattest);
-      u = (axis - axis.dot(normal) * normal).normalized();
-    }
-    std::vector<Eigen::RowVector3d> corners;
+    const bool is_round = region.deviations(1) > round_share * region.deviations(0);
+    const Eigen::Vector3d u = is_round ? axis_across(normal) : Eigen::Vector3d(region.axes.col(0));
+    std::vector<Eigen::RowVector3d> points;
     for (const Eigen::Vector3d& side : {u, Eigen::Vector3d(normal.cross(u))})
       for (const double sign : {-1.0, 1.0}) {
-        Eigen::Index farthest = 0;
-        (region.hull * (sign * side)).maxCoeff(&farthest);
-        corners.emplace_back(region.hull.row(farthest));
+        const double out =
+            sign * (sign * side.transpose() * (region.hull.transpose().colwise() - region.centre)).maxCoeff();
+        points.emplace_back((region.centre + out * side).transpose());
       }
-    return corners;
+    return points;
+  }
+
+  /// Direction across `normal` in which the shape is longest; for a round shape the nearest axis of the file.
+  Eigen::Vector3d axis_across(const Eigen::Vector3d& normal) const {
+    Eigen::Matrix<double, 3, 2> plane;
+    plane.col(0) = detail::across(normal);
+    plane.col(1) = normal.cross(plane.col(0));
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(plane.transpose() * moment_ * plane);
+    if (solver.eigenvalues()(0) > round_moment * solver.eigenvalues()(1)) return plane.col(0);
+    return plane * solver.eigenvectors().col(1);
   }
 
   JointOptions options_;
   double size_;
+  Eigen::Matrix3d moment_;  ///< of the shape
   std::vector<std::optional<PartSurface>> surfaces_;
   std::vector<bool> is_cuboid_;  ///< per part
 };

@@ -25,7 +25,8 @@ struct JointOptions {
 /// the part's surface where that is closed, else by its primitive, where that fits well. A joint inside a
 /// third part that both parts meet is left out: two bars that end in one leg are held by the leg. Several
 /// regions in a row along a cuboid, with the other part there between them, are one line joint, as the
-/// primitives would have it (a rail hung on pegs); a handle, which is a cylinder, keeps its two points.
+/// primitives would have it (a rail hung on pegs); a handle, which is a cylinder, keeps its two points. A
+/// ring, in whose middle neither part is, is joined at four sides, which follow the axes of the shape.
 ///
 /// The regions are found from edges and faces, without sampling; they are the same in every pose and at every
 /// scale, up to rounding and to the order of the joints of one pair, which is by their coordinates.
