@@ -14,7 +14,7 @@ struct ControllerModel::Data {
   explicit Data(StructuredShape structured)
       : rest(std::move(structured)),
         rig(rest.structure),
-        mesh{MeshTransfer(rest.shape, rig), vertices_by_part(rest.shape)} {
+        mesh{MeshTransfer(rest.shape, rig), vertices_by_part(rest.shape), SurfaceIndex(rest.shape)} {
     for (const Part& part : rest.structure.parts) primitives.push_back(part.primitive);
   }
 
@@ -43,6 +43,8 @@ namespace {
 
 StructuredShape validated(StructuredShape structured) {
   validate(structured);
+  if (!(structured.structure.diagonal > 0) || !std::isfinite(structured.structure.diagonal))
+    throw InputError("the diagonal of the structure must be positive");
   return structured;
 }
 

@@ -16,7 +16,7 @@ struct EditOutcome {
 };
 
 /// Cuboids and generalized cylinders that move the mesh riding on them, with all relations between them kept
-/// (paper, section 4.1). See docs/method.md.
+/// (paper, section 4.1). See docs/controllers.md.
 ///
 /// A configuration is one primitive per part, values in and values out. An edit is made exactly or refused:
 /// symmetries hold up to rounding by construction, joints to tolerance::relation of the diagonal (in practice

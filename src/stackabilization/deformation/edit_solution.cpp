@@ -10,7 +10,6 @@
 #include "stackabilization/deformation/relation_residual.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
-#include "stackabilization/structure/surface_index.h"
 
 namespace stackabilization {
 
@@ -223,11 +222,9 @@ class EditSolution {
   /// The points of the surface nearest to the fixed ones stay where they are now.
   std::vector<Constraint> fixed_point_constraints() const {
     std::vector<Constraint> constraints;
-    if (task_.constraints.fixed_points.empty()) return constraints;
-    const SurfaceIndex surface(task_.shape);
     for (const Eigen::Vector3d& point : task_.constraints.fixed_points) {
       if (!point.allFinite()) throw UsageError("a point to be fixed must be finite");
-      const SurfacePoint nearest = surface.nearest(point);
+      const SurfacePoint nearest = mesh_.surface.nearest(point);
       Eigen::Matrix3d corners;
       for (int k = 0; k < 3; ++k) corners.col(k) = task_.shape.corner(nearest.triangle, k);
       const Eigen::Vector3d weights = barycentric(corners, nearest.point);

@@ -8,6 +8,7 @@
 #include "stackabilization/deformation/mesh_transfer.h"
 #include "stackabilization/deformation/part_edit.h"
 #include "stackabilization/deformation/rig.h"
+#include "stackabilization/structure/surface_index.h"
 
 namespace stackabilization {
 
@@ -15,6 +16,7 @@ namespace stackabilization {
 struct RiggedMesh {
   MeshTransfer transfer;
   std::vector<std::vector<int>> by_part;  ///< see vertices_by_part
+  SurfaceIndex surface;                   ///< at rest
 };
 
 /// An edit to be solved for.
