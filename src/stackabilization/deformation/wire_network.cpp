@@ -108,6 +108,21 @@ WireNetwork wire_network(const Shape& shape, const WireStructure& structure, dou
   return network;
 }
 
+std::vector<WireImage> images_of(const WireStructure& structure, int wire) {
+  std::vector<WireImage> images = {{wire, Eigen::Matrix3d::Identity()}};
+  std::vector<char> seen(structure.wires.size(), 0);
+  seen[static_cast<std::size_t>(wire)] = 1;
+  for (std::size_t i = 0; i < images.size(); ++i)
+    for (const WireSymmetry& pair : structure.symmetric) {
+      if (pair.wire != images[i].wire || seen[static_cast<std::size_t>(pair.image)]) continue;
+      seen[static_cast<std::size_t>(pair.image)] = 1;
+      const Eigen::Matrix3d q =
+          isometry_of(structure.symmetries[static_cast<std::size_t>(pair.symmetry)]).linear();
+      images.push_back({pair.image, q * images[i].linear});
+    }
+  return images;
+}
+
 std::vector<Eigen::Vector3d> node_positions(const WireNetwork& network,
                                             const std::vector<Eigen::Affine3d>& maps, int exact) {
   std::vector<Eigen::Vector3d> positions;

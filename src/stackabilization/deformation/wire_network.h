@@ -35,6 +35,15 @@ struct WireNetwork {
 WireNetwork wire_network(const Shape& shape, const WireStructure& structure, double link_distance,
                          double tolerance);
 
+/// A wire and the linear part of the symmetries that lead to it.
+struct WireImage {
+  int wire;
+  Eigen::Matrix3d linear;
+};
+
+/// Wire `wire` itself, then its images under the symmetries and their products, each once.
+std::vector<WireImage> images_of(const WireStructure& structure, int wire);
+
 /// Where the maps of the wires take the nodes: a junction to the mean over its wires, but the nodes of wire
 /// `exact` to where that one takes them.
 std::vector<Eigen::Vector3d> node_positions(const WireNetwork& network,

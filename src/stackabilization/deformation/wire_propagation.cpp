@@ -158,15 +158,18 @@ class PropagationProblem {
     }
   }
 
+  /// The edited wire and its images go where the edit puts them.
   void fix_edited() {
-    const int k = edit_.wire;
-    for (int c = 0; c < 3; ++c) problem_->fix(3 * k + c, edit_.motion == WireMotion::move ? edit_.by(c) : 0);
-    for (const WireMode& mode : modes(k)) {
-      const double growth = edit_.motion == WireMotion::scale ? edit_.factor - 1 : 0;
-      // Each mode is a multiple of a projection or of an elementary matrix e_i e_j^T, whose trace tells i =
-      // j.
-      const double trace = mode.matrix.trace(), size = mode.matrix.norm();
-      problem_->fix(mode.variable, std::abs(trace) > size / 2 ? growth * trace / (size * size) : 0);
+    for (const WireImage& image : images_of(structure_, edit_.wire)) {
+      const Eigen::Vector3d by = image.linear * edit_.by;
+      for (int c = 0; c < 3; ++c) problem_->fix(3 * image.wire + c, by(c));
+      for (const WireMode& mode : modes(image.wire)) {
+        const double growth = edit_.motion == WireMotion::scale ? edit_.factor - 1 : 0;
+        // Each mode is a multiple of a projection or of an elementary matrix e_i e_j^T, whose trace tells i =
+        // j.
+        const double trace = mode.matrix.trace(), size = mode.matrix.norm();
+        problem_->fix(mode.variable, std::abs(trace) > size / 2 ? growth * trace / (size * size) : 0);
+      }
     }
   }
 
