@@ -52,13 +52,12 @@ std::string clause(const Demand& demand) {
 /// One edit as a problem of least squares.
 class PropagationProblem {
  public:
-  PropagationProblem(const WireStructure& structure, const WireNetwork& network, const WireMaps& now,
-                     const WireEdit& edit, Turns turns)
-      : structure_(structure), network_(network), now_(now), edit_(edit), turns_(std::move(turns)) {
-    for (std::size_t k = 0; k < structure.wires.size(); ++k)
-      centres_.push_back(now[k] * structure.wires[k].centre);
+  PropagationProblem(const WireNetwork& network, const WireMaps& now, const WireEdit& edit, Turns turns)
+      : structure_(network.structure), network_(network), now_(now), edit_(edit), turns_(std::move(turns)) {
+    for (std::size_t k = 0; k < structure_.wires.size(); ++k)
+      centres_.push_back(now[k] * structure_.wires[k].centre);
     make_axes();
-    modes_ = wire_modes(structure, axes_, edit);
+    modes_ = wire_modes(structure_, axes_, edit);
     problem_.emplace(modes_.variables);
     fix_edited();
     wish_to_stay();
@@ -368,18 +367,19 @@ class PropagationProblem {
 
 }  // namespace
 
-PropagatedWires propagated(const WireStructure& structure, const WireNetwork& network, const WireMaps& now,
-                           const WireEdit& edit, const WireHolds& holds) {
+PropagatedWires propagated(const WireNetwork& network, const WireMaps& now, const WireEdit& edit,
+                           const WireHolds& holds) {
+  const std::size_t count = network.structure.wires.size();
   const bool turning = edit.motion == WireMotion::turn;
   const auto solved = [&](Turns turns) {
-    PropagationProblem problem(structure, network, now, edit, std::move(turns));
+    PropagationProblem problem(network, now, edit, std::move(turns));
     problem.hold(holds);
     return problem.solved();
   };
-  PropagatedWires result = solved(turning ? spread_turn(structure, network, edit.wire, edit.linear)
-                                          : Turns(structure.wires.size(), Eigen::Matrix3d::Identity()));
+  PropagatedWires result = solved(turning ? spread_turn(network, edit.wire, edit.linear)
+                                          : Turns(count, Eigen::Matrix3d::Identity()));
   if (!turning || result.excess <= 1) return result;
-  PropagatedWires whole = solved(Turns(structure.wires.size(), edit.linear));
+  PropagatedWires whole = solved(Turns(count, edit.linear));
   return whole.excess < result.excess ? whole : result;
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 class TurnSpreader {
  public:
-  TurnSpreader(const WireStructure& structure, const WireNetwork& network)
-      : structure_(structure), network_(network), turn_(structure.wires.size()) {}
+  explicit TurnSpreader(const WireNetwork& network)
+      : structure_(network.structure), network_(network), turn_(structure_.wires.size()) {}
 
   std::vector<Eigen::Matrix3d> spread(int edited, const Eigen::Matrix3d& linear) {
     for (const WireImage& image : images_of(structure_, edited))
@@ -80,9 +80,9 @@ class TurnSpreader {
 
 }  // namespace
 
-std::vector<Eigen::Matrix3d> spread_turn(const WireStructure& structure, const WireNetwork& network,
-                                         int edited, const Eigen::Matrix3d& linear) {
-  return TurnSpreader(structure, network).spread(edited, linear);
+std::vector<Eigen::Matrix3d> spread_turn(const WireNetwork& network, int edited,
+                                         const Eigen::Matrix3d& linear) {
+  return TurnSpreader(network).spread(edited, linear);
 }
 
 }  // namespace stackabilization::detail
