@@ -9,7 +9,7 @@
 namespace stackabilization::detail {
 
 /// Sparse linear least squares under linear equations, which may repeat or contradict one another: the method
-/// of multipliers (Hestenes 1969, Powell 1969), one factorization of the penalised normal equations for all
+/// of multipliers (Hestenes 1969), one factorization of the penalised normal equations for all
 /// its steps.
 class ConstrainedLeastSquares {
  public:

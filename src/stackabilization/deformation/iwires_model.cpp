@@ -111,7 +111,6 @@ std::vector<double> wire_symmetry_residuals(const Shape& rest, const WireStructu
 
 struct IWiresModel::Data {
   Shape rest;
-  WireStructure structure;
   double diagonal;
   WireNetwork network;
   WireSurface surface;
@@ -119,9 +118,8 @@ struct IWiresModel::Data {
 
   Data(Shape shape, const IWiresOptions& options)
       : rest(validated(std::move(shape))),
-        structure(wires_of(rest, options)),
         diagonal(box_of(rest).diagonal().norm()),
-        network(detail::wire_network(rest, structure, options.link_distance * diagonal,
+        network(detail::wire_network(rest, wires_of(rest, options), options.link_distance * diagonal,
                                      options.relations.distance_tolerance * diagonal)),
         surface(rest, network, {}),
         centre(box_of(rest).center()) {}
@@ -130,9 +128,9 @@ struct IWiresModel::Data {
     if (handle.kind == HandleKind::shape) return;
     if (handle.kind != HandleKind::wire)
       throw UsageError("the wires of a shape and the shape itself can be edited here");
-    if (handle.index < 0 || static_cast<std::size_t>(handle.index) >= structure.wires.size())
+    if (handle.index < 0 || static_cast<std::size_t>(handle.index) >= network.structure.wires.size())
       throw UsageError("there is no wire " + std::to_string(handle.index) + ", the last one is " +
-                       std::to_string(structure.wires.size() - 1));
+                       std::to_string(network.structure.wires.size() - 1));
   }
 
   void check(const Edit& edit) const {
@@ -149,13 +147,13 @@ namespace {
 /// The state of a shape between edits: its wires, and an affine map after them.
 class Editing {
  public:
-  Editing(const WireStructure& structure, const WireNetwork& network, std::vector<std::int32_t> fixed,
+  Editing(const WireNetwork& network, std::vector<std::int32_t> fixed,
           const DeformationConstraints& constraints)
-      : structure_(structure),
+      : structure_(network.structure),
         network_(network),
         fixed_(std::move(fixed)),
         constraints_(constraints),
-        maps_(structure.wires.size(), Eigen::Affine3d::Identity()),
+        maps_(structure_.wires.size(), Eigen::Affine3d::Identity()),
         nodes_(network.points) {}
 
   std::optional<Refusal> edit_shape(const Operation& operation, const Eigen::Vector3d& centre) {
@@ -200,11 +198,11 @@ class Editing {
     WireHolds holds{fixed_, {}};
     if (constraints_.keep_extent) {
       holds.height = (whole_.linear().transpose() * constraints_.keep_extent->unit()).normalized();
-      const auto result = detail::propagated(structure_, network_, maps_, edit, holds);
+      const auto result = detail::propagated(network_, maps_, edit, holds);
       if (result.excess <= 1) return result;
       holds.height.reset();
     }
-    return detail::propagated(structure_, network_, maps_, edit, holds);
+    return detail::propagated(network_, maps_, edit, holds);
   }
 
   std::optional<Refusal> check_symmetries() const {
@@ -256,12 +254,12 @@ IWiresModel& IWiresModel::operator=(IWiresModel&&) noexcept = default;
 IWiresModel::~IWiresModel() = default;
 
 const WireStructure& IWiresModel::wires() const {
-  return data_->structure;
+  return data_->network.structure;
 }
 
 std::vector<Handle> IWiresModel::handles() const {
   std::vector<Handle> handles = {{HandleKind::shape, 0, 0}};
-  for (std::size_t k = 0; k < data_->structure.wires.size(); ++k)
+  for (std::size_t k = 0; k < data_->network.structure.wires.size(); ++k)
     handles.push_back({HandleKind::wire, 0, static_cast<int>(k)});
   return handles;
 }
@@ -269,14 +267,14 @@ std::vector<Handle> IWiresModel::handles() const {
 Eigen::Vector3d IWiresModel::centre(const Handle& handle) const {
   data_->check(handle);
   if (handle.kind == HandleKind::shape) return data_->centre;
-  return data_->structure.wires[static_cast<std::size_t>(handle.index)].centre;
+  return data_->network.structure.wires[static_cast<std::size_t>(handle.index)].centre;
 }
 
 DeformationResult IWiresModel::deformed(const std::vector<Edit>& edits,
                                         const DeformationConstraints& constraints) const {
   for (const Edit& edit : edits) data_->check(edit);
   const std::vector<std::int32_t> fixed = fixed_vertices(data_->rest, constraints);
-  Editing state(data_->structure, data_->network, fixed, constraints);
+  Editing state(data_->network, fixed, constraints);
   DeformationResult result{{}, data_->rest, {}};
   bool wires_moved = false;
   for (const Edit& edit : edits) {
@@ -300,7 +298,7 @@ DeformationResult IWiresModel::deformed(const std::vector<Edit>& edits,
   const Eigen::Affine3d back = whole.inverse();
   const Points before =
       (kept.vertices * back.linear().transpose()).rowwise() + back.translation().transpose();
-  result.refusal = broken_symmetry(data_->rest, data_->structure, before, data_->network.diagonal);
+  result.refusal = broken_symmetry(data_->rest, data_->network.structure, before, data_->network.diagonal);
   if (!result.refusal) result.shape.vertices = std::move(kept.vertices);
   return result;
 }

@@ -24,22 +24,22 @@ struct IWiresOptions {
 /// and HandleKind::wire with the rows of WireStructure::wires. Wires take moves, rotations and scalings in
 /// all directions about Wire::centre, wherever earlier edits have brought it.
 ///
-/// What holds in every result, up to rounding:
+/// What holds in every result, to rounding where the relations at rest do so, and else to
+/// WireAnalysisOptions::distance_tolerance:
 ///
-/// * the edited wire is where the edit puts it, unless Constraints bring the whole back;
-/// * straight, circular and planar wires are straight, circular and planar; moves and scalings keep all
-/// directions, a
-///   rotation turns parallel wires alike. A circle that is scaled need not keep others of its size, a segment
-///   does;
-/// * mirror images stay images, to 1e-6 of the diagonal. A rotation may give up right angles and planes, as
-/// the box becomes
-///   a parallelepiped;
+/// * the edited wire is where the edit puts it;
+/// * straight, circular and planar wires stay straight, circular and planar;
+/// * parallel wires stay parallel. Moves and scalings keep all directions; a rotation turns what is parallel
+///   to the wire and leaves the rest, so it may give up right angles and planes: a box becomes a
+///   parallelepiped. Where that cannot be, everything turns;
+/// * parallel segments of equal length stay so, and circles of equal radius unless one of them is scaled;
+/// * mirror images stay images, always to 1e-6 of the diagonal, measured on the vertices;
 /// * vertices of equal coordinates stay together.
 ///
 /// Refused, with the wire and by how much, is an edit against which symmetries, junctions or fixed points
 /// stand, one that flattens a wire or turns it inside out, and what DeformationConstraints forbid. Where the
 /// extent is to be kept, the wires that define it are held; where that cannot be, the result is stretched
-/// back along the direction (see vertex_constraints.h), which may deform circles.
+/// back along the direction (vertex_constraints.h), wires included.
 class IWiresModel final : public DeformationModel {
  public:
   /// Throws InputError when the shape is invalid or has no feature curve (smooth closed surfaces), UsageError

@@ -69,7 +69,7 @@ struct WireAnalysisOptions {
   double form_tolerance = 2e-3;
   /// Between parallel, from orthogonal directions, degrees; wide enough for the edges of a tapered leg, which
   /// an edit should treat as one.
-  double angle_tolerance = 2;
+  double angle_tolerance = 3;
   double size_tolerance = 2e-3;  ///< of equal lengths and radii, fraction of them
   /// Of vertices from a common plane, from mirror images; fraction of the diagonal of the shape's bounding
   /// box.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <utility>
 
 #include "stackabilization/shape/disjoint_sets.h"
 
@@ -9,7 +10,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-void number_nodes(const Shape& shape, const WireStructure& structure, WireNetwork& network) {
+void number_nodes(const Shape& shape, WireNetwork& network) {
+  const WireStructure& structure = network.structure;
   for (const Wire& wire : structure.wires)
     network.vertices.insert(network.vertices.end(), wire.curve.vertices.begin(), wire.curve.vertices.end());
   std::sort(network.vertices.begin(), network.vertices.end());
@@ -31,7 +33,8 @@ void number_nodes(const Shape& shape, const WireStructure& structure, WireNetwor
 }
 
 /// Joint classes of axes: those of parallel wires are one. `sign` turns a wire's axis into that of its class.
-void align_axes(const WireStructure& structure, WireNetwork& network) {
+void align_axes(WireNetwork& network) {
+  const WireStructure& structure = network.structure;
   network.class_of.assign(structure.wires.size(), -1);
   std::vector<double> sign(structure.wires.size(), 1);
   std::vector<Eigen::Vector3d> axes;
@@ -94,18 +97,34 @@ void find_links(double distance, WireNetwork& network) {
 
 }  // namespace
 
-WireNetwork wire_network(const Shape& shape, const WireStructure& structure, double link_distance,
+WireNetwork wire_network(const Shape& shape, WireStructure structure, double link_distance,
                          double tolerance) {
   WireNetwork network;
   Eigen::AlignedBox3d box;
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
     for (int k = 0; k < 3; ++k) box.extend(shape.corner(t, k));
   network.diagonal = box.diagonal().norm();
-  number_nodes(shape, structure, network);
-  align_axes(structure, network);
+  network.structure = std::move(structure);
+  number_nodes(shape, network);
+  align_axes(network);
   network.tolerance = tolerance;
   find_links(link_distance, network);
   return network;
+}
+
+std::vector<WireImage> images_of(const WireStructure& structure, int wire) {
+  std::vector<WireImage> images = {{wire, Eigen::Matrix3d::Identity()}};
+  std::vector<char> seen(structure.wires.size(), 0);
+  seen[static_cast<std::size_t>(wire)] = 1;
+  for (std::size_t i = 0; i < images.size(); ++i)
+    for (const WireSymmetry& pair : structure.symmetric) {
+      if (pair.wire != images[i].wire || seen[static_cast<std::size_t>(pair.image)]) continue;
+      seen[static_cast<std::size_t>(pair.image)] = 1;
+      const Eigen::Matrix3d q =
+          isometry_of(structure.symmetries[static_cast<std::size_t>(pair.symmetry)]).linear();
+      images.push_back({pair.image, q * images[i].linear});
+    }
+  return images;
 }
 
 std::vector<Eigen::Vector3d> node_positions(const WireNetwork& network,

@@ -16,6 +16,7 @@ struct WireLink {
 
 /// The vertices of wires as one numbered set of nodes, and what is derived from a WireStructure once.
 struct WireNetwork {
+  WireStructure structure;
   double diagonal = 0;                     ///< of the bounding box of the shape, model units
   double tolerance = 0;                    ///< of relations, model units
   double mean_length = 0;                  ///< of the wires, model units
@@ -32,8 +33,16 @@ struct WireNetwork {
 /// `link_distance`, model units: for every vertex of a wire, the nearest one of another network of joined
 /// wires is linked to it when it is no farther away. `tolerance`, model units: how well relations hold at
 /// rest.
-WireNetwork wire_network(const Shape& shape, const WireStructure& structure, double link_distance,
-                         double tolerance);
+WireNetwork wire_network(const Shape& shape, WireStructure structure, double link_distance, double tolerance);
+
+/// A wire and the linear part of the symmetries that lead to it.
+struct WireImage {
+  int wire;
+  Eigen::Matrix3d linear;
+};
+
+/// Wire `wire` itself, then its images under the symmetries and their products, each once.
+std::vector<WireImage> images_of(const WireStructure& structure, int wire);
 
 /// Where the maps of the wires take the nodes: a junction to the mean over its wires, but the nodes of wire
 /// `exact` to where that one takes them.

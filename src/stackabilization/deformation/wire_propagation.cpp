@@ -52,13 +52,12 @@ std::string clause(const Demand& demand) {
 /// One edit as a problem of least squares.
 class PropagationProblem {
  public:
-  PropagationProblem(const WireStructure& structure, const WireNetwork& network, const WireMaps& now,
-                     const WireEdit& edit, Turns turns)
-      : structure_(structure), network_(network), now_(now), edit_(edit), turns_(std::move(turns)) {
-    for (std::size_t k = 0; k < structure.wires.size(); ++k)
-      centres_.push_back(now[k] * structure.wires[k].centre);
+  PropagationProblem(const WireNetwork& network, const WireMaps& now, const WireEdit& edit, Turns turns)
+      : structure_(network.structure), network_(network), now_(now), edit_(edit), turns_(std::move(turns)) {
+    for (std::size_t k = 0; k < structure_.wires.size(); ++k)
+      centres_.push_back(now[k] * structure_.wires[k].centre);
     make_axes();
-    modes_ = wire_modes(structure, axes_, edit);
+    modes_ = wire_modes(structure_, axes_, edit);
     problem_.emplace(modes_.variables);
     fix_edited();
     wish_to_stay();
@@ -158,15 +157,18 @@ class PropagationProblem {
     }
   }
 
+  /// The edited wire and its images go where the edit puts them.
   void fix_edited() {
-    const int k = edit_.wire;
-    for (int c = 0; c < 3; ++c) problem_->fix(3 * k + c, edit_.motion == WireMotion::move ? edit_.by(c) : 0);
-    for (const WireMode& mode : modes(k)) {
-      const double growth = edit_.motion == WireMotion::scale ? edit_.factor - 1 : 0;
-      // Each mode is a multiple of a projection or of an elementary matrix e_i e_j^T, whose trace tells i =
-      // j.
-      const double trace = mode.matrix.trace(), size = mode.matrix.norm();
-      problem_->fix(mode.variable, std::abs(trace) > size / 2 ? growth * trace / (size * size) : 0);
+    for (const WireImage& image : images_of(structure_, edit_.wire)) {
+      const Eigen::Vector3d by = image.linear * edit_.by;
+      for (int c = 0; c < 3; ++c) problem_->fix(3 * image.wire + c, by(c));
+      for (const WireMode& mode : modes(image.wire)) {
+        const double growth = edit_.motion == WireMotion::scale ? edit_.factor - 1 : 0;
+        // Each mode is a multiple of a projection or of an elementary matrix e_i e_j^T, whose trace tells i =
+        // j.
+        const double trace = mode.matrix.trace(), size = mode.matrix.norm();
+        problem_->fix(mode.variable, std::abs(trace) > size / 2 ? growth * trace / (size * size) : 0);
+      }
     }
   }
 
@@ -365,18 +367,19 @@ class PropagationProblem {
 
 }  // namespace
 
-PropagatedWires propagated(const WireStructure& structure, const WireNetwork& network, const WireMaps& now,
-                           const WireEdit& edit, const WireHolds& holds) {
+PropagatedWires propagated(const WireNetwork& network, const WireMaps& now, const WireEdit& edit,
+                           const WireHolds& holds) {
+  const std::size_t count = network.structure.wires.size();
   const bool turning = edit.motion == WireMotion::turn;
   const auto solved = [&](Turns turns) {
-    PropagationProblem problem(structure, network, now, edit, std::move(turns));
+    PropagationProblem problem(network, now, edit, std::move(turns));
     problem.hold(holds);
     return problem.solved();
   };
-  PropagatedWires result = solved(turning ? spread_turn(structure, network, edit.wire, edit.linear)
-                                          : Turns(structure.wires.size(), Eigen::Matrix3d::Identity()));
+  PropagatedWires result = solved(turning ? spread_turn(network, edit.wire, edit.linear)
+                                          : Turns(count, Eigen::Matrix3d::Identity()));
   if (!turning || result.excess <= 1) return result;
-  PropagatedWires whole = solved(Turns(structure.wires.size(), edit.linear));
+  PropagatedWires whole = solved(Turns(count, edit.linear));
   return whole.excess < result.excess ? whole : result;
 }
 

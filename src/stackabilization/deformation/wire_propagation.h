@@ -43,7 +43,7 @@ struct PropagatedWires {
 ///
 /// A turn goes first to the mirror images, from them to parallel wires and to curves of the same plane; when
 /// the equations cannot hold so, it goes to all wires.
-PropagatedWires propagated(const WireStructure& structure, const WireNetwork& network, const WireMaps& now,
-                           const WireEdit& edit, const WireHolds& holds);
+PropagatedWires propagated(const WireNetwork& network, const WireMaps& now, const WireEdit& edit,
+                           const WireHolds& holds);
 
 }  // namespace stackabilization::detail

@@ -11,12 +11,12 @@ namespace {
 
 class TurnSpreader {
  public:
-  TurnSpreader(const WireStructure& structure, const WireNetwork& network)
-      : structure_(structure), network_(network), turn_(structure.wires.size()) {}
+  explicit TurnSpreader(const WireNetwork& network)
+      : structure_(network.structure), network_(network), turn_(structure_.wires.size()) {}
 
   std::vector<Eigen::Matrix3d> spread(int edited, const Eigen::Matrix3d& linear) {
-    at(edited) = linear;
-    to_images(edited);
+    for (const WireImage& image : images_of(structure_, edited))
+      at(image.wire) = image.linear * linear * image.linear.transpose();
     to_parallel();
     to_planes();
     std::vector<Eigen::Matrix3d> turns;
@@ -27,18 +27,6 @@ class TurnSpreader {
  private:
   std::optional<Eigen::Matrix3d>& at(int wire) { return turn_[static_cast<std::size_t>(wire)]; }
   const Wire& wire(int k) const { return structure_.wires[static_cast<std::size_t>(k)]; }
-
-  void to_images(int edited) {
-    std::vector<int> queue = {edited};
-    for (std::size_t i = 0; i < queue.size(); ++i)
-      for (const WireSymmetry& pair : structure_.symmetric) {
-        if (pair.wire != queue[i] || at(pair.image)) continue;
-        const Eigen::Matrix3d q =
-            isometry_of(structure_.symmetries[static_cast<std::size_t>(pair.symmetry)]).linear();
-        at(pair.image) = q * *at(pair.wire) * q.transpose();
-        queue.push_back(pair.image);
-      }
-  }
 
   bool agree(const std::vector<int>& sources) {
     for (const int k : sources)
@@ -92,9 +80,9 @@ class TurnSpreader {
 
 }  // namespace
 
-std::vector<Eigen::Matrix3d> spread_turn(const WireStructure& structure, const WireNetwork& network,
-                                         int edited, const Eigen::Matrix3d& linear) {
-  return TurnSpreader(structure, network).spread(edited, linear);
+std::vector<Eigen::Matrix3d> spread_turn(const WireNetwork& network, int edited,
+                                         const Eigen::Matrix3d& linear) {
+  return TurnSpreader(network).spread(edited, linear);
 }
 
 }  // namespace stackabilization::detail
