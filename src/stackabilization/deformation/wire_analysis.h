@@ -66,14 +66,14 @@ struct WireStructure {
 struct WireAnalysisOptions {
   /// Largest distance of a curve's vertices from the segment, circle or plane that it is taken for, fraction
   /// of its length.
-  double form_tolerance = 2e-3;
+  double form_tolerance = 0.002;
   /// Between parallel, from orthogonal directions, degrees; wide enough for the edges of a tapered leg, which
   /// an edit should treat as one.
   double angle_tolerance = 3;
-  double size_tolerance = 2e-3;  ///< of equal lengths and radii, fraction of them
+  double size_tolerance = 0.002;  ///< of equal lengths and radii, fraction of them
   /// Of vertices from a common plane, from mirror images; fraction of the diagonal of the shape's bounding
   /// box.
-  double distance_tolerance = 1e-3;
+  double distance_tolerance = 0.001;
   std::vector<Symmetry> symmetries;  ///< of the shape, to be looked for among the wires; none by default
 };
 

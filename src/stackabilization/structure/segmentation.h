@@ -20,8 +20,8 @@ enum class SegmentationMethod {
 struct SegmentationOptions {
   SegmentationMethod method = SegmentationMethod::automatic;
   int parts = 0;  ///< parts to end with per component; 0: as many as the shape has by the method's measure
-  double smallest_part =
-      0.005;  ///< crumbs below this share of the component's area join a neighbour; in [0, 1)
+  /// Crumbs below this share of the component's area join a neighbour; in [0, 1).
+  double smallest_part = 0.005;
 };
 
 /// `shape` with its parts replaced: same vertices and triangles in the same order. Parts are called "part_1"
