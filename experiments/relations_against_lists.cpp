@@ -155,13 +155,23 @@ fs::path sibling(const fs::path& file, const std::string& extension) {
   return {};
 }
 
+/// With the parts of the labels; of the mesh file where the labels are of another mesh, as one of the
+/// authors' is.
+Shape labelled(const fs::path& model, const fs::path& labels) {
+  Shape shape = read_shape(model);
+  try {
+    return labels.empty() ? shape : with_labels(shape, labels);
+  } catch (const InputError& error) {
+    std::cerr << "relations_against_lists: labels not used: " << error.what() << "\n";
+    return shape;
+  }
+}
+
 void compare_groups(const fs::path& folder, Table& table) {
   for (const fs::path& groups : files_below(folder, ".grp")) {
     const fs::path model = sibling(groups, ".obj");
     if (model.empty()) continue;
-    ReadOptions options;
-    if (const fs::path labels = sibling(groups, ".seg"); !labels.empty()) options.labels = labels;
-    const Shape shape = read_shape(model, options);
+    const Shape shape = labelled(model, sibling(groups, ".seg"));
     AuthorsFiles files{.controls = {}, .groups = groups};
     if (const fs::path controls = sibling(groups, ".ctrl"); !controls.empty()) files.controls = controls;
     AnalysisOptions given;

@@ -65,7 +65,7 @@ const std::vector<Primitive>& ControllerModel::rest_primitives() const {
 }
 
 std::vector<Handle> ControllerModel::handles() const {
-  std::vector<Handle> handles;
+  std::vector<Handle> handles = {{HandleKind::shape, 0, 0}};
   for (std::size_t part = 0; part < data_->primitives.size(); ++part)
     for (const Handle& handle : handles_of(static_cast<int>(part), data_->primitives[part]))
       handles.push_back(handle);
@@ -73,6 +73,7 @@ std::vector<Handle> ControllerModel::handles() const {
 }
 
 Eigen::Vector3d ControllerModel::centre(const Handle& handle) const {
+  if (handle.kind == HandleKind::shape) return shape_centre(data_->primitives);
   const Part& part = data_->part(handle);
   return handle_centre(part.primitive, handle, part.name);
 }
@@ -81,10 +82,14 @@ EditOutcome ControllerModel::edited(const std::vector<Primitive>& now, const Edi
                                     const DeformationConstraints& constraints) const {
   validate(edit);
   data_->check(now);
-  const Part& part = data_->part(edit.handle);
-  const PartEdit wanted = prescribed(now[static_cast<std::size_t>(edit.handle.part)], edit, part.name);
-  return solved_edit(data_->rig, data_->mesh,
-                     {data_->rest.shape, now, edit.handle.part, wanted, constraints});
+  EditTask task{data_->rest.shape, now, {}, constraints};
+  if (edit.handle.kind == HandleKind::shape) {
+    task.wanted = prescribed(now, edit.operation);
+  } else {
+    const Part& part = data_->part(edit.handle);
+    task.wanted = {prescribed(now[static_cast<std::size_t>(edit.handle.part)], edit, part.name)};
+  }
+  return solved_edit(data_->rig, data_->mesh, task);
 }
 
 Shape ControllerModel::shape_of(const std::vector<Primitive>& now) const {

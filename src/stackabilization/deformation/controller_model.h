@@ -36,7 +36,7 @@ class ControllerModel : public DeformationModel {
   /// The configuration at rest.
   const std::vector<Primitive>& rest_primitives() const;
 
-  /// Parts, faces and corners of cuboids, cross-sections of generalized cylinders.
+  /// The shape, parts, faces and corners of cuboids, cross-sections of generalized cylinders.
   std::vector<Handle> handles() const override;
   Eigen::Vector3d centre(const Handle& handle) const override;
   DeformationResult deformed(const std::vector<Edit>& edits,

@@ -68,26 +68,35 @@ Primitive changed(Primitive primitive, const PartEdit& edit) {
   return primitive;
 }
 
+bool changes_nothing(const PartEdit& edit) {
+  return edit.changes.isZero(0) && edit.rotation.vec().isZero(0);
+}
+
 class EditSolution {
  public:
   EditSolution(const Rig& rig, const RiggedMesh& mesh, const EditTask& task)
       : rig_(rig),
         mesh_(mesh),
         task_(task),
-        class_(rig.space.class_of(task.part)),
+        edit_(task.wanted.front()),
+        class_(rig.space.class_of(edit_.part)),
         progress_(at(rig.space.class_count()), Progress::open),
         bases_(rig.bases),
         watch_(mesh.by_part, extent_bounds(task.shape, task.constraints)) {}
 
   EditOutcome run() {
     fix_parts();
-    if (const bool nothing = task_.wanted.changes.isZero(0) && task_.wanted.rotation.vec().isZero(0); nothing)
+    if (std::all_of(task_.wanted.begin(), task_.wanted.end(), changes_nothing))
       return {std::nullopt, task_.now};
     start_ = rig_.space.states(task_.now);
     state_.controls = start_;
-    if (auto refusal = prescribe()) return refused(std::move(*refusal));
-    progress_[at(class_)] = Progress::modified;
-    state_.controls = propagated(rig_, std::move(state_.controls), progress_);
+    if (task_.wanted.size() > 1) {
+      if (auto refusal = prescribe_all()) return refused(std::move(*refusal));
+    } else {
+      if (auto refusal = prescribe()) return refused(std::move(*refusal));
+      progress_[at(class_)] = Progress::modified;
+      state_.controls = propagated(rig_, std::move(state_.controls), progress_);
+    }
     solve();
     primitives_ = current_primitives();
     if (auto refusal = broken()) return refused(std::move(*refusal));
@@ -113,35 +122,55 @@ class EditSolution {
 
   /// Rows of the prescribed values of the edited part, given columns of changes of its class.
   Eigen::MatrixXd handle_rows(const Eigen::MatrixXd& columns) const {
-    const auto count = static_cast<int>(3 * control_points(task_.now[at(task_.part)]).rows());
-    Eigen::MatrixXd rows(static_cast<Eigen::Index>(task_.wanted.values.size()), columns.cols());
-    for (std::size_t i = 0; i < task_.wanted.values.size(); ++i) {
-      const int value = task_.wanted.values[i];
+    const auto count = static_cast<int>(3 * control_points(task_.now[at(edit_.part)]).rows());
+    Eigen::MatrixXd rows(static_cast<Eigen::Index>(edit_.values.size()), columns.cols());
+    for (std::size_t i = 0; i < edit_.values.size(); ++i) {
+      const int value = edit_.values[i];
       const auto row = static_cast<Eigen::Index>(i);
       if (value < count)
-        rows.row(row) = rig_.space.point_rows(task_.part, value / 3, columns).row(value % 3);
+        rows.row(row) = rig_.space.point_rows(edit_.part, value / 3, columns).row(value % 3);
       else
-        rows.row(row) = rig_.space.radius_row(task_.part, value - count, columns);
+        rows.row(row) = rig_.space.radius_row(edit_.part, value - count, columns);
     }
     return rows;
   }
 
-  bool whole() const {
-    return static_cast<Eigen::Index>(task_.wanted.values.size()) == bases_[at(class_)].rows();
-  }
+  bool whole() const { return static_cast<Eigen::Index>(edit_.values.size()) == bases_[at(class_)].rows(); }
 
   /// Gives the edited class what the edit prescribes, within its symmetries, and leaves its basis what keeps
   /// that.
   std::optional<Refusal> prescribe() {
     if (progress_[at(class_)] == Progress::settled)
-      return Refusal{"'" + part_name(task_.part) + "' is fixed, or symmetric to a part that is", std::nullopt,
+      return Refusal{"'" + part_name(edit_.part) + "' is fixed, or symmetric to a part that is", std::nullopt,
                      0};
     return whole() ? prescribe_whole() : prescribe_handle();
   }
 
+  /// Gives every part what the edit prescribes, as far as all symmetries allow that.
+  std::optional<Refusal> prescribe_all() {
+    std::vector<Primitive> wanted;
+    for (const PartEdit& edit : task_.wanted) {
+      if (progress_[at(rig_.space.class_of(edit.part))] == Progress::settled)
+        return Refusal{"'" + part_name(edit.part) + "' is fixed, or symmetric to a part that is",
+                       std::nullopt, 0};
+      wanted.push_back(changed(task_.now[at(edit.part)], edit));
+    }
+    const std::vector<double> residuals = relation_residuals(rig_.rest, wanted);
+    for (std::size_t row = 0; row < residuals.size(); ++row) {
+      const Relation& relation = rig_.rest.relations[row];
+      const bool symmetry =
+          relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry;
+      if (symmetry && residuals[row] > tolerance::relation)
+        return Refusal{name_of(relation, rig_.rest) + " does not let the shape go where the edit takes it: " +
+                           "it would be off by " + fraction(residuals[row]) + " of the diagonal",
+                       static_cast<int>(row), residuals[row]};
+    }
+    state_.controls = rig_.space.states(wanted);
+    return std::nullopt;
+  }
+
   std::optional<Refusal> prescribe_whole() {
-    const ControlState wanted =
-        rig_.space.state_of(task_.part, changed(task_.now[at(task_.part)], task_.wanted));
+    const ControlState wanted = rig_.space.state_of(edit_.part, changed(task_.now[at(edit_.part)], edit_));
     ControlState& state = state_.controls[at(class_)];
     state = rig_.space.invariant(class_, wanted);
     bases_[at(class_)].resize(bases_[at(class_)].rows(), 0);
@@ -155,8 +184,8 @@ class EditSolution {
   std::optional<Refusal> prescribe_handle() {
     const Eigen::MatrixXd& kernel = rig_.edit_kernels[at(class_)];
     const Eigen::MatrixXd spread = handle_rows(kernel).transpose();
-    const Eigen::VectorXd change = spread * (pseudo_inverse(handle_rows(spread)) * task_.wanted.changes);
-    const double miss = (handle_rows(change) - task_.wanted.changes).cwiseAbs().maxCoeff() / diagonal();
+    const Eigen::VectorXd change = spread * (pseudo_inverse(handle_rows(spread)) * edit_.changes);
+    const double miss = (handle_rows(change) - edit_.changes).cwiseAbs().maxCoeff() / diagonal();
     if (miss > tolerance::relative) return missed(miss, "of the diagonal");
     state_.controls[at(class_)].values += change;
     Eigen::MatrixXd& basis = bases_[at(class_)];
@@ -168,15 +197,14 @@ class EditSolution {
   Refusal missed(double amount, const std::string& unit) const {
     const std::optional<int> relation = contradicting_relation();
     const std::string cause = relation ? name_of(rig_.rest.relations[at(*relation)], rig_.rest) : "rounding";
-    return {cause + " does not let '" + part_name(task_.part) +
+    return {cause + " does not let '" + part_name(edit_.part) +
                 "' go where the edit takes it: it would miss by " + fraction(amount) + " " + unit,
             relation, amount};
   }
 
   /// The symmetry of the edited class that what is prescribed contradicts most.
   std::optional<int> contradicting_relation() const {
-    const ControlState wanted =
-        rig_.space.state_of(task_.part, changed(task_.now[at(task_.part)], task_.wanted));
+    const ControlState wanted = rig_.space.state_of(edit_.part, changed(task_.now[at(edit_.part)], edit_));
     const Eigen::VectorXd change = wanted.values - start_[at(class_)].values;
     const auto& stabilisers = rig_.space.stabilisers(class_);
     std::optional<int> worst;
@@ -299,6 +327,7 @@ class EditSolution {
   const Rig& rig_;
   const RiggedMesh& mesh_;
   const EditTask& task_;
+  const PartEdit& edit_;  ///< the one of a handle
   int class_;
   std::vector<Progress> progress_;  ///< per class
   std::vector<Eigen::MatrixXd> bases_;

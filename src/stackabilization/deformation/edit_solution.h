@@ -23,13 +23,13 @@ struct RiggedMesh {
 struct EditTask {
   const Shape& shape;  ///< at rest
   const std::vector<Primitive>& now;
-  int part = 0;
-  const PartEdit& wanted;
+  std::vector<PartEdit> wanted;  ///< of one part, or of every part in order
   const DeformationConstraints& constraints;
 };
 
 /// Makes the edit with all relations and constraints, or says why not: prescribes the controls of the edited
-/// part within its symmetries, propagates, solves, checks. See ControllerModel::edited.
+/// part within its symmetries, propagates, solves, checks. An edit of every part starts the solve; joints may
+/// then shift what it left by as much as a cylinder misses the affine map. See ControllerModel::edited.
 EditOutcome solved_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& task);
 
 }  // namespace stackabilization

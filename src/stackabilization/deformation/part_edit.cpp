@@ -45,7 +45,8 @@ std::vector<int> held_points(const Primitive& primitive, const Handle& handle, c
       return {checked(handle.index, static_cast<int>(control_points(primitive).rows()), part_name,
                       "cross-sections, numbered from 0")};
     default:
-      throw UsageError("controllers have parts, faces, corners and cross-sections to take hold of");
+      throw UsageError(
+          "controllers have the shape, parts, faces, corners and cross-sections to take hold of");
   }
 }
 
@@ -86,6 +87,38 @@ void prescribe(PartEdit& edit, int value, double change) {
   edit.changes(edit.changes.size() - 1) = change;
 }
 
+struct PlacedOperation {
+  const Operation& operation;
+  Eigen::Vector3d centre;
+};
+
+void prescribe_points(PartEdit& edit, const Primitive& now, const std::vector<int>& held,
+                      const PlacedOperation& placed) {
+  const Points points = control_points(now);
+  const Eigen::Matrix3d linear = linear_map(placed.operation);
+  const auto* move = std::get_if<Move>(&placed.operation);
+  for (const int i : held) {
+    const Eigen::Vector3d offset = points.row(i).transpose() - placed.centre;
+    const Eigen::Vector3d change = move ? move->by : Eigen::Vector3d(linear * offset - offset);
+    for (int k = 0; k < 3; ++k) prescribe(edit, 3 * i + k, change(k));
+  }
+}
+
+PartEdit of_whole(const Primitive& now, const Operation& operation, int part, const Eigen::Vector3d& centre) {
+  PartEdit result;
+  result.part = part;
+  prescribe_points(result, now, all_points(now), {operation, centre});
+  const auto* cylinder = std::get_if<GeneralizedCylinder>(&now);
+  if (cylinder == nullptr) return result;
+  const Eigen::Matrix3d linear = linear_map(operation);
+  if (std::holds_alternative<Rotate>(operation)) result.rotation = Eigen::Quaterniond(linear);
+  const auto n = static_cast<int>(cylinder->radii.size());
+  const Eigen::VectorXd factors =
+      std::holds_alternative<Scale>(operation) ? radius_factors(*cylinder, linear) : Eigen::VectorXd::Ones(n);
+  for (int i = 0; i < n; ++i) prescribe(result, 3 * n + i, (factors(i) - 1) * cylinder->radii(i));
+  return result;
+}
+
 }  // namespace
 
 std::vector<Handle> handles_of(int part, const Primitive& primitive) {
@@ -107,33 +140,41 @@ Eigen::Vector3d handle_centre(const Primitive& primitive, const Handle& handle,
   return sum / static_cast<double>(held.size());
 }
 
+Eigen::Vector3d shape_centre(const std::vector<Primitive>& primitives) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Index count = 0;
+  for (const Primitive& primitive : primitives) {
+    const Points points = control_points(primitive);
+    sum += points.colwise().sum().transpose();
+    count += points.rows();
+  }
+  return sum / static_cast<double>(count);
+}
+
 PartEdit prescribed(const Primitive& now, const Edit& edit, const std::string& part_name) {
   const std::vector<int> held = held_points(now, edit.handle, part_name);
   check_operation(edit, part_name);
-  const Points points = control_points(now);
-  const int n = static_cast<int>(points.rows());
+  const Eigen::Vector3d centre = handle_centre(now, edit.handle, part_name);
+  if (edit.handle.kind == HandleKind::part) return of_whole(now, edit.operation, edit.handle.part, centre);
   PartEdit result;
+  result.part = edit.handle.part;
   if (const auto* scale = std::get_if<Scale>(&edit.operation);
       scale && edit.handle.kind == HandleKind::section) {
-    prescribe(result, 3 * n + held.front(),
-              (scale->factor - 1) * std::get<GeneralizedCylinder>(now).radii(held.front()));
-    return result;
+    const auto& cylinder = std::get<GeneralizedCylinder>(now);
+    prescribe(result, 3 * static_cast<int>(cylinder.centres.rows()) + held.front(),
+              (scale->factor - 1) * cylinder.radii(held.front()));
+  } else {
+    prescribe_points(result, now, held, {edit.operation, centre});
   }
-  const Eigen::Vector3d centre = handle_centre(now, edit.handle, part_name);
-  const Eigen::Matrix3d linear = linear_map(edit.operation);
-  const auto* move = std::get_if<Move>(&edit.operation);
-  for (const int i : held) {
-    const Eigen::Vector3d offset = points.row(i).transpose() - centre;
-    const Eigen::Vector3d change = move ? move->by : Eigen::Vector3d(linear * offset - offset);
-    for (int k = 0; k < 3; ++k) prescribe(result, 3 * i + k, change(k));
-  }
-  const auto* cylinder = std::get_if<GeneralizedCylinder>(&now);
-  if (cylinder == nullptr || edit.handle.kind != HandleKind::part) return result;
-  const bool scaling = std::holds_alternative<Scale>(edit.operation);
-  if (std::holds_alternative<Rotate>(edit.operation)) result.rotation = Eigen::Quaterniond(linear);
-  const Eigen::VectorXd factors = scaling ? radius_factors(*cylinder, linear) : Eigen::VectorXd::Ones(n);
-  for (int i = 0; i < n; ++i) prescribe(result, 3 * n + i, (factors(i) - 1) * cylinder->radii(i));
   return result;
+}
+
+std::vector<PartEdit> prescribed(const std::vector<Primitive>& now, const Operation& operation) {
+  const Eigen::Vector3d centre = shape_centre(now);
+  std::vector<PartEdit> edits;
+  for (std::size_t part = 0; part < now.size(); ++part)
+    edits.push_back(of_whole(now[part], operation, static_cast<int>(part), centre));
+  return edits;
 }
 
 }  // namespace stackabilization

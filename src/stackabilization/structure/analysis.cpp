@@ -101,6 +101,10 @@ class Analysis {
       if (kind) forced = kind;
     }
     if (forced) return *forced;
+    const PrimitiveKind first = kind_of(part(orbit.parts.front()).primitive);
+    if (std::all_of(orbit.parts.begin(), orbit.parts.end(),
+                    [&](int row) { return kind_of(part(row).primitive) == first; }))
+      return first;
     double cuboid = 0, cylinder = 0;
     for (const int row : orbit.parts) {
       cuboid += error_of(part(row).fit, PrimitiveKind::cuboid);
