@@ -104,7 +104,7 @@ Command make_deform_command(CLI::App& program) {
   const auto options = std::make_shared<DeformCommandOptions>();
   CLI::App* const command = add_command(
       program, "deform", "Edit a shape so that its symmetries and joints stay",
-      "stackabilize deform chair.json --edit \"seat/face=+z move 0 0 0.02\" -o higher.obj\n\n"
+      "stackabilize deform chair.json --edit \"seat scale 1.1 along 1 0 0\" -o wider.obj\n\n"
       "An edit is a handle (PART, PART/face=-z, PART/corner=0, PART/section=3, point=7, wire=2, shape)\n"
       "and move X Y Z, rotate DEGREES about X Y Z, or scale FACTOR [along X Y Z].");
   add_common_options(*command, options->common);

@@ -169,9 +169,10 @@ Json handles_json(const DeformationModel& model, const Shape& shape) {
 }
 
 std::string handles_text(const DeformationModel& model, const Shape& shape) {
+  const double size = extents(shape).norm();
   ColumnTable table({"handle", "centre"});
   for (const Handle& handle : model.handles())
-    table.add({handle_text(handle, shape.part_names), point_text(model.centre(handle))});
+    table.add({handle_text(handle, shape.part_names), point_text(model.centre(handle), size)});
   return table.text();
 }
 

@@ -55,11 +55,25 @@ std::string size_text(const Primitive& primitive, Unit unit) {
          (least == most ? least : least + " to " + most);
 }
 
-std::string symmetry_text(const Symmetry& symmetry) {
-  const std::string point = point_text(symmetry.point), axis = point_text(symmetry.axis);
+std::string symmetry_text(const Symmetry& symmetry, double diagonal) {
+  const std::string point = point_text(symmetry.point, diagonal), axis = point_text(symmetry.axis, 1);
   if (symmetry.kind == SymmetryKind::reflection) return "plane through " + point + ", normal " + axis;
   return "axis through " + point + " along " + axis +
          (symmetry.kind == SymmetryKind::revolution ? "" : ", order " + std::to_string(symmetry.order));
+}
+
+bool same(const Symmetry& a, const Symmetry& b) {
+  return a.kind == b.kind && a.point == b.point && a.axis == b.axis && a.order == b.order;
+}
+
+/// The symmetry in words, or its number where it is one of the whole.
+std::string symmetry_reference(const Symmetry& symmetry, const Structure& structure) {
+  const std::vector<Symmetry>& whole = structure.symmetries;
+  const auto found =
+      std::find_if(whole.begin(), whole.end(), [&](const Symmetry& s) { return same(s, symmetry); });
+  if (found == whole.end()) return symmetry_text(symmetry, structure.diagonal);
+  return (symmetry.kind == SymmetryKind::reflection ? "plane " : "axis ") +
+         std::to_string(found - whole.begin() + 1) + " of the whole";
 }
 
 const char* name_of(SymmetryKind kind) {
@@ -78,12 +92,12 @@ bool is_joint(const Relation& relation) {
   return relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
 }
 
-std::string place_text(const Relation& relation) {
-  if (!is_joint(relation)) return symmetry_text(relation.symmetry);
-  const std::string from = point_text(relation.points.row(0).transpose());
-  return relation.type == RelationType::point_joint
-             ? from
-             : from + " to " + point_text(relation.points.row(1).transpose());
+std::string place_text(const Relation& relation, const Structure& structure) {
+  if (!is_joint(relation)) return symmetry_reference(relation.symmetry, structure);
+  std::string text;
+  for (Eigen::Index i = 0; i < relation.points.rows(); ++i)
+    text += (i > 0 ? " to " : "") + point_text(relation.points.row(i).transpose(), structure.diagonal);
+  return text;
 }
 
 std::string part_table(const StructuredShape& structured) {
@@ -103,7 +117,7 @@ std::string relation_table(const Structure& structure) {
   ColumnTable table({"relation", "parts", "where", "residual"});
   for (const Relation& relation : structure.relations)
     table.add({stackabilization::name_of(relation.type), joined(names_of(relation, structure), ", "),
-               place_text(relation), small_percent(relation.residual)});
+               place_text(relation, structure), small_percent(relation.residual)});
   return table.text();
 }
 
@@ -202,8 +216,9 @@ std::string structure_text(const StructuredShape& structured, const Model& model
             counted(cuboids, "cuboid") + ", " + counted(cylinders, "generalized cylinder") +
                 "; fits are errors, of the part's diagonal");
   table.add("Symmetries", std::to_string(structure.symmetries.size()), "of the whole shape");
-  for (const Symmetry& symmetry : structure.symmetries)
-    table.add("", name_of(symmetry.kind), symmetry_text(symmetry));
+  for (std::size_t i = 0; i < structure.symmetries.size(); ++i)
+    table.add("", std::to_string(i + 1) + " " + name_of(structure.symmetries[i].kind),
+              symmetry_text(structure.symmetries[i], structure.diagonal));
   table.add("Relations", std::to_string(structure.relations.size()), tally_text(structure));
   std::string text = table.text() + "\n" + part_table(structured);
   if (!structure.relations.empty())

@@ -12,6 +12,7 @@ namespace stackabilization::apps {
 namespace {
 
 constexpr int readable_digits = 5;
+constexpr double negligible = 1e-6;       ///< fraction of a size that a reader takes for nothing
 constexpr std::size_t widest_value = 28;  ///< longer values push their explanation to the right alone
 
 std::string chars(double value, std::chars_format format, int precision) {
@@ -64,6 +65,11 @@ std::string vector_text(const Eigen::Vector3d& vector) {
 std::string point_text(const Eigen::Vector3d& point) {
   std::string text = "(";
   return text.append(rounded(point.x()) + ", " + rounded(point.y()) + ", " + rounded(point.z()) + ")");
+}
+
+std::string point_text(const Eigen::Vector3d& point, double size) {
+  const double least = size * negligible;
+  return point_text(point.unaryExpr([least](double x) { return std::abs(x) < least ? 0 : x; }));
 }
 
 std::string counted(long long count, const std::string& noun) {

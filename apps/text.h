@@ -26,6 +26,8 @@ std::string small_percent(double fraction);
 std::string vector_text(const Eigen::Vector3d& vector);
 /// "(0.1, 0.2, 0.3)", rounded.
 std::string point_text(const Eigen::Vector3d& point);
+/// The same, with 0 for what is rounding beside lengths of this size.
+std::string point_text(const Eigen::Vector3d& point, double size);
 /// "1 region", "4 regions"
 std::string counted(long long count, const std::string& noun);
 

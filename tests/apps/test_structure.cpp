@@ -163,7 +163,7 @@ TEST_CASE("what the authors wrote down by hand stands in for the analysis") {
   const json document = structure_of(folder.table, {"--grp", group});
   REQUIRE(document["relations"].size() == 2);
   CHECK(document["relations"][0]["type"] == "symmetry");
-  CHECK(document["relations"][0]["parts"] == json({"leg_1", "leg_2"}));
+  CHECK(document["relations"][0]["parts"] == json::array({"leg_1", "leg_2"}));
   // Their frame has its origin at the centre of the box.
   CHECK((vector_of(document["relations"][1]["points"][0]) - Eigen::Vector3d(4, 4, 3)).norm() < 1e-9);
 }
