@@ -22,9 +22,8 @@ class PartSurfaces {
   /// Does `symmetry` (model units) take part `a` onto part `b`? If so, the residual as a fraction of the
   /// diagonal of the bounding box of the shape. It does when
   ///  * the centroids of their areas come within the tolerance of each other,
-  ///  * their root mean square widths along their principal axes agree to ten tolerances or, absolutely, to a
-  ///  tenth of the
-  ///    tolerance: a thin leg has no counterpart in one half as thick, however near, and
+  ///  * their root mean square widths along their principal axes agree to ten tolerances or, absolutely,
+  ///    to a tenth of the tolerance: a thin leg has no counterpart in one half as thick, however near, and
   ///  * their surfaces agree both ways, see `agreement`.
   /// Tolerances of place are fractions of the whole shape.
   std::optional<double> match(int a, int b, const Symmetry& symmetry) const;

@@ -29,8 +29,7 @@ enum class Roundness {
   /// It agrees with itself turned by any angle, without any detail that stands out.
   tolerant,
   /// And facets, where it faces sideways, stand out by less than one and a half tolerances of its radius:
-  /// regular prisms of
-  /// 14 sides and more are round, of 12 and less are not.
+  /// regular prisms of 14 sides and more are round, of 12 and less are not.
   faceted,
 };
 

@@ -44,23 +44,19 @@ std::vector<FoundSymmetry> find_symmetries(const Shape& shape, const SymmetryOpt
 /// (self_symmetry) and which onto another (symmetry). Pairs come first, then self-symmetries, each in the
 /// order of the parts.
 ///
-/// * Reflections: at most three, mutually orthogonal, exactly so in the result; planes along the boxes of the
-/// parts and of
-///   the whole go before diagonals, so that four legs are a cycle of four pairs. A plane at another angle
-///   counts only when it gives a part its first counterpart (three legs, five legs), and is turned by what
-///   makes it generate a finite group with the others. Of a revolution two perpendicular planes through the
-///   axis count.
+/// * Reflections: at most three, mutually orthogonal, exactly so in the result; planes along the boxes of
+///   the parts and of the whole go before diagonals, so that four legs are a cycle of four pairs. A plane at
+///   another angle counts only when it gives a part its first counterpart (three legs, five legs), and is
+///   turned by what makes it generate a finite group with the others. Of a revolution two perpendicular
+///   planes through the axis count.
 /// * A part has a counterpart, or is its own, when the image comes within the tolerance of it, by the
-/// distance of
-///   centroids and by the root mean square distance of the surfaces both ways, as fractions of the whole
-///   shape, and when in addition their sizes agree to ten tolerances.
+///   distance of centroids and by the root mean square distance of the surfaces both ways, as fractions of
+///   the whole shape, and when in addition their sizes agree to ten tolerances.
 /// * A part of revolution that has no counterpart and that no reflection mirrors end to end has two
-/// self-symmetries with
-///   perpendicular planes through its axis, those of the whole first, and its revolution
-///   (`SymmetryKind::revolution`).
-/// * Other parts that no symmetry of the whole bears on get the planes through their own middle, along their
-/// own box, that
-///   they are symmetric about.
+///   self-symmetries with perpendicular planes through its axis, those of the whole first, and its
+///   revolution (`SymmetryKind::revolution`).
+/// * Other parts that no symmetry of the whole bears on get the planes through their own middle, along
+///   their own box, that they are symmetric about.
 ///
 /// Of `symmetries` (model units, in any order; a user may have edited them) rotations are not looked at.
 /// Residuals are root mean square distances of the surfaces. Throws as `find_symmetries` does.
