@@ -32,7 +32,8 @@ struct IWiresOptions {
 /// * parallel wires stay parallel. Moves and scalings keep all directions; a rotation turns what is parallel
 ///   to the wire and leaves the rest, so it may give up right angles and planes: a box becomes a
 ///   parallelepiped. Where that cannot be, everything turns;
-/// * parallel segments of equal length stay so, and circles of equal radius unless one of them is scaled;
+/// * parallel segments of equal length stay so in moves and scalings, and circles of equal radius unless one
+///   of them is scaled;
 /// * mirror images stay images, always to 1e-6 of the diagonal, measured on the vertices;
 /// * vertices of equal coordinates stay together.
 ///

@@ -13,6 +13,8 @@ DisjointSets size_groups(const WireStructure& structure, const WireEdit& edit) {
   DisjointSets groups(structure.wires.size());
   for (const WireSymmetry& pair : structure.symmetric)
     groups.join(static_cast<std::size_t>(pair.wire), static_cast<std::size_t>(pair.image));
+  // A turn may make a trapezoid of a rectangle.
+  if (edit.motion == WireMotion::turn) return groups;
   const std::size_t edited = groups.root(static_cast<std::size_t>(edit.wire));
   const bool released = edit.motion == WireMotion::scale &&
                         structure.wires[static_cast<std::size_t>(edit.wire)].form == WireForm::circular;

@@ -38,7 +38,7 @@ struct WireModes {
 
 /// What the forms of wires leave open: to a segment its length, to a circle its radius, to a planar curve any
 /// linear map of its plane, to a spatial one any. `axes`: directions and normals of the wires, unit. A circle
-/// that `edit` scales shares its radius with its mirror images only.
+/// that `edit` scales shares its radius with its mirror images only, and in turns all wires do so.
 WireModes wire_modes(const WireStructure& structure, const std::vector<Eigen::Vector3d>& axes,
                      const WireEdit& edit);
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "stackabilization/shape/disjoint_sets.h"
@@ -73,26 +74,42 @@ void align_axes(WireNetwork& network) {
     network.axes.push_back(sign[k] * axes[static_cast<std::size_t>(row[k])]);
 }
 
+/// Link of `node` to the nearest point of wires of other networks, within `distance`.
+std::optional<WireLink> nearest_point(const WireNetwork& network, const std::vector<std::size_t>& network_of,
+                                      std::size_t node, double distance) {
+  const Eigen::Vector3d& from = network.points[node];
+  const int wire = network.wires_at[node].front();
+  std::optional<WireLink> best;
+  for (std::size_t k = 0; k < network.nodes.size(); ++k) {
+    if (network_of[k] == network_of[static_cast<std::size_t>(wire)]) continue;
+    const std::vector<int>& nodes = network.nodes[k];
+    const Wire& other = network.structure.wires[k];
+    for (std::size_t i = 0; i + (other.curve.closed ? 0 : 1) < nodes.size(); ++i) {
+      const Eigen::Vector3d& a = network.points[static_cast<std::size_t>(nodes[i])];
+      const Eigen::Vector3d along =
+          network.points[static_cast<std::size_t>(nodes[(i + 1) % nodes.size()])] - a;
+      const double share = std::clamp((from - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+      const Eigen::Vector3d point = a + share * along;
+      const double d = (point - from).norm();
+      if (d > distance || (best && d == distance)) continue;
+      distance = d;
+      const bool at_end = (i == 0 && share == 0) || (i + 2 == nodes.size() && share == 1);
+      best = WireLink{wire, static_cast<int>(node), static_cast<int>(k), point,
+                      other.form == WireForm::straight && !at_end};
+    }
+  }
+  return best;
+}
+
 void find_links(double distance, WireNetwork& network) {
   DisjointSets joined(network.nodes.size());
   for (const auto& wires : network.wires_at)
     for (const int k : wires)
       joined.join(static_cast<std::size_t>(wires.front()), static_cast<std::size_t>(k));
-  for (std::size_t i = 0; i < network.points.size(); ++i) {
-    const std::size_t own = joined.root(static_cast<std::size_t>(network.wires_at[i].front()));
-    double nearest = distance;
-    int partner = -1;
-    for (std::size_t j = 0; j < network.points.size(); ++j) {
-      const double d = (network.points[i] - network.points[j]).norm();
-      if (d > nearest || (d == nearest && partner >= 0)) continue;
-      if (joined.root(static_cast<std::size_t>(network.wires_at[j].front())) == own) continue;
-      nearest = d;
-      partner = static_cast<int>(j);
-    }
-    if (partner >= 0)
-      network.links.push_back({network.wires_at[i].front(), static_cast<int>(i),
-                               network.wires_at[static_cast<std::size_t>(partner)].front(), partner});
-  }
+  std::vector<std::size_t> network_of;
+  for (std::size_t k = 0; k < network.nodes.size(); ++k) network_of.push_back(joined.root(k));
+  for (std::size_t i = 0; i < network.points.size(); ++i)
+    if (const auto link = nearest_point(network, network_of, i, distance)) network.links.push_back(*link);
 }
 
 }  // namespace

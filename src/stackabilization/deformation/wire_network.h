@@ -9,9 +9,12 @@
 /// Not installed.
 namespace stackabilization::detail {
 
-/// Two vertices of different wires that keep their offset where they can.
+/// A vertex of one wire and the point of another that keep their offset where they can.
 struct WireLink {
-  int wire_a, node_a, wire_b, node_b;
+  int wire, node;
+  int other;
+  Eigen::Vector3d point;  ///< of `other`, at rest
+  bool slides = false;    ///< the point may slide along `other`, a segment with the point inside
 };
 
 /// The vertices of wires as one numbered set of nodes, and what is derived from a WireStructure once.
@@ -30,8 +33,8 @@ struct WireNetwork {
   std::vector<WireLink> links;
 };
 
-/// `link_distance`, model units: for every vertex of a wire, the nearest one of another network of joined
-/// wires is linked to it when it is no farther away. `tolerance`, model units: how well relations hold at
+/// `link_distance`, model units: every vertex of a wire is linked to the nearest point of another network of
+/// joined wires when that is no farther away. `tolerance`, model units: how well relations hold at
 /// rest.
 WireNetwork wire_network(const Shape& shape, WireStructure structure, double link_distance, double tolerance);
 

@@ -237,24 +237,27 @@ class PropagationProblem {
     }
   }
 
-  /// The part of the projection `across` in which a link to a node of wire k holds: to inner vertices of a
-  /// straight wire it slides along that.
-  Eigen::Matrix3d without_sliding(int k, int node, const Eigen::Matrix3d& across) const {
-    if (wire(k).form != WireForm::straight || node == nodes(k).front() || node == nodes(k).back())
-      return across;
+  /// What is left of the projection `across` when sliding along the segment k is free.
+  Eigen::Matrix3d without_sliding(int k, const Eigen::Matrix3d& across) const {
     const Eigen::Vector3d left = across * axis(k);
     if (left.norm() <= thin_angle) return across;
     return across - left.normalized() * left.normalized().transpose();
   }
 
+  bool inside_segment(int k, int node) const {
+    return wire(k).form == WireForm::straight && node != nodes(k).front() && node != nodes(k).back();
+  }
+
   void wish_links() {
     for (const WireLink& link : network_.links) {
-      const Eigen::Vector3d a = point(link.wire_a, link.node_a), b = point(link.wire_b, link.node_b);
-      const Rows3 rows = difference(displacement(link.wire_a, a), displacement(link.wire_b, b));
-      const Eigen::Vector3d right = turned(link.wire_b, b) - turned(link.wire_a, a);
-      const Eigen::Matrix3d across = without_sliding(
-          link.wire_a, link.node_a, without_sliding(link.wire_b, link.node_b, Eigen::Matrix3d::Identity()));
-      const double strength = weight_of_links * std::min(weight(link.wire_a), weight(link.wire_b));
+      const Eigen::Vector3d a = point(link.wire, link.node);
+      const Eigen::Vector3d b = now_[static_cast<std::size_t>(link.other)] * link.point;
+      const Rows3 rows = difference(displacement(link.wire, a), displacement(link.other, b));
+      const Eigen::Vector3d right = turned(link.other, b) - turned(link.wire, a);
+      Eigen::Matrix3d across = Eigen::Matrix3d::Identity();
+      if (link.slides) across = without_sliding(link.other, across);
+      if (inside_segment(link.wire, link.node)) across = without_sliding(link.wire, across);
+      const double strength = weight_of_links * std::min(weight(link.wire), weight(link.other));
       for (int c = 0; c < 3; ++c) {
         const Eigen::Vector3d along = across.col(c);
         problem_->wish(combined(rows, along), along.dot(right), strength);
