@@ -25,8 +25,9 @@ struct SegmentationOptions {
 };
 
 /// `shape` with its parts replaced: same vertices and triangles in the same order. Parts are called "part_1"
-/// and on, largest area first, except with `given`. Boundaries between parts run along short, concave paths;
-/// every part of a component is connected. Deterministic.
+/// and on, largest area first, except with `given` and where one part stays one: that keeps its name.
+/// Boundaries between parts run along short, concave paths; every part of a component is connected.
+/// Deterministic.
 ///
 /// Guarantee: one label per triangle, also for open, non-manifold and several-shelled shapes. Throws
 /// UsageError for options outside their ranges and InputError when `validate(shape)` fails.
