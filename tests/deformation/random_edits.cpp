@@ -65,7 +65,7 @@ class RandomEdits {
 
 std::string kind_of(const Edit& edit, const DeformationConstraints& constraints) {
   const char* operations[] = {"move", "rotate", "scale"};
-  const char* handles[] = {"part", "face", "corner", "section"};
+  const char* handles[] = {"part", "face", "corner", "section", "point", "wire", "shape"};
   return std::string(operations[edit.operation.index()]) + ' ' +
          handles[static_cast<std::size_t>(edit.handle.kind)] +
          (constraints.keep_extent || constraints.box_tolerance ? ", bounded" : "");

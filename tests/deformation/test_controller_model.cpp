@@ -299,9 +299,29 @@ TEST_CASE("parts of a connected surface deform it without a crack or a step") {
   }
 }
 
+TEST_CASE("the shape as a whole is scaled by the affine map, and cannot leave its symmetries") {
+  const ControllerModel model(structures::table());
+  const Handle whole{HandleKind::shape, 0, 0};
+  const Shape& rest = model.rest().shape;
+  const Eigen::RowVector3d centre = model.centre(whole).transpose();
+  const DeformationResult grown = model.deformed({{whole, Scale{1.25, {}}}});
+  REQUIRE_FALSE(grown.refusal);
+  const Points wanted = ((rest.vertices.rowwise() - centre) * 1.25).rowwise() + centre;
+  CHECK((grown.shape.vertices - wanted).cwiseAbs().maxCoeff() < 1e-9 * model.rest().structure.diagonal);
+  const DeformationResult low = model.deformed({{whole, Scale{0.5, Eigen::Vector3d(0, 0, 2)}}});
+  REQUIRE_FALSE(low.refusal);
+  CHECK(range_along(low.shape, {0, 0, 1}).length() ==
+        Approx(range_along(rest, {0, 0, 1}).length() / 2).epsilon(1e-9));
+  CHECK(largest_residual(model, low.primitives) < 1e-9);
+  const DeformationResult aside = model.deformed({{whole, Move{{1, 0, 0}}}});
+  REQUIRE(aside.refusal);
+  REQUIRE(aside.refusal->relation);
+  CHECK(aside.shape.vertices == rest.vertices);
+}
+
 TEST_CASE("handles and operations that a part does not have are named") {
   const ControllerModel model(structures::mug());
-  CHECK(model.handles().size() == 2 + 11 + 13);
+  CHECK(model.handles().size() == 1 + 2 + 11 + 13);
   CHECK((model.centre({HandleKind::section, 0, 4}) - Eigen::Vector3d(0, 0, 4)).norm() < 1e-14);
   for (const Edit& edit : std::vector<Edit>{{{HandleKind::part, 2, 0}, Move{}},
                                             {{HandleKind::part, -1, 0}, Move{}},
@@ -311,7 +331,7 @@ TEST_CASE("handles and operations that a part does not have are named") {
                                             {{HandleKind::section, 0, -1}, Move{}},
                                             {{HandleKind::section, 0, 1}, Rotate{{1, 0, 0}, 1}},
                                             {{HandleKind::section, 0, 1}, Scale{2, Eigen::Vector3d(1, 0, 0)}},
-                                            {{HandleKind::shape, 0, 0}, Move{}},
+                                            {{HandleKind::point, 0, 0}, Move{}},
                                             {{HandleKind::part, 0, 0}, Scale{-1, {}}}})
     CHECK_THROWS_AS(model.deformed({edit}), UsageError);
   CHECK_THROWS_AS(model.centre({HandleKind::wire, 0, 0}), UsageError);
