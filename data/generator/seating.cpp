@@ -175,7 +175,7 @@ Shape swivel_chair() {
           {.width = 0.49, .depth = 0.47, .radius = 0.11, .corner_points = 5, .pieces_x = 3, .pieces_y = 3},
           {.bottom = 0.425, .top = 0.490, .edge = 0.024, .cap_rings = 2}));
   Eigen::Matrix<double, 4, 3> control;
-  control << 0, 0.08, 0.412, 0, 0.36, 0.395, 0, 0.262, 0.52, 0, 0.300, 0.70;
+  control << 0, 0.08, 0.412, 0, 0.36, 0.395, 0, 0.262, 0.52, 0, 0.280, 0.70;
   chair.add("back_bar", bar({.path = bezier(control, 8),
                              .first = {0.060, 0.016},
                              .last = {0.050, 0.014},
