@@ -34,7 +34,7 @@ Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
 
 /// Share of the half space in front of a place that is not barred by the shape, from which on the place is in
 /// the open, and up to which it is in a hollow.
-constexpr double open_air = 0.9, hollow = 0.5;
+constexpr double open_air = 0.9, hollow = 0.6;
 
 /// Directions of the upper half space, each standing for the same solid angle: a spiral.
 std::vector<Eigen::Vector3d> half_space(int count) {
@@ -77,8 +77,8 @@ class ChordCaster {
     int seen = 0;
     for (const Eigen::Vector3d& direction : directions_)
       seen += blocked(chord.start + lift_ * chord.normal, turn * direction);
-    const double free = 1 - static_cast<double>(seen) / static_cast<double>(directions_.size());
-    chord.openness = std::clamp((free - hollow) / (open_air - hollow), 0.0, 1.0);
+    chord.free = 1 - static_cast<double>(seen) / static_cast<double>(directions_.size());
+    chord.openness = std::clamp((chord.free - hollow) / (open_air - hollow), 0.0, 1.0);
   }
 
  private:

@@ -20,6 +20,7 @@ struct Chord {
   double solid;               ///< length of the solid behind `start`; infinite when the surface is open there
   Eigen::Vector3d end;        ///< where the solid ends; `start` when it does not
   std::int32_t end_triangle;  ///< -1 when it does not end
+  double free = 1;      ///< share of the half space in front of `start` in which nothing of the shape is seen
   double openness = 1;  ///< 1 where `start` looks into the open, 0 where into a hollow of the shape itself
   double end_openness = 1;  ///< the same around `end`
 };

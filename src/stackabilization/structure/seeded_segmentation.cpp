@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <queue>
@@ -32,6 +33,10 @@ std::vector<std::int32_t> seeded_parts(const Shape& shape, const std::vector<Par
   return part;
 }
 
+/// What crossing a concave edge of 90 degrees costs, fraction of the bounding-box diagonal: as much on fine
+/// meshes as on coarse ones, and as much in one bend as in many small ones.
+constexpr double toll = 0.5;
+
 /// Spreads the parts from their seeds to whatever is connected, nearest first.
 void spread(const detail::SurfaceGraph& graph, std::vector<std::int32_t>& part) {
   using Front = std::tuple<double, std::int32_t, std::int32_t>;  // distance, part, triangle
@@ -51,8 +56,8 @@ void spread(const detail::SurfaceGraph& graph, std::vector<std::int32_t>& part) 
     part[static_cast<std::size_t>(t)] = label;
     for (const std::int32_t l : graph.links_of[static_cast<std::size_t>(t)]) {
       const std::int32_t next = graph.across(l, t);
-      const double step = (graph.centres.row(next) - graph.centres.row(t)).norm() *
-                          detail::crossing_cost(graph.links[static_cast<std::size_t>(l)]);
+      const double step = (graph.centres.row(next) - graph.centres.row(t)).norm() +
+                          toll * graph.diagonal * detail::concavity(graph.links[static_cast<std::size_t>(l)]);
       double& known = distance[static_cast<std::size_t>(next)];
       if (settled[static_cast<std::size_t>(next)] || reached + step > known) continue;
       known = reached + step;
@@ -62,11 +67,19 @@ void spread(const detail::SurfaceGraph& graph, std::vector<std::int32_t>& part) 
 }
 
 /// Gives components that no seed reached to the part of the labelled triangle nearest to one of theirs.
-void adopt_the_rest(const Shape& shape, std::vector<std::int32_t>& part) {
+void adopt_the_rest(const Shape& shape, const detail::SurfaceGraph& graph, std::vector<std::int32_t>& part) {
   std::vector<std::int32_t> reached;
+  double reached_area = 0;
   for (std::size_t t = 0; t < part.size(); ++t)
-    if (part[t] >= 0) reached.push_back(static_cast<std::int32_t>(t));
+    if (part[t] >= 0) {
+      reached.push_back(static_cast<std::int32_t>(t));
+      reached_area += graph.areas(static_cast<Eigen::Index>(t));
+    }
   if (reached.size() == part.size()) return;
+  if (!(reached_area > 0)) {  // seeds on nothing but degenerate triangles: there is no surface to be near to
+    std::replace(part.begin(), part.end(), -1, part[static_cast<std::size_t>(reached.front())]);
+    return;
+  }
   const std::vector<std::int32_t> component = detail::connected_components(shape);
   struct Nearest {
     double distance = std::numeric_limits<double>::infinity();
@@ -97,7 +110,7 @@ Shape segmented(const Shape& shape, const std::vector<PartSeeds>& seeds) {
   for (std::size_t t = 0; t < part.size(); ++t) is_seed[t] = part[t] >= 0;
   const detail::SurfaceGraph graph = detail::surface_graph(shape);
   spread(graph, part);
-  adopt_the_rest(shape, part);
+  adopt_the_rest(shape, graph, part);
   Shape result = shape;
   result.triangle_part = detail::with_smooth_boundaries(graph, std::move(part), is_seed);
   result.part_names.clear();

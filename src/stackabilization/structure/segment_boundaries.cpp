@@ -20,17 +20,13 @@ namespace {
 
 constexpr double far_away = std::numeric_limits<double>::infinity();
 
-/// Concave edges are this many times as long to cross and as short to cut along as flat ones, at 90 degrees.
-constexpr double crossing_factor = 10, cutting_factor = 10;
+/// Concave edges of 90 degrees are this many times as short to cut along as flat ones.
+constexpr double cutting_factor = 10;
 
 /// Reach of a boundary's band into a part: this share of the depth of the part, ...
 constexpr double band_share = 0.5;
 /// ... and at most this share of the square root of the smaller part's area.
 constexpr double band_width = 0.2;
-
-double concavity(const SurfaceLink& link) {
-  return std::clamp(-link.bend / (std::numbers::pi / 2), 0.0, 1.0);
-}
 
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::bidirectionalS>;
 using FlowGraph = boost::adjacency_list<
@@ -173,8 +169,8 @@ void BoundarySmoother::recut(std::int32_t a, std::int32_t b) {
 
 }  // namespace
 
-double crossing_cost(const SurfaceLink& link) {
-  return 1 + (crossing_factor - 1) * concavity(link);
+double concavity(const SurfaceLink& link) {
+  return std::clamp(-link.bend / (std::numbers::pi / 2), 0.0, 1.0);
 }
 
 double cutting_cost(const SurfaceLink& link) {

@@ -8,9 +8,10 @@
 /// Not installed.
 namespace stackabilization::detail {
 
-/// What a step across a link costs a path that avoids concave edges, and what a cut along it costs: both
-/// times its length. 90 degrees and more count alike.
-double crossing_cost(const SurfaceLink& link);
+/// How concave a link is: 0 when flat or convex, 1 from 90 degrees on.
+double concavity(const SurfaceLink& link);
+
+/// What a cut along a link costs: its length, a tenth of it where the edge is as concave as can be.
 double cutting_cost(const SurfaceLink& link);
 
 /// Moves the boundary between each two neighbouring parts to the cheapest cut near it: short, along concave

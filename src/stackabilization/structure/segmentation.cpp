@@ -30,7 +30,6 @@ std::int32_t count_of(const std::vector<std::int32_t>& part) {
 /// triangles.
 Shape with_parts_by_area(const Shape& shape, const std::vector<std::int32_t>& part) {
   const auto count = static_cast<std::size_t>(count_of(part));
-  if (count == 1 && shape.part_count() == 1) return shape;
   std::vector<double> area(count, 0);
   std::vector<std::size_t> first(count, part.size());
   for (std::size_t t = part.size(); t-- > 0;) {
@@ -60,10 +59,8 @@ Shape with_parts_by_area(const Shape& shape, const std::vector<std::int32_t>& pa
 /// Cuts one component, whose triangles are `rows`, and returns a number per row.
 std::vector<std::int32_t> cut(const Shape& component, const SegmentationOptions& options) {
   detail::SurfaceGraph graph = detail::surface_graph(component);
-  Eigen::AlignedBox3d box;
-  for (Eigen::Index t = 0; t < component.triangle_count(); ++t)
-    for (int k = 0; k < 3; ++k) box.extend(component.corner(t, k));
-  detail::link_shells(graph, component, detail::ContactRule().reach * box.diagonal().norm());
+  if (!(graph.areas.sum() > 0)) return std::vector<std::int32_t>(static_cast<std::size_t>(graph.size()), 0);
+  detail::link_shells(graph, component, detail::ContactRule().reach * graph.diagonal);
   std::vector<std::int32_t> part =
       options.method == SegmentationMethod::shape_diameter
           ? detail::shape_diameter_parts(component, graph, options.parts)

@@ -23,7 +23,7 @@ using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 /// Clusters of diameters: CGAL's default, and the most that are tried for a given number of parts.
-constexpr std::size_t default_clusters = 5, most_clusters = 12;
+constexpr std::size_t default_clusters = 5, cluster_limit = 12;
 
 struct OutwardMesh {
   Mesh mesh;
@@ -100,8 +100,11 @@ std::vector<std::int32_t> shape_diameter_parts(const Shape& shape, const Surface
     if (!(least < most) ||
         !std::all_of(diameters.begin(), diameters.end(), [](double d) { return d >= 0 && d <= 1; }))
       return whole;
+    // CGAL looks for ever for more clusters than there are different diameters.
+    const std::size_t most_clusters =
+        std::min(cluster_limit, std::set<double>(diameters.begin(), diameters.end()).size());
     std::vector<std::int32_t> found;
-    std::size_t clusters = parts > 0 ? 2 : default_clusters;
+    std::size_t clusters = std::min(most_clusters, parts > 0 ? std::size_t{2} : default_clusters);
     do {
       found = segments(outward.mesh, diameters, clusters);
     } while (parts > 0 && different(found) < static_cast<std::size_t>(parts) && ++clusters <= most_clusters);

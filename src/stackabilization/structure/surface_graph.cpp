@@ -103,8 +103,12 @@ void GraphBuilder::measure() {
   graph_.areas = Eigen::VectorXd::Zero(m);
   graph_.centres.resize(m, 3);
   graph_.normals = Points::Zero(m, 3);
-  for (Eigen::Index t = 0; t < m; ++t)
+  Eigen::AlignedBox3d box;
+  for (Eigen::Index t = 0; t < m; ++t) {
     graph_.centres.row(t) = (shape_.corner(t, 0) + shape_.corner(t, 1) + shape_.corner(t, 2)).transpose() / 3;
+    for (int k = 0; k < 3; ++k) box.extend(shape_.corner(t, k));
+  }
+  graph_.diagonal = box.diagonal().norm();
   const ConnectedSurface surface = connected_surface(shape_);
   for (const auto face : surface.mesh.faces()) {
     std::array<Eigen::Vector3d, 3> p;

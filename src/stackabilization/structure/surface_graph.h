@@ -22,6 +22,7 @@ struct SurfaceGraph {
   Eigen::VectorXd areas;  ///< model units squared
   Points centres;         ///< of the triangles
   Points normals;         ///< unit and outward as far as that can be told; zero where the area is
+  double diagonal = 0;    ///< of the bounding box of the triangles, model units
   std::vector<SurfaceLink> links;
   std::vector<std::vector<std::int32_t>> links_of;  ///< per triangle rows of `links`
 

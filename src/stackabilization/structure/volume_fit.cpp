@@ -15,6 +15,10 @@ constexpr double none = std::numeric_limits<double>::infinity();
 /// Wall normals at most this cosine off the axis plane belong to the side of a solid of revolution.
 constexpr double side_cosine = 0.7;
 
+/// Chords that run on into a neighbouring part where it joins, such as from a table top down a leg: at most
+/// this share of the chords of a piece.
+constexpr double deepest_share = 0.1;
+
 class VolumeFit {
  public:
   VolumeFit(const std::vector<Chord>& chords, const std::vector<std::int32_t>& members) {
@@ -41,6 +45,10 @@ class VolumeFit {
   double revolution(const Eigen::Matrix3d& frame) const;
   double ring(const Eigen::Matrix3d& frame) const;
   Eigen::Matrix3d dominant_frame() const;
+
+  /// What the piece spans along an axis: its surface, and the solid behind all but the deepest chords on each
+  /// side.
+  Range span(const Eigen::Vector3d& axis) const;
 
   std::vector<const Chord*> chords_;
 };
@@ -96,14 +104,30 @@ Eigen::Matrix3d VolumeFit::dominant_frame() const {
   return frame_along(first, second);
 }
 
+Range VolumeFit::span(const Eigen::Vector3d& axis) const {
+  Range range{none, -none};
+  std::vector<double> ends;
+  for (const Chord* c : chords_) {
+    const double start = axis.dot(c->start);
+    range = {std::min(range.low, start), std::max(range.high, start)};
+    ends.push_back(axis.dot(c->end));
+  }
+  const auto spared = static_cast<std::ptrdiff_t>(deepest_share * static_cast<double>(ends.size()));
+  const auto low = ends.begin() + spared, high = ends.end() - 1 - spared;
+  std::nth_element(ends.begin(), low, ends.end());
+  range.low = std::min(range.low, *low);
+  std::nth_element(low, high, ends.end());
+  range.high = std::max(range.high, *high);
+  return range;
+}
+
 double VolumeFit::cuboid(const Eigen::Matrix3d& frame) const {
-  Eigen::Array3d low = Eigen::Array3d::Constant(none), high = -low;
-  for (const Chord* c : chords_)
-    for (const Eigen::Vector3d& p : {c->start, c->end}) {
-      const Eigen::Array3d local = (frame.transpose() * p).array();
-      low = low.min(local);
-      high = high.max(local);
-    }
+  Eigen::Array3d low, high;
+  for (int k = 0; k < 3; ++k) {
+    const Range range = span(frame.col(k));
+    low(k) = range.low;
+    high(k) = range.high;
+  }
   double sum = 0;
   for (const Chord* c : chords_) {
     const Eigen::Vector3d p = frame.transpose() * c->start, n = frame.transpose() * c->normal;
@@ -192,14 +216,12 @@ double VolumeFit::revolution(const Eigen::Matrix3d& frame) const {
     return q;
   };
 
-  Revolution solid{Eigen::Vector3d::Zero(), none, -none};
+  const Range range = span(frame.col(2));
+  Revolution solid{Eigen::Vector3d::Zero(), range.low, range.high};
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const Chord* c : chords_) {
-    const Eigen::Vector3d p = local(c->start), n = frame.transpose() * c->normal, q = local(c->end);
-    solid.low = std::min({solid.low, p.z(), q.z()});
-    solid.high = std::max({solid.high, p.z(), q.z()});
-    if (std::abs(n.z()) > side_cosine) continue;
+    if (std::abs(c->normal.dot(frame.col(2))) > side_cosine) continue;
     const Eigen::Vector3d wall = local(outer_end(*c)), row(1, wall.z(), wall.z() * wall.z());
     normal += c->area * row * row.transpose();
     right += c->area * row * wall.head<2>().squaredNorm();
@@ -219,13 +241,12 @@ double VolumeFit::ring(const Eigen::Matrix3d& frame) const {
   std::vector<Eigen::Vector2d> points;
   std::vector<double> weights;
   double area = 0, height = 0;
-  for (const Chord* c : chords_)
-    for (const Eigen::Vector3d& p : {c->start, c->end}) {
-      points.push_back((frame.transpose() * p).head<2>());
-      weights.push_back(c->area);
-      area += c->area;
-      height += c->area * frame.col(2).dot(p);
-    }
+  for (const Chord* c : chords_) {
+    points.push_back((frame.transpose() * c->start).head<2>());
+    weights.push_back(c->area);
+    area += c->area;
+    height += c->area * frame.col(2).dot(c->start);
+  }
   const Circle circle = circle_through(points, weights);
   if (!(circle.squared_radius < none)) return none;
   const double ring_radius = std::sqrt(circle.squared_radius);
@@ -236,7 +257,7 @@ double VolumeFit::ring(const Eigen::Matrix3d& frame) const {
   };
   double tube = 0;
   for (const Chord* c : chords_) tube += c->area * off(c->start);
-  tube /= area / 2;
+  tube /= area;
   if (tube >= ring_radius) return none;
   double sum = 0;
   for (const Chord* c : chords_) {
