@@ -30,6 +30,7 @@ std::int32_t count_of(const std::vector<std::int32_t>& part) {
 /// triangles.
 Shape with_parts_by_area(const Shape& shape, const std::vector<std::int32_t>& part) {
   const auto count = static_cast<std::size_t>(count_of(part));
+  if (count == 1 && shape.part_count() == 1) return shape;
   std::vector<double> area(count, 0);
   std::vector<std::size_t> first(count, part.size());
   for (std::size_t t = part.size(); t-- > 0;) {
