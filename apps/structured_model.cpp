@@ -58,11 +58,17 @@ void add_segmentation_options(CLI::App& command, AnalysisArguments& arguments) {
       ->type_name("FILE");
 }
 
+double fraction(const std::string& option, double value) {
+  if (value > 0 && value <= 1) return value;
+  throw UsageError(option + " expects a fraction above 0 and up to 1, found " + exact_digits(value));
+}
+
 /// The options of the library: those that are left out keep its defaults.
 AnalysisOptions analysis_options(const AnalysisArguments& arguments) {
   AnalysisOptions options = arguments.options;
-  if (arguments.symmetry_tolerance) options.symmetry.tolerance = *arguments.symmetry_tolerance;
-  if (arguments.joint_reach) options.joints.reach = *arguments.joint_reach;
+  if (arguments.symmetry_tolerance)
+    options.symmetry.tolerance = fraction("--symmetry-tolerance", *arguments.symmetry_tolerance);
+  if (arguments.joint_reach) options.joints.reach = fraction("--joint-reach", *arguments.joint_reach);
   return options;
 }
 
