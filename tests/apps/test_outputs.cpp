@@ -28,7 +28,7 @@ std::vector<Arguments> every_command(const std::string& model) {
           {"stack", model, "-n", "4", "--twist-degrees", "auto", "--within", "100"},
           {"validate", model},
           {"structure", model},
-          {"deform", model, "--edit", "part scale 0.9"}};
+          {"deform", model, "--edit", "shape scale 0.9"}};
 }
 
 }  // namespace

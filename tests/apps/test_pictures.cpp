@@ -28,7 +28,7 @@ TEST_CASE("every --picture is a picture of its kind") {
                                                           {"stack", cup, "-n", "3"},
                                                           {"stack", cup, "--into", cup},
                                                           {"structure", cup},
-                                                          {"deform", cup, "--edit", "part scale 0.9"}};
+                                                          {"deform", cup, "--edit", "shape scale 0.9"}};
   for (const std::vector<std::string>& command : commands)
     for (const std::string name : {"picture.png", "picture.svg"}) {
       INFO(command[0] << " " << name);
