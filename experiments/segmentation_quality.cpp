@@ -1,0 +1,186 @@
+// Question: how near does the segmentation come to people's, beside the shape-diameter method?
+//
+//     segmentation_quality [--threads N] [-o FILE.csv] FOLDER
+//
+// FOLDER is laid out as the benchmark of Chen, Golovinskiy and Funkhouser (2009): models data/off/N.off,
+// people's segmentations data/seg/Benchmark/N/N_*.seg, one integer per face and line. One row per model,
+// method and number of parts: people's median (as far as the method gets there) or the method's own. The
+// figure is one minus the rand index, averaged over the people, which is what the benchmark plots: 0 is
+// agreement. The rows of `people` compare each person with the others. Last come the averages over the
+// models.
+
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/provenance.h"
+#include "common/rand_index.h"
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/read.h"
+#include "stackabilization/shape/write_file.h"
+#include "stackabilization/structure/segmentation.h"
+
+using namespace stackabilization;
+using namespace stackabilization::experiments;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Labels = std::vector<std::int32_t>;
+
+Labels read_labels(const fs::path& path, Eigen::Index faces) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path.string() + " cannot be read");
+  Labels labels;
+  std::string line;
+  for (std::int64_t number = 1; std::getline(file, line); ++number) {
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
+    if (line.empty()) continue;
+    std::int32_t label = 0;
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), label);
+    if (error != std::errc() || end != line.data() + line.size())
+      throw InputError(path.string() + ", line " + std::to_string(number) + ": expected one integer");
+    labels.push_back(label);
+  }
+  if (static_cast<Eigen::Index>(labels.size()) != faces)
+    throw InputError(path.string() + " has " + std::to_string(labels.size()) + " labels, but its model has " +
+                     std::to_string(faces) + " faces");
+  return labels;
+}
+
+double parts_of(const Labels& labels) {
+  return static_cast<double>(std::set<std::int32_t>(labels.begin(), labels.end()).size());
+}
+
+struct Model {
+  std::string name, hash;
+  Shape shape;
+  std::vector<Labels> people;
+};
+
+/// The models that people have cut, by number and then by name.
+std::vector<Model> read_models(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder / "data" / "off"))
+    if (entry.path().extension() == ".off") files.push_back(entry.path());
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    const std::string x = a.stem().string(), y = b.stem().string();
+    return std::make_pair(x.size(), x) < std::make_pair(y.size(), y);
+  });
+  std::vector<Model> models;
+  for (const fs::path& file : files) {
+    const fs::path answers = folder / "data" / "seg" / "Benchmark" / file.stem();
+    if (!fs::is_directory(answers)) continue;
+    Model model{file.stem().string(), file_hash(file), read_shape(file), {}};
+    std::set<fs::path> sorted;
+    for (const auto& entry : fs::directory_iterator(answers))
+      if (entry.path().extension() == ".seg") sorted.insert(entry.path());
+    for (const fs::path& answer : sorted)
+      model.people.push_back(read_labels(answer, model.shape.triangle_count()));
+    if (!model.people.empty()) models.push_back(std::move(model));
+  }
+  if (models.empty())
+    throw InputError(folder.string() +
+                     " has no model data/off/N.off with segmentations data/seg/Benchmark/N/N_*.seg");
+  return models;
+}
+
+struct Row {
+  std::string method, number;
+  double parts, error, seconds;
+};
+
+std::string text(const Model* model, const Row& row) {
+  char numbers[160];
+  std::snprintf(numbers, sizeof numbers, "%.17g,%.6f,%.3f", row.parts, row.error, row.seconds);
+  const std::string which =
+      model ? model->name + "," + model->hash + "," + std::to_string(model->shape.triangle_count())
+            : "average,,";
+  return which + "," + row.method + "," + row.number + "," + numbers + "\n";
+}
+
+/// Each person against the others; a lone one agrees with himself.
+Row people_row(const Model& model) {
+  Row row{"people", "own", 0, 0, 0};
+  const auto count = static_cast<double>(model.people.size());
+  for (const Labels& one : model.people) {
+    row.parts += parts_of(one) / count;
+    for (const Labels& other : model.people)
+      row.error += rand_error(one, other) / std::max(1.0, count * (count - 1));
+  }
+  return row;
+}
+
+Row method_row(const Model& model, SegmentationMethod method, bool same_number) {
+  std::vector<double> counts;
+  for (const Labels& labels : model.people) counts.push_back(parts_of(labels));
+  SegmentationOptions options;
+  options.method = method;
+  options.parts = same_number ? static_cast<int>(median(counts)) : 0;
+  const double start = now();
+  const Shape found = segmented(model.shape, options);
+  Row row{method == SegmentationMethod::primitives ? "hierarchical_fitting" : "shape_diameter",
+          same_number ? "people's" : "own", static_cast<double>(found.part_count()), 0, now() - start};
+  for (const Labels& labels : model.people)
+    row.error += rand_error(found.triangle_part, labels) / static_cast<double>(model.people.size());
+  return row;
+}
+
+std::string table(const std::vector<Model>& models) {
+  std::string csv = "model,input_hash,triangles,method,number_of_parts,parts,rand_error,seconds\n";
+  std::vector<Row> averages;
+  for (const Model& model : models) {
+    std::vector<Row> rows{people_row(model)};
+    for (const auto method : {SegmentationMethod::primitives, SegmentationMethod::shape_diameter})
+      for (const bool same_number : {true, false}) rows.push_back(method_row(model, method, same_number));
+    if (averages.empty())
+      for (const Row& row : rows) averages.push_back({row.method, row.number, 0, 0, 0});
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      csv += text(&model, rows[r]);
+      averages[r].parts += rows[r].parts / static_cast<double>(models.size());
+      averages[r].error += rows[r].error / static_cast<double>(models.size());
+      averages[r].seconds += rows[r].seconds / static_cast<double>(models.size());
+    }
+  }
+  for (const Row& row : averages) csv += text(nullptr, row);
+  return csv;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"How near does the segmentation come to people's, beside the shape-diameter method?"};
+  int threads = tbb::info::default_concurrency();
+  std::string output = "-", folder;
+  app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 1024));
+  app.add_option("-o", output, "CSV file; - is standard output");
+  app.add_option("folder", folder, "folder of the benchmark")->required()->check(CLI::ExistingDirectory);
+  CLI11_PARSE(app, argc, argv);
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                  static_cast<std::size_t>(threads));
+  try {
+    const std::string lines =
+        provenance_lines({"segmentation_quality", std::vector<std::string>(argv + 1, argv + argc), threads});
+    write_file_atomically(output, lines + table(read_models(folder)));
+    return 0;
+  } catch (const InputError& error) {
+    std::cerr << "segmentation_quality: " << error.what() << "\n";
+    return 3;
+  } catch (const fs::filesystem_error& error) {
+    std::cerr << "segmentation_quality: " << error.what() << "\n";
+    return 3;
+  } catch (const Error& error) {
+    std::cerr << "segmentation_quality: " << error.what() << "\n";
+    return 2;
+  }
+}
