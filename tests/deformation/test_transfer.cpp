@@ -248,13 +248,13 @@ TEST_CASE("dual quaternions blend along the shorter way") {
 TEST_CASE("the jacobian of a carried point is that of central differences") {
   solids::Random random(9);
   for (const GeneralizedCylinder& rest : cylinders()) {
-    const Carrier carrier(rest);
+    const detail::Carrier carrier(rest);
     GeneralizedCylinder now = rest;
     for (double& x : now.centres.reshaped()) x += random.uniform(-0.05, 0.05);
     for (double& r : now.radii) r *= random.uniform(0.9, 1.1);
-    const PointBinding binding =
+    const detail::PointBinding binding =
         carrier.bind(Eigen::Vector3d(rest.centres.row(2).transpose() + 0.2 * random.in_cube()));
-    const ControlJacobian jacobian = carrier.jacobian(binding, now);
+    const detail::ControlJacobian jacobian = carrier.jacobian(binding, now);
     Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(3, 4 * rest.centres.rows());
     for (const auto& [point, block] : jacobian.points) dense.middleCols<3>(3 * point) = block;
     for (const auto& [section, column] : jacobian.radii)

@@ -5,7 +5,7 @@
 
 #include "stackabilization/shape/tolerances.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 namespace {
 
@@ -125,4 +125,4 @@ ControlJacobian Carrier::jacobian(const PointBinding& binding, const Primitive& 
   return cage_jacobian(std::get<CageBinding>(binding));
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

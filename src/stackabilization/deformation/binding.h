@@ -7,7 +7,7 @@
 #include "stackabilization/deformation/mean_value_coordinates.h"
 #include "stackabilization/deformation/skinning.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 /// A point that rides on a cuboid.
 struct CageBinding {
@@ -54,4 +54,4 @@ class Carrier {
   std::variant<std::monostate, CurveAtRest> curve_;
 };
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

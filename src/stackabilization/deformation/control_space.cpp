@@ -10,7 +10,7 @@
 #include "stackabilization/structure/correspondence.h"
 #include "stackabilization/structure/relation_graph.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 namespace {
 
@@ -229,4 +229,4 @@ Eigen::RowVectorXd ControlSpace::radius_row(int part, int section, const Eigen::
   return columns.row(static_cast<Eigen::Index>(3 * image.order.size()) + image.inverse_order[at(section)]);
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

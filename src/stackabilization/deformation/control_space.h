@@ -7,8 +7,10 @@
 #include "stackabilization/structure/structure.h"
 
 namespace stackabilization {
-
 class RelationGraph;
+}
+
+namespace stackabilization::detail {
 
 /// Where the controls of a primitive are, since rest.
 struct ControlState {
@@ -92,4 +94,4 @@ class ControlSpace {
   std::vector<bool> tree_;  ///< per relation: it carried a class from one part to the next
 };
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

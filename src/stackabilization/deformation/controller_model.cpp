@@ -14,7 +14,8 @@ struct ControllerModel::Data {
   explicit Data(StructuredShape structured)
       : rest(std::move(structured)),
         rig(rest.structure),
-        mesh{MeshTransfer(rest.shape, rig), vertices_by_part(rest.shape), SurfaceIndex(rest.shape)} {
+        mesh{detail::MeshTransfer(rest.shape, rig), detail::vertices_by_part(rest.shape),
+             SurfaceIndex(rest.shape)} {
     for (const Part& part : rest.structure.parts) primitives.push_back(part.primitive);
   }
 
@@ -35,8 +36,8 @@ struct ControllerModel::Data {
 
   StructuredShape rest;
   std::vector<Primitive> primitives;
-  Rig rig;
-  RiggedMesh mesh;
+  detail::Rig rig;
+  detail::RiggedMesh mesh;
 };
 
 namespace {
@@ -67,29 +68,29 @@ const std::vector<Primitive>& ControllerModel::rest_primitives() const {
 std::vector<Handle> ControllerModel::handles() const {
   std::vector<Handle> handles = {{HandleKind::shape, 0, 0}};
   for (std::size_t part = 0; part < data_->primitives.size(); ++part)
-    for (const Handle& handle : handles_of(static_cast<int>(part), data_->primitives[part]))
+    for (const Handle& handle : detail::handles_of(static_cast<int>(part), data_->primitives[part]))
       handles.push_back(handle);
   return handles;
 }
 
 Eigen::Vector3d ControllerModel::centre(const Handle& handle) const {
-  if (handle.kind == HandleKind::shape) return shape_centre(data_->primitives);
+  if (handle.kind == HandleKind::shape) return detail::shape_centre(data_->primitives);
   const Part& part = data_->part(handle);
-  return handle_centre(part.primitive, handle, part.name);
+  return detail::handle_centre(part.primitive, handle, part.name);
 }
 
 EditOutcome ControllerModel::edited(const std::vector<Primitive>& now, const Edit& edit,
                                     const DeformationConstraints& constraints) const {
   validate(edit);
   data_->check(now);
-  EditTask task{data_->rest.shape, now, {}, constraints};
+  detail::EditTask task{data_->rest.shape, now, {}, constraints};
   if (edit.handle.kind == HandleKind::shape) {
-    task.wanted = prescribed(now, edit.operation);
+    task.wanted = detail::prescribed(now, edit.operation);
   } else {
     const Part& part = data_->part(edit.handle);
-    task.wanted = {prescribed(now[static_cast<std::size_t>(edit.handle.part)], edit, part.name)};
+    task.wanted = {detail::prescribed(now[static_cast<std::size_t>(edit.handle.part)], edit, part.name)};
   }
-  return solved_edit(data_->rig, data_->mesh, task);
+  return detail::solved_edit(data_->rig, data_->mesh, task);
 }
 
 Shape ControllerModel::shape_of(const std::vector<Primitive>& now) const {

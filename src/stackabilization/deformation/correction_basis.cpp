@@ -8,7 +8,7 @@
 
 #include "stackabilization/shape/tolerances.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 namespace {
 
@@ -132,4 +132,4 @@ Eigen::MatrixXd turning(const GeneralizedCylinder& rest) {
   return solver.pseudoInverse() * moments;
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -4,7 +4,7 @@
 
 #include "stackabilization/structure/primitive.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 /// n x n: exp(-(s_i - s_j)^2 / (2 sigma^2)) over the arc lengths s of the sections at rest, sigma = 0.2 of
 /// the whole (paper, section 4.1), around closed curves as well.
@@ -25,4 +25,4 @@ Eigen::MatrixXd correction_basis(const Primitive& rest);
 /// that they leave undetermined, such as about a straight axis.
 Eigen::MatrixXd turning(const GeneralizedCylinder& rest);
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -11,7 +11,7 @@
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 namespace {
 
@@ -344,4 +344,4 @@ EditOutcome solved_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& 
   return EditSolution(rig, mesh, task).run();
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

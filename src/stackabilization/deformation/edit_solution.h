@@ -10,7 +10,7 @@
 #include "stackabilization/deformation/rig.h"
 #include "stackabilization/structure/surface_index.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 /// A mesh on a rig.
 struct RiggedMesh {
@@ -32,4 +32,4 @@ struct EditTask {
 /// then shift what it left by as much as a cylinder misses the affine map. See ControllerModel::edited.
 EditOutcome solved_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& task);
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

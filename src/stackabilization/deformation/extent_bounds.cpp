@@ -7,7 +7,7 @@
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 std::vector<ExtentBound> extent_bounds(const Shape& rest, const DeformationConstraints& constraints) {
   std::vector<ExtentBound> bounds;
@@ -93,4 +93,4 @@ bool ExtentWatch::hold_side(std::size_t k, double sign, const Points& vertices, 
   return added;
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

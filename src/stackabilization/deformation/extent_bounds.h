@@ -10,7 +10,7 @@
 #include "stackabilization/deformation/relation_solver.h"
 #include "stackabilization/shape/shape.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 /// Bounds of the extent of a mesh along one direction.
 struct ExtentBound {
@@ -53,4 +53,4 @@ class ExtentWatch {
   std::set<std::tuple<std::size_t, bool, int>> held_;  ///< bound, upper side, vertex
 };
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

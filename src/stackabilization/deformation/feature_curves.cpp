@@ -32,11 +32,11 @@ void check(const FeatureCurveOptions& options) {
       throw UsageError("angles and lengths of feature curves must be finite and not negative");
 }
 
-Eigen::Vector3d point_at(const Places& surface, int place) {
+Eigen::Vector3d point_at(const detail::Places& surface, int place) {
   return surface.points.row(place).transpose();
 }
 
-Eigen::Vector3d unit_normal(const Places& surface, Eigen::Index triangle) {
+Eigen::Vector3d unit_normal(const detail::Places& surface, Eigen::Index triangle) {
   const auto at = [&](int k) { return point_at(surface, surface.triangles(triangle, k)); };
   return (at(1) - at(0)).cross(at(2) - at(0)).stableNormalized();
 }
@@ -50,7 +50,7 @@ struct Side {
 /// The graph of feature edges.
 class FeatureGraph {
  public:
-  FeatureGraph(const Places& surface, const FeatureCurveOptions& options)
+  FeatureGraph(const detail::Places& surface, const FeatureCurveOptions& options)
       : surface_(surface),
         crease_cosine_(std::cos(options.crease_angle * std::numbers::pi / 180)),
         corner_cosine_(std::cos(options.corner_angle * std::numbers::pi / 180)),
@@ -178,13 +178,13 @@ class FeatureGraph {
     return chain;
   }
 
-  const Places& surface_;
+  const detail::Places& surface_;
   double crease_cosine_, corner_cosine_;
   std::vector<Chained> neighbours_;
   std::vector<char> cut_;
 };
 
-double length_of(const Places& surface, const Chain& chain) {
+double length_of(const detail::Places& surface, const Chain& chain) {
   double length = 0;
   const std::size_t n = chain.places.size();
   for (std::size_t i = 0; i + (chain.closed ? 0 : 1) < n; ++i)
@@ -193,7 +193,7 @@ double length_of(const Places& surface, const Chain& chain) {
 }
 
 /// Which chains are long enough to matter.
-std::vector<char> significant(const Places& surface, const FeatureGraph& graph,
+std::vector<char> significant(const detail::Places& surface, const FeatureGraph& graph,
                               const std::vector<Chain>& chains, double smallest) {
   DisjointSets networks(static_cast<std::size_t>(surface.points.rows()));
   for (const Chain& chain : chains)
@@ -216,7 +216,7 @@ std::vector<char> significant(const Places& surface, const FeatureGraph& graph,
 
 std::vector<FeatureCurve> feature_curves(const Shape& shape, const FeatureCurveOptions& options) {
   check(options);
-  const Places surface = places_of(shape);
+  const detail::Places surface = detail::places_of(shape);
   FeatureGraph graph(surface, options);
   const double smallest = options.smallest_length *
                           (surface.points.colwise().maxCoeff() - surface.points.colwise().minCoeff()).norm();

@@ -109,7 +109,7 @@ class GapScaling : public DeformationModel {
 
 GapScaling::GapScaling(const Shape& shape, const Direction& direction)
     : shape_(shape), up_(direction.unit()), depth_(Eigen::VectorXd::Zero(shape.vertex_count())) {
-  const Places places = places_of(shape);
+  const detail::Places places = detail::places_of(shape);
   const OrientedBox box = axis_aligned_box(places.points);
   centre_ = box.centre;
   const Frame frame = frame_of(direction);

@@ -5,7 +5,7 @@
 #include <queue>
 #include <set>
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 namespace {
 
@@ -153,4 +153,4 @@ std::vector<Rider> MeshTransfer::riders(int vertex) const {
   return riders;
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -6,7 +6,7 @@
 #include "stackabilization/deformation/rig.h"
 #include "stackabilization/shape/shape.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 /// The vertices of a shape bound to its parts. A vertex rides on the part whose triangles use it. Where parts
 /// share vertices, those ride on all of them in equal shares, and the share of the other part falls off
@@ -32,4 +32,4 @@ class MeshTransfer {
   std::vector<BoundPart> parts_;
 };
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -5,7 +5,7 @@
 
 #include "stackabilization/shape/errors.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 namespace {
 
@@ -177,4 +177,4 @@ std::vector<PartEdit> prescribed(const std::vector<Primitive>& now, const Operat
   return edits;
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -8,7 +8,7 @@
 #include "stackabilization/deformation/edit.h"
 #include "stackabilization/structure/primitive.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 /// What an edit prescribes for the controls of a part.
 struct PartEdit {
@@ -40,4 +40,4 @@ PartEdit prescribed(const Primitive& now, const Edit& edit, const std::string& p
 /// One per part, in order: the same operation on all of them as wholes, about the centre of the shape.
 std::vector<PartEdit> prescribed(const std::vector<Primitive>& now, const Operation& operation);
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -5,7 +5,7 @@
 
 #include "stackabilization/shape/point_index.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 double Places::area(Eigen::Index triangle) const {
   const Eigen::Vector3d a = points.row(triangles(triangle, 0));
@@ -38,4 +38,4 @@ Eigen::Vector3d corner_weights(const Shape& shape, const SurfacePoint& at) {
   return {1 - w(0) - w(1), w(0), w(1)};
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -6,7 +6,7 @@
 #include "stackabilization/shape/shape.h"
 #include "stackabilization/structure/surface_index.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 /// The different points among the vertices that triangles use, in order of first use. Formats repeat
 /// vertices; deformations that move places instead keep equal vertices equal and know which triangles hang
@@ -27,4 +27,4 @@ Places places_of(const Shape& shape);
 /// Weights, summing to one, of the corners of `at.triangle` in `at.point`. Up to rounding within [0, 1].
 Eigen::Vector3d corner_weights(const Shape& shape, const SurfacePoint& at);
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

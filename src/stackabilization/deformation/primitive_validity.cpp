@@ -7,7 +7,7 @@
 
 #include "stackabilization/shape/tolerances.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 namespace {
 
@@ -84,4 +84,4 @@ std::optional<std::string> defect(const Primitive& rest, const Primitive& now) {
   return defect_of(std::get<GeneralizedCylinder>(rest), std::get<GeneralizedCylinder>(now));
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -5,7 +5,7 @@
 
 #include "stackabilization/structure/primitive.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 /// What is wrong with a deformed primitive, as in "is turned inside out at corner 3", or nothing.
 ///
@@ -16,4 +16,4 @@ namespace stackabilization {
 /// not at rest. Everything must be finite.
 std::optional<std::string> defect(const Primitive& rest, const Primitive& now);
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

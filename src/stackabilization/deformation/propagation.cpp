@@ -5,7 +5,7 @@
 
 #include "stackabilization/shape/tolerances.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 namespace {
 
@@ -137,4 +137,4 @@ std::vector<ControlState> propagated(const Rig& rig, std::vector<ControlState> s
   return Propagation(rig, std::move(states), std::move(progress)).run();
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -4,7 +4,7 @@
 
 #include "stackabilization/deformation/rig.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 /// What happened to a class before its neighbours are asked.
 enum class Progress {
@@ -21,4 +21,4 @@ enum class Progress {
 std::vector<ControlState> propagated(const Rig& rig, std::vector<ControlState> states,
                                      std::vector<Progress> progress);
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

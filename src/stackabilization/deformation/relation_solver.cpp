@@ -6,7 +6,7 @@
 
 #include "stackabilization/shape/tolerances.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 namespace {
 
@@ -225,4 +225,4 @@ SolverState solved(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases,
   return Solver(rig, bases, constraints, std::move(start)).run();
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -6,7 +6,7 @@
 
 #include "stackabilization/deformation/rig.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 /// A point that rides on a part, with a weight in a sum of such.
 struct Rider {
@@ -43,4 +43,4 @@ double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, c
 SolverState solved(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases,
                    const std::vector<Constraint>& constraints, SolverState start);
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

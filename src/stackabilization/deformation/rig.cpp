@@ -2,7 +2,7 @@
 
 #include "stackabilization/deformation/correction_basis.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 Rig::Rig(const Structure& structure) : rest(structure), space(structure) {
   for (const Part& part : rest.parts) carriers.emplace_back(part.primitive);
@@ -28,4 +28,4 @@ Rig::Rig(const Structure& structure) : rest(structure), space(structure) {
   }
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

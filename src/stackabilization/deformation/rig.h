@@ -8,7 +8,7 @@
 #include "stackabilization/deformation/control_space.h"
 #include "stackabilization/structure/structure.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 /// A joint point with both of its parts.
 struct JointPoint {
@@ -32,4 +32,4 @@ struct Rig {
   std::vector<Eigen::MatrixXd> turnings;      ///< per class; empty for cuboids
 };
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -7,7 +7,7 @@
 #include "stackabilization/shape/tolerances.h"
 #include "stackabilization/structure/surface_index.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 namespace {
 
@@ -68,4 +68,4 @@ std::vector<Tie> shell_ties(const Places& places, const std::vector<std::int32_t
   return ties;
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -11,7 +11,7 @@
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 namespace {
 
@@ -145,4 +145,4 @@ HeldSurface SurfaceHandles::held(const Handle& handle) const {
   throw UsageError("a surface can be held by parts, sections, points and as a whole only");
 }
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

@@ -7,7 +7,7 @@
 #include "stackabilization/deformation/places.h"
 #include "stackabilization/deformation/surface_model.h"
 
-namespace stackabilization {
+namespace stackabilization::detail {
 
 /// What a handle of the surface model takes hold of.
 struct HeldSurface {
@@ -40,4 +40,4 @@ class SurfaceHandles {
   double radius_ = 0;  ///< of point handles, model units
 };
 
-}  // namespace stackabilization
+}  // namespace stackabilization::detail

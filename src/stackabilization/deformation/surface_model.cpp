@@ -69,7 +69,8 @@ struct Targets {
   bool whole = false;                                  ///< was the shape edited?
 };
 
-void transform(Points& points, const HeldSurface& at, const Eigen::Vector3d& centre, const LinearMap& map) {
+void transform(Points& points, const detail::HeldSurface& at, const Eigen::Vector3d& centre,
+               const LinearMap& map) {
   const Eigen::Matrix3d change = map.linear - Eigen::Matrix3d::Identity();
   for (const std::int32_t p : at.places) {
     const Eigen::Vector3d arm = points.row(p).transpose() - centre;
@@ -77,7 +78,7 @@ void transform(Points& points, const HeldSurface& at, const Eigen::Vector3d& cen
   }
 }
 
-void apply(Targets& targets, const Edit& edit, const HeldSurface& held, const Eigen::Vector3d& axis) {
+void apply(Targets& targets, const Edit& edit, const detail::HeldSurface& held, const Eigen::Vector3d& axis) {
   const Eigen::Matrix3d turned = targets.held.rotations[at(held.places.front())] * targets.turn;
   const LinearMap map = linear_map(edit, turned * axis);
   const Eigen::Vector3d centre = targets.held.points(held.places, Eigen::all).transpose() * held.weights;
@@ -108,7 +109,7 @@ struct RigidMotion {
 };
 
 RigidMotion motion_at(const Shape& rest, const SurfacePoint& point, const RotatedPoints& now) {
-  const Eigen::Vector3d weights = corner_weights(rest, point);
+  const Eigen::Vector3d weights = detail::corner_weights(rest, point);
   Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
   RigidMotion motion{{}, Eigen::Vector3d::Zero()};
   for (int k = 0; k < 3; ++k) {
@@ -124,17 +125,17 @@ class SurfaceModel : public DeformationModel {
  public:
   SurfaceModel(const Shape& shape, const SurfaceModelOptions& options)
       : shape_(shape),
-        places_(places_of(shape)),
+        places_(detail::places_of(shape)),
         handles_(shape, places_, options),
         options_(options),
         diagonal_((places_.points.colwise().maxCoeff() - places_.points.colwise().minCoeff()).norm()),
-        ties_(shell_ties(places_, RigidSurface(places_.points, places_.triangles).shells(),
-                         options.reach * diagonal_)),
+        ties_(detail::shell_ties(places_, RigidSurface(places_.points, places_.triangles).shells(),
+                                 options.reach * diagonal_)),
         surface_(places_.points, places_.triangles, ties_) {}
 
   std::vector<Handle> handles() const override { return handles_.all(); }
   Eigen::Vector3d centre(const Handle& handle) const override {
-    const HeldSurface held = handles_.held(handle);
+    const detail::HeldSurface held = handles_.held(handle);
     return places_.points(held.places, Eigen::all).transpose() * held.weights;
   }
   DeformationResult deformed(const std::vector<Edit>& edits,
@@ -150,8 +151,8 @@ class SurfaceModel : public DeformationModel {
   std::vector<std::int32_t> vertices_at(const std::vector<bool>& places) const;
 
   Shape shape_;
-  Places places_;
-  SurfaceHandles handles_;
+  detail::Places places_;
+  detail::SurfaceHandles handles_;
   SurfaceModelOptions options_;
   double diagonal_;
   std::vector<Tie> ties_;

@@ -5,7 +5,7 @@
 namespace stackabilization {
 
 Eigen::Vector3d carried(const Primitive& rest, const Primitive& now, const Eigen::Vector3d& point) {
-  const Carrier carrier(rest);
+  const detail::Carrier carrier(rest);
   return carrier.carried(carrier.bind(point), now);
 }
 

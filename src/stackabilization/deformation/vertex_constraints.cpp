@@ -24,7 +24,7 @@ std::string text(double value) {
 
 /// Corners of the triangle that carry the point.
 std::vector<std::int32_t> carriers(const Shape& shape, const SurfacePoint& at) {
-  const Eigen::Vector3d weights = corner_weights(shape, at);
+  const Eigen::Vector3d weights = detail::corner_weights(shape, at);
   std::vector<std::int32_t> rows;
   for (int k = 0; k < 3; ++k)
     if (!(weights(k) <= tolerance::relative)) rows.push_back(shape.triangles(at.triangle, k));
@@ -185,7 +185,7 @@ std::vector<std::int32_t> fixed_vertices(const Shape& rest, const DeformationCon
     }
   }
   if (rows.empty()) return rows;
-  const std::vector<std::int32_t> place = places_of(rest).of_vertex;
+  const std::vector<std::int32_t> place = detail::places_of(rest).of_vertex;
   std::vector<bool> is_fixed(place.size());
   for (const std::int32_t v : rows)
     is_fixed[static_cast<std::size_t>(place[static_cast<std::size_t>(v)])] = true;
