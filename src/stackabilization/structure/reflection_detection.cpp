@@ -47,7 +47,8 @@ class ReflectionSearch {
       : surface_(surface), options_(options) {}
 
   std::vector<FoundSymmetry> run() {
-    for (const Eigen::Vector3d axis : axes_of(surface_).colwise())
+    const Eigen::Matrix<double, 3, 6> candidates = axes_of(surface_);
+    for (const Eigen::Vector3d axis : candidates.colwise())
       consider({SymmetryKind::reflection, Eigen::Vector3d::Zero(), axis, 2});
     for (const Symmetry& plane : voted_reflections(surface_, options_)) consider(plane);
     drop_shadows();

@@ -86,7 +86,8 @@ std::optional<Symmetry> revolution_about(const SymmetrySurface& surface, const E
 std::vector<Symmetry> revolutions(const SymmetrySurface& surface, const SymmetryOptions& options,
                                   Roundness roundness) {
   std::vector<Symmetry> found;
-  for (const Eigen::Vector3d axis : axes_of(surface).colwise()) {
+  const Eigen::Matrix<double, 3, 6> candidates = axes_of(surface);
+  for (const Eigen::Vector3d axis : candidates.colwise()) {
     const bool known = std::any_of(found.begin(), found.end(), [&](const Symmetry& other) {
       return std::abs(other.axis.dot(axis)) > same_direction;
     });

@@ -90,7 +90,8 @@ class RotationSearch {
       if (!contains(axes, axis) && is_principal(surface_, axis) && !on_reflection(axis))
         axes.push_back({SymmetryKind::rotation, Eigen::Vector3d::Zero(), axis, 2});
     };
-    for (const Eigen::Vector3d axis : axes_of(surface_).colwise()) add(axis);
+    const Eigen::Matrix<double, 3, 6> candidates = axes_of(surface_);
+    for (const Eigen::Vector3d axis : candidates.colwise()) add(axis);
     for (const Symmetry& axis : voted_axes(surface_)) add(axis.axis);
     return axes;
   }
