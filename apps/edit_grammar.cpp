@@ -208,7 +208,7 @@ std::string degrees_text(double radians) {
         std::to_chars(buffer, buffer + sizeof buffer, degrees, std::chars_format::general, digits).ptr;
     double parsed = 0;
     std::from_chars(buffer, end, parsed);
-    if (parsed * radians_per_degree == radians) return {buffer, end};
+    if (parsed * radians_per_degree == radians) return exact_digits(parsed);
   }
   return exact_digits(degrees);
 }

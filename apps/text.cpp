@@ -55,7 +55,10 @@ std::string percent(double fraction) {
 }
 
 std::string small_percent(double fraction) {
-  return chars(100 * fraction, std::chars_format::general, 2) + " %";
+  const double value = 100 * fraction;
+  return (value < 100 ? chars(value, std::chars_format::general, 2)
+                      : chars(value, std::chars_format::fixed, 0)) +
+         " %";
 }
 
 std::string vector_text(const Eigen::Vector3d& vector) {

@@ -95,6 +95,7 @@ TEST_CASE("an edit that is printed is parsed as itself") {
     }
   CHECK(edit_text(parse_edit("leg_1/face=4 rotate 5 about 0 0 1", parts), parts) ==
         "leg_1/face=-z rotate 5 about 0 0 1");
+  CHECK(edit_text(parse_edit("body rotate 120 about 0 0 1", parts), parts) == "body rotate 120 about 0 0 1");
 }
 
 TEST_CASE("a mistake is named by its word and by what was expected") {

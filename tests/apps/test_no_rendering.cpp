@@ -14,7 +14,7 @@ TEST_CASE("a program without rendering says so instead of drawing") {
       {"map", box, "--picture", folder / "box.svg"},
       {"stack", box, "--picture", folder / "box.png"},
       {"structure", box, "--picture", folder / "box.png"},
-      {"deform", box, "--edit", "part scale 2", "--picture", folder / "box.png"}};
+      {"deform", box, "--edit", "shape scale 2", "--picture", folder / "box.png"}};
   for (const std::vector<std::string>& arguments : cases) {
     const Outcome outcome = run_program(arguments);
     CHECK(outcome.status == 2);
