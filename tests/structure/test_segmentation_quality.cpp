@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -17,7 +19,17 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path folder = fs::path(STACKABILIZATION_BINARY_DIR) / "segmentation_benchmark";
+/// One per process: tests run side by side.
+struct BenchmarkFolder {
+  fs::path path = fs::temp_directory_path() / ("segmentation_benchmark_" + std::to_string(getpid()));
+  ~BenchmarkFolder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+};
+
+const BenchmarkFolder benchmark;
+const fs::path& folder = benchmark.path;
 
 void write_labels(const std::string& model, int person, const std::vector<std::int32_t>& labels) {
   const fs::path place = folder / "data" / "seg" / "Benchmark" / model;
