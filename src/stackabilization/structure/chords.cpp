@@ -8,16 +8,28 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <boost/variant.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <variant>
 
 #include "stackabilization/structure/surface_index.h"
 
 namespace stackabilization::detail {
 
 namespace {
+
+/// What an intersection is, if it is a T. CGAL 5 keeps it in a boost::variant, CGAL 6 in a std::variant.
+template <class T, class First, class... Others>
+const T* held(const boost::variant<First, Others...>& intersection) {
+  return boost::get<T>(&intersection);
+}
+template <class T, class... Kinds>
+const T* held(const std::variant<Kinds...>& intersection) {
+  return std::get_if<T>(&intersection);
+}
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Triangle = Kernel::Triangle_3;
@@ -96,7 +108,7 @@ class ChordCaster {
     const auto hit = tree_.first_intersection(ray(origin, direction));
     if (!hit) return std::nullopt;
     const std::int32_t triangle = rows_[static_cast<std::size_t>(hit->second - triangles_.cbegin())];
-    const auto* point = boost::get<Kernel::Point_3>(&hit->first);
+    const auto* point = held<Kernel::Point_3>(hit->first);
     if (!point) return std::nullopt;  // along a triangle seen edge on
     return Hit{{point->x(), point->y(), point->z()}, triangle};
   }
