@@ -15,6 +15,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -121,12 +122,20 @@ Row people_row(const Model& model) {
   return row;
 }
 
-Row method_row(const Model& model, SegmentationMethod method, bool same_number) {
+/// People's median, shared out evenly among the components: methods take a number for each.
+int number_per_component(const Model& model) {
   std::vector<double> counts;
   for (const Labels& labels : model.people) counts.push_back(parts_of(labels));
   SegmentationOptions options;
+  options.method = SegmentationMethod::components;
+  const auto components = static_cast<double>(segmented(model.shape, options).part_count());
+  return std::max(1, static_cast<int>(std::lround(median(counts) / components)));
+}
+
+Row method_row(const Model& model, SegmentationMethod method, bool same_number) {
+  SegmentationOptions options;
   options.method = method;
-  options.parts = same_number ? static_cast<int>(median(counts)) : 0;
+  options.parts = same_number ? number_per_component(model) : 0;
   const double start = now();
   const Shape found = segmented(model.shape, options);
   Row row{method == SegmentationMethod::primitives ? "hierarchical_fitting" : "shape_diameter",

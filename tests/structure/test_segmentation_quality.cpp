@@ -46,8 +46,15 @@ void write_model(const std::string& name, const Shape& shape) {
 }
 
 int run(const std::string& arguments) {
-  return std::system(
-      (std::string("\"") + SEGMENTATION_QUALITY_PROGRAM + "\" " + arguments + " 2>/dev/null").c_str());
+  std::ostringstream command;
+  command << '"' << SEGMENTATION_QUALITY_PROGRAM << "\" " << arguments << " 2>/dev/null";
+  return std::system(command.str().c_str());
+}
+
+std::string quoted(const fs::path& path) {
+  std::ostringstream text;
+  text << path;  // in quotes
+  return text.str();
 }
 
 /// Error per "model,method,number_of_parts".
@@ -81,7 +88,7 @@ TEST_CASE("the benchmark finds that both methods do as well as people on what is
                        {{{0, 0, 12}, {16, 16, 14}}, {{1, 1, 0}, {3, 3, 12}}, {{13, 13, 0}, {15, 15, 12}}}));
   write_model("2", read_shape(fs::path(STACKABILIZATION_SOURCE_DIR) / "data" / "models" / "cup.obj"));
   const fs::path csv = folder / "quality.csv";
-  REQUIRE(run("-o \"" + csv.string() + "\" \"" + folder.string() + "\"") == 0);
+  REQUIRE(run("-o " + quoted(csv) + " " + quoted(folder)) == 0);
   std::map<std::string, double> error = errors(csv);
   CHECK(error.size() == 15);  // people, and two methods with two numbers, on two models and on average
   CHECK(error.at("1,people,own") == 0);
@@ -95,7 +102,7 @@ TEST_CASE("labels that do not fit the model are refused") {
   fs::remove_all(folder);
   write_model("1", solids::grid_union({{{0, 0, 0}, {1, 1, 1}}}));
   write_labels("1", 1, {0, 1});
-  CHECK(run("\"" + folder.string() + "\" >/dev/null") != 0);
+  CHECK(run(quoted(folder) + " >/dev/null") != 0);
   fs::remove_all(folder / "data" / "seg");
-  CHECK(run("\"" + folder.string() + "\" >/dev/null") != 0);
+  CHECK(run(quoted(folder) + " >/dev/null") != 0);
 }

@@ -167,6 +167,85 @@ void BoundarySmoother::recut(std::int32_t a, std::int32_t b) {
     part_[static_cast<std::size_t>(triangles[n])] = with_a[n] ? a : b;
 }
 
+/// Pieces are the connected sets of one part; each goes by its least triangle.
+class CrumbCollector {
+ public:
+  CrumbCollector(const SurfaceGraph& graph, const std::vector<std::int32_t>& part, double smallest_area)
+      : pieces_(part.size()), count_(part.size()), smallest_area_(smallest_area) {
+    for (const SurfaceLink& link : graph.links)
+      if (part[static_cast<std::size_t>(link.a)] == part[static_cast<std::size_t>(link.b)])
+        pieces_.join(static_cast<std::size_t>(link.a), static_cast<std::size_t>(link.b));
+    for (std::size_t t = 0; t < count_; ++t)
+      area_[pieces_.root(t)] += graph.areas(static_cast<Eigen::Index>(t));
+    for (const SurfaceLink& link : graph.links) {
+      const std::size_t a = pieces_.root(static_cast<std::size_t>(link.a));
+      const std::size_t b = pieces_.root(static_cast<std::size_t>(link.b));
+      if (a == b) continue;
+      ties_[a][b] += cutting_cost(link);
+      ties_[b][a] += cutting_cost(link);
+    }
+    std::map<std::int32_t, std::size_t> largest;  // per part a piece
+    for (const auto& [piece, size] : area_) {
+      const auto [place, fresh] = largest.try_emplace(part[piece], piece);
+      if (!fresh && size > area_[place->second]) place->second = piece;
+    }
+    for (const auto& [p, piece] : largest) main_.insert(piece);
+    for (const auto& [piece, size] : area_)
+      if (is_lesser(piece)) lesser_.insert({size, piece});
+  }
+
+  std::vector<std::int32_t> run() {
+    while (!lesser_.empty()) {
+      const std::size_t piece = lesser_.begin()->second;
+      lesser_.erase(lesser_.begin());
+      const std::map<std::size_t, double>& neighbours = ties_[piece];
+      if (neighbours.empty()) continue;
+      std::size_t host = neighbours.begin()->first;
+      for (const auto& [n, tie] : neighbours)
+        if (tie > neighbours.at(host)) host = n;
+      join(piece, host);
+    }
+    std::vector<std::int32_t> part(count_);
+    std::int32_t next = 0;
+    for (std::size_t t = 0; t < count_; ++t) {
+      const std::size_t root = pieces_.root(t);
+      part[t] = root == t ? next++ : part[root];
+    }
+    return part;
+  }
+
+ private:
+  bool is_lesser(std::size_t piece) {
+    return !main_.count(piece) || !(area_[piece] > 0) || area_[piece] < smallest_area_;
+  }
+  void join(std::size_t piece, std::size_t host) {
+    lesser_.erase({area_[host], host});
+    const bool is_main = main_.count(host) > 0 || main_.count(piece) > 0;
+    const std::size_t root = std::min(piece, host), gone = std::max(piece, host);
+    pieces_.join(root, gone);
+    area_[root] += area_[gone];
+    area_.erase(gone);
+    main_.erase(gone);
+    if (is_main) main_.insert(root);
+    for (const auto& [n, tie] : ties_[gone]) {
+      ties_[n].erase(gone);
+      if (n == root) continue;
+      ties_[n][root] += tie;
+      ties_[root][n] += tie;
+    }
+    ties_.erase(gone);
+    if (is_lesser(root)) lesser_.insert({area_[root], root});
+  }
+
+  DisjointSets pieces_;
+  std::size_t count_;
+  double smallest_area_;
+  std::map<std::size_t, double> area_;                         ///< per piece
+  std::map<std::size_t, std::map<std::size_t, double>> ties_;  ///< per pair of neighbouring pieces, both ways
+  std::set<std::size_t> main_;                                 ///< the largest piece of each part
+  std::set<std::pair<double, std::size_t>> lesser_;            ///< area and piece, to join a neighbour
+};
+
 }  // namespace
 
 double concavity(const SurfaceLink& link) {
@@ -184,67 +263,7 @@ std::vector<std::int32_t> with_smooth_boundaries(const SurfaceGraph& graph, std:
 
 std::vector<std::int32_t> without_crumbs(const SurfaceGraph& graph, const std::vector<std::int32_t>& part,
                                          double smallest_area) {
-  // Pieces are the connected sets of one part; each has a root, its least triangle.
-  const auto count = part.size();
-  DisjointSets pieces(count);
-  for (const SurfaceLink& link : graph.links)
-    if (part[static_cast<std::size_t>(link.a)] == part[static_cast<std::size_t>(link.b)])
-      pieces.join(static_cast<std::size_t>(link.a), static_cast<std::size_t>(link.b));
-  std::map<std::size_t, double> area;
-  for (std::size_t t = 0; t < count; ++t) area[pieces.root(t)] += graph.areas(static_cast<Eigen::Index>(t));
-  std::map<std::int32_t, std::size_t> main;  // per part its largest piece
-  for (const auto& [root, size] : area) {
-    const auto [place, fresh] = main.try_emplace(part[root], root);
-    if (!fresh && size > area[place->second]) place->second = root;
-  }
-  std::map<std::size_t, std::map<std::size_t, double>> ties;
-  for (const SurfaceLink& link : graph.links) {
-    const std::size_t a = pieces.root(static_cast<std::size_t>(link.a)),
-                      b = pieces.root(static_cast<std::size_t>(link.b));
-    if (a == b) continue;
-    ties[a][b] += cutting_cost(link);
-    ties[b][a] += cutting_cost(link);
-  }
-  std::set<std::pair<double, std::size_t>> lesser;
-  std::set<std::size_t> main_pieces;
-  for (const auto& [p, root] : main) main_pieces.insert(root);
-  const auto is_lesser = [&](std::size_t piece) {
-    return !main_pieces.count(piece) || !(area[piece] > 0) || area[piece] < smallest_area;
-  };
-  for (const auto& [root, size] : area)
-    if (is_lesser(root)) lesser.insert({size, root});
-  while (!lesser.empty()) {
-    const std::size_t piece = lesser.begin()->second;
-    lesser.erase(lesser.begin());
-    const auto& neighbours = ties[piece];
-    if (neighbours.empty()) continue;
-    std::size_t host = neighbours.begin()->first;
-    for (const auto& [n, tie] : neighbours)
-      if (tie > neighbours.at(host)) host = n;
-    lesser.erase({area[host], host});
-    const bool hosted_main = main_pieces.count(host) > 0 || main_pieces.count(piece) > 0;
-    pieces.join(piece, host);
-    const std::size_t root = std::min(piece, host), gone = std::max(piece, host);
-    area[root] += area[gone];
-    area.erase(gone);
-    main_pieces.erase(gone);
-    if (hosted_main) main_pieces.insert(root);
-    for (const auto& [n, tie] : ties[gone]) {
-      ties[n].erase(gone);
-      if (n == root) continue;
-      ties[n][root] += tie;
-      ties[root][n] += tie;
-    }
-    ties.erase(gone);
-    if (is_lesser(root)) lesser.insert({area[root], root});
-  }
-  std::vector<std::int32_t> result(count);
-  std::int32_t next = 0;
-  for (std::size_t t = 0; t < count; ++t) {
-    const std::size_t root = pieces.root(t);
-    result[t] = root == t ? next++ : result[root];
-  }
-  return result;
+  return CrumbCollector(graph, part, smallest_area).run();
 }
 
 }  // namespace stackabilization::detail

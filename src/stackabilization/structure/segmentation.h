@@ -29,6 +29,13 @@ struct SegmentationOptions {
 /// Boundaries between parts run along short, concave paths; every part of a component is connected.
 /// Deterministic.
 ///
+/// `primitives` cuts for parts that a cuboid, a solid of revolution or a ring holds, not for single faces:
+/// the patches of Attene et al. are joined on as long as the solid behind them fills its primitive, concave
+/// edges keeping parts asunder; hollows that the shape itself closes in count as filled, so that a vessel is
+/// one part. It takes the side from which a component has positive volume for its outside. `shape_diameter`
+/// leaves a component whole where CGAL finds no diameter (sheets, very few triangles), and may end with fewer
+/// parts than asked for.
+///
 /// Guarantee: one label per triangle, also for open, non-manifold and several-shelled shapes. Throws
 /// UsageError for options outside their ranges and InputError when `validate(shape)` fails.
 Shape segmented(const Shape& shape, const SegmentationOptions& options = {});
