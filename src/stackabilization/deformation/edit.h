@@ -49,10 +49,17 @@ struct Scale {
 
 using Operation = std::variant<Move, Rotate, Scale>;
 
-/// One operation on one handle.
+/// How a move or scaling of a cross-section dies out along its generalized cylinder.
+enum class Falloff {
+  gaussian,  ///< over the arc length, sigma = 0.2 of the whole (paper, section 4.1)
+  linear,    ///< to nothing at the end that is farther away: what is straight leans, walls become conical
+};
+
+/// One operation on one handle. `falloff` is looked at for cross-sections of open generalized cylinders only.
 struct Edit {
   Handle handle;
   Operation operation;
+  Falloff falloff = Falloff::gaussian;
 };
 
 /// Throws UsageError unless factors are positive, axes are not zero and every number is finite.

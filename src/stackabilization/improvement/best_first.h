@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stackabilization/improvement/contact_edits.h"
+#include "stackabilization/improvement/energy.h"
+#include "stackabilization/improvement/requirements.h"
+
+namespace stackabilization {
+
+/// Where a search stands.
+struct ImprovementProgress {
+  double best_stackability = 0;  ///< of all candidates seen
+  double best_energy = 0;
+  std::int64_t expanded = 0;   ///< candidates whose successors were made
+  std::int64_t evaluated = 0;  ///< candidates measured
+  std::int64_t queued = 0;
+  int solutions = 0;
+  double seconds_left = 0;  ///< of the time limit; infinite without one
+};
+
+struct BestFirstOptions {
+  double alpha = 0.2;  ///< of Eq. 5
+  ContactEditOptions edits;
+  int solutions = 1;                  ///< different ones wanted, >= 1
+  std::int64_t expansions = 2000;     ///< limit, >= 1
+  double seconds = 60;                ///< limit, > 0; what it ends depends on the machine
+  double cone_degrees = 10;           ///< the direction is searched again within this of the previous one; 0: never
+  /// Directions to start from, the first preferred; not empty.
+  std::vector<Eigen::Vector3d> directions = {{0, 0, 1}};
+  std::function<void(const ImprovementProgress&)> progress = {};  ///< called from the calling thread
+  std::function<bool()> cancelled = {};                           ///< asked from the calling thread
+  /// Called now and then, and at the end, with a text that `resume` takes.
+  std::function<void(const std::string& state)> save = {};
+};
+
+/// A candidate: what it is, how good, and why it was made.
+struct Candidate {
+  Design design;
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  Stackability measured;
+  Energy energy;
+  std::vector<std::string> reasons;  ///< per edit, see ContactEdit::why
+};
+
+/// How often successors were refused, and why: what a diagnosis looks at.
+struct RefusalCount {
+  std::string reason;  ///< without its amounts
+  std::int64_t count = 0;
+};
+
+enum class SearchEnd { solved, exhausted, expansion_limit, time_limit, cancelled };
+
+struct BestFirstResult {
+  std::vector<Candidate> solutions;  ///< reach the target and pass every check; different; least E first
+  /// The most promising candidates that do not reach it, S descending, different from each other; at most 8.
+  std::vector<Candidate> nearest;
+  std::vector<RefusalCount> refusals;  ///< most frequent first
+  ImprovementProgress progress;
+  SearchEnd end = SearchEnd::exhausted;
+};
+
+/// Algorithm 1 of the paper: of all candidates that of least E (ties: made first) is taken; one that reaches
+/// the target and passes every check is a solution; of the others the contacts suggest successors
+/// (contact_edits.h). With a visited set, so that no configuration is looked at twice (to a grid of 1e-6 of
+/// the diagonal), and limits. Starting directions take turns, each with a queue of its own. The direction is
+/// searched again when a candidate is taken, inside a cone and within the symmetry planes that contain it,
+/// where the height stays what it was.
+///
+/// Two solutions are different when their edits take hold of different sets of handles (symmetric parts
+/// counted as one) or move them otherwise, or when one is as far from the other as it is from rest, halved.
+///
+/// The same result for any number of threads, and after any interruption, unless the time limit ends it.
+/// Throws UsageError for options out of range.
+BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOptions& options);
+
+/// Goes on from a text given to `save` by a search with the same checker and options. Throws InputError when
+/// it is none, or belongs to another shape, other requirements or other options.
+BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
+                                   const std::string& state);
+
+}  // namespace stackabilization

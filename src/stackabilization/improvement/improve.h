@@ -1,0 +1,41 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stackabilization/improvement/best_first.h"
+#include "stackabilization/improvement/diagnosis.h"
+#include "stackabilization/improvement/refinement.h"
+
+namespace stackabilization {
+
+enum class ImprovementPreset {
+  paper,    ///< search only, with the paper's edits and steps
+  refined,  ///< search with further edits, then continuous magnitudes
+};
+
+struct ImprovementOptions {
+  ImprovementPreset preset = ImprovementPreset::refined;
+  BestFirstOptions search;
+  RefinementOptions refinement;
+};
+
+struct Improvement {
+  Candidate before;                  ///< the shape at rest, along the direction of the best solution
+  std::vector<Candidate> solutions;  ///< best first: least E
+  std::vector<Assessment> assessments;  ///< of the solutions
+  std::optional<Candidate> nearest;  ///< the best S reached, when there is no solution
+  std::optional<Diagnosis> diagnosis;  ///< why there is none
+  ImprovementProgress progress;
+  SearchEnd end = SearchEnd::exhausted;
+};
+
+/// From a wish to designs that stack: best-first search, refinement of what it finds (and, where it finds
+/// nothing, of what came nearest), checks, and a reason when it cannot be done. See best_first.h and
+/// refinement.h for guarantees. `state`: what an interrupted run of the same task saved.
+Improvement improve(const RequirementChecker& checker, const ImprovementOptions& options,
+                    const std::optional<std::string>& state = std::nullopt);
+
+}  // namespace stackabilization

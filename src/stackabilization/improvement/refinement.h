@@ -1,0 +1,45 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "stackabilization/improvement/best_first.h"
+
+namespace stackabilization {
+
+struct RefinementOptions {
+  int evaluations = 600;     ///< designs measured at most, >= 10
+  double alpha = 0.2;        ///< of the energies reported
+  double reach = 3;          ///< magnitudes are sought in [-reach, reach] times those given, > 0
+  double negligible = 0.01;  ///< edits below this fraction of what was given are tried without
+  std::function<bool()> cancelled = {};
+};
+
+/// The edit with its magnitude multiplied: x moves by x times as much, turns by x times the angle, scales by
+/// the factor to the power of x. 1 gives it back, 0 changes nothing.
+Edit with_magnitude(Edit edit, double x);
+
+/// Edits that do the same thing to the same handle made into one at the place of the first, those that change
+/// nothing left out.
+std::vector<Edit> merged(const std::vector<Edit>& edits);
+
+struct RefinementResult {
+  Candidate candidate;     ///< the best design found, with the edits it takes
+  bool reached = false;    ///< it reaches the target and passes every check
+  int evaluations = 0;
+};
+
+/// Beyond the paper: the search takes coarse steps; from its edits, the magnitudes that reach the target with
+/// the least D. Where the edits given do not reach it, first the magnitudes of largest S.
+///
+/// min D(x) subject to S_ij(x) >= target for every pair of blocks of the shape that come near each other
+/// (parts, cut into slabs across r): each is smooth where their maximum is not; and to every check of the
+/// requirements. By NLopt, gradients by differences evaluated in parallel; the last step is a bisection in
+/// exact arithmetic, so that the target is met, and by no more than 1e-7 where D depends on it. The direction
+/// is kept. Never worse than what was given: if that reaches the target, D of the result is at most the same.
+/// Deterministic for any number of threads.
+RefinementResult refined_candidate(const RequirementChecker& checker, const Candidate& start,
+                                   const RefinementOptions& options = {});
+
+}  // namespace stackabilization

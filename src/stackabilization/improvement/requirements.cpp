@@ -1,0 +1,1 @@
+#include "stackabilization/improvement/requirements.h"

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stackabilization/improvement/design.h"
+#include "stackabilization/stacking/stackability.h"
+
+namespace stackabilization {
+
+/// What a designer asks of a solution. A design that breaks one of these is none.
+struct Requirements {
+  double target = 0;  ///< S(M, r) to be reached, < 1
+  StackabilityOptions measure;
+  bool keep_height = true;          ///< h(M, r) = h(M0, r), to tolerance::relative of it
+  std::vector<int> kept_parts;      ///< stay as they are
+  std::vector<int> editable_parts;  ///< only these may change; empty: all
+  std::optional<double> box_tolerance;    ///< sides of the file's box change by this fraction at most
+  std::optional<double> least_thickness;  ///< model units; what is thinner at rest may stay as thin as it is
+  /// Air between copies: `clearance` along r and `play` sideways, model units. The f_max of the target is
+  /// then that of a stack with this air (separation_with_play plus clearance).
+  double clearance = 0, play = 0;
+  std::optional<double> least_draft_degrees;  ///< between r and every surface that copies touch with
+  std::optional<int> standing_copies;         ///< a stack of so many must stand
+  double least_tilt_degrees = 0;              ///< and topple only beyond this tilt
+};
+
+/// Throws UsageError for a target >= 1, negative numbers, parts that do not exist, anything not finite.
+void validate(const Requirements& requirements, const StructuredShape& rest);
+
+/// What they forbid a deformation model, for stacking along `direction`: extent, box, parts that stay.
+DeformationConstraints deformation_constraints(const Requirements& requirements, const StructuredShape& rest,
+                                               const Direction& direction);
+
+/// One requirement held against one design.
+struct Check {
+  std::string name;     ///< "target", "height", "relations", "box", "thickness", "draft", "standing"
+  double value = 0;     ///< what was measured
+  double demanded = 0;  ///< what was asked for
+  bool passed = false;
+  std::string unit;  ///< "", "model units", "degrees", "of the diagonal", "of the height"
+  std::string note;  ///< where and why; may be empty
+};
+
+/// A design measured along one direction.
+struct Assessment {
+  Stackability measured;  ///< f_max with the air asked for
+  Separation separation;  ///< exact, without air; only from `RequirementChecker::checked`
+  std::vector<Check> checks;  ///< only from `checked`
+  bool passed() const;
+};
+
+/// Holds designs of one space against requirements. Const, safe from any number of threads.
+class RequirementChecker {
+ public:
+  /// Throws as `validate`.
+  RequirementChecker(const DesignSpace& space, Requirements requirements);
+
+  const Requirements& requirements() const;
+  const DesignSpace& space() const;
+  /// S(M, r), with the air that is asked for: the one number that a search needs for every candidate.
+  Stackability measured(const Shape& shape, const Direction& direction) const;
+  /// The same unless S is certainly below `threshold`.
+  std::optional<Stackability> measured_above(const Shape& shape, const Direction& direction,
+                                             double threshold) const;
+  /// Everything: each requirement that was made, in the order of Check::name.
+  Assessment checked(const Design& design, const Direction& direction) const;
+
+ private:
+  struct Data;
+  std::shared_ptr<const Data> data_;
+};
+
+}  // namespace stackabilization

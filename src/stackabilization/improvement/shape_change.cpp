@@ -1,0 +1,1 @@
+#include "stackabilization/improvement/shape_change.h"

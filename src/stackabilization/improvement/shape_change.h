@@ -1,0 +1,19 @@
+#pragma once
+
+#include "stackabilization/shape/shape.h"
+
+namespace stackabilization {
+
+/// How far a shape was changed, apart from being moved, turned and scaled.
+struct ShapeChange {
+  double root_mean_square = 0;  ///< of the vertex distances after the best similarity fit, over the diagonal
+  double largest = 0;           ///< the same for the farthest vertex
+};
+
+/// Fits `after` to `before` by the similarity (rotation, translation, one factor; no reflection) of least
+/// squared distances (Umeyama 1991) over the vertices that triangles use, and measures what is left over the
+/// diagonal of the axis-aligned box of `before`. Precondition: both have the same triangles. Throws
+/// UsageError when they have not as many vertices.
+ShapeChange shape_change(const Shape& before, const Shape& after);
+
+}  // namespace stackabilization

@@ -1,0 +1,1 @@
+#include "stackabilization/improvement/thickness.h"

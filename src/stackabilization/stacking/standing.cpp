@@ -1,0 +1,1 @@
+#include "stackabilization/stacking/standing.h"

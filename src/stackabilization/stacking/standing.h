@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "stackabilization/envelope/separation.h"
+#include "stackabilization/shape/direction.h"
+#include "stackabilization/shape/shape.h"
+
+namespace stackabilization {
+
+struct StandingOptions {
+  int copies = 2;  ///< n >= 1
+  Semantics semantics = Semantics::solid;
+  /// Points within this of the contact, fraction of the extent h, carry; in (0, 1).
+  double band = 0.002;
+};
+
+/// Whether a stack of copies along r, with r upwards and the lowest copy on level ground, stands by itself.
+struct Standing {
+  bool stands = false;
+  /// Least tilt of the ground at which it topples, in the worst direction, about the worst support; negative
+  /// when it topples on level ground. Degrees.
+  double tilt_degrees = 0;
+  int weakest_copy = 0;  ///< the lowest copy of those that topple first; 0: the whole stack on the ground
+  Eigen::Vector3d centre_of_mass = Eigen::Vector3d::Zero();  ///< of one copy, model units
+  bool of_solid = false;  ///< the mass is that of the enclosed solid; else of a shell of even thickness
+};
+
+/// The stack topples at copy k when the centre of mass of copies k ... n-1 leaves the convex hull of the
+/// points on which copy k rests (contacts with the copy below within the band; for copy 0 the lowest points of
+/// the shape), seen along r. Copies are moved by multiples of f_max along r. Throws UsageError for options out
+/// of range, InputError when `validate(shape)` fails or the shape has no area.
+Standing standing(const Shape& shape, const Direction& direction, const StandingOptions& options = {});
+
+}  // namespace stackabilization
