@@ -7,7 +7,9 @@
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/structure/components.h"
+#include "stackabilization/structure/fit_error.h"
 #include "stackabilization/structure/hierarchical_fitting.h"
+#include "stackabilization/structure/revolution_axis.h"
 #include "stackabilization/structure/segment_boundaries.h"
 #include "stackabilization/structure/shape_diameter.h"
 #include "stackabilization/structure/surface_graph.h"
@@ -86,6 +88,13 @@ Shape cut_components(const Shape& shape, const std::vector<std::int32_t>& compon
   return with_parts_by_area(shape, part);
 }
 
+/// One generalized cylinder holds a body of revolution, whatever its profile; cutting a hat into crown and
+/// brim would only add joints.
+bool is_body_of_revolution(const Shape& shape) {
+  return detail::surface_graph(shape).areas.sum() > 0 &&
+         detail::revolution_axis(detail::FitSurface(shape)).has_value();
+}
+
 }  // namespace
 
 Shape segmented(const Shape& shape, const SegmentationOptions& options) {
@@ -94,7 +103,9 @@ Shape segmented(const Shape& shape, const SegmentationOptions& options) {
   if (options.method == SegmentationMethod::given) return shape;
   if (options.method == SegmentationMethod::automatic && shape.part_count() > 1) return shape;
   const std::vector<std::int32_t> component = detail::merged_components(shape);
-  const bool components_do = options.method == SegmentationMethod::automatic && count_of(component) > 1;
+  const bool components_do =
+      options.method == SegmentationMethod::automatic &&
+      (count_of(component) > 1 || (options.parts == 0 && is_body_of_revolution(shape)));
   if (options.method == SegmentationMethod::components || components_do)
     return with_parts_by_area(shape, component);
   return cut_components(shape, component, options);
