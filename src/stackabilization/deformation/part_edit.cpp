@@ -71,16 +71,6 @@ void check_operation(const Edit& edit, const std::string& part_name) {
     no_handle(part_name, "has cross-sections that can be moved and scaled, not turned");
 }
 
-/// Factors of the radii under a scaling of the whole: square roots of those of the areas of the sections.
-Eigen::VectorXd radius_factors(const GeneralizedCylinder& cylinder, const Eigen::Matrix3d& linear) {
-  const Points tangents = section_tangents(cylinder);
-  const Eigen::Matrix3d cofactors = linear.determinant() * linear.inverse().transpose();
-  Eigen::VectorXd factors(tangents.rows());
-  for (Eigen::Index i = 0; i < tangents.rows(); ++i)
-    factors(i) = std::sqrt((cofactors * tangents.row(i).transpose()).norm());
-  return factors;
-}
-
 void prescribe(PartEdit& edit, int value, double change) {
   edit.values.push_back(value);
   edit.changes.conservativeResize(edit.changes.size() + 1);
@@ -149,6 +139,16 @@ Eigen::Vector3d shape_centre(const std::vector<Primitive>& primitives) {
     count += points.rows();
   }
   return sum / static_cast<double>(count);
+}
+
+Eigen::VectorXd radius_factors(const GeneralizedCylinder& cylinder, const Eigen::Matrix3d& linear) {
+  const Points tangents = section_tangents(cylinder);
+  Eigen::Matrix3d cofactors;
+  for (int k = 0; k < 3; ++k) cofactors.col(k) = linear.col((k + 1) % 3).cross(linear.col((k + 2) % 3));
+  Eigen::VectorXd factors(tangents.rows());
+  for (Eigen::Index i = 0; i < tangents.rows(); ++i)
+    factors(i) = std::sqrt((cofactors * tangents.row(i).transpose()).norm());
+  return factors;
 }
 
 PartEdit prescribed(const Primitive& now, const Edit& edit, const std::string& part_name) {

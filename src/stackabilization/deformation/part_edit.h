@@ -31,6 +31,9 @@ Eigen::Vector3d handle_centre(const Primitive& primitive, const Handle& handle, 
 /// Point about which the whole shape turns and scales: the mean of all control points.
 Eigen::Vector3d shape_centre(const std::vector<Primitive>& primitives);
 
+/// Factors of the radii under an affine map: square roots of those of the areas of the sections.
+Eigen::VectorXd radius_factors(const GeneralizedCylinder& cylinder, const Eigen::Matrix3d& linear);
+
 /// The freedoms of section 4.1 of the paper. A whole part moves, turns and scales, by an affine map of its
 /// control points; radii follow so that the areas of the cross-sections change as under that map (a circle
 /// stays one). A face moves, turns and scales within its plane; a corner moves; a cross-section moves or
