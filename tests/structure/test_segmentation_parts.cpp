@@ -225,13 +225,14 @@ TEST_CASE("the authors' connected models are cut") {
 TEST_CASE("a body of revolution stays whole, cut only when asked to") {
   // A hat: brim, crown and flat top in one surface.
   const int sides = 48;
-  const std::vector<Eigen::Vector2d> profile = {{0, 0}, {1, 0}, {1, 0.05}, {0.55, 0.05}, {0.5, 0.8}, {0, 0.8}};
+  const std::vector<Eigen::Vector2d> profile = {{0, 0},       {1, 0},     {1, 0.05},
+                                                {0.55, 0.05}, {0.5, 0.8}, {0, 0.8}};
   Points points(static_cast<Eigen::Index>(sides * profile.size()), 3);
   for (int k = 0; k < sides; ++k)
     for (std::size_t i = 0; i < profile.size(); ++i) {
       const double turn = 2 * std::acos(-1.0) * k / sides;
-      points.row(static_cast<Eigen::Index>(i) * sides + k)
-          << profile[i].x() * std::cos(turn), profile[i].x() * std::sin(turn), profile[i].y();
+      points.row(static_cast<Eigen::Index>(i) * sides + k) << profile[i].x() * std::cos(turn),
+          profile[i].x() * std::sin(turn), profile[i].y();
     }
   Triangles triangles(static_cast<Eigen::Index>(2 * sides * (profile.size() - 1)), 3);
   for (Eigen::Index i = 0, t = 0; i + 1 < static_cast<Eigen::Index>(profile.size()); ++i)

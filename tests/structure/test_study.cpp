@@ -149,3 +149,18 @@ TEST_CASE("every file of the authors' program is read") {
     CHECK(!structure.relations.empty());
   }
 }
+
+TEST_CASE("open legs that stick in a seat are joined to it where they are, not all around it") {
+  const char* folder = std::getenv("STACKABILIZATION_PAPER_DATA");
+  if (folder == nullptr) {
+    std::cout << "SKIPPED: STACKABILIZATION_PAPER_DATA is not set\n";
+    return;
+  }
+  const Shape shape = read_shape(std::filesystem::path(folder) / program / "RESULTS/Gallery/42.obj");
+  const Structure structure = analyse_structure(shape).structure;
+  Counts points = counts_of(structure, RelationType::point_joint);
+  CHECK(points[" Seat leg1"] == 1);
+  CHECK(points[" Seat leg2"] == 1);
+  CHECK(points[" Back leg3"] == 1);
+  CHECK(points[" Back leg4"] == 1);
+}

@@ -30,9 +30,9 @@ struct ContactEditOptions {
 struct ContactEdit {
   Edit edit;
   ContactType type = ContactType::dot;
-  int region = 0;           ///< row of the regions
+  int region = 0;             ///< row of the regions
   bool of_lower_copy = true;  ///< the edited side of the pair: the copy below, or the one above
-  std::string why;          ///< one clause: "down, away from what stands on it"
+  std::string why;            ///< one clause: "down, away from what stands on it"
 };
 
 /// A design stacked on itself.

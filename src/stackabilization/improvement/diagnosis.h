@@ -12,15 +12,15 @@ namespace stackabilization {
 struct Blocker {
   int upper_part = -1, lower_part = -1;  ///< of the copy below, and of the copy above
   ContactType type = ContactType::dot;
-  double f = 0;           ///< what this pair alone asks for, model units
+  double f = 0;             ///< what this pair alone asks for, model units
   double stackability = 0;  ///< S if it were the only one
-  std::string reason;     ///< why the edits that would separate it were refused, or did not help
+  std::string reason;       ///< why the edits that would separate it were refused, or did not help
 };
 
 /// Something that would help, with the S that it gives without further edits or, for a constraint, allows.
 struct Remedy {
   enum class Kind { other_direction, free_part, remove_part, relax } kind = Kind::relax;
-  std::string what;     ///< one sentence
+  std::string what;  ///< one sentence
   std::vector<int> parts;
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   double stackability = 0;
@@ -29,9 +29,9 @@ struct Remedy {
 /// Why a target was not reached.
 struct Diagnosis {
   double target = 0, reached = 0;
-  std::vector<Blocker> blockers;  ///< largest f first
+  std::vector<Blocker> blockers;         ///< largest f first
   std::vector<std::string> constraints;  ///< requirements and relations that refused edits, most often first
-  std::vector<Remedy> remedies;   ///< largest S first
+  std::vector<Remedy> remedies;          ///< largest S first
 };
 
 /// What blocks the best candidate of a search that did not reach its target, and what would help: another

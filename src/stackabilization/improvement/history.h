@@ -11,12 +11,12 @@ namespace stackabilization {
 
 /// One step of an editing session.
 struct HistoryNode {
-  int parent = -1;            ///< row of History::nodes; -1 for the root, the shape at rest
-  std::vector<Edit> edits;    ///< made on top of the parent's design; none for the root
-  std::string name;           ///< for people; may be empty
+  int parent = -1;          ///< row of History::nodes; -1 for the root, the shape at rest
+  std::vector<Edit> edits;  ///< made on top of the parent's design; none for the root
+  std::string name;         ///< for people; may be empty
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< r along which it was measured
-  double stackability = 0;    ///< S(M, r)
-  double energy = 0;          ///< E(M)
+  double stackability = 0;                               ///< S(M, r)
+  double energy = 0;                                     ///< E(M)
 };
 
 /// The tree of all designs that were tried; the first node is the shape at rest. Nodes are never changed or

@@ -23,11 +23,11 @@ struct ImprovementOptions {
 };
 
 struct Improvement {
-  Candidate before;                  ///< the shape at rest, along the direction of the best solution
-  std::vector<Candidate> solutions;  ///< best first: least E
+  Candidate before;                     ///< the shape at rest, along the direction of the best solution
+  std::vector<Candidate> solutions;     ///< best first: least E
   std::vector<Assessment> assessments;  ///< of the solutions
-  std::optional<Candidate> nearest;  ///< the best S reached, when there is no solution
-  std::optional<Diagnosis> diagnosis;  ///< why there is none
+  std::optional<Candidate> nearest;     ///< the best S reached, when there is no solution
+  std::optional<Diagnosis> diagnosis;   ///< why there is none
   ImprovementProgress progress;
   SearchEnd end = SearchEnd::exhausted;
 };

@@ -25,8 +25,8 @@ Edit with_magnitude(Edit edit, double x);
 std::vector<Edit> merged(const std::vector<Edit>& edits);
 
 struct RefinementResult {
-  Candidate candidate;     ///< the best design found, with the edits it takes
-  bool reached = false;    ///< it reaches the target and passes every check
+  Candidate candidate;   ///< the best design found, with the edits it takes
+  bool reached = false;  ///< it reaches the target and passes every check
   int evaluations = 0;
 };
 

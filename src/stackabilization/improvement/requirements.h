@@ -14,9 +14,9 @@ namespace stackabilization {
 struct Requirements {
   double target = 0;  ///< S(M, r) to be reached, < 1
   StackabilityOptions measure;
-  bool keep_height = true;          ///< h(M, r) = h(M0, r), to tolerance::relative of it
-  std::vector<int> kept_parts;      ///< stay as they are
-  std::vector<int> editable_parts;  ///< only these may change; empty: all
+  bool keep_height = true;                ///< h(M, r) = h(M0, r), to tolerance::relative of it
+  std::vector<int> kept_parts;            ///< stay as they are
+  std::vector<int> editable_parts;        ///< only these may change; empty: all
   std::optional<double> box_tolerance;    ///< sides of the file's box change by this fraction at most
   std::optional<double> least_thickness;  ///< model units; what is thinner at rest may stay as thin as it is
   /// Air between copies: `clearance` along r and `play` sideways, model units. The f_max of the target is
@@ -46,8 +46,8 @@ struct Check {
 
 /// A design measured along one direction.
 struct Assessment {
-  Stackability measured;  ///< f_max with the air asked for
-  Separation separation;  ///< exact, without air; only from `RequirementChecker::checked`
+  Stackability measured;      ///< f_max with the air asked for
+  Separation separation;      ///< exact, without air; only from `RequirementChecker::checked`
   std::vector<Check> checks;  ///< only from `checked`
   bool passed() const;
 };

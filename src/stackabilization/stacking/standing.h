@@ -27,9 +27,9 @@ struct Standing {
 };
 
 /// The stack topples at copy k when the centre of mass of copies k ... n-1 leaves the convex hull of the
-/// points on which copy k rests (contacts with the copy below within the band; for copy 0 the lowest points of
-/// the shape), seen along r. Copies are moved by multiples of f_max along r. Throws UsageError for options out
-/// of range, InputError when `validate(shape)` fails or the shape has no area.
+/// points on which copy k rests (contacts with the copy below within the band; for copy 0 the lowest points
+/// of the shape), seen along r. Copies are moved by multiples of f_max along r. Throws UsageError for options
+/// out of range, InputError when `validate(shape)` fails or the shape has no area.
 Standing standing(const Shape& shape, const Direction& direction, const StandingOptions& options = {});
 
 }  // namespace stackabilization

@@ -224,7 +224,8 @@ class ContactFinder {
   }
 
   /// From vertices known to be inside over edges that do not cross the other surface. What touches it nowhere
-  /// is inside or outside as a whole.
+  /// is inside or outside as a whole. Where the other surface is open, "inside" is a guess: what reaches
+  /// beyond its box is not.
   void spread_inside(int side) {
     const std::size_t count = mine(side).points().size();
     std::vector<bool> is_touched(mine(side).edges().size(), false);
@@ -247,6 +248,8 @@ class ContactFinder {
       if (whole.root(v) == v && !meets[v] && other(side).is_closed() && in_box(side, v))
         root_inside[shells.root(v)] = other(side).contains(mine(side).points()[v]);
     }
+    for (std::size_t v = 0; v < count; ++v)
+      if (!in_box(side, v)) root_inside[shells.root(v)] = false;
     for (std::size_t v = 0; v < count; ++v)
       if (root_inside[shells.root(v)]) {
         inside_[side][v] = true;
