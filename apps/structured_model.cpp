@@ -43,6 +43,7 @@ void take_primitive(AnalysisOptions& options, const std::string& text) {
 void add_segmentation_options(CLI::App& command, AnalysisArguments& arguments) {
   SegmentationOptions& segmentation = arguments.options.segmentation;
   const Choices<SegmentationMethod> methods = {{"given", SegmentationMethod::given},
+                                               {"whole", SegmentationMethod::whole},
                                                {"components", SegmentationMethod::components},
                                                {"primitives", SegmentationMethod::primitives},
                                                {"shape-diameter", SegmentationMethod::shape_diameter},

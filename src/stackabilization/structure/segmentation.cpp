@@ -102,6 +102,8 @@ Shape segmented(const Shape& shape, const SegmentationOptions& options) {
   validate(shape);
   if (options.method == SegmentationMethod::given) return shape;
   if (options.method == SegmentationMethod::automatic && shape.part_count() > 1) return shape;
+  if (options.method == SegmentationMethod::whole)
+    return with_parts_by_area(shape, std::vector<std::int32_t>(shape.triangle_part.size(), 0));
   const std::vector<std::int32_t> component = detail::merged_components(shape);
   const bool components_do =
       options.method == SegmentationMethod::automatic &&

@@ -10,6 +10,7 @@ namespace stackabilization {
 
 enum class SegmentationMethod {
   given,           ///< the parts of the shape as they are
+  whole,           ///< one part, for what follows as a whole: a basket of many wires
   components,      ///< connected components, those that touch over an area merged
   primitives,      ///< components, each cut by hierarchical fitting of primitives (Attene et al. 2006)
   shape_diameter,  ///< components, each cut by the shape-diameter function (Shapira et al. 2008, CGAL)
