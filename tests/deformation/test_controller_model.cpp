@@ -1,10 +1,15 @@
 #include <cmath>
+#include <cstdlib>
+#include <iostream>
 #include <numbers>
+#include <string>
 
 #include "deformation/structures.h"
 #include "stackabilization/deformation/controller_model.h"
 #include "stackabilization/deformation/relation_residual.h"
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/read.h"
+#include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
 
 using namespace stackabilization;
@@ -349,5 +354,26 @@ TEST_CASE("symmetries that the primitives do not have are refused at once") {
     FAIL("accepted");
   } catch (const InputError& error) {
     CHECK(std::string(error.what()).find("'leg_1' and 'leg_2'") != std::string::npos);
+  }
+}
+
+TEST_CASE("a kept extent does not depend on which of many low wires is the lowest") {
+  const char* folder = std::getenv("STACKABILIZATION_PAPER_DATA");
+  if (folder == nullptr) {
+    std::cout << "SKIPPED: STACKABILIZATION_PAPER_DATA does not name the folder of the authors' data\n";
+    return;
+  }
+  AnalysisOptions options;
+  options.segmentation.method = SegmentationMethod::whole;
+  const ControllerModel model(
+      analyse_structure(read_shape(std::string(folder) + "/stacker/data/RESULTS/Gallery/62.obj"), options));
+  DeformationConstraints constraints;
+  constraints.keep_extent = Direction(0, 0, 1);
+  const double before = range_along(model.rest().shape, Eigen::Vector3d::UnitZ()).length();
+  for (const double factor : {0.8, 0.6}) {
+    const DeformationResult result =
+        model.deformed({{{HandleKind::face, 0, 4}, Scale{factor, {}}}}, constraints);
+    REQUIRE_FALSE(result.refusal);
+    CHECK(std::abs(range_along(result.shape, Eigen::Vector3d::UnitZ()).length() - before) <= 1e-9 * before);
   }
 }

@@ -235,15 +235,26 @@ class EditSolution {
     if (!(largest_gap(rig_, constraints, state_) <= tolerance::relation * diagonal())) state_ = unbounded;
   }
 
+  /// Holds the outermost vertices. Those found one after the other are held together at first; where that
+  /// contradicts itself, as on a face that the edit tilts by a hair, only those of the last round.
   void bound_extents(std::vector<Constraint>& constraints) {
-    for (int round = 0; round < extent_rounds; ++round) {
+    const std::vector<Constraint> unbounded = constraints;
+    for (int round = 0; round < 2 * extent_rounds; ++round) {
       const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
       if (state_.levels.size() == 0) state_.levels = watch_.levels(vertices);
+      if (!watch_.any_excess(vertices)) return;
+      if (round >= extent_rounds) {
+        constraints = unbounded;
+        watch_.release();
+      }
       bool held = false;
       for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
-        if (watch_.excess(k, vertices) != 0) held |= watch_.hold(k, vertices, mesh_.transfer, constraints);
-      if (!held) return;
-      state_ = solved(rig_, bases_, constraints, std::move(state_));
+        if (watch_.excess(k, vertices) != 0 || (round >= extent_rounds && watch_.is_kept(k)))
+          held |= watch_.hold(k, vertices, mesh_.transfer, constraints);
+      if (held)
+        state_ = solved(rig_, bases_, constraints, std::move(state_));
+      else
+        round = std::max(round, extent_rounds - 1);
     }
   }
 

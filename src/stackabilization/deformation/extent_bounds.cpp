@@ -56,6 +56,12 @@ double ExtentWatch::excess(std::size_t k, const Points& vertices) const {
   return 0;
 }
 
+bool ExtentWatch::any_excess(const Points& vertices) const {
+  for (std::size_t k = 0; k < bounds_.size(); ++k)
+    if (excess(k, vertices) != 0) return true;
+  return false;
+}
+
 Eigen::VectorXd ExtentWatch::levels(const Points& vertices) const {
   Eigen::VectorXd levels(static_cast<Eigen::Index>(bounds_.size()));
   for (std::size_t k = 0; k < bounds_.size(); ++k)

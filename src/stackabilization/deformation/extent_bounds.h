@@ -36,12 +36,17 @@ class ExtentWatch {
   /// By how much the extent passes bound `k`, model units: above zero too long, below too short, 0 within
   /// half of tolerance::relative of what is demanded.
   double excess(std::size_t k, const Points& vertices) const;
+  bool any_excess(const Points& vertices) const;
+  /// Whether bound `k` leaves no choice.
+  bool is_kept(std::size_t k) const { return bounds_[k].low == bounds_[k].high; }
   /// Lowest heights along the normals of the bounds: levels to start a solve from.
   Eigen::VectorXd levels(const Points& vertices) const;
   /// Adds constraints that hold the extent at the bound it passes: in every part the outermost vertex on
   /// either side, if it reaches into the excess. False when all of them were held already.
   bool hold(std::size_t k, const Points& vertices, const MeshTransfer& transfer,
             std::vector<Constraint>& constraints);
+  /// Forgets what is held, so that it may be held again.
+  void release() { held_.clear(); }
 
  private:
   Range range(std::size_t k, const Points& vertices) const;
