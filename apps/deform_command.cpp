@@ -106,7 +106,8 @@ Command make_deform_command(CLI::App& program) {
       program, "deform", "Edit a shape so that its symmetries and joints stay",
       "stackabilize deform chair.json --edit \"seat scale 1.1 along 1 0 0\" -o wider.obj\n\n"
       "An edit is a handle (PART, PART/face=-z, PART/corner=0, PART/section=3, point=7, wire=2, shape)\n"
-      "and move X Y Z, rotate DEGREES about X Y Z, or scale FACTOR [along X Y Z].");
+      "and move X Y Z, rotate DEGREES about X Y Z, or scale FACTOR [along X Y Z]; of cross-sections also\n"
+      "move X Y Z linearly, scale FACTOR linearly.");
   add_common_options(*command, options->common);
   add_analysis_options(*command, options->analysis);
   command

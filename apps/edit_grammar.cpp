@@ -16,6 +16,7 @@ namespace stackabilization::apps {
 namespace {
 
 constexpr std::array<const char*, 6> face_names = {"-x", "+x", "-y", "+y", "-z", "+z"};
+constexpr const char* linear_word = "linearly";
 constexpr std::uint64_t largest_index = std::numeric_limits<int>::max();
 constexpr std::size_t listed_names = 12;
 constexpr double radians_per_degree = std::numbers::pi / 180;
@@ -70,6 +71,7 @@ class Parser {
     Edit edit;
     edit.handle = handle();
     edit.operation = operation();
+    edit.falloff = falloff(edit);
     if (next_ < words_.size())
       fail("expected nothing after " + words_[next_ - 1] + ", found '" + words_[next_] + "'");
     try {
@@ -157,11 +159,20 @@ class Parser {
       return Rotate{vector("about"), amount * radians_per_degree};
     }
     Scale scale{amount, {}};
-    if (next_ < words_.size()) {
+    if (next_ < words_.size() && words_[next_] != linear_word) {
       expect("along");
       scale.along = vector("along");
     }
     return scale;
+  }
+
+  Falloff falloff(Edit edit) {
+    if (next_ == words_.size() || words_[next_] != linear_word) return Falloff::gaussian;
+    edit.falloff = Falloff::linear;
+    if (!falls_off_linearly(edit))
+      fail("expected linearly after moves and scalings of cross-sections only, such as leg/section=0");
+    ++next_;
+    return Falloff::linear;
   }
 
   void expect(const std::string& word) {
@@ -235,12 +246,14 @@ std::string handle_text(const Handle& handle, const std::vector<std::string>& pa
 
 std::string edit_text(const Edit& edit, const std::vector<std::string>& part_names) {
   const std::string handle = handle_text(edit.handle, part_names);
-  if (const auto* move = std::get_if<Move>(&edit.operation)) return handle + " move " + vector_text(move->by);
+  const std::string how = falls_off_linearly(edit) ? std::string(" ") + linear_word : "";
+  if (const auto* move = std::get_if<Move>(&edit.operation))
+    return handle + " move " + vector_text(move->by) + how;
   if (const auto* rotate = std::get_if<Rotate>(&edit.operation))
     return handle + " rotate " + degrees_text(rotate->radians) + " about " + vector_text(rotate->axis);
   const Scale& scale = std::get<Scale>(edit.operation);
   return handle + " scale " + exact_digits(scale.factor) +
-         (scale.along ? " along " + vector_text(*scale.along) : std::string());
+         (scale.along ? " along " + vector_text(*scale.along) : std::string()) + how;
 }
 
 }  // namespace stackabilization::apps

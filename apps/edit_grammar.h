@@ -11,6 +11,8 @@
 ///     HANDLE rotate DEGREES about X Y Z    about the handle's centre
 ///     HANDLE scale FACTOR [along X Y Z]    about the handle's centre
 ///
+/// The word `linearly` may end moves and scalings of cross-sections (Falloff).
+///
 /// HANDLE is one of PART, PART/face=F, PART/corner=0..7, PART/section=N, point=N, wire=N and shape. F is +x,
 /// -x, +y, -y, +z or -z of the primitive's own axes, or 0 to 5 in the order -x, +x, -y, +y, -z, +z. A name
 /// with blanks, or one that reads as something else ("shape", "wire=2", "a/face=1"), stands in single quotes;

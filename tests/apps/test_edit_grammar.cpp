@@ -68,6 +68,17 @@ TEST_CASE("operations carry their numbers exactly, angles in degrees") {
   CHECK(std::get<Scale>(stretch.operation).along.value() == Eigen::Vector3d(1, 0, -1));
 }
 
+TEST_CASE("a falloff is the last word of what is done to a cross-section") {
+  for (const std::string text :
+       {"body/section=2 move 1 0 0.5 linearly", "'left leg'/section=0 scale 0.8 linearly"}) {
+    const Edit edit = parse_edit(text, parts);
+    CHECK(edit.falloff == Falloff::linear);
+    CHECK(edit_text(edit, parts) == text);
+  }
+  CHECK(parse_edit("body/section=2 move 1 0 0.5", parts).falloff == Falloff::gaussian);
+  CHECK(edit_text({{HandleKind::part, 0, 0}, Scale{0.5, {}}, Falloff::linear}, parts) == "body scale 0.5");
+}
+
 TEST_CASE("an edit that is printed is parsed as itself") {
   std::vector<Handle> handles = {
       {HandleKind::point, 0, 9}, {HandleKind::wire, 0, 0}, {HandleKind::shape, 0, 0}};
@@ -128,6 +139,10 @@ TEST_CASE("a mistake is named by its word and by what was expected") {
       {"body scale -2", "positive factor"},
       {"body scale 2 by 1 0 0", "expected along after 2, found 'by'"},
       {"body scale 2 along 0 0 0", "not zero"},
+      {"body scale 2 linearly", "expected linearly after moves and scalings of cross-sections only"},
+      {"body/section=1 rotate 5 about 0 0 1 linearly", "of cross-sections only"},
+      {"body/section=1 move 1 0 0 slowly", "expected nothing after 0, found 'slowly'"},
+      {"body/section=1 scale 2 linearly 3", "expected nothing after linearly, found '3'"},
       {"body scale 2 along 1 0", "along expects three numbers, found 2"},
   };
   for (const auto& [text, words] : cases) {

@@ -17,6 +17,19 @@ TEST_CASE("edits are described by part, operation and amount") {
         "scale cross-section 7 of leg by 0.9");
   CHECK(describe({{HandleKind::shape, 0, 0}, Scale{2, Eigen::Vector3d(1, 0, 0)}}, names) ==
         "scale the shape by 2 along (1, 0, 0)");
+  CHECK(describe({{HandleKind::section, 1, 7}, Scale{0.9, {}}, Falloff::linear}, names) ==
+        "scale cross-section 7 of leg by 0.9, linearly");
+  CHECK(describe({{HandleKind::section, 0, 0}, Move{{1, 0, 0}}, Falloff::linear}, names) ==
+        "move cross-section 0 of seat by (1, 0, 0), linearly");
+}
+
+TEST_CASE("the falloff is named where it means something") {
+  const std::vector<std::string> names = {"seat"};
+  CHECK(describe({{HandleKind::part, 0, 0}, Scale{0.5, {}}, Falloff::linear}, names) == "scale seat by 0.5");
+  CHECK_FALSE(falls_off_linearly({{HandleKind::part, 0, 0}, Move{}, Falloff::linear}));
+  CHECK_FALSE(falls_off_linearly({{HandleKind::section, 0, 0}, Rotate{}, Falloff::linear}));
+  CHECK_FALSE(falls_off_linearly({{HandleKind::section, 0, 0}, Move{}, Falloff::gaussian}));
+  CHECK(falls_off_linearly({{HandleKind::section, 0, 0}, Move{}, Falloff::linear}));
 }
 
 TEST_CASE("edits that mean nothing are refused") {

@@ -46,6 +46,10 @@ class ControlSpace {
   const std::vector<Stabiliser>& stabilisers(int of_class) const {
     return classes_[static_cast<std::size_t>(of_class)].stabilisers;
   }
+  /// Control point of the first member of its class that control point `point` of `part` is the image of.
+  int counterpart(int part, int point) const {
+    return images_[static_cast<std::size_t>(part)].inverse_order[static_cast<std::size_t>(point)];
+  }
   const Primitive& rest(int part) const { return rest_[static_cast<std::size_t>(part)]; }
 
   /// States of the classes, read off their first members and made invariant.

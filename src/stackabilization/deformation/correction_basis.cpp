@@ -97,6 +97,12 @@ Eigen::MatrixXd gaussian_spread(const GeneralizedCylinder& rest) {
   return spread;
 }
 
+Eigen::VectorXd linear_weights(const GeneralizedCylinder& rest, int section) {
+  const Eigen::VectorXd s = section_arc_lengths(rest);
+  const double whole = s(s.size() - 1), far = s(section) > whole - s(section) ? 0 : whole;
+  return (s.array() - far) / (s(section) - far);
+}
+
 Eigen::MatrixXd edit_kernel(const Primitive& rest) {
   const auto* cylinder = std::get_if<GeneralizedCylinder>(&rest);
   if (cylinder == nullptr) return Eigen::MatrixXd::Identity(24, 24);

@@ -10,6 +10,11 @@ namespace stackabilization::detail {
 /// the whole (paper, section 4.1), around closed curves as well.
 Eigen::MatrixXd gaussian_spread(const GeneralizedCylinder& rest);
 
+/// n weights (s_i - s_far) / (s_section - s_far) over the arc lengths s of the sections at rest: 1 at
+/// `section`, 0 at the end that is farther from it along the curve (from the middle: at the last section).
+/// Precondition: the curve is open.
+Eigen::VectorXd linear_weights(const GeneralizedCylinder& rest, int section);
+
 /// Symmetric positive semi-definite matrix K over the control values of a primitive (ControlState::values):
 /// an edit that prescribes some of them makes the change of least norm x^T K^+ x. Corners of a cuboid move
 /// alone; a change of a cross-section spreads to its neighbours by `gaussian_spread`, that of a radius in

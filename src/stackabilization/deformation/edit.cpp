@@ -65,14 +65,22 @@ void validate(const Edit& edit) {
   }
 }
 
+bool falls_off_linearly(const Edit& edit) {
+  return edit.falloff == Falloff::linear && edit.handle.kind == HandleKind::section &&
+         !std::holds_alternative<Rotate>(edit.operation);
+}
+
 std::string describe(const Edit& edit, const std::vector<std::string>& part_names) {
   const std::string name = name_of(edit.handle, part_names);
-  if (const auto* move = std::get_if<Move>(&edit.operation)) return "move " + name + " by " + text(move->by);
+  const std::string how = falls_off_linearly(edit) ? ", linearly" : "";
+  if (const auto* move = std::get_if<Move>(&edit.operation))
+    return "move " + name + " by " + text(move->by) + how;
   if (const auto* rotate = std::get_if<Rotate>(&edit.operation))
     return "rotate " + name + " by " + text(rotate->radians * 180 / std::numbers::pi) + " degrees about " +
            text(rotate->axis);
   const Scale& scale = std::get<Scale>(edit.operation);
-  return "scale " + name + " by " + text(scale.factor) + (scale.along ? " along " + text(*scale.along) : "");
+  return "scale " + name + " by " + text(scale.factor) + (scale.along ? " along " + text(*scale.along) : "") +
+         how;
 }
 
 }  // namespace stackabilization

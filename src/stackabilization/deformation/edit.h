@@ -52,10 +52,14 @@ using Operation = std::variant<Move, Rotate, Scale>;
 /// How a move or scaling of a cross-section dies out along its generalized cylinder.
 enum class Falloff {
   gaussian,  ///< over the arc length, sigma = 0.2 of the whole (paper, section 4.1)
-  linear,    ///< to nothing at the end that is farther away: what is straight leans, walls become conical
+  /// To nothing at the end that is farther away along the curve at rest (from the middle: the last section),
+  /// and on beyond the handle: what is straight leans, walls become conical. Of a part that a symmetry turns
+  /// end for end, the mean with the image of that: it moves sideways and widens evenly, and is stretched.
+  linear,
 };
 
-/// One operation on one handle. `falloff` is looked at for cross-sections of open generalized cylinders only.
+/// One operation on one handle. `falloff` is looked at for moves and scalings of cross-sections of open
+/// generalized cylinders only.
 struct Edit {
   Handle handle;
   Operation operation;
@@ -65,8 +69,11 @@ struct Edit {
 /// Throws UsageError unless factors are positive, axes are not zero and every number is finite.
 void validate(const Edit& edit);
 
-/// "move face 3 of leg by (0.1, 0, 0)"; `part_names` are those of the shape. Precondition: the handle's part
-/// is one of them, where its kind needs one.
+/// Does `falloff` change what the edit does, where the cross-section is one of an open generalized cylinder?
+bool falls_off_linearly(const Edit& edit);
+
+/// "move face 3 of leg by (0.1, 0, 0)", "scale cross-section 4 of leg by 0.9, linearly"; `part_names` are
+/// those of the shape. Precondition: the handle's part is one of them, where its kind needs one.
 std::string describe(const Edit& edit, const std::vector<std::string>& part_names);
 
 /// What no edit may change.

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "stackabilization/deformation/correction_basis.h"
 #include "stackabilization/deformation/primitive_validity.h"
 #include "stackabilization/deformation/propagation.h"
 #include "stackabilization/deformation/relation_residual.h"
@@ -182,8 +183,8 @@ class EditSolution {
   }
 
   std::optional<Refusal> prescribe_handle() {
-    const Eigen::MatrixXd& kernel = rig_.edit_kernels[at(class_)];
-    const Eigen::MatrixXd spread = handle_rows(kernel).transpose();
+    const Eigen::MatrixXd spread = edit_.linear_from ? linear_spread(*edit_.linear_from)
+                                                     : handle_rows(rig_.edit_kernels[at(class_)]).transpose();
     const Eigen::VectorXd change = spread * (pseudo_inverse(handle_rows(spread)) * edit_.changes);
     const double miss = (handle_rows(change) - edit_.changes).cwiseAbs().maxCoeff() / diagonal();
     if (miss > tolerance::relative) return missed(miss, "of the diagonal");
@@ -192,6 +193,22 @@ class EditSolution {
     const Eigen::MatrixXd rows = handle_rows(basis);
     basis = stiffness * (basis - basis * (pseudo_inverse(rows) * rows));
     return std::nullopt;
+  }
+
+  /// As the columns of an edit kernel that belong to the handle, of W W^T: W holds three moves and a change
+  /// of radii, each in proportion to the linear weights, within what the self-symmetries leave free.
+  Eigen::MatrixXd linear_spread(int section) const {
+    const auto& rest = std::get<GeneralizedCylinder>(rig_.space.rest(edit_.part));
+    const Eigen::VectorXd weights = linear_weights(rest, section);
+    const auto n = static_cast<int>(weights.size());
+    Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(4 * n, 4);
+    for (int i = 0; i < n; ++i) {
+      const int k = rig_.space.counterpart(edit_.part, i);
+      changes.block<3, 3>(3 * k, 0) = weights(i) * Eigen::Matrix3d::Identity();
+      changes(3 * n + k, 3) = weights(i);
+    }
+    changes = rig_.space.invariant_columns(class_, changes);
+    return changes * handle_rows(changes).transpose();
   }
 
   Refusal missed(double amount, const std::string& unit) const {

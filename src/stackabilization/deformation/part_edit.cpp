@@ -158,11 +158,12 @@ PartEdit prescribed(const Primitive& now, const Edit& edit, const std::string& p
   if (edit.handle.kind == HandleKind::part) return of_whole(now, edit.operation, edit.handle.part, centre);
   PartEdit result;
   result.part = edit.handle.part;
+  const auto* curve = std::get_if<GeneralizedCylinder>(&now);
+  if (curve && !curve->closed && edit.falloff == Falloff::linear) result.linear_from = held.front();
   if (const auto* scale = std::get_if<Scale>(&edit.operation);
       scale && edit.handle.kind == HandleKind::section) {
-    const auto& cylinder = std::get<GeneralizedCylinder>(now);
-    prescribe(result, 3 * static_cast<int>(cylinder.centres.rows()) + held.front(),
-              (scale->factor - 1) * cylinder.radii(held.front()));
+    prescribe(result, 3 * static_cast<int>(curve->centres.rows()) + held.front(),
+              (scale->factor - 1) * curve->radii(held.front()));
   } else {
     prescribe_points(result, now, held, {edit.operation, centre});
   }

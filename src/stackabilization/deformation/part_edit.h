@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct PartEdit {
   Eigen::VectorXd changes;
   Eigen::Quaterniond rotation =
       Eigen::Quaterniond::Identity();  ///< by which a whole generalized cylinder is turned
+  std::optional<int> linear_from;      ///< cross-section from which the change falls off linearly (Falloff)
 };
 
 /// Handles of one primitive: the part, then faces and corners, or cross-sections.
