@@ -69,6 +69,10 @@ inline constexpr double least_thickness = 1e-3;
 /// meet at that angle.
 inline constexpr double same_symmetry = 0.01;
 
+/// Axes of symmetries that miss an axis or a main plane of the file by less than this, in radians, are meant
+/// to lie in it: fifty times what fitting to a mesh of 1e-5 noise misses, and a tenth of what the eye sees.
+inline constexpr double file_axis = 1e-3;
+
 /// How exactly primitives satisfy symmetries after they were made symmetric, as a fraction of the diagonal or
 /// of the largest coordinate, whichever is larger: ten million times below what is promised for edits, 10
 /// times above what rounding leaves.

@@ -42,6 +42,7 @@ class SymmetrySet {
 
   void correct() {
     for (std::size_t i = 0; i < members_.size(); ++i) {
+      align_with_file(members_[i].symmetry.axis);
       correct_direction(i);
       correct_place(i);
     }
@@ -93,6 +94,14 @@ class SymmetrySet {
     const std::vector<std::size_t>&a = members_[i].orbits, &b = members_[j].orbits;
     return std::any_of(a.begin(), a.end(),
                        [&](std::size_t orbit) { return std::count(b.begin(), b.end(), orbit) > 0; });
+  }
+
+  /// Objects are modelled along the axes of their files; what is found by fitting misses them by a hair, and
+  /// then no edit could keep both the symmetry and the extent along a file axis.
+  static void align_with_file(Eigen::Vector3d& axis) {
+    for (double& component : axis)
+      if (std::abs(component) < tolerance::file_axis) component = 0;
+    axis.normalize();
   }
 
   /// Perpendicular to those it is nearly perpendicular to; at the nearest simple angle to the first of the

@@ -15,6 +15,7 @@ double difference(const Symmetry& a, const Symmetry& b, const Primitive& primiti
 /// * a relation whose symmetry takes the control points of its part within tolerance::same_symmetry of where
 /// a global
 ///   symmetry, or that of an earlier relation, does to it, gets that one;
+/// * axes and normals within tolerance::file_axis of being orthogonal to an axis of the file are so exactly;
 /// * mirror planes that bear on the same parts and meet within tolerance::same_symmetry (radians) of 90
 /// degrees, or of
 ///   another multiple of 180 / n degrees with n up to 8, meet at exactly that angle; axes of rotation lie
