@@ -1,1 +1,313 @@
 #include "stackabilization/improvement/contact_edits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "stackabilization/improvement/contact_handles.h"
+#include "stackabilization/improvement/contact_symmetry.h"
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/tolerances.h"
+
+namespace stackabilization {
+
+namespace {
+
+using namespace detail;
+using Role = ContactHandle::Role;
+
+/// A contact is off the centre of what it is on beyond this fraction of the way to its outside.
+constexpr double off_centre = 0.25;
+/// Farthest that a handle goes to pass the other part, in steps.
+constexpr double most_steps = 6;
+
+void check(const ContactEditOptions& options) {
+  const auto& multiples = options.multiples;
+  const auto fits = [&](double m) { return m > 0 && m * options.scale_step < 1; };
+  if (!(options.move_step > 0) || !std::isfinite(options.move_step))
+    throw UsageError("the step of a move must be above 0");
+  if (!(options.scale_step > 0 && options.scale_step < 1))
+    throw UsageError("the step of a scaling must be between 0 and 1");
+  if (multiples.empty() || !std::all_of(multiples.begin(), multiples.end(), fits))
+    throw UsageError("multiples of steps must be above 0, and times the step of a scaling below 1");
+  if (options.most_regions < 1) throw UsageError("at least one contact region must be looked at");
+}
+
+/// A way out sideways.
+struct Way {
+  Eigen::Vector3d along;  ///< unit
+  std::string word;
+};
+
+/// Collects the edits of one situation.
+class ContactEditor {
+ public:
+  ContactEditor(const ContactSituation& situation, const ContactEditOptions& options)
+      : situation_(situation),
+        options_(options),
+        frame_(contact_frame(situation)),
+        symmetry_(symmetric_structure(situation)),
+        extended_(options.family == EditFamily::extended),
+        multiples_(extended_ ? options.multiples : std::vector<double>{1}),
+        diagonal_(situation.rest.structure.diagonal) {
+    std::sort(multiples_.begin(), multiples_.end());
+  }
+
+  std::vector<ContactEdit> run() {
+    for (const int row : different_regions())
+      for (const bool of_lower_copy : {true, false}) look_at(side(row, of_lower_copy));
+    return std::move(edits_);
+  }
+
+ private:
+  static Structure symmetric_structure(const ContactSituation& situation) {
+    Structure structure = situation.rest.structure;
+    if (situation.kind == DeformationKind::surface) structure.relations.clear();
+    return structure;
+  }
+
+  /// The first of each class of symmetric regions.
+  std::vector<int> different_regions() const {
+    std::vector<int> chosen;
+    const auto& regions = situation_.regions;
+    for (std::size_t k = 0; k < regions.size(); ++k) {
+      if (static_cast<int>(chosen.size()) == options_.most_regions) break;
+      const ContactRegion& one = regions[k];
+      const bool seen = std::any_of(chosen.begin(), chosen.end(), [&](int row) {
+        const ContactRegion& other = regions[static_cast<std::size_t>(row)];
+        return one.type == other.type &&
+               symmetry_.same_place(other.upper_part, other.upper_centre, one.upper_part, one.upper_centre) &&
+               symmetry_.same_place(other.lower_part, other.lower_centre, one.lower_part, one.lower_centre);
+      });
+      if (!seen) chosen.push_back(static_cast<int>(k));
+    }
+    return chosen;
+  }
+
+  ContactSide side(int row, bool of_lower_copy) const {
+    const ContactRegion& region = situation_.regions[static_cast<std::size_t>(row)];
+    ContactSide side{region, row, of_lower_copy};
+    side.part = of_lower_copy ? region.upper_part : region.lower_part;
+    side.other = of_lower_copy ? region.lower_part : region.upper_part;
+    side.centre = of_lower_copy ? region.upper_centre : region.lower_centre;
+    const double height = side.centre.dot(frame_.w);
+    Range range{height, height};
+    for (const ContactPolygon& polygon : region.polygons) {
+      const Eigen::VectorXd heights =
+          (of_lower_copy ? polygon.upper_points : polygon.lower_points) * frame_.w;
+      range = {std::min(range.low, heights.minCoeff()), std::max(range.high, heights.maxCoeff())};
+    }
+    side.on_end = on_end(range);
+    return side;
+  }
+
+  bool on_end(const Range& range) const {
+    const double band = std::max(options_.contacts.band, tolerance::relative) * frame_.height.length();
+    return range.low <= frame_.height.low + band || range.high >= frame_.height.high - band;
+  }
+
+  void look_at(const ContactSide& side) {
+    for (const ContactHandle& handle : contact_handles(situation_, side, frame_, options_.family)) {
+      move_along(side, handle);
+      if (side.region.type != ContactType::ring) move_sideways(side, handle);
+      if (handle.handle.kind == HandleKind::section || handle.handle.kind == HandleKind::wire ||
+          handle.handle.kind == HandleKind::face)
+        scale_in_place(side, handle);
+      if (handle.role == Role::whole)
+        for (const Eigen::Vector3d& axis : {frame_.u, frame_.v, frame_.w}) scale_whole(side, handle, axis);
+    }
+  }
+
+  std::string name_of_other(const ContactSide& side) const {
+    return side.other == side.part
+               ? "the next copy"
+               : "'" + situation_.rest.shape.part_names[static_cast<std::size_t>(side.other)] + "'";
+  }
+
+  void add(const ContactSide& side, const ContactHandle& handle, const Operation& operation,
+           const std::string& how) {
+    ContactEdit edit{{handle.handle, operation, handle.falloff},
+                     side.region.type,
+                     side.row,
+                     side.of_lower_copy,
+                     how + ", away from " + name_of_other(side)};
+    const bool known = std::any_of(edits_.begin(), edits_.end(),
+                                   [&](const ContactEdit& other) { return same(other.edit, edit.edit); });
+    if (!known) edits_.push_back(std::move(edit));
+  }
+
+  bool same(const Edit& a, const Edit& b) const {
+    if (!(a.handle == b.handle) || a.falloff != b.falloff || a.operation.index() != b.operation.index())
+      return false;
+    if (const auto* move = std::get_if<Move>(&a.operation))
+      return (move->by - std::get<Move>(b.operation).by).norm() <= tolerance::relative * diagonal_;
+    const Scale &one = std::get<Scale>(a.operation), &other = std::get<Scale>(b.operation);
+    return std::abs(one.factor - other.factor) <= tolerance::relative &&
+           one.along.has_value() == other.along.has_value() &&
+           (!one.along || one.along->cross(*other.along).norm() <= tolerance::relative);
+  }
+
+  /// Multiples of `step`, none beyond what is enough.
+  std::vector<double> sizes(double step, std::optional<double> enough) const {
+    std::vector<double> result;
+    for (const double m : multiples_)
+      if (!enough || m * step < *enough) result.push_back(m * step);
+    if (enough) result.push_back(*enough);
+    return result;
+  }
+
+  void move_along(const ContactSide& side, const ContactHandle& handle) {
+    if (side.region.type == ContactType::ring && !extended_) return;
+    if (handle.role == Role::end || side.on_end || on_end(handle.range(frame_.w))) return;
+    const Eigen::Vector3d along = side.of_lower_copy ? Eigen::Vector3d(-frame_.w) : frame_.w;
+    if (!symmetry_.can_move(side.part, handle.centre, along)) return;
+    for (const double size : sizes(options_.move_step * extent(along), std::nullopt))
+      add(side, handle, Move{size * along}, side.of_lower_copy ? "down" : "up");
+  }
+
+  double extent(const Eigen::Vector3d& axis) const {
+    return range_along(situation_.rest.shape, axis).length();
+  }
+
+  std::vector<Way> ways(const ContactSide& side) const {
+    const Eigen::Vector3d& w = frame_.w;
+    if (side.region.type == ContactType::line) {
+      const Eigen::Vector3d across = w.cross(side.region.long_axis).normalized();
+      return {{across, "across the line"}, {-across, "across the line"}};
+    }
+    std::vector<Way> result;
+    Eigen::Vector3d radial = side.centre - frame_.centre;
+    radial -= radial.dot(w) * w;
+    if (radial.norm() > tolerance::same_symmetry * diagonal_)
+      result = {{radial.normalized(), "outwards"}, {-radial.normalized(), "inwards"}};
+    for (const Eigen::Vector3d& axis : {frame_.u, frame_.v})
+      for (const double sign : {1.0, -1.0}) result.push_back({sign * axis, "sideways"});
+    return result;
+  }
+
+  /// How far the handle must go to leave the other part behind, with a margin of the contact band.
+  double way_out(const ContactSide& side, const ContactHandle& handle, const Eigen::Vector3d& along) {
+    return range_of_part(side.other, along).high - handle.range(along).low +
+           options_.contacts.band * extent(along);
+  }
+
+  Range range_of_part(int part, const Eigen::Vector3d& axis) {
+    const auto found = points_.try_emplace(part);
+    if (found.second) found.first->second = part_points(situation_.design.shape, part);
+    const Eigen::VectorXd heights = found.first->second * axis;
+    return {heights.minCoeff(), heights.maxCoeff()};
+  }
+
+  void move_sideways(const ContactSide& side, const ContactHandle& handle) {
+    for (const Way& way : ways(side)) {
+      if (!symmetry_.can_move(side.part, handle.centre, way.along)) continue;
+      const double step = options_.move_step * extent(way.along);
+      std::vector<double> chosen = sizes(step, std::nullopt);
+      if (extended_ && side.other != side.part) {
+        const double out = way_out(side, handle, way.along);
+        const bool shorter = out <= way_out(side, handle, -way.along);
+        if (!shorter && handle.role != Role::nearest) continue;
+        if (!shorter)
+          chosen.resize(1);
+        else if (out > 0 && out <= most_steps * step)
+          chosen = sizes(step, out);
+      }
+      for (const double size : chosen)
+        add(side, handle, Move{size * way.along},
+            handle.falloff == Falloff::linear ? "leaning " + way.word : way.word);
+    }
+  }
+
+  /// Is the contact far enough from `centre` that scaling about it, across or along what `axes` span,
+  /// matters?
+  static bool is_off(const Eigen::Vector3d& offset, double reach) {
+    return offset.norm() >= off_centre * reach;
+  }
+
+  void scale_in_place(const ContactSide& side, const ContactHandle& handle) {
+    const bool ring = side.region.type == ContactType::ring;
+    const Eigen::Vector3d offset = side.centre - handle.centre;
+    const Eigen::Vector3d across = offset - offset.dot(handle.normal) * handle.normal;
+    if (!ring) {
+      if (!extended_ || handle.normal.isZero()) return;
+      const double reach =
+          handle.radius > 0
+              ? handle.radius
+              : (handle.points.rowwise() - handle.centre.transpose()).rowwise().norm().minCoeff();
+      if (!is_off(across, reach)) return;
+    }
+    const bool bulge = situation_.kind == DeformationKind::controllers && handle.radius > 0 &&
+                       handle.falloff == Falloff::gaussian;
+    for (const double sign : {-1.0, 1.0})
+      for (const double m : multiples_) {
+        if ((bulge || (sign > 0 && !ring)) && m > multiples_.front()) break;
+        add(side, handle, Scale{1 + sign * m * options_.scale_step, std::nullopt},
+            sign < 0 ? "narrower" : "wider");
+      }
+  }
+
+  void scale_whole(const ContactSide& side, const ContactHandle& whole, const Eigen::Vector3d& axis) {
+    const bool ring = side.region.type == ContactType::ring, upright = axis == frame_.w;
+    const Range own = whole.range(axis);
+    if (upright && on_end(own)) return;
+    if (!symmetry_.can_scale(side.part, axis)) return;
+    const double offset = (side.centre - whole.centre).dot(axis);
+    if ((upright || !ring) && !is_off(offset * axis, own.length() / 2)) return;
+    if (side.region.type == ContactType::line && !upright &&
+        std::abs(axis.dot(side.region.long_axis)) > std::sqrt(0.5))
+      return;
+    const std::optional<double> enough = upright ? std::nullopt : enough_shrinking(side, whole, axis);
+    for (const double size : sizes(options_.scale_step, enough))
+      add(side, whole, Scale{1 - size, axis}, upright ? "flatter" : "narrower");
+    if (!upright) add(side, whole, Scale{1 + multiples_.front() * options_.scale_step, axis}, "wider");
+  }
+
+  /// By what fraction a part must shrink along `axis` to leave the other beside it.
+  std::optional<double> enough_shrinking(const ContactSide& side, const ContactHandle& whole,
+                                         const Eigen::Vector3d& axis) {
+    if (side.other == side.part) return std::nullopt;
+    const Eigen::Vector3d outwards =
+        (side.centre - whole.centre).dot(axis) < 0 ? Eigen::Vector3d(-axis) : axis;
+    const double middle = whole.centre.dot(outwards);
+    const double reach = whole.range(outwards).high - middle;
+    const double free =
+        range_of_part(side.other, outwards).low - options_.contacts.band * extent(axis) - middle;
+    const double size = 1 - free / reach;
+    if (!(size > 0) || size > most_steps * options_.scale_step || size >= 1) return std::nullopt;
+    return size;
+  }
+
+  const ContactSituation& situation_;
+  const ContactEditOptions& options_;
+  ContactFrame frame_;
+  ContactSymmetry symmetry_;
+  bool extended_;
+  std::vector<double> multiples_;
+  double diagonal_;
+  std::map<int, Points> points_;  ///< of parts, see `part_points`
+  std::vector<ContactEdit> edits_;
+};
+
+/// Gap scaling has one knob.
+std::vector<ContactEdit> gap_scalings(const ContactSituation& situation, const ContactEditOptions& options) {
+  std::vector<ContactEdit> edits;
+  if (situation.regions.empty()) return edits;
+  const Scale scale{1 - options.scale_step, situation.direction.unit()};
+  edits.push_back({{{HandleKind::shape, 0, 0}, scale},
+                   situation.regions.front().type,
+                   0,
+                   true,
+                   "everything below squashed upwards"});
+  return edits;
+}
+
+}  // namespace
+
+std::vector<ContactEdit> contact_edits(const ContactSituation& situation, const ContactEditOptions& options) {
+  check(options);
+  if (situation.kind == DeformationKind::gap_scaling) return gap_scalings(situation, options);
+  return ContactEditor(situation, options).run();
+}
+
+}  // namespace stackabilization

@@ -19,7 +19,7 @@ struct ContactEditOptions {
   EditFamily family = EditFamily::extended;
   double move_step = 0.06;  ///< fraction of the extent of the shape along the move; > 0
   double scale_step = 0.1;  ///< of a ring's handle, up and down; in (0, 1)
-  /// Further sizes of the extended family, as multiples of both steps.
+  /// Sizes of the extended family, as multiples of both steps; not empty, > 0, below 1 / scale_step.
   std::vector<double> multiples = {1, 3};
   /// Regions that are looked at, largest first, symmetric ones counted once; at least 1.
   int most_regions = 12;
@@ -43,18 +43,33 @@ struct ContactSituation {
   const Design& design;
   const std::vector<ContactRegion>& regions;  ///< of the design along the direction
   const Direction& direction;
+  /// Where `handles` are at rest, one for each, model units: what models without primitives need to find
+  /// wires and slices. Empty: only points are found.
+  std::vector<Eigen::Vector3d> centres = {};
 };
 
 /// Edits that separate the pairs of contact regions (paper, section 4.2), in the frame of r: a ring scales
 /// the handle; a dot moves it along r (the side of the lower copy down, that of the upper copy up) or
 /// sideways, out of the way; a line the same, but sideways only across the line. A region on the boundary of
-/// the extent along r never moves along r. Sideways means radially (from the axis of the shape's box along
-/// r), and along the sides of that box.
+/// the extent along r (to the width of the contact band) never moves along r. Sideways means radially (from
+/// the axis of the shape's box along r), and along the sides of that box; where a mirror plane of the
+/// structure contains r, its sides are along and across the first such plane.
 ///
-/// The handle of a region is what lies nearest to its centre on the primitive of its part: face or corner of
-/// a cuboid, cross-section of a cylinder; for models without primitives the nearest point, wire or slice. Of
-/// regions that symmetries of the structure take onto each other the first stands for all, since edits are
-/// symmetric. Every edit occurs once. Deterministic; order: by region, side, handle, kind, size.
+/// The handle of a region is what lies nearest to its centre on the primitive of its part: face, and where
+/// the region is near one corner, of a cuboid, cross-section of a cylinder; for models without primitives the
+/// nearest point, wire and slice. Gap scaling has one edit, of the shape along r.
+///
+/// The extended family also takes hold of the ends of the part (faces of a cuboid across r; for cylinders
+/// with Falloff::linear, instead of bending what is straight) and of the part as a whole, and scales
+/// cross-sections, faces and wholes at dots and lines too, where the contact is off their centre. Sideways it
+/// goes the shorter way past the other part and no farther than that takes; the longer way is tried with the
+/// nearest handle and the least multiple only.
+///
+/// Edits that a self-symmetry rules out are left out, such as moves of a handle across the mirror plane that
+/// it lies on. Of regions that symmetries of the structure take onto each other the first stands for all,
+/// since edits are symmetric (but for the surface model, whose edits are not). Every edit occurs once.
+/// Deterministic; order: by region, side (the copy below first), handle, kind, size. Throws UsageError for
+/// options out of range.
 std::vector<ContactEdit> contact_edits(const ContactSituation& situation,
                                        const ContactEditOptions& options = {});
 
