@@ -1,1 +1,156 @@
 #include "stackabilization/improvement/requirements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "stackabilization/improvement/requirement_checks.h"
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/stacking/clearance.h"
+
+namespace stackabilization {
+
+namespace {
+
+void require_at_least_zero(double value, const std::string& what) {
+  if (!std::isfinite(value) || value < 0)
+    throw UsageError("the " + what + " that is required must be a finite number of at least 0");
+}
+
+void require_angle(double degrees, const std::string& what) {
+  require_at_least_zero(degrees, what);
+  if (degrees > 90) throw UsageError("the " + what + " that is required cannot exceed 90 degrees");
+}
+
+void require_parts(const std::vector<int>& parts, const Structure& structure) {
+  for (const int part : parts)
+    if (part < 0 || static_cast<std::size_t>(part) >= structure.parts.size())
+      throw UsageError("there is no part " + std::to_string(part) + ": the shape has " +
+                       std::to_string(structure.parts.size()));
+}
+
+std::vector<int> parts_that_stay(const Requirements& requirements, const Structure& structure) {
+  std::set<int> stay(requirements.kept_parts.begin(), requirements.kept_parts.end());
+  if (!requirements.editable_parts.empty()) {
+    const std::set<int> editable(requirements.editable_parts.begin(), requirements.editable_parts.end());
+    for (int part = 0; part < static_cast<int>(structure.parts.size()); ++part)
+      if (!editable.contains(part)) stay.insert(part);
+  }
+  return {stay.begin(), stay.end()};
+}
+
+Requirements validated(Requirements requirements, const StructuredShape& rest) {
+  validate(requirements, rest);
+  return requirements;
+}
+
+}  // namespace
+
+void validate(const Requirements& requirements, const StructuredShape& rest) {
+  if (!std::isfinite(requirements.target) || requirements.target >= 1)
+    throw UsageError("the target must be a stackability below 1");
+  if (requirements.measure.flat_shapes != FlatShapes::refuse)
+    throw UsageError("a target needs shapes whose box has a volume");
+  require_parts(requirements.kept_parts, rest.structure);
+  require_parts(requirements.editable_parts, rest.structure);
+  require_at_least_zero(requirements.clearance, "clearance");
+  require_at_least_zero(requirements.play, "play");
+  require_at_least_zero(requirements.box_tolerance.value_or(0), "tolerance of the box");
+  require_at_least_zero(requirements.least_thickness.value_or(0), "thickness");
+  require_angle(requirements.least_draft_degrees.value_or(0), "draft angle");
+  require_angle(requirements.least_tilt_degrees, "tilt");
+  if (requirements.standing_copies.value_or(1) < 1)
+    throw UsageError("a stack that stands needs at least one copy");
+  if (requirements.least_tilt_degrees > 0 && !requirements.standing_copies)
+    throw UsageError("a least tilt needs the number of copies that are to stand");
+}
+
+DeformationConstraints deformation_constraints(const Requirements& requirements, const StructuredShape& rest,
+                                               const Direction& direction) {
+  DeformationConstraints constraints;
+  if (requirements.keep_height) constraints.keep_extent = direction;
+  constraints.box_tolerance = requirements.box_tolerance;
+  constraints.fixed_parts = parts_that_stay(requirements, rest.structure);
+  return constraints;
+}
+
+bool Assessment::passed() const {
+  return std::all_of(checks.begin(), checks.end(), [](const Check& check) { return check.passed; });
+}
+
+struct RequirementChecker::Data {
+  Data(const DesignSpace& designs, Requirements required)
+      : space(designs),
+        requirements(validated(std::move(required), designs.rest())),
+        checks(designs, requirements, parts_that_stay(requirements, designs.rest().structure)) {}
+
+  /// How far apart copies are, with the air, where they are `touching` without any.
+  double translation(const Shape& shape, const Direction& direction, double touching) const {
+    if (requirements.play > 0) {
+      PlayOptions options;
+      options.play = requirements.play;
+      options.semantics = requirements.measure.semantics;
+      const Separation apart = separation_with_play(shape, shape, direction, options);
+      touching = apart.blocked ? apart.length : 0;
+    }
+    return touching + requirements.clearance;
+  }
+
+  Stackability with_air(const Shape& shape, const Direction& direction, Stackability measured) const {
+    if (requirements.play > 0 || requirements.clearance > 0) {
+      measured.f_max = translation(shape, direction, measured.f_max);
+      const double base = measured.stack_box_volume / measured.extent;
+      measured.value = 1 - measured.f_max * base / measured.box_volume;
+    }
+    return measured;
+  }
+
+  const DesignSpace& space;
+  Requirements requirements;
+  detail::RequirementChecks checks;
+};
+
+RequirementChecker::RequirementChecker(const DesignSpace& space, Requirements requirements)
+    : data_(std::make_shared<const Data>(space, std::move(requirements))) {}
+
+const Requirements& RequirementChecker::requirements() const {
+  return data_->requirements;
+}
+
+const DesignSpace& RequirementChecker::space() const {
+  return data_->space;
+}
+
+Stackability RequirementChecker::measured(const Shape& shape, const Direction& direction) const {
+  return data_->with_air(shape, direction, stackability(shape, direction, data_->requirements.measure));
+}
+
+std::optional<Stackability> RequirementChecker::measured_above(const Shape& shape, const Direction& direction,
+                                                               double threshold) const {
+  // Air never raises S: what is too low without it need not be looked at.
+  const std::optional<Stackability> touching =
+      stackability_if_above(shape, direction, threshold, data_->requirements.measure);
+  if (!touching) return std::nullopt;
+  const Stackability measured = data_->with_air(shape, direction, *touching);
+  if (measured.value < threshold) return std::nullopt;
+  return measured;
+}
+
+Assessment RequirementChecker::checked(const Design& design, const Direction& direction) const {
+  if (design.shape.vertex_count() != data_->space.rest().shape.vertex_count() ||
+      design.primitives.size() != data_->space.rest().structure.parts.size())
+    throw UsageError("the design does not have the vertices and primitives of the shape at rest");
+  validate(design.shape);
+  const StackabilityOptions& measure = data_->requirements.measure;
+  const SeparationTree tree(design.shape);
+  Assessment assessment;
+  assessment.separation = separation(tree, tree, direction, {measure.semantics, std::nullopt});
+  const double touching = assessment.separation.blocked ? assessment.separation.length : 0;
+  assessment.measured = stackability_of_translation(
+      design.shape, direction, data_->translation(design.shape, direction, touching), measure);
+  assessment.checks = data_->checks.of({design, tree, direction, assessment});
+  return assessment;
+}
+
+}  // namespace stackabilization

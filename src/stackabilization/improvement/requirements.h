@@ -27,32 +27,37 @@ struct Requirements {
   double least_tilt_degrees = 0;              ///< and topple only beyond this tilt
 };
 
-/// Throws UsageError for a target >= 1, negative numbers, parts that do not exist, anything not finite.
+/// Throws UsageError for a target >= 1, negative lengths, fractions or angles, angles above 90 degrees, fewer
+/// than one standing copy, a tilt without such copies, parts that do not exist, anything not finite.
 void validate(const Requirements& requirements, const StructuredShape& rest);
 
-/// What they forbid a deformation model, for stacking along `direction`: extent, box, parts that stay.
+/// What they forbid a deformation model, for stacking along `direction`: extent, box, parts that stay (those
+/// kept, and all but the editable ones where some are named; in order).
 DeformationConstraints deformation_constraints(const Requirements& requirements, const StructuredShape& rest,
                                                const Direction& direction);
 
 /// One requirement held against one design.
 struct Check {
-  std::string name;     ///< "target", "height", "relations", "box", "thickness", "draft", "standing"
-  double value = 0;     ///< what was measured
-  double demanded = 0;  ///< what was asked for
+  /// "target", "height", "relations", "box", "parts", "thickness", "draft", "standing"
+  std::string name;
+  double value = 0;  ///< what was measured: S, change of h, worst residual, largest change of a side,
+                     ///< farthest displacement, least thickness, least draft, tilt at which a stack topples
+  double demanded = 0;  ///< what was asked for, or the tolerance to which it is held
   bool passed = false;
-  std::string unit;  ///< "", "model units", "degrees", "of the diagonal", "of the height"
+  std::string unit;  ///< "", "model units", "degrees", "of the diagonal", "of the height", "of a side"
   std::string note;  ///< where and why; may be empty
 };
 
 /// A design measured along one direction.
 struct Assessment {
-  Stackability measured;      ///< f_max with the air asked for
+  Stackability measured;      ///< from the exact separation, f_max with the air asked for
   Separation separation;      ///< exact, without air; only from `RequirementChecker::checked`
   std::vector<Check> checks;  ///< only from `checked`
   bool passed() const;
 };
 
-/// Holds designs of one space against requirements. Const, safe from any number of threads.
+/// Holds designs of one space against requirements. The space must outlive it. Const, safe from any number of
+/// threads.
 class RequirementChecker {
  public:
   /// Throws as `validate`.
@@ -60,12 +65,22 @@ class RequirementChecker {
 
   const Requirements& requirements() const;
   const DesignSpace& space() const;
-  /// S(M, r), with the air that is asked for: the one number that a search needs for every candidate.
+  /// S(M, r), with the air that is asked for: the one number that a search needs for every candidate. Within
+  /// 1e-12 of what `checked` holds against the target. Throws InputError for a shape without volume.
   Stackability measured(const Shape& shape, const Direction& direction) const;
   /// The same unless S is certainly below `threshold`.
   std::optional<Stackability> measured_above(const Shape& shape, const Direction& direction,
                                              double threshold) const;
-  /// Everything: each requirement that was made, in the order of Check::name.
+  /// Everything: each requirement that was made, in the order of Check::name. The target is compared without
+  /// slack, from exact separations; the others are constructions in double precision and pass to
+  /// tolerance::relative.
+  ///
+  /// * relations: only for controllers, recomputed from the primitives;
+  /// * parts: no vertex of a part that stays has moved. Where such a part shares vertices with one that may
+  ///   change, controllers let the surface between them follow: there its primitive has not;
+  /// * thickness: at every probe at least what is asked for or, where the shape at rest is thinner, what that
+  ///   has there;
+  /// * draft: at the contacts of the copies without air.
   Assessment checked(const Design& design, const Direction& direction) const;
 
  private:

@@ -1,1 +1,52 @@
 #include "stackabilization/improvement/shape_change.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/used_vertices.h"
+
+namespace stackabilization {
+
+namespace {
+
+/// Rotation times factor that takes `from` to `to` (both n x 3, centred) with the least squared distances:
+/// Umeyama 1991, Eq. 40 to 43. 0 where all points of `from` coincide.
+Eigen::Matrix3d similarity(const Points& from, const Points& to) {
+  const double spread = from.squaredNorm();
+  if (!(spread > 0)) return Eigen::Matrix3d::Zero();
+  const Eigen::Matrix3d covariance = to.transpose() * from;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d sign = Eigen::Vector3d::Ones();
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign.z() = -1;
+  const Eigen::Matrix3d rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  return rotation * (svd.singularValues().dot(sign) / spread);
+}
+
+}  // namespace
+
+ShapeChange shape_change(const Shape& before, const Shape& after) {
+  if (before.vertex_count() != after.vertex_count() || before.triangle_count() != after.triangle_count() ||
+      before.triangles != after.triangles)
+    throw UsageError("shapes can be compared only when they have the same vertices and triangles");
+  if (before.triangle_count() == 0) return {};
+  Points target = used_vertices(before), moved = used_vertices(after);
+  const double diagonal = (target.colwise().maxCoeff() - target.colwise().minCoeff()).norm();
+  // Lengths over the diagonal, so that no square overflows or underflows.
+  const double unit = std::max(diagonal, (moved.colwise().maxCoeff() - moved.colwise().minCoeff()).norm());
+  if (!(diagonal > 0)) return {};
+  for (Points* points : {&target, &moved}) {
+    const Eigen::RowVector3d middle = points->colwise().mean();
+    *points = (points->rowwise() - middle) / unit;
+  }
+  const Eigen::VectorXd distances = (moved * similarity(moved, target).transpose() - target).rowwise().norm();
+  ShapeChange change;
+  change.root_mean_square =
+      std::sqrt(distances.squaredNorm() / static_cast<double>(distances.size())) * (unit / diagonal);
+  change.largest = distances.maxCoeff() * (unit / diagonal);
+  return change;
+}
+
+}  // namespace stackabilization

@@ -12,8 +12,8 @@ struct ShapeChange {
 
 /// Fits `after` to `before` by the similarity (rotation, translation, one factor; no reflection) of least
 /// squared distances (Umeyama 1991) over the vertices that triangles use, and measures what is left over the
-/// diagonal of the axis-aligned box of `before`. Precondition: both have the same triangles. Throws
-/// UsageError when they have not as many vertices.
+/// diagonal of the axis-aligned box of `before` (0 where that is 0). Throws UsageError unless both have the
+/// same triangles and as many vertices.
 ShapeChange shape_change(const Shape& before, const Shape& after);
 
 }  // namespace stackabilization

@@ -68,8 +68,18 @@ class StackabilitySolver {
   std::unique_ptr<const Data> data_;
 };
 
-/// S(M, r) for one use.
+/// S(M, r) for one use: cheaper than a solver, which is prepared for many directions. Equal to what a solver
+/// measures up to rounding. Throws as the constructor of StackabilitySolver.
 Stackability stackability(const Shape& shape, const Direction& direction,
                           const StackabilityOptions& options = {});
+
+/// The same unless S is certainly below `threshold`, which is often cheap to see.
+std::optional<Stackability> stackability_if_above(const Shape& shape, const Direction& direction,
+                                                  double threshold, const StackabilityOptions& options = {});
+
+/// Eq. 3 with `translation` (model units) for f_max, such as one with air between the copies. Throws as the
+/// constructor of StackabilitySolver.
+Stackability stackability_of_translation(const Shape& shape, const Direction& direction, double translation,
+                                         const StackabilityOptions& options = {});
 
 }  // namespace stackabilization
