@@ -1,1 +1,37 @@
 #include "stackabilization/improvement/best_first.h"
+
+#include "stackabilization/improvement/best_first_search.h"
+#include "stackabilization/shape/errors.h"
+
+namespace stackabilization {
+
+namespace {
+
+void validate(const BestFirstOptions& options) {
+  if (options.solutions < 1) throw UsageError("a search looks for one solution at least");
+  if (options.expansions < 1) throw UsageError("a search expands one candidate at least");
+  if (!(options.seconds > 0)) throw UsageError("the time limit of a search must be positive");
+  if (!(options.cone_degrees >= 0) || options.cone_degrees > 90)
+    throw UsageError("the cone in which a direction is searched again must be within 0 and 90 degrees");
+  if (options.directions.empty()) throw UsageError("a search needs a direction to start from");
+  for (const Eigen::Vector3d& direction : options.directions) static_cast<void>(Direction(direction));
+}
+
+}  // namespace
+
+BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOptions& options) {
+  validate(options);
+  const int queues = static_cast<int>(options.directions.size());
+  detail::SearchState state(detail::task_fingerprint(checker, options), queues);
+  return detail::BestFirstSearch(checker, options, std::move(state)).run();
+}
+
+BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
+                                   const std::string& state) {
+  validate(options);
+  const std::uint64_t task = detail::task_fingerprint(checker, options);
+  const int queues = static_cast<int>(options.directions.size());
+  return detail::BestFirstSearch(checker, options, detail::read_state(state, task, queues)).run();
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,45 @@
+#include "stackabilization/improvement/configuration_key.h"
+
+#include <cmath>
+#include <cstddef>
+#include <variant>
+
+#include "stackabilization/improvement/fingerprint.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Fraction of the diagonal: far above what rounding makes of edits in another order, far below any step.
+constexpr double same_design_tolerance = 1e-6;
+
+template <class Now, class Rest>
+void add_displacements(Fingerprint& print, const Now& now, const Rest& rest, double grid) {
+  print.add_numbers(((now - rest) / grid).array().round().matrix());
+}
+
+void add(Fingerprint& print, const Primitive& now, const Primitive& rest, double grid) {
+  add_displacements(print, control_points(now), control_points(rest), grid);
+  const auto* cylinder = std::get_if<GeneralizedCylinder>(&now);
+  if (cylinder == nullptr) return;
+  const auto& at_rest = std::get<GeneralizedCylinder>(rest);
+  add_displacements(print, cylinder->radii, at_rest.radii, grid);
+  add_displacements(print, cylinder->rotation.coeffs(), at_rest.rotation.coeffs(), same_design_tolerance);
+}
+
+}  // namespace
+
+ConfigurationKeys::ConfigurationKeys(const DesignSpace& space)
+    : space_(space), rest_(space.at_rest()), grid_(same_design_tolerance * space.rest().structure.diagonal) {}
+
+std::uint64_t ConfigurationKeys::key(const Design& design) const {
+  Fingerprint print;
+  if (space_.kind() == DeformationKind::controllers)
+    for (std::size_t part = 0; part < design.primitives.size(); ++part)
+      add(print, design.primitives[part], rest_.primitives[part], grid_);
+  else
+    add_displacements(print, design.shape.vertices, rest_.shape.vertices, grid_);
+  return print.value();
+}
+
+}  // namespace stackabilization::detail

@@ -1,0 +1,67 @@
+#include "stackabilization/improvement/expansion.h"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <utility>
+
+namespace stackabilization::detail {
+
+namespace {
+
+std::vector<ContactEdit> suggestions(const SearchTools& tools, const Standpoint& from) {
+  const DesignSpace& space = tools.checker.space();
+  const Shape& shape = from.design.shape;
+  const Direction direction(from.direction);
+  ContactOptions contacts = tools.options.edits.contacts;
+  contacts.semantics = tools.checker.requirements().measure.semantics;
+  const SeparationTree tree(shape);
+  const Separation apart = separation(tree, tree, direction, {contacts.semantics, std::nullopt});
+  if (!apart.blocked) return {};
+  const std::vector<ContactRegion> regions = contact_regions({shape, tree, direction, apart}, contacts);
+  return contact_edits({space.rest(), space.kind(), tools.handles, from.design, regions, direction},
+                       tools.options.edits);
+}
+
+void make(Successor& successor, const SearchTools& tools, const Standpoint& from, const SearchTree& tree) {
+  const DesignSpace& space = tools.checker.space();
+  const Direction direction(from.direction);
+  const auto constraints = deformation_constraints(tools.checker.requirements(), space.rest(), direction);
+  DesignOutcome outcome = space.edited(from.design, successor.suggestion.edit, constraints);
+  if (outcome.refusal) {
+    successor.refusal = outcome.refusal->reason;
+    return;
+  }
+  successor.key = tools.keys.key(outcome.design);
+  successor.known = tree.knows(from.queue, successor.key);
+  if (successor.known) return;
+  successor.measured = tools.checker.measured(outcome.design.shape, direction);
+  successor.energy = tools.energy(outcome.design, successor.measured);
+  if (!std::isfinite(successor.energy.value)) successor.refusal = "stackability or distortion is undefined";
+  successor.design = std::move(outcome.design);
+}
+
+}  // namespace
+
+SearchTools::SearchTools(const RequirementChecker& the_checker, const BestFirstOptions& the_options)
+    : checker(the_checker),
+      options(the_options),
+      meter(the_checker.space().rest(), the_checker.requirements().measure.boxes, the_options.alpha),
+      keys(the_checker.space()),
+      handles(the_checker.space().handles()),
+      at_rest(
+          the_checker.measured(the_checker.space().rest().shape, Direction(the_options.directions.front()))
+              .value) {}
+
+std::vector<Successor> successors(const SearchTools& tools, const Standpoint& from, const SearchTree& tree,
+                                  Interruption& interruption) {
+  std::vector<ContactEdit> edits = suggestions(tools, from);
+  std::vector<Successor> made(edits.size());
+  for (std::size_t k = 0; k < made.size(); ++k) made[k].suggestion = std::move(edits[k]);
+  tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t k) {
+    if (!interruption.now()) make(made[k], tools, from, tree);
+  });
+  return made;
+}
+
+}  // namespace stackabilization::detail

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <thread>
+
+#include "stackabilization/improvement/best_first.h"
+
+namespace stackabilization::detail {
+
+/// Whether a search has to end before its work is done. May be asked by any thread; the caller's function is
+/// asked from the thread that made this alone.
+class Interruption {
+ public:
+  /// `seconds_used`: before, by the search that is resumed.
+  Interruption(const BestFirstOptions& options, double seconds_used)
+      : options_(options),
+        caller_(std::this_thread::get_id()),
+        start_(Clock::now()),
+        seconds_used_(seconds_used) {}
+
+  bool now() {
+    if (!timed_out_ && seconds() >= options_.seconds) timed_out_ = true;
+    if (!cancelled_ && options_.cancelled && std::this_thread::get_id() == caller_ && options_.cancelled())
+      cancelled_ = true;
+    return timed_out_ || cancelled_;
+  }
+  std::optional<SearchEnd> why() const {
+    if (cancelled_) return SearchEnd::cancelled;
+    if (timed_out_) return SearchEnd::time_limit;
+    return std::nullopt;
+  }
+  /// Used so far, with those before.
+  double seconds() const {
+    return seconds_used_ + std::chrono::duration<double>(Clock::now() - start_).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const BestFirstOptions& options_;
+  std::thread::id caller_;
+  Clock::time_point start_;
+  double seconds_used_;
+  std::atomic<bool> timed_out_ = false, cancelled_ = false;
+};
+
+}  // namespace stackabilization::detail

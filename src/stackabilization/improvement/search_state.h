@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "stackabilization/improvement/best_first.h"
+#include "stackabilization/improvement/search_tree.h"
+
+namespace stackabilization::detail {
+
+/// Everything that a search knows between two steps, apart from what follows from it.
+struct SearchState {
+  SearchState(std::uint64_t the_task, int queues) : task(the_task), tree(queues) {}
+
+  std::uint64_t task;  ///< see task_fingerprint
+  SearchTree tree;
+  std::map<std::string, std::int64_t> refusals;  ///< by reason
+  std::int64_t expanded = 0, evaluated = 0;
+  double seconds = 0;  ///< of wall clock that it took
+};
+
+/// Of the shape at rest with its structure, the requirements and the options, but for the limits: a search
+/// may go on with other ones.
+std::uint64_t task_fingerprint(const RequirementChecker& checker, const BestFirstOptions& options);
+
+/// As JSON: numbers round-trip, the same bytes for the same state.
+std::string text_of(const SearchState& state);
+
+/// Throws InputError when the text is no state, or that of another task.
+SearchState read_state(const std::string& text, std::uint64_t task, int queues);
+
+}  // namespace stackabilization::detail
