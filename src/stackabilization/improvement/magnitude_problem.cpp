@@ -18,8 +18,8 @@ namespace {
 constexpr double near_band = 0.2;
 constexpr std::size_t most_pairs = 160;
 
-/// Step of the differences that give slopes, as a fraction of the edits given: far above the rounding of solved
-/// edits, long enough to see over the facets of curved surfaces.
+/// Step of the differences that give slopes, as a fraction of the edits given: far above the rounding of
+/// solved edits, long enough to see over the facets of curved surfaces.
 constexpr double difference_step = 0x1p-12;
 
 /// Shortfall of the whole shape where the pairs stand for it.
@@ -166,8 +166,7 @@ MagnitudeSlopes MagnitudeProblem::slopes(const Magnitudes& x) {
   std::vector<double> steps(size());
   std::vector<Magnitudes> neighbours;
   for (std::size_t k = 0; k < size(); ++k) {
-    steps[k] = x[k] + difference_step <= highest() ? difference_step
-                                                             : -difference_step;
+    steps[k] = x[k] + difference_step <= highest() ? difference_step : -difference_step;
     neighbours.push_back(neighbour(k, steps[k]));
   }
   prepare(neighbours);

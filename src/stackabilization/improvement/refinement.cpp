@@ -192,8 +192,7 @@ class Refiner {
       return sample.feasible ? above : std::min(above, -target_tolerance);
     };
     const auto close_enough = [&](double a, double b) {
-      return excess <= target_tolerance / 2 || std::abs(b - a) <= tolerance::rounding ||
-             problem_.stopped();
+      return excess <= target_tolerance / 2 || std::abs(b - a) <= tolerance::rounding || problem_.stopped();
     };
     const double at_start = margin(0), at_end = margin(1);
     if (!(at_start > 0) || !(at_end < 0)) return;
