@@ -1,0 +1,118 @@
+#include "stackabilization/improvement/block_separations.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <tuple>
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// About as many blocks are made, at most so many slabs of each part.
+constexpr int many_blocks = 96;
+constexpr int most_slabs = 12;
+
+}  // namespace
+
+struct BlockSeparations::Placed {
+  Shape shape;
+  Eigen::AlignedBox3d box;                     ///< in the frame of r
+  std::shared_ptr<const SeparationTree> tree;  ///< made where it is needed
+};
+
+BlockSeparations::BlockSeparations(const Shape& rest, const Direction& direction, Semantics semantics)
+    : direction_(direction), frame_(frame_of(direction)), semantics_(semantics) {
+  const Range heights = range_along(rest, frame_.w);
+  const int slabs = std::clamp(many_blocks / static_cast<int>(rest.part_count()), 1, most_slabs);
+  std::vector<std::vector<std::int32_t>> members(static_cast<std::size_t>(rest.part_count() * slabs));
+  for (std::int32_t t = 0; t < rest.triangle_count(); ++t) {
+    const double height = frame_.w.dot(rest.corner(t, 0) + rest.corner(t, 1) + rest.corner(t, 2)) / 3;
+    const double share = heights.length() > 0 ? (height - heights.low) / heights.length() : 0;
+    const int slab = std::clamp(static_cast<int>(share * slabs), 0, slabs - 1);
+    const int part = rest.triangle_part[static_cast<std::size_t>(t)];
+    members[static_cast<std::size_t>(part * slabs + slab)].push_back(t);
+  }
+  std::vector<std::int32_t> row_in_block(static_cast<std::size_t>(rest.vertex_count()), -1);
+  for (const std::vector<std::int32_t>& triangles : members) {
+    if (triangles.empty()) continue;
+    Block block;
+    block.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (int c = 0; c < 3; ++c) {
+        const std::int32_t vertex = rest.triangles(triangles[t], c);
+        std::int32_t& row = row_in_block[static_cast<std::size_t>(vertex)];
+        if (row < 0) {
+          row = static_cast<std::int32_t>(block.vertices.size());
+          block.vertices.push_back(vertex);
+        }
+        block.triangles(static_cast<Eigen::Index>(t), c) = row;
+      }
+    for (const std::int32_t vertex : block.vertices) row_in_block[static_cast<std::size_t>(vertex)] = -1;
+    blocks_.push_back(std::move(block));
+  }
+}
+
+BlockSeparations::Placed BlockSeparations::placed(const Shape& shape, int block) const {
+  const Block& of = blocks_[static_cast<std::size_t>(block)];
+  Placed result;
+  result.shape = make_shape(shape.vertices(of.vertices, Eigen::all), of.triangles);
+  for (Eigen::Index v = 0; v < result.shape.vertex_count(); ++v)
+    result.box.extend(frame_.to_local(result.shape.vertices.row(v).transpose()));
+  return result;
+}
+
+double BlockSeparations::separation(const Placed& upper, const Placed& lower) const {
+  const double least = upper.box.min().z() - lower.box.max().z();
+  const Enclosure enclosure =
+      separation_enclosure(*upper.tree, *lower.tree, direction_, {semantics_, std::nullopt});
+  if (enclosure.upper == -std::numeric_limits<double>::infinity()) return least;
+  return (enclosure.lower + enclosure.upper) / 2 * direction_.length();
+}
+
+std::vector<BlockPair> BlockSeparations::pairs_above(const Shape& shape, double least) const {
+  const int count = static_cast<int>(blocks_.size());
+  std::vector<Placed> placed_blocks;
+  for (int b = 0; b < count; ++b) placed_blocks.push_back(placed(shape, b));
+  const auto with_tree = [&](int b) -> const Placed& {
+    Placed& block = placed_blocks[static_cast<std::size_t>(b)];
+    if (!block.tree) block.tree = std::make_shared<const SeparationTree>(block.shape);
+    return block;
+  };
+  std::vector<BlockPair> pairs;
+  for (int a = 0; a < count; ++a)
+    for (int b = 0; b < count; ++b) {
+      const Eigen::AlignedBox3d &upper = placed_blocks[static_cast<std::size_t>(a)].box,
+                                &lower = placed_blocks[static_cast<std::size_t>(b)].box;
+      const bool apart = (upper.min().head<2>().array() > lower.max().head<2>().array()).any() ||
+                         (lower.min().head<2>().array() > upper.max().head<2>().array()).any();
+      if (apart || upper.max().z() - lower.min().z() < least) continue;
+      const double f = separation(with_tree(a), with_tree(b));
+      if (f >= least) pairs.push_back({a, b, f});
+    }
+  std::sort(pairs.begin(), pairs.end(), [](const BlockPair& a, const BlockPair& b) {
+    return std::tie(b.f, a.upper, a.lower) < std::tie(a.f, b.upper, b.lower);
+  });
+  return pairs;
+}
+
+std::vector<double> BlockSeparations::separations(const Shape& shape,
+                                                  const std::vector<BlockPair>& pairs) const {
+  std::vector<std::optional<Placed>> placed_blocks(blocks_.size());
+  const auto with_tree = [&](int b) -> const Placed& {
+    std::optional<Placed>& block = placed_blocks[static_cast<std::size_t>(b)];
+    if (!block) {
+      block = placed(shape, b);
+      block->tree = std::make_shared<const SeparationTree>(block->shape);
+    }
+    return *block;
+  };
+  std::vector<double> result;
+  for (const BlockPair& pair : pairs)
+    result.push_back(separation(with_tree(pair.upper), with_tree(pair.lower)));
+  return result;
+}
+
+}  // namespace stackabilization::detail

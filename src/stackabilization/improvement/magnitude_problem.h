@@ -1,0 +1,101 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "stackabilization/improvement/block_separations.h"
+#include "stackabilization/improvement/distortion_terms.h"
+#include "stackabilization/improvement/requirements.h"
+
+namespace stackabilization::detail {
+
+/// By how much S of a refined design may exceed its target, where its distortion depends on it.
+inline constexpr double target_tolerance = 1e-7;
+
+/// Relative accuracy at which magnitudes, and the distortion that they cause, count as settled.
+inline constexpr double magnitude_tolerance = 1e-6;
+
+/// One magnitude per edit.
+using Magnitudes = std::vector<double>;
+
+/// A design by its magnitudes, measured.
+struct MagnitudeSample {
+  bool made = false;           ///< no edit was refused; otherwise the rest means nothing
+  bool feasible = false;       ///< reaches the target and passes the checks
+  double distortion = 0;       ///< D
+  double stackability = 0;     ///< S, with the air asked for
+  Eigen::VectorXd changes;     ///< DistortionTerms::changes
+  Eigen::VectorXd shortfalls;  ///< what each constraint lacks: positive where it is broken
+};
+
+/// How a sample changes with each magnitude: one column per magnitude, zero where no neighbour could be made.
+struct MagnitudeSlopes {
+  Eigen::MatrixXd changes, shortfalls;
+};
+
+/// The designs that some edits make with other magnitudes, along one direction: a function of few numbers.
+/// Remembers what it measured. Deterministic for any number of threads.
+class MagnitudeProblem {
+ public:
+  struct Limits {
+    int evaluations = 0;  ///< samples made at most, but for a few
+    double reach = 0;     ///< magnitudes lie in [-reach, max(reach, 1)]
+    std::function<bool()> cancelled;
+  };
+
+  MagnitudeProblem(const RequirementChecker& checker, std::vector<Edit> edits, const Direction& direction,
+                   Limits limits);
+
+  std::size_t size() const { return edits_.size(); }
+  double lowest() const { return -limits_.reach; }
+  double highest() const { return std::max(limits_.reach, 1.0); }
+  /// S that is aimed at: the target, and half of the excess that is allowed.
+  double aim() const;
+
+  /// From now on shortfalls have one row for the whole shape, one for each pair of blocks that comes near its
+  /// f_max at `x`, and one per check. That of the whole shape counts only where no such pair attains f_max,
+  /// so that no pair is forgotten. Precondition: at(x).made.
+  void constrain_pairs(const Magnitudes& x);
+
+  const MagnitudeSample& at(const Magnitudes& x);
+  MagnitudeSlopes slopes(const Magnitudes& x);
+  /// Measures several at once, so that at() has them.
+  void prepare(const std::vector<Magnitudes>& points);
+
+  /// The edits with these magnitudes; those with 0 are left out.
+  std::vector<Edit> edits(const Magnitudes& x) const;
+  DesignOutcome design(const Magnitudes& x) const;
+
+  /// The feasible sample of least D so far, if any, and the one of largest S.
+  const std::optional<Magnitudes>& best() const { return best_; }
+  const std::optional<Magnitudes>& nearest() const { return nearest_; }
+  double best_distortion() const { return best_distortion_; }
+  int evaluations() const { return evaluations_; }
+  /// The limit of evaluations is used up, or it was cancelled.
+  bool stopped() const;
+
+ private:
+  MagnitudeSample measured(const Magnitudes& x) const;
+  void measure_blocks(const Design& design, const Stackability& whole, MagnitudeSample& sample) const;
+  void remember(const Magnitudes& x, MagnitudeSample sample);
+
+  const RequirementChecker& checker_;
+  std::vector<Edit> edits_;
+  Direction direction_;
+  Limits limits_;
+  DeformationConstraints constraints_;
+  EnergyMeter meter_;
+  DistortionTerms terms_;
+  BlockSeparations blocks_;
+  std::vector<BlockPair> pairs_;
+  bool checks_ = false;  ///< there are more of them than S and what the deformation keeps anyway
+  std::map<Magnitudes, MagnitudeSample> samples_;
+  std::optional<Magnitudes> best_, nearest_;
+  double best_distortion_ = 0, nearest_stackability_ = 0;
+  int evaluations_ = 0;
+};
+
+}  // namespace stackabilization::detail

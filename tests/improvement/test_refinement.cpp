@@ -1,0 +1,333 @@
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "stackabilization/improvement/block_separations.h"
+#include "stackabilization/improvement/distortion_terms.h"
+#include "stackabilization/improvement/refinement.h"
+#include "stackabilization/shape/errors.h"
+#include "support/catch.h"
+#include "support/solids.h"
+#include "support/variants.h"
+
+using namespace stackabilization;
+
+namespace {
+
+constexpr double wall = 0.1;  // of the radius, which is 1
+constexpr double height = 4;
+constexpr double limit = 0.7;  // of the scale of the bottom, in spaces that refuse more
+
+/// Cups with conical walls: circles of radius b at the bottom and t at the top, and walls whose thickness is
+/// that fraction of the radius everywhere. Scaling section 0 changes b, section 1 t.
+///
+/// Where the inner wall reaches the rim, f = height wall t / (t - b), and the box keeps its proportions along
+/// z, so S = 1 - wall t / (t - b) as long as the bottom goes into the mouth.
+class Cups : public DesignSpace {
+ public:
+  explicit Cups(double least_bottom = 0) : least_bottom_(least_bottom) {
+    rest_.shape = shape(1, 1);
+    rest_.structure.parts = {{"part", primitive(1, 1), {}}};
+    rest_.structure.diagonal = std::sqrt(8 + height * height);
+  }
+
+  const StructuredShape& rest() const override { return rest_; }
+  DeformationKind kind() const override { return DeformationKind::controllers; }
+  std::vector<Handle> handles() const override {
+    return {{HandleKind::section, 0, 0}, {HandleKind::section, 0, 1}};
+  }
+  Design at_rest() const override { return {{}, {primitive(1, 1)}, rest_.shape}; }
+
+  DesignOutcome edited(const Design& now, const Edit& edit, const DeformationConstraints&) const override {
+    const Eigen::VectorXd radii = std::get<GeneralizedCylinder>(now.primitives.front()).radii;
+    const double factor = std::get<Scale>(edit.operation).factor;
+    const double bottom = edit.handle.index == 0 ? radii[0] * factor : radii[0];
+    const double top = edit.handle.index == 1 ? radii[1] * factor : radii[1];
+    if (bottom < least_bottom_) return {Refusal{"the bottom would be too small", {}, 0}, now};
+    Design design{now.edits, {primitive(bottom, top)}, shape(bottom, top)};
+    design.edits.push_back(edit);
+    return {std::nullopt, design};
+  }
+
+  Candidate candidate(const RequirementChecker& checker, const std::vector<Edit>& edits) const {
+    Candidate result;
+    result.design = replayed(edits, {}).design;
+    result.measured = checker.measured(result.design.shape, Direction(0, 0, 1));
+    for (std::size_t k = 0; k < edits.size(); ++k) result.reasons.push_back("edit " + std::to_string(k));
+    return result;
+  }
+
+ private:
+  static Primitive primitive(double bottom, double top) {
+    GeneralizedCylinder cylinder;
+    cylinder.centres = (Points(2, 3) << 0, 0, 0, 0, 0, height).finished();
+    cylinder.radii = Eigen::Vector2d(bottom, top);
+    return cylinder;
+  }
+  static Shape shape(double bottom, double top) {
+    const double floor = 0.2, at_floor = bottom + (top - bottom) * floor / height;
+    return solids::frustum_shell({bottom, top, (1 - wall) * at_floor, (1 - wall) * top, height, floor, 16});
+  }
+
+  StructuredShape rest_;
+  double least_bottom_;
+};
+
+Edit scale(int section, double factor) {
+  return {{HandleKind::section, 0, section}, Scale{factor, {}}, Falloff::linear};
+}
+
+Requirements stacks(double target) {
+  Requirements requirements;
+  requirements.target = target;
+  requirements.measure.boxes = BoxModel::frame;
+  return requirements;
+}
+
+double radius(const RefinementResult& result, int section) {
+  return std::get<GeneralizedCylinder>(result.candidate.design.primitives.front()).radii[section];
+}
+
+double volume_change(double bottom, double top) {
+  return (bottom * bottom + bottom * top + top * top) / 3 - 1;
+}
+
+void check_met(const RefinementResult& result, double target) {
+  CHECK(result.reached);
+  CHECK(result.candidate.measured.value >= target);
+  CHECK(result.candidate.measured.value <= target + 1e-7);
+}
+
+}  // namespace
+
+TEST_CASE("a magnitude multiplies moves and angles, and is an exponent of factors") {
+  const Edit move{{HandleKind::part, 0, 0}, Move{{1, -2, 3}}};
+  CHECK(std::get<Move>(with_magnitude(move, 1).operation).by == Eigen::Vector3d(1, -2, 3));
+  CHECK(std::get<Move>(with_magnitude(move, -0.5).operation).by == Eigen::Vector3d(-0.5, 1, -1.5));
+  CHECK(std::get<Move>(with_magnitude(move, 0).operation).by == Eigen::Vector3d::Zero());
+  const Edit turn{{HandleKind::part, 0, 0}, Rotate{{0, 1, 0}, 0.3}};
+  CHECK(std::get<Rotate>(with_magnitude(turn, 2).operation).radians == 0.6);
+  CHECK(std::get<Rotate>(with_magnitude(turn, 2).operation).axis == Eigen::Vector3d::UnitY());
+  CHECK(std::get<Scale>(with_magnitude(scale(0, 0.9), 2).operation).factor == Approx(0.81).epsilon(1e-15));
+  CHECK(std::get<Scale>(with_magnitude(scale(0, 0.9), -1).operation).factor ==
+        Approx(1 / 0.9).epsilon(1e-15));
+  CHECK(std::get<Scale>(with_magnitude(scale(0, 0.9), 1).operation).factor == 0.9);
+  CHECK(std::get<Scale>(with_magnitude(scale(0, 0.9), 0).operation).factor == 1);
+  CHECK(with_magnitude(scale(0, 0.9), 2).falloff == Falloff::linear);
+}
+
+TEST_CASE("edits that do the same thing become one, those that change nothing vanish") {
+  const Handle part{HandleKind::part, 1, 0}, other{HandleKind::part, 2, 0};
+  const std::vector<Edit> edits = {{part, Move{{1, 0, 0}}},
+                                   {other, Move{{0, 1, 0}}},
+                                   {part, Scale{0.5, {}}},
+                                   {part, Move{{2, 0, 0}}},
+                                   {part, Move{{0, 0, 1}}},
+                                   {other, Move{{0, -1, 0}}},
+                                   {part, Scale{3, {}}},
+                                   {part, Scale{3, Eigen::Vector3d(0, 0, 1)}},
+                                   {part, Rotate{{0, 0, 1}, 0.25}},
+                                   {part, Rotate{{0, 0, -2}, 1}},
+                                   {part, Scale{1, {}}}};
+  const std::vector<Edit> result = merged(edits);
+  REQUIRE(result.size() == 5);
+  CHECK(std::get<Move>(result[0].operation).by == Eigen::Vector3d(3, 0, 0));
+  CHECK(std::get<Scale>(result[1].operation).factor == 1.5);
+  CHECK_FALSE(std::get<Scale>(result[1].operation).along);
+  CHECK(std::get<Move>(result[2].operation).by == Eigen::Vector3d(0, 0, 1));
+  CHECK(std::get<Scale>(result[3].operation).factor == 3);
+  CHECK(std::get<Scale>(result[3].operation).along);
+  CHECK(std::get<Rotate>(result[4].operation).radians == -0.75);
+  for (const Edit& edit : result) CHECK(edit.handle == part);
+
+  Edit linear = scale(0, 0.5), gaussian = linear;
+  gaussian.falloff = Falloff::gaussian;
+  CHECK(merged({linear, gaussian}).size() == 2);
+  CHECK(merged({linear, scale(1, 0.5)}).size() == 2);
+  CHECK(merged({scale(0, 0.5), scale(0, 2)}).empty());
+}
+
+TEST_CASE("f_max is the maximum over pairs of blocks") {
+  const Direction direction(0.1, -0.2, 1);
+  for (const Semantics semantics : {Semantics::solid, Semantics::closed})
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      const Shape soup = solids::triangle_soup({seed, 120, 0.3, 3});
+      const detail::BlockSeparations blocks(soup, direction, semantics);
+      const double f_max = minimal_stacking_translation(soup, direction, {semantics, std::nullopt}).length;
+      const std::vector<detail::BlockPair> pairs = blocks.pairs_above(soup, f_max / 2);
+      REQUIRE(pairs.size() > 1);
+      CHECK(pairs.front().f == Approx(f_max).epsilon(1e-11));
+      CHECK(pairs.back().f >= f_max / 2);
+      CHECK(
+          std::is_sorted(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.f > b.f; }));
+
+      const Shape turned = transformed(soup, solids::random_rotation(seed), {0, 0, 0});
+      std::vector<detail::BlockPair> all;
+      for (const detail::BlockPair& pair : blocks.pairs_above(turned, -100)) all.push_back(pair);
+      const std::vector<double> again = blocks.separations(turned, all);
+      for (std::size_t p = 0; p < all.size(); ++p) CHECK(again[p] == all[p].f);
+      CHECK(*std::max_element(again.begin(), again.end()) ==
+            Approx(minimal_stacking_translation(turned, direction, {semantics, std::nullopt}).length)
+                .epsilon(1e-11));
+    }
+}
+
+TEST_CASE("a pair of blocks that pass each other asks for what it would if it just met") {
+  const Shape two = concatenate(solids::box({0, 0, 0}, {1, 1, 1}), solids::box({5, 0, 2}, {6, 1, 4}));
+  const detail::BlockSeparations blocks(two, Direction(0, 0, 2), Semantics::solid);
+  const std::vector<detail::BlockPair> high = blocks.pairs_above(two, 1.5);
+  REQUIRE(high.size() == 1);
+  CHECK(high.front().f == Approx(2));
+  const Shape apart = concatenate(solids::box({0, 0, 0}, {1, 1, 1}), solids::box({5, 0, 2}, {6, 1, 4}));
+  Shape met = apart;
+  for (Eigen::Index v = 8; v < met.vertex_count(); ++v) met.vertices(v, 0) -= 4.5;
+  const std::vector<detail::BlockPair> of_met = blocks.pairs_above(met, 3.5);
+  REQUIRE(of_met.size() == 1);
+  CHECK(of_met.front().f == Approx(4));
+  const std::vector<double> passing = blocks.separations(apart, of_met);
+  CHECK(passing.front() <= 4);
+}
+
+TEST_CASE("the signed changes add up to the distortion") {
+  const Cups cups;
+  for (const BoxModel boxes : {BoxModel::frame, BoxModel::oriented}) {
+    const EnergyMeter meter(cups.rest(), boxes);
+    const detail::DistortionTerms terms(cups.rest(), boxes);
+    for (const double factor : {0.6, 1.0, 1.4}) {
+      const Design design = cups.replayed({scale(0, 0.8), scale(1, factor)}, {}).design;
+      const Distortion distortion = meter.distortion(design);
+      const Eigen::VectorXd changes = terms.changes(design, distortion);
+      CHECK(changes.cwiseAbs().sum() == Approx(distortion.total()).epsilon(1e-12));
+      CHECK(changes[0] == Approx(volume_change(0.8, factor) / 4).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("the least taper of a cup has a closed form") {
+  const Cups cups;
+  for (const double target : {0.75, 0.8, 0.85}) {
+    const RequirementChecker checker(cups, stacks(target));
+    const double bottom = 1 - wall / (1 - target);
+    // Too much, just so, too little.
+    for (const double start : {bottom - 0.1, bottom, std::sqrt(bottom)}) {
+      const RefinementResult result = refined_candidate(checker, cups.candidate(checker, {scale(0, start)}));
+      check_met(result, target);
+      CHECK(radius(result, 0) == Approx(bottom).epsilon(1e-6));
+      CHECK(radius(result, 1) == 1);
+      CHECK(result.candidate.energy.distortion.total() ==
+            Approx(-volume_change(bottom, 1) / 4).epsilon(1e-6));
+      CHECK(result.evaluations <= 60);
+      REQUIRE(result.candidate.design.edits.size() == 1);
+      CHECK(result.candidate.reasons == std::vector<std::string>{"edit 0"});
+    }
+  }
+}
+
+TEST_CASE("of two edits those magnitudes are found that keep the volume, where D has its kink") {
+  // S asks for b <= t / 2. Then 4 D = |7/12 t^2 - 1| + (t - 1) / 2 is least where the volume is kept.
+  const Cups cups;
+  const RequirementChecker checker(cups, stacks(0.8));
+  const double top = std::sqrt(12.0 / 7);
+  for (const auto& [b, t] : {std::pair(0.4, 1.1), std::pair(0.5, 1.2), std::pair(0.8, 1.25)}) {
+    const RefinementResult result =
+        refined_candidate(checker, cups.candidate(checker, {scale(0, b), scale(1, t)}));
+    check_met(result, 0.8);
+    CHECK(result.candidate.energy.distortion.total() == Approx((top - 1) / 8).epsilon(1e-3));
+    CHECK(radius(result, 1) == Approx(top).epsilon(1e-3));
+    CHECK(radius(result, 0) == Approx(top / 2).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("an edit that is of no use is left out, its counterpart merged") {
+  const Cups cups;
+  const RequirementChecker checker(cups, stacks(0.8));
+  const Candidate start =
+      cups.candidate(checker, {scale(0, 0.5), scale(1, 1.25), scale(0, 0.8), scale(1, 0.8)});
+  const RefinementResult result = refined_candidate(checker, start);
+  check_met(result, 0.8);
+  REQUIRE(result.candidate.design.edits.size() == 1);
+  CHECK(radius(result, 0) == Approx(0.5).epsilon(1e-6));
+}
+
+TEST_CASE("where edits are refused the best of the others is found") {
+  // The kink lies at b = 0.65, which is refused: b stays at its limit, and t = 2 b.
+  const Cups cups(limit);
+  const RequirementChecker checker(cups, stacks(0.8));
+  const RefinementResult result =
+      refined_candidate(checker, cups.candidate(checker, {scale(0, 0.75), scale(1, 1.6)}));
+  check_met(result, 0.8);
+  CHECK(radius(result, 0) >= limit);
+  const double least = (std::abs(volume_change(limit, 2 * limit)) + (2 * limit - 1) / 2) / 4;
+  CHECK(result.candidate.energy.distortion.total() == Approx(least).epsilon(0.01));
+}
+
+TEST_CASE("a target out of reach gives the largest S, and says so") {
+  const Cups cups(limit);
+  const RequirementChecker checker(cups, stacks(0.8));
+  const RefinementResult result = refined_candidate(checker, cups.candidate(checker, {scale(0, 0.9)}));
+  CHECK_FALSE(result.reached);
+  CHECK(radius(result, 0) >= limit);
+  CHECK(result.candidate.measured.value == Approx(1 - wall / (1 - limit)).epsilon(0.01));
+}
+
+TEST_CASE("the result is never worse than what was given") {
+  const Cups cups;
+  const RequirementChecker checker(cups, stacks(0.6));
+  for (const auto& [b, t] : {std::pair(0.75, 1.0), std::pair(0.7, 0.94), std::pair(0.9, 1.3)}) {
+    const Candidate start = cups.candidate(checker, {scale(0, b), scale(1, t)});
+    RefinementOptions few;
+    few.evaluations = 10;
+    const RefinementResult result = refined_candidate(checker, start, few);
+    const EnergyMeter meter(cups.rest(), BoxModel::frame);
+    CHECK(result.evaluations <= 20);
+    if (start.measured.value >= 0.6) {
+      CHECK(result.reached);
+      CHECK(result.candidate.energy.distortion.total() <= meter.distortion(start.design).total());
+    }
+  }
+}
+
+TEST_CASE("a refinement that is cancelled at once gives back what it was given, judged") {
+  const Cups cups;
+  const RequirementChecker checker(cups, stacks(0.8));
+  RefinementOptions options;
+  options.cancelled = [] { return true; };
+  const Candidate start = cups.candidate(checker, {scale(0, 0.4), scale(1, 1.1)});
+  const RefinementResult result = refined_candidate(checker, start, options);
+  CHECK(result.reached);
+  CHECK(result.evaluations <= 10);
+  const RefinementResult nothing = refined_candidate(checker, cups.candidate(checker, {}));
+  CHECK_FALSE(nothing.reached);
+  CHECK(nothing.evaluations == 0);
+}
+
+TEST_CASE("the same bytes for any number of threads") {
+  const Cups cups;
+  const RequirementChecker checker(cups, stacks(0.8));
+  const Candidate start = cups.candidate(checker, {scale(0, 0.8), scale(1, 1.1)});
+  std::vector<RefinementResult> results;
+  for (const std::size_t threads : {1, 4}) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    results.push_back(refined_candidate(checker, start));
+  }
+  CHECK(results[0].evaluations == results[1].evaluations);
+  CHECK(results[0].candidate.design.shape.vertices == results[1].candidate.design.shape.vertices);
+  CHECK(results[0].candidate.energy.value == results[1].candidate.energy.value);
+}
+
+TEST_CASE("options out of range are refused") {
+  const Cups cups;
+  const RequirementChecker checker(cups, stacks(0.8));
+  const Candidate start = cups.candidate(checker, {scale(0, 0.8)});
+  RefinementOptions options;
+  options.evaluations = 9;
+  CHECK_THROWS_AS(refined_candidate(checker, start, options), UsageError);
+  options = {};
+  options.reach = 0;
+  CHECK_THROWS_AS(refined_candidate(checker, start, options), UsageError);
+  options = {};
+  options.alpha = 2;
+  CHECK_THROWS_AS(refined_candidate(checker, start, options), UsageError);
+}
