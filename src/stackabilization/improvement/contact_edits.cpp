@@ -34,6 +34,11 @@ void check(const ContactEditOptions& options) {
   if (options.most_regions < 1) throw UsageError("at least one contact region must be looked at");
 }
 
+/// Directions whose cosine is above this are one way out.
+constexpr double one_way = 0.998;
+/// Cosine from which a move is called outwards.
+constexpr double clearly = 0.1;
+
 /// A way out sideways.
 struct Way {
   Eigen::Vector3d along;  ///< unit
@@ -161,9 +166,10 @@ class ContactEditor {
     if (side.region.type == ContactType::ring && !extended_) return;
     if (handle.role == Role::end || side.on_end || on_end(handle.range(frame_.w))) return;
     const Eigen::Vector3d along = side.of_lower_copy ? Eigen::Vector3d(-frame_.w) : frame_.w;
-    if (!symmetry_.can_move(side.part, handle.centre, along)) return;
+    const auto allowed = symmetry_.allowed_move(side.part, handle.centre, along);
+    if (!allowed) return;
     for (const double size : sizes(options_.move_step * extent(along), std::nullopt))
-      add(side, handle, Move{size * along}, side.of_lower_copy ? "down" : "up");
+      add(side, handle, Move{size * *allowed}, side.of_lower_copy ? "down" : "up");
   }
 
   double extent(const Eigen::Vector3d& axis) const {
@@ -171,18 +177,23 @@ class ContactEditor {
   }
 
   std::vector<Way> ways(const ContactSide& side) const {
-    const Eigen::Vector3d& w = frame_.w;
-    if (side.region.type == ContactType::line) {
-      const Eigen::Vector3d across = w.cross(side.region.long_axis).normalized();
-      return {{across, "across the line"}, {-across, "across the line"}};
-    }
-    std::vector<Way> result;
     Eigen::Vector3d radial = side.centre - frame_.centre;
-    radial -= radial.dot(w) * w;
-    if (radial.norm() > tolerance::same_symmetry * diagonal_)
-      result = {{radial.normalized(), "outwards"}, {-radial.normalized(), "inwards"}};
-    for (const Eigen::Vector3d& axis : {frame_.u, frame_.v})
-      for (const double sign : {1.0, -1.0}) result.push_back({sign * axis, "sideways"});
+    radial -= radial.dot(frame_.w) * frame_.w;
+    const bool off_axis = radial.norm() > tolerance::same_symmetry * diagonal_;
+    if (off_axis) radial.normalize();
+    std::vector<Eigen::Vector3d> axes = {frame_.u, frame_.v};
+    if (side.region.type == ContactType::line)
+      axes = {frame_.w.cross(side.region.long_axis).normalized()};
+    else if (off_axis && std::max(std::abs(radial.dot(frame_.u)), std::abs(radial.dot(frame_.v))) < one_way)
+      axes.insert(axes.begin(), radial);
+    std::vector<Way> result;
+    for (const Eigen::Vector3d& axis : axes)
+      for (const double sign : {1.0, -1.0}) {
+        const double outwards = off_axis ? sign * axis.dot(radial) : 0;
+        result.push_back({sign * axis, outwards > clearly    ? "outwards"
+                                       : outwards < -clearly ? "inwards"
+                                                             : "sideways"});
+      }
     return result;
   }
 
@@ -201,12 +212,13 @@ class ContactEditor {
 
   void move_sideways(const ContactSide& side, const ContactHandle& handle) {
     for (const Way& way : ways(side)) {
-      if (!symmetry_.can_move(side.part, handle.centre, way.along)) continue;
+      const auto allowed = symmetry_.allowed_move(side.part, handle.centre, way.along);
+      if (!allowed) continue;
       const double step = options_.move_step * extent(way.along);
       std::vector<double> chosen = sizes(step, std::nullopt);
       if (extended_ && side.other != side.part) {
         const double out = way_out(side, handle, way.along);
-        const bool shorter = out <= way_out(side, handle, -way.along);
+        const bool shorter = out <= way_out(side, handle, -way.along) + tolerance::relative * diagonal_;
         if (!shorter && handle.role != Role::nearest) continue;
         if (!shorter)
           chosen.resize(1);
@@ -214,7 +226,7 @@ class ContactEditor {
           chosen = sizes(step, out);
       }
       for (const double size : chosen)
-        add(side, handle, Move{size * way.along},
+        add(side, handle, Move{size * *allowed},
             handle.falloff == Falloff::linear ? "leaning " + way.word : way.word);
     }
   }
@@ -251,7 +263,8 @@ class ContactEditor {
     const bool ring = side.region.type == ContactType::ring, upright = axis == frame_.w;
     const Range own = whole.range(axis);
     if (upright && on_end(own)) return;
-    if (!symmetry_.can_scale(side.part, axis)) return;
+    const auto allowed = symmetry_.allowed_axis(side.part, axis);
+    if (!allowed) return;
     const double offset = (side.centre - whole.centre).dot(axis);
     if ((upright || !ring) && !is_off(offset * axis, own.length() / 2)) return;
     if (side.region.type == ContactType::line && !upright &&
@@ -259,8 +272,8 @@ class ContactEditor {
       return;
     const std::optional<double> enough = upright ? std::nullopt : enough_shrinking(side, whole, axis);
     for (const double size : sizes(options_.scale_step, enough))
-      add(side, whole, Scale{1 - size, axis}, upright ? "flatter" : "narrower");
-    if (!upright) add(side, whole, Scale{1 + multiples_.front() * options_.scale_step, axis}, "wider");
+      add(side, whole, Scale{1 - size, *allowed}, upright ? "flatter" : "narrower");
+    if (!upright) add(side, whole, Scale{1 + multiples_.front() * options_.scale_step, *allowed}, "wider");
   }
 
   /// By what fraction a part must shrink along `axis` to leave the other beside it.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "stackabilization/shape/boxes.h"
 #include "stackabilization/shape/tolerances.h"
@@ -178,6 +179,18 @@ std::vector<ContactHandle> surface_handles(const ContactSituation& situation, co
   return result;
 }
 
+/// Normal of the first mirror plane that contains `w`: of the whole, or of its parts.
+std::optional<Eigen::Vector3d> mirror_normal(const Structure& structure, const Eigen::Vector3d& w) {
+  std::vector<Symmetry> symmetries = structure.symmetries;
+  for (const Relation& relation : structure.relations)
+    if (relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry)
+      symmetries.push_back(relation.symmetry);
+  for (const Symmetry& one : symmetries)
+    if (one.kind == SymmetryKind::reflection && std::abs(one.axis.dot(w)) <= tolerance::same_symmetry)
+      return one.axis;
+  return std::nullopt;
+}
+
 }  // namespace
 
 Points part_points(const Shape& shape, int part) {
@@ -194,14 +207,9 @@ Points part_points(const Shape& shape, int part) {
 ContactFrame contact_frame(const ContactSituation& situation) {
   ContactFrame frame;
   frame.w = situation.direction.unit();
-  const auto& symmetries = situation.rest.structure.symmetries;
-  const auto upright = std::find_if(symmetries.begin(), symmetries.end(), [&](const Symmetry& one) {
-    return one.kind == SymmetryKind::reflection &&
-           std::abs(one.axis.dot(frame.w)) <= tolerance::same_symmetry;
-  });
   const Shape& shape = situation.design.shape;
-  if (upright != symmetries.end()) {
-    frame.u = (upright->axis - upright->axis.dot(frame.w) * frame.w).normalized();
+  if (const auto normal = mirror_normal(situation.rest.structure, frame.w)) {
+    frame.u = (*normal - normal->dot(frame.w) * frame.w).normalized();
   } else {
     const OrientedBox box = HullSupport(shape).box_along(situation.direction);
     Eigen::Index along = 0;

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "stackabilization/shape/tolerances.h"
 #include "stackabilization/structure/symmetry_orbit.h"
@@ -12,9 +11,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Is the direction its own image, or for an axis its own line, to tolerance::same_symmetry?
-bool keeps(const Eigen::Matrix3d& linear, const Eigen::Vector3d& direction) {
-  return (linear * direction - direction).norm() <= tolerance::same_symmetry * direction.norm();
+bool nearly(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return (a - b).norm() <= tolerance::same_symmetry * b.norm();
 }
 
 /// Height along the axis of a revolution and distance from it.
@@ -34,20 +32,13 @@ ContactSymmetry::ContactSymmetry(const Structure& structure)
       Place& place = places_[static_cast<std::size_t>(orbits[k].parts[m])];
       place.orbit = static_cast<int>(k);
       place.from_first = orbits[k].from_first[m];
-      for (std::size_t g = 1; g < orbits[k].group.size(); ++g)
+      for (std::size_t g = 0; g < orbits[k].group.size(); ++g)
         place.onto_itself.push_back(place.from_first * orbits[k].group[g] * place.from_first.inverse());
     }
   for (const Relation& relation : structure.relations) {
     if (relation.type != RelationType::self_symmetry || relation.symmetry.kind != SymmetryKind::revolution)
       continue;
-    Place& place = places_[static_cast<std::size_t>(relation.parts.front())];
-    place.revolutions.push_back(relation.symmetry);
-    const Eigen::Vector3d& pivot = relation.symmetry.point;
-    Eigen::Isometry3d quarter = Eigen::Isometry3d::Identity();
-    quarter.translate(pivot);
-    quarter.rotate(Eigen::AngleAxisd(std::numbers::pi / 2, relation.symmetry.axis));
-    quarter.translate(-pivot);
-    place.onto_itself.push_back(quarter);
+    places_[static_cast<std::size_t>(relation.parts.front())].revolutions.push_back(relation.symmetry);
   }
 }
 
@@ -65,18 +56,35 @@ bool ContactSymmetry::same_place(int a, const Eigen::Vector3d& p, int b, const E
          std::any_of(to.revolutions.begin(), to.revolutions.end(), turns);
 }
 
-bool ContactSymmetry::can_move(int part, const Eigen::Vector3d& centre, const Eigen::Vector3d& by) const {
-  const auto& maps = place(part).onto_itself;
-  return std::none_of(maps.begin(), maps.end(), [&](const Eigen::Isometry3d& map) {
-    return (map * centre - centre).norm() <= near_ && !keeps(map.linear(), by);
-  });
+std::optional<Eigen::Vector3d> ContactSymmetry::allowed_move(int part, const Eigen::Vector3d& centre,
+                                                             const Eigen::Vector3d& by) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double count = 0;
+  for (const Eigen::Isometry3d& map : place(part).onto_itself) {
+    if ((map * centre - centre).norm() > near_) continue;
+    sum += map.linear() * by;
+    ++count;
+  }
+  Eigen::Vector3d allowed = count > 0 ? Eigen::Vector3d(sum / count) : by;
+  for (const Symmetry& one : place(part).revolutions)
+    if (around(one, centre).y() <= near_) allowed = allowed.dot(one.axis) * one.axis;
+  if (!nearly(allowed, by)) return std::nullopt;
+  return allowed;
 }
 
-bool ContactSymmetry::can_scale(int part, const Eigen::Vector3d& axis) const {
-  const auto& maps = place(part).onto_itself;
-  return std::all_of(maps.begin(), maps.end(), [&](const Eigen::Isometry3d& map) {
-    return keeps(map.linear(), axis) || keeps(-map.linear(), axis);
-  });
+std::optional<Eigen::Vector3d> ContactSymmetry::allowed_axis(int part, const Eigen::Vector3d& axis) const {
+  Eigen::Vector3d sum = axis;
+  for (const Eigen::Isometry3d& map : place(part).onto_itself) {
+    const Eigen::Vector3d image = map.linear() * axis;
+    sum += image.dot(axis) < 0 ? Eigen::Vector3d(-image) : image;
+  }
+  Eigen::Vector3d allowed = sum.normalized();
+  for (const Symmetry& one : place(part).revolutions) {
+    const double along = allowed.dot(one.axis);
+    allowed = along < 0 ? Eigen::Vector3d(-one.axis) : one.axis;
+  }
+  if (!nearly(allowed, axis)) return std::nullopt;
+  return allowed;
 }
 
 }  // namespace stackabilization::detail
