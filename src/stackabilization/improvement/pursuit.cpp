@@ -1,0 +1,133 @@
+#include "stackabilization/improvement/pursuit.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "stackabilization/improvement/block_separations.h"
+#include "stackabilization/improvement/energy.h"
+
+namespace stackabilization {
+
+namespace {
+
+/// An edit must lower the sum by this fraction to be worth it.
+constexpr double least_progress = 0.01;
+
+class Pursuit {
+ public:
+  Pursuit(const RequirementChecker& checker, const Candidate& start, const PursuitOptions& options)
+      : checker_(checker),
+        options_(options),
+        direction_(start.direction),
+        constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction_)),
+        meter_(checker.space().rest(), checker.requirements().measure.boxes, options.alpha),
+        handles_(checker.space().handles()),
+        blocks_(checker.space().rest().shape, direction_, checker.requirements().measure.semantics),
+        at_rest_(start.measured.value - start.energy.gain) {
+    now_.candidate = start;
+    now_.excess = excess(now_.candidate);
+    first_excess_ = now_.excess;
+  }
+
+  Candidate run() {
+    for (int step = 0; step < options_.steps && now_.excess > 0; ++step)
+      if (!advance()) break;
+    return std::move(now_.candidate);
+  }
+
+ private:
+  struct State {
+    Candidate candidate;
+    double excess = 0;  ///< sum of what pairs of blocks lack, fraction of the extent
+  };
+
+  double allowed(const Stackability& measured) const {
+    const double per_length = measured.stack_box_volume / (measured.extent * measured.box_volume);
+    return (1 - checker_.requirements().target) / per_length - checker_.requirements().clearance;
+  }
+
+  double excess(const Candidate& candidate) const {
+    const double most = allowed(candidate.measured);
+    double sum = 0;
+    for (const detail::BlockPair& pair : blocks_.pairs_above(candidate.design.shape, most))
+      sum += pair.f - most;
+    return sum / candidate.measured.extent;
+  }
+
+  double merit(const State& state) const {
+    const double price = options_.alpha * state.candidate.energy.distortion.total();
+    return price + (1 - options_.alpha) * state.excess / first_excess_;
+  }
+
+  /// What every region that asks for more than is allowed suggests.
+  std::vector<ContactEdit> suggestions() const {
+    const Candidate& from = now_.candidate;
+    ContactOptions contacts = options_.edits.contacts;
+    contacts.semantics = checker_.requirements().measure.semantics;
+    const double lack = (from.measured.f_max - allowed(from.measured)) / from.measured.extent;
+    contacts.band = std::clamp(lack, contacts.band, 1.0);
+    const SeparationTree tree(from.design.shape);
+    const Separation apart = separation(tree, tree, direction_, {contacts.semantics, std::nullopt});
+    if (!apart.blocked) return {};
+    std::vector<ContactRegion> regions =
+        contact_regions({from.design.shape, tree, direction_, apart}, contacts);
+    return contact_edits({checker_.space().rest(), checker_.space().kind(), handles_, from.design, regions,
+                          direction_},
+                         options_.edits);
+  }
+
+  std::optional<State> after(const ContactEdit& suggestion) const {
+    DesignOutcome outcome = checker_.space().edited(now_.candidate.design, suggestion.edit, constraints_);
+    if (outcome.refusal) return std::nullopt;
+    State state;
+    state.candidate.measured = checker_.measured(outcome.design.shape, direction_);
+    state.candidate.energy = meter_.energy(outcome.design, state.candidate.measured.value - at_rest_);
+    state.candidate.design = std::move(outcome.design);
+    state.excess = excess(state.candidate);
+    return state;
+  }
+
+  bool advance() {
+    const std::vector<ContactEdit> edits = suggestions();
+    std::vector<std::optional<State>> made(edits.size());
+    tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
+      if (!stopped_here()) made[k] = after(edits[k]);
+    });
+    if (stopped_here()) return false;
+    const double before = merit(now_);
+    std::optional<std::size_t> best;
+    for (std::size_t k = 0; k < made.size(); ++k)
+      if (made[k] && merit(*made[k]) < (best ? merit(*made[*best]) : before - least_progress * before)) best = k;
+    if (!best) return false;
+    Candidate& next = made[*best]->candidate;
+    next.direction = now_.candidate.direction;
+    next.reasons = now_.candidate.reasons;
+    next.reasons.push_back(edits[*best].why);
+    now_ = std::move(*made[*best]);
+    return true;
+  }
+
+  bool stopped_here() const { return options_.cancelled && options_.cancelled(); }
+
+  const RequirementChecker& checker_;
+  const PursuitOptions& options_;
+  Direction direction_;
+  DeformationConstraints constraints_;
+  EnergyMeter meter_;
+  std::vector<Handle> handles_;
+  detail::BlockSeparations blocks_;
+  double at_rest_;
+  State now_;
+  double first_excess_ = 0;
+};
+
+}  // namespace
+
+Candidate pursued(const RequirementChecker& checker, const Candidate& start, const PursuitOptions& options) {
+  return Pursuit(checker, start, options).run();
+}
+
+}  // namespace stackabilization
