@@ -134,6 +134,12 @@ TEST_CASE("supports that are points or lines carry nothing") {
   CHECK(standing(edge_down(0.6), up, copies(1)).tilt_degrees == Approx(-degrees(std::atan2(0.4, 4.0 / 3))));
 }
 
+TEST_CASE("a mass beyond the end of a line falls over that end") {
+  const Shape keel = solids::tetrahedron({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 1, 0),
+                                          Eigen::Vector3d(1, 6, 2), Eigen::Vector3d(-1, 6, 2)});
+  CHECK(standing(keel, up, copies(1)).tilt_degrees == Approx(-degrees(std::atan2(2.25, 1))));
+}
+
 TEST_CASE("open surfaces and sheets with two sides have their mass in the area") {
   Shape open = solids::box(Eigen::Vector3d(2, 2, 2));
   Triangles lidless(0, 3);
