@@ -1,3 +1,5 @@
+#include <tbb/global_control.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -112,6 +114,18 @@ TEST_CASE("every part with material has a probe, however small") {
   for (const ThicknessProbe& probe : thickness_probes(shape, {7}))
     probed.insert(shape.triangle_part[static_cast<std::size_t>(probe.near_triangle)]);
   CHECK(probed.size() == 6);
+}
+
+TEST_CASE("probes are the same for any number of threads") {
+  const Shape cup = solids::frustum_shell({});
+  const std::vector<ThicknessProbe> expected = thickness_probes(cup);
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  const std::vector<ThicknessProbe> alone = thickness_probes(cup);
+  REQUIRE(alone.size() == expected.size());
+  for (std::size_t k = 0; k < alone.size(); ++k) {
+    CHECK(alone[k].far_triangle == expected[k].far_triangle);
+    CHECK(alone[k].at_rest == expected[k].at_rest);
+  }
 }
 
 TEST_CASE("sheets have no thickness") {

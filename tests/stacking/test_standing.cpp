@@ -110,6 +110,16 @@ TEST_CASE("a narrow ledge can be worse than the ground") {
   CHECK(result.tilt_degrees == Approx(degrees(std::atan2(1, z))));
 }
 
+TEST_CASE("a copy that hangs beside its support falls at any tilt") {
+  // A plate under a slanted bar with an arm high up beside it, on which copies rest: 2 thick, the most.
+  const Shape hanger =
+      solids::extruded_profile({{0, 0}, {10, 0}, {10, 1}, {0, 1}, {-2, 12}, {-4, 12}, {-4, 10}, {-2, 10}}, 6);
+  const Standing result = standing(hanger, up, copies(2));
+  CHECK(result.tilt_degrees == Approx(-90));
+  CHECK(result.weakest_copy == 1);
+  CHECK(standing(hanger, up, copies(1)).stands);
+}
+
 TEST_CASE("supports that are points or lines carry nothing") {
   const auto tip_down = [](double x) {
     return solids::tetrahedron({Eigen::Vector3d(x, 0, 0), Eigen::Vector3d(2, 0, 3), Eigen::Vector3d(-1, 2, 3),
@@ -122,6 +132,12 @@ TEST_CASE("supports that are points or lines carry nothing") {
   CHECK(standing(edge_down(0), up, copies(1)).tilt_degrees == 0);
   CHECK_FALSE(standing(edge_down(0), up, copies(1)).stands);
   CHECK(standing(edge_down(0.6), up, copies(1)).tilt_degrees == Approx(-degrees(std::atan2(0.4, 4.0 / 3))));
+}
+
+TEST_CASE("a mass beyond the end of a line falls over that end") {
+  const Shape keel = solids::tetrahedron({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 1, 0),
+                                          Eigen::Vector3d(1, 6, 2), Eigen::Vector3d(-1, 6, 2)});
+  CHECK(standing(keel, up, copies(1)).tilt_degrees == Approx(-degrees(std::atan2(2.25, 1))));
 }
 
 TEST_CASE("open surfaces and sheets with two sides have their mass in the area") {
@@ -157,6 +173,9 @@ TEST_CASE("cavities are empty, bodies count whichever way they are turned") {
   CHECK(standing(cavity, up, copies(1)).centre_of_mass.z() == Approx(hollow / 60));
   CHECK(standing(solids::flipped(cavity), up, copies(1)).centre_of_mass.z() == Approx(hollow / 60));
   CHECK(standing(filled, up, copies(1)).centre_of_mass.z() == Approx((hollow + 0.5) / 60.5));
+  for (const Shape& turned : {filled, concatenate(cavity, solids::flipped(kernel))})
+    CHECK(standing(solids::flipped(turned), up, copies(1)).centre_of_mass.z() ==
+          Approx((hollow + 0.5) / 60.5));
   const Shape beside = solids::flipped(solids::box({4, 0, 0}, {5, 4, 2}));
   CHECK(standing(concatenate(outer, beside), up, copies(1)).centre_of_mass.z() ==
         Approx((64 * 2 + 8 * 1) / 72.0));
