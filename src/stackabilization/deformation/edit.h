@@ -76,10 +76,18 @@ bool falls_off_linearly(const Edit& edit);
 /// those of the shape. Precondition: the handle's part is one of them, where its kind needs one.
 std::string describe(const Edit& edit, const std::vector<std::string>& part_names);
 
+/// Where a kept extent begins and ends.
+enum class ExtentEnds {
+  free,   ///< anywhere: what an edit moves along the direction may take everything along
+  fixed,  ///< where they are at rest: what an edit moves, it moves against the rest. Controllers only; the
+          ///< other models move nothing that they need not
+};
+
 /// What no edit may change.
 struct DeformationConstraints {
   /// The extent h(M, r) along this direction is kept, to tolerance::relative of it.
   std::optional<Direction> keep_extent;
+  ExtentEnds extent_ends = ExtentEnds::free;  ///< of `keep_extent`
   /// The three sides of the axis-aligned box of the shape may change by this fraction at most.
   std::optional<double> box_tolerance;
   std::vector<int> fixed_parts;               ///< parts that stay as they are

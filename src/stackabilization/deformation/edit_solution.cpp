@@ -344,9 +344,12 @@ class EditSolution {
       const double excess = watch_.excess(k, vertices);
       if (excess == 0) continue;
       const Eigen::Vector3d& n = watch_.bounds()[k].normal;
+      const std::string what = watch_.bounds()[k].level ? ") would begin or end elsewhere, off by "
+                               : excess > 0             ? ") would be too long by "
+                                                        : ") would be too short by ";
       return Refusal{"the extent along (" + fraction(n.x()) + ", " + fraction(n.y()) + ", " +
-                         fraction(n.z()) + ") would be too " + (excess > 0 ? "long" : "short") + " by " +
-                         fraction(std::abs(excess) / diagonal()) + " of the diagonal",
+                         fraction(n.z()) + what + fraction(std::abs(excess) / diagonal()) +
+                         " of the diagonal",
                      std::nullopt, std::abs(excess) / diagonal()};
     }
     return std::nullopt;

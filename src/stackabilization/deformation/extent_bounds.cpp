@@ -13,9 +13,13 @@ std::vector<ExtentBound> extent_bounds(const Shape& rest, const DeformationConst
   std::vector<ExtentBound> bounds;
   const auto bound = [&](const Eigen::Vector3d& normal, double slack) {
     const double extent = range_along(rest, normal).length();
-    bounds.push_back({normal, (1 - slack) * extent, (1 + slack) * extent});
+    bounds.push_back({normal, (1 - slack) * extent, (1 + slack) * extent, std::nullopt});
   };
-  if (constraints.keep_extent) bound(constraints.keep_extent->unit(), 0);
+  if (constraints.keep_extent) {
+    bound(constraints.keep_extent->unit(), 0);
+    if (constraints.extent_ends == ExtentEnds::fixed)
+      bounds.back().level = range_along(rest, bounds.back().normal).low;
+  }
   if (constraints.box_tolerance) {
     if (!std::isfinite(*constraints.box_tolerance) || *constraints.box_tolerance < 0)
       throw UsageError("the tolerance of the box must be 0 or positive");
@@ -50,7 +54,13 @@ Range ExtentWatch::range(std::size_t k, const Points& vertices) const {
 }
 
 double ExtentWatch::excess(std::size_t k, const Points& vertices) const {
-  const double length = range(k, vertices).length(), slack = tolerance::relative / 2 * length;
+  const Range now = range(k, vertices);
+  const double length = now.length(), slack = tolerance::relative / 2 * length;
+  if (const std::optional<double> level = bounds_[k].level) {
+    const double below = *level - now.low, above = now.high - (*level + bounds_[k].high);
+    const double farthest = std::abs(below) > std::abs(above) ? below : above;
+    return std::abs(farthest) > slack ? farthest : 0;
+  }
   if (length > bounds_[k].high + slack) return length - bounds_[k].high;
   if (length < bounds_[k].low - slack) return length - bounds_[k].low;
   return 0;
@@ -81,7 +91,9 @@ bool ExtentWatch::hold_side(std::size_t k, double sign, const Points& vertices, 
   const ExtentBound& bound = bounds_[k];
   const double beyond = excess(k, vertices);
   const Range whole = range(k, vertices);
-  const double outermost = (sign > 0 ? whole.high : -whole.low) - std::max(beyond, 0.0);
+  const double extreme = sign > 0 ? whole.high : -whole.low;
+  const double end = bound.level ? sign * *bound.level + (sign > 0 ? bound.high : 0) : 0;
+  const double outermost = bound.level ? std::min(extreme, end) : extreme - std::max(beyond, 0.0);
   bool added = false;
   for (const std::vector<int>& part : by_part_) {
     const auto height = [&](int v) { return sign * vertices.row(v).dot(bound.normal); };
@@ -91,8 +103,8 @@ bool ExtentWatch::hold_side(std::size_t k, double sign, const Points& vertices, 
     Constraint constraint;
     constraint.riders = transfer.riders(*top);
     constraint.normal = bound.normal;
-    constraint.height = sign > 0 ? (beyond > 0 ? bound.high : bound.low) : 0;
-    constraint.level = static_cast<int>(k);
+    constraint.height = bound.level ? sign * end : sign > 0 ? (beyond > 0 ? bound.high : bound.low) : 0;
+    if (!bound.level) constraint.level = static_cast<int>(k);
     constraints.push_back(std::move(constraint));
     added = true;
   }

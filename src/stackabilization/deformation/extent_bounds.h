@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <set>
 #include <tuple>
 #include <vector>
@@ -14,8 +15,9 @@ namespace stackabilization::detail {
 
 /// Bounds of the extent of a mesh along one direction.
 struct ExtentBound {
-  Eigen::Vector3d normal;    ///< unit
-  double low = 0, high = 0;  ///< model units; equal to keep the extent
+  Eigen::Vector3d normal;       ///< unit
+  double low = 0, high = 0;     ///< model units; equal to keep the extent
+  std::optional<double> level;  ///< height at which it begins, where that is fixed: it is kept then
 };
 
 /// What `keep_extent` and `box_tolerance` demand of a shape. Throws UsageError when the tolerance is negative
@@ -34,7 +36,8 @@ class ExtentWatch {
 
   const std::vector<ExtentBound>& bounds() const { return bounds_; }
   /// By how much the extent passes bound `k`, model units: above zero too long, below too short, 0 within
-  /// half of tolerance::relative of what is demanded.
+  /// half of tolerance::relative of what is demanded. Where the ends are fixed, the farthest that one of them
+  /// is off.
   double excess(std::size_t k, const Points& vertices) const;
   bool any_excess(const Points& vertices) const;
   /// Whether bound `k` leaves no choice.

@@ -113,7 +113,8 @@ class Solver {
       for (const Rider& rider : constraint.riders)
         sum += rider.weight * rig_.carriers[at(rider.part)].carried(rider.binding, now_[at(rider.part)]);
       if (constraint.normal)
-        all(row) = constraint.normal->dot(sum) - constraint.height - state_.levels(constraint.level);
+        all(row) = constraint.normal->dot(sum) - constraint.height -
+                   (constraint.level ? state_.levels(*constraint.level) : 0);
       else
         all.segment<3>(row) = sum;
       row += rows_of(constraint);
@@ -136,7 +137,7 @@ class Solver {
         else
           block += slope;
       }
-      if (constraint.normal) all(row, columns_ + constraint.level) = -1;
+      if (constraint.level) all(row, columns_ + *constraint.level) = -1;
       row += rows_of(constraint);
     }
     return all;

@@ -16,13 +16,13 @@ struct Rider {
 };
 
 /// The weighted sum of riding points is `target`; or, with a normal, its height along the normal is `height`
-/// above a level that is free.
+/// above a level that is free, or above 0.
 struct Constraint {
   std::vector<Rider> riders;
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> normal;  ///< unit
   double height = 0;                      ///< with a normal, model units
-  int level = 0;                          ///< with a normal, row of SolverState::levels
+  std::optional<int> level;               ///< with a normal, row of SolverState::levels; nothing: 0
 };
 
 struct SolverState {

@@ -74,9 +74,9 @@ class Pursuit {
     if (!apart.blocked) return {};
     std::vector<ContactRegion> regions =
         contact_regions({from.design.shape, tree, direction_, apart}, contacts);
-    return contact_edits({checker_.space().rest(), checker_.space().kind(), handles_, from.design, regions,
-                          direction_},
-                         options_.edits);
+    return contact_edits(
+        {checker_.space().rest(), checker_.space().kind(), handles_, from.design, regions, direction_},
+        options_.edits);
   }
 
   std::optional<State> after(const ContactEdit& suggestion) const {
@@ -100,7 +100,8 @@ class Pursuit {
     const double before = merit(now_);
     std::optional<std::size_t> best;
     for (std::size_t k = 0; k < made.size(); ++k)
-      if (made[k] && merit(*made[k]) < (best ? merit(*made[*best]) : before - least_progress * before)) best = k;
+      if (made[k] && merit(*made[k]) < (best ? merit(*made[*best]) : before - least_progress * before))
+        best = k;
     if (!best) return false;
     Candidate& next = made[*best]->candidate;
     next.direction = now_.candidate.direction;

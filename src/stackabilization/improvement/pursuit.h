@@ -9,8 +9,8 @@ namespace stackabilization {
 struct PursuitOptions {
   double alpha = 0.2;  ///< of the energies reported, and of the price of distortion against excess
   ContactEditOptions edits;
-  int steps = 24;                          ///< edits added at most, >= 1
-  std::function<bool()> cancelled = {};    ///< asked from the calling thread
+  int steps = 24;                        ///< edits added at most, >= 1
+  std::function<bool()> cancelled = {};  ///< asked from the calling thread
 };
 
 /// Beyond the paper: where several pairs of contacts keep copies apart at the same height, separating one of
@@ -20,8 +20,8 @@ struct PursuitOptions {
 ///     alpha D + (1 - alpha) sum max(0, f_ij - f*) / sum at the start,   f* = (1 - target) h V(M) / V(M, r),
 ///
 /// which falls with every pair that gives way. The edits are those that all regions with f > f* suggest
-/// (contact_edits.h). Ends when the target is reached, no edit lowers the sum, or after `steps`. What it finds
-/// is coarse; refinement.h makes it good. Deterministic for any number of threads.
+/// (contact_edits.h). Ends when the target is reached, no edit lowers the sum, or after `steps`. What it
+/// finds is coarse; refinement.h makes it good. Deterministic for any number of threads.
 Candidate pursued(const RequirementChecker& checker, const Candidate& start,
                   const PursuitOptions& options = {});
 

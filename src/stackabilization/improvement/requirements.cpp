@@ -69,7 +69,10 @@ void validate(const Requirements& requirements, const StructuredShape& rest) {
 DeformationConstraints deformation_constraints(const Requirements& requirements, const StructuredShape& rest,
                                                const Direction& direction) {
   DeformationConstraints constraints;
-  if (requirements.keep_height) constraints.keep_extent = direction;
+  if (requirements.keep_height) {
+    constraints.keep_extent = direction;
+    constraints.extent_ends = ExtentEnds::fixed;
+  }
   constraints.box_tolerance = requirements.box_tolerance;
   constraints.fixed_parts = parts_that_stay(requirements, rest.structure);
   return constraints;
