@@ -100,14 +100,19 @@ class TreeBuilder {
     const Eigen::Vector3d axis = dominant_axis(facing);
     if (!axis.allFinite() || axis.isZero(0)) return;
     double low = std::numeric_limits<double>::infinity(), high = -low, magnitude = 0;
+    const auto include = [&](const std::array<double, 3>& point) {
+      const double offset = axis[0] * point[0] + axis[1] * point[1] + axis[2] * point[2];
+      low = std::min(low, offset);
+      high = std::max(high, offset);
+      for (const double coordinate : point) magnitude = std::max(magnitude, std::abs(coordinate));
+    };
     for (std::int32_t t = first; t < last; ++t) {
-      const PiecePolygon polygon = polygon_of(pieces_[t], cut_, triangles_);
-      for (int p = 0; p < polygon.point_count; ++p) {
-        const auto& point = polygon.points[p];
-        const double offset = axis[0] * point[0] + axis[1] * point[1] + axis[2] * point[2];
-        low = std::min(low, offset);
-        high = std::max(high, offset);
-        for (const double coordinate : point) magnitude = std::max(magnitude, std::abs(coordinate));
+      const Piece& piece = pieces_[t];
+      if (piece.polygon < 0) {
+        for (const auto& corner : triangles_[piece.triangle].corners) include(corner);
+      } else {
+        const PiecePolygon& polygon = cut_.polygons[piece.polygon];
+        std::for_each_n(polygon.points.begin(), polygon.point_count, include);
       }
     }
     const double rounding = 16 * unit_roundoff * magnitude;

@@ -99,9 +99,9 @@ class Cutter {
 
   Pieces run() {
     // Small shapes may take more, their trees are cheap; of large ones only the worst triangles matter. Cuts
-    // that save less than a small share of the mean box are not worth a node.
+    // that save less than half of the mean box take longer to make than they save.
     const std::size_t most = triangles_.size() + std::min(triangles_.size() + 2048, most_cuts);
-    const double least = total_ / static_cast<double>(most) / 64;
+    const double least = total_ / static_cast<double>(most) / 2;
     std::vector<double> savings(triangles_.size());
     tbb::parallel_for(std::size_t{0}, savings.size(), [&](std::size_t t) {
       const Piece& piece = result_.pieces[t];
