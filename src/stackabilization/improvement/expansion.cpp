@@ -32,6 +32,10 @@ void make(Successor& successor, const SearchTools& tools, const Standpoint& from
     successor.refusal = outcome.refusal->reason;
     return;
   }
+  if (auto reason = tools.checker.out_of_proportion(outcome.design)) {
+    successor.refusal = std::move(reason);
+    return;
+  }
   successor.key = tools.keys.key(outcome.design);
   successor.known = tree.knows(from.queue, successor.key);
   if (successor.known) return;

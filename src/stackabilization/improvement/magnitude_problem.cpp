@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "stackabilization/improvement/proportions.h"
 #include "stackabilization/improvement/refinement.h"
 #include "stackabilization/shape/tolerances.h"
 
@@ -119,11 +120,15 @@ MagnitudeSample MagnitudeProblem::measured(const Magnitudes& x) const {
   }
   std::erase_if(assessment.checks, [](const Check& check) { return !is_open(check); });
   sample.stackability = assessment.measured.value;
-  sample.feasible = sample.stackability >= checker_.requirements().target + tolerance::stackability &&
+  const double proportion = least_proportion(checker_.space().rest(), outcome.design).ratio;
+  sample.feasible = proportion >= checker_.requirements().least_proportion &&
+                    sample.stackability >= checker_.requirements().target + tolerance::stackability &&
                     std::all_of(assessment.checks.begin(), assessment.checks.end(),
                                 [](const Check& c) { return c.passed; });
   const auto of_pairs = static_cast<Eigen::Index>(pairs_.size()) + 1;
-  sample.shortfalls.resize(of_pairs + static_cast<Eigen::Index>(assessment.checks.size()));
+  const auto checks = static_cast<Eigen::Index>(assessment.checks.size());
+  sample.shortfalls.resize(of_pairs + checks + 1);
+  sample.shortfalls[of_pairs + checks] = checker_.requirements().least_proportion - proportion;
   measure_blocks(outcome.design, assessment.measured, sample);
   for (std::size_t c = 0; c < assessment.checks.size(); ++c)
     sample.shortfalls[of_pairs + static_cast<Eigen::Index>(c)] = shortfall(assessment.checks[c]);

@@ -81,7 +81,7 @@ class Pursuit {
 
   std::optional<State> after(const ContactEdit& suggestion) const {
     DesignOutcome outcome = checker_.space().edited(now_.candidate.design, suggestion.edit, constraints_);
-    if (outcome.refusal) return std::nullopt;
+    if (outcome.refusal || checker_.out_of_proportion(outcome.design)) return std::nullopt;
     State state;
     state.candidate.measured = checker_.measured(outcome.design.shape, direction_);
     state.candidate.energy = meter_.energy(outcome.design, state.candidate.measured.value - at_rest_);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "stackabilization/deformation/relation_residual.h"
+#include "stackabilization/improvement/proportions.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
@@ -70,6 +71,7 @@ std::vector<Check> RequirementChecks::of(const CheckedDesign& checked) const {
       {"target", reached, requirements_.target, reached >= requirements_.target, "", ""}};
   if (requirements_.keep_height) checks.push_back(height(checked));
   if (space_.kind() == DeformationKind::controllers) checks.push_back(relations(checked));
+  if (requirements_.least_proportion > 0) checks.push_back(proportions(checked));
   if (requirements_.box_tolerance) checks.push_back(box(checked));
   if (!staying_.empty()) checks.push_back(parts(checked));
   return checks;
@@ -92,6 +94,14 @@ Check RequirementChecks::relations(const CheckedDesign& checked) const {
     check.note = words_for(structure.relations[i], structure);
   }
   check.passed = check.value <= check.demanded;
+  return check;
+}
+
+Check RequirementChecks::proportions(const CheckedDesign& checked) const {
+  const Proportion least = least_proportion(space_.rest(), checked.design);
+  Check check{"proportions", least.ratio, requirements_.least_proportion, true, "of the size at rest", ""};
+  check.passed = least.ratio >= check.demanded - tolerance::relative;
+  if (least.part >= 0) check.note = quoted(space_.rest().structure, least.part);
   return check;
 }
 

@@ -34,6 +34,7 @@ class RequirementChecks {
 
   Check height(const CheckedDesign& checked) const;
   Check relations(const CheckedDesign& checked) const;
+  Check proportions(const CheckedDesign& checked) const;
   Check box(const CheckedDesign& checked) const;
   Check parts(const CheckedDesign& checked) const;
   Check thickness(const CheckedDesign& checked) const;

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "stackabilization/improvement/proportions.h"
 #include "stackabilization/improvement/requirement_checks.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/stacking/clearance.h"
@@ -54,6 +55,8 @@ void validate(const Requirements& requirements, const StructuredShape& rest) {
     throw UsageError("a target needs shapes whose box has a volume");
   require_parts(requirements.kept_parts, rest.structure);
   require_parts(requirements.editable_parts, rest.structure);
+  if (!(requirements.least_proportion >= 0 && requirements.least_proportion <= 1))
+    throw UsageError("the least proportion that is required must be from 0 to 1");
   require_at_least_zero(requirements.clearance, "clearance");
   require_at_least_zero(requirements.play, "play");
   require_at_least_zero(requirements.box_tolerance.value_or(0), "tolerance of the box");
@@ -138,6 +141,15 @@ std::optional<Stackability> RequirementChecker::measured_above(const Shape& shap
   const Stackability measured = data_->with_air(shape, direction, *touching);
   if (measured.value < threshold) return std::nullopt;
   return measured;
+}
+
+std::optional<std::string> RequirementChecker::out_of_proportion(const Design& design) const {
+  if (data_->requirements.least_proportion == 0) return std::nullopt;
+  const StructuredShape& rest = data_->space.rest();
+  const Proportion proportion = least_proportion(rest, design);
+  if (proportion.ratio >= data_->requirements.least_proportion) return std::nullopt;
+  return "'" + rest.structure.parts[static_cast<std::size_t>(proportion.part)].name +
+         "' would lose its proportions";
 }
 
 Assessment RequirementChecker::checked(const Design& design, const Direction& direction) const {

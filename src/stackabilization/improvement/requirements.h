@@ -14,9 +14,12 @@ namespace stackabilization {
 struct Requirements {
   double target = 0;  ///< S(M, r) to be reached, < 1
   StackabilityOptions measure;
-  bool keep_height = true;                ///< h(M, r) = h(M0, r), to tolerance::relative of it
-  std::vector<int> kept_parts;            ///< stay as they are
-  std::vector<int> editable_parts;        ///< only these may change; empty: all
+  bool keep_height = true;          ///< h(M, r) = h(M0, r), to tolerance::relative of it
+  std::vector<int> kept_parts;      ///< stay as they are
+  std::vector<int> editable_parts;  ///< only these may change; empty: all
+  /// Sizes of parts shrink to no less than this fraction of what they are at rest and grow to no more than
+  /// its inverse (proportions.h); in [0, 1], 0: anything goes.
+  double least_proportion = 0.4;
   std::optional<double> box_tolerance;    ///< sides of the file's box change by this fraction at most
   std::optional<double> least_thickness;  ///< model units; what is thinner at rest may stay as thin as it is
   /// Air between copies: `clearance` along r and `play` sideways, model units. The f_max of the target is
@@ -38,7 +41,7 @@ DeformationConstraints deformation_constraints(const Requirements& requirements,
 
 /// One requirement held against one design.
 struct Check {
-  /// "target", "height", "relations", "box", "parts", "thickness", "draft", "standing"
+  /// "target", "height", "relations", "proportions", "box", "parts", "thickness", "draft", "standing"
   std::string name;
   double value = 0;  ///< what was measured: S, change of h, worst residual, largest change of a side,
                      ///< farthest displacement, least thickness, least draft, tilt at which a stack topples
@@ -71,6 +74,8 @@ class RequirementChecker {
   /// The same unless S is certainly below `threshold`.
   std::optional<Stackability> measured_above(const Shape& shape, const Direction& direction,
                                              double threshold) const;
+  /// Why a design is out of proportion, if it is: one clause. Cheap.
+  std::optional<std::string> out_of_proportion(const Design& design) const;
   /// Everything: each requirement that was made, in the order of Check::name. The target is compared without
   /// slack, from exact separations; the others are constructions in double precision and pass to
   /// tolerance::relative.
