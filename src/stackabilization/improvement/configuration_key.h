@@ -6,9 +6,9 @@
 
 namespace stackabilization::detail {
 
-/// Names configurations: two that agree to rounding have the same key, two that differ by more than
-/// 1e-6 of the diagonal do not (but for collisions of 64 bits). Displacements from rest are
-/// rounded to that grid, so that what did not move lies in the middle of a cell.
+/// Names configurations: two that agree to rounding have the same key, also where one is moved as a
+/// whole; two that differ by more than 1e-6 of the diagonal do not (but for collisions of 64 bits).
+/// Displacements from rest are rounded to that grid, so that what did not move lies in the middle of a cell.
 class ConfigurationKeys {
  public:
   explicit ConfigurationKeys(const DesignSpace& space);
