@@ -79,8 +79,9 @@ std::string describe(const Edit& edit, const std::vector<std::string>& part_name
 /// Where a kept extent begins and ends.
 enum class ExtentEnds {
   free,   ///< anywhere: what an edit moves along the direction may take everything along
-  fixed,  ///< where they are at rest: what an edit moves, it moves against the rest. Controllers only; the
-          ///< other models move nothing that they need not
+  fixed,  ///< where they are at rest: what an edit moves, it moves against the rest, and moves across the
+          ///< direction leave heights open. Controllers only; the other models move nothing that they need
+          ///< not
 };
 
 /// What no edit may change.

@@ -190,7 +190,7 @@ class EditSolution {
     if (miss > tolerance::relative) return missed(miss, "of the diagonal");
     state_.controls[at(class_)].values += change;
     Eigen::MatrixXd& basis = bases_[at(class_)];
-    const Eigen::MatrixXd rows = handle_rows(basis);
+    const Eigen::MatrixXd rows = held(handle_rows(basis));
     basis = stiffness * (basis - basis * (pseudo_inverse(rows) * rows));
     return std::nullopt;
   }
@@ -209,6 +209,28 @@ class EditSolution {
     }
     changes = rig_.space.invariant_columns(class_, changes);
     return changes * handle_rows(changes).transpose();
+  }
+
+  /// What corrections must leave alone of the rows of the prescribed values: all; but where the ends of an
+  /// extent are fixed, a move across it says nothing about heights, and a foot that leans has to give way to
+  /// stay on the ground.
+  Eigen::MatrixXd held(const Eigen::MatrixXd& rows) const {
+    const DeformationConstraints& constraints = task_.constraints;
+    const auto points = static_cast<Eigen::Index>(edit_.values.size()) / 3;
+    if (!constraints.keep_extent || constraints.extent_ends != ExtentEnds::fixed || 3 * points != rows.rows())
+      return rows;
+    const Frame frame = frame_of(*constraints.keep_extent);
+    Eigen::MatrixXd across(2 * points, rows.cols());
+    for (Eigen::Index k = 0; k < points; ++k) {
+      const auto first = static_cast<std::size_t>(3 * k);
+      const bool is_point =
+          edit_.values[first] % 3 == 0 && edit_.values[first + 2] == edit_.values[first] + 2;
+      const Eigen::Vector3d by = edit_.changes.segment<3>(3 * k);
+      if (!is_point || std::abs(by.dot(frame.w)) > tolerance::relative * by.norm()) return rows;
+      across.row(2 * k) = frame.u.transpose() * rows.middleRows<3>(3 * k);
+      across.row(2 * k + 1) = frame.v.transpose() * rows.middleRows<3>(3 * k);
+    }
+    return across;
   }
 
   Refusal missed(double amount, const std::string& unit) const {

@@ -34,6 +34,8 @@ void check(const ContactEditOptions& options) {
   if (options.most_regions < 1) throw UsageError("at least one contact region must be looked at");
 }
 
+/// What is offered besides the size that would just be enough, as a multiple of it.
+constexpr double reserve = 1.5;
 /// Directions whose cosine is above this are one way out.
 constexpr double one_way = 0.998;
 /// Cosine from which a move is called outwards.
@@ -115,6 +117,10 @@ class ContactEditor {
   void look_at(const ContactSide& side) {
     for (const ContactHandle& handle : contact_handles(situation_, side, frame_, options_.family)) {
       move_along(side, handle);
+      if (handle.of_plate) {
+        if (handle.role == Role::end) move_edge(side, handle);
+        continue;
+      }
       if (side.region.type != ContactType::ring) move_sideways(side, handle);
       if (handle.handle.kind == HandleKind::section || handle.handle.kind == HandleKind::wire ||
           handle.handle.kind == HandleKind::face)
@@ -223,12 +229,35 @@ class ContactEditor {
         if (!shorter)
           chosen.resize(1);
         else if (out > 0 && out <= most_steps * step)
-          chosen = sizes(step, out);
+          chosen = with_reserve(sizes(step, out), out);
       }
       for (const double size : chosen)
         add(side, handle, Move{size * *allowed},
             handle.falloff == Falloff::linear ? "leaning " + way.word : way.word);
     }
+  }
+
+  /// The edge of a plate draws back from under or over the contact.
+  void move_edge(const ContactSide& side, const ContactHandle& handle) {
+    const Eigen::Vector3d inwards = -handle.normal;
+    const auto allowed = symmetry_.allowed_move(side.part, handle.centre, inwards);
+    if (!allowed || std::abs(inwards.dot(frame_.w)) > clearly) return;
+    double innermost = handle.centre.dot(inwards);
+    for (const ContactPolygon& polygon : side.region.polygons)
+      innermost =
+          std::max(innermost,
+                   ((side.of_lower_copy ? polygon.upper_points : polygon.lower_points) * inwards).maxCoeff());
+    const double step = options_.move_step * extent(inwards);
+    const double enough = innermost - handle.centre.dot(inwards) + options_.contacts.band * extent(inwards);
+    const bool near = enough <= most_steps * step;
+    for (const double size : near ? with_reserve(sizes(step, enough), enough) : sizes(step, std::nullopt))
+      add(side, handle, Move{size * *allowed}, "edge inwards");
+  }
+
+  /// Joints that give way take back some of what an edit does.
+  static std::vector<double> with_reserve(std::vector<double> sizes, double enough) {
+    sizes.push_back(reserve * enough);
+    return sizes;
   }
 
   /// Is the contact far enough from `centre` that scaling about it, across or along what `axes` span,

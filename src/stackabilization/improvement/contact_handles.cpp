@@ -15,6 +15,8 @@ namespace {
 
 /// A contact is near a corner of a face when it lies in the outer half both ways.
 constexpr double near_corner = 0.5;
+/// A cuboid thinner than this fraction of its other sides is a plate.
+constexpr double plate_thickness = 0.25;
 /// A curve is straight when it stays this near to its chord, fraction of the chord.
 constexpr double straight_enough = 0.02;
 
@@ -72,6 +74,11 @@ struct CuboidFrame {
       q(axis) = (p - centre).dot(halves.col(axis)) / halves.col(axis).squaredNorm();
     return q;
   }
+  bool is_plate(int axis) const {
+    const double thickness = halves.col(axis).norm();
+    return thickness <
+           plate_thickness * std::min(halves.col((axis + 1) % 3).norm(), halves.col((axis + 2) % 3).norm());
+  }
   double distance_to_face(const Eigen::Vector3d& p, int face) const {
     Eigen::Vector3d on_face = local(p).cwiseMax(-1).cwiseMin(1);
     on_face(face / 2) = face % 2 == 0 ? -1 : 1;
@@ -91,6 +98,15 @@ void add_cuboid_handles(std::vector<ContactHandle>& handles, const Cuboid& cuboi
 
   const Eigen::Vector3d at = box.local(side.centre);
   const int across = nearest / 2;
+  if (family == EditFamily::extended && box.is_plate(across)) {
+    handles.back().of_plate = true;
+    for (const int axis : {(across + 1) % 3, (across + 2) % 3}) {
+      handles.push_back(face_of(cuboid, side.part, 2 * axis + (at(axis) > 0 ? 1 : 0)));
+      handles.back().role = ContactHandle::Role::end;
+      handles.back().of_plate = true;
+    }
+    return;
+  }
   if (std::abs(at((across + 1) % 3)) >= near_corner && std::abs(at((across + 2) % 3)) >= near_corner) {
     ContactHandle corner;
     const int row = nearest_row(cuboid.corners, side.centre);

@@ -40,6 +40,8 @@ struct ContactHandle {
   Handle handle;
   Role role = Role::nearest;
   Falloff falloff = Falloff::gaussian;
+  /// A face of a plate: only moved along its normal, never scaled, for the edge of the plate would slant.
+  bool of_plate = false;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   Points points;                                     ///< that move with it
   double radius = 0;                                 ///< of a cross-section around `centre`

@@ -2,12 +2,29 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
 
 namespace {
+
+/// Whether `edit` takes back what `earlier` did, in part at least.
+bool takes_back(const Edit& edit, const Edit& earlier) {
+  if (!(edit.handle == earlier.handle) || edit.operation.index() != earlier.operation.index()) return false;
+  if (const auto* move = std::get_if<Move>(&edit.operation)) {
+    const Eigen::Vector3d& by = std::get<Move>(earlier.operation).by;
+    return move->by.dot(by) < -tolerance::same_symmetry * move->by.norm() * by.norm();
+  }
+  const auto *scale = std::get_if<Scale>(&edit.operation), *before = std::get_if<Scale>(&earlier.operation);
+  if (scale == nullptr || (scale->factor > 1) == (before->factor > 1)) return false;
+  if (scale->along.has_value() != before->along.has_value()) return false;
+  return !scale->along ||
+         scale->along->cross(*before->along).norm() < tolerance::same_symmetry * before->along->norm();
+}
 
 std::vector<ContactEdit> suggestions(const SearchTools& tools, const Standpoint& from) {
   const DesignSpace& space = tools.checker.space();
@@ -19,8 +36,14 @@ std::vector<ContactEdit> suggestions(const SearchTools& tools, const Standpoint&
   const Separation apart = separation(tree, tree, direction, {contacts.semantics, std::nullopt});
   if (!apart.blocked) return {};
   const std::vector<ContactRegion> regions = contact_regions({shape, tree, direction, apart}, contacts);
-  return contact_edits({space.rest(), space.kind(), tools.handles, from.design, regions, direction},
-                       tools.options.edits);
+  std::vector<ContactEdit> edits = contact_edits(
+      {space.rest(), space.kind(), tools.handles, from.design, regions, direction}, tools.options.edits);
+  // Back and forth leads to places that steps of the same kind reach as well, or near them.
+  std::erase_if(edits, [&](const ContactEdit& suggestion) {
+    return std::any_of(from.design.edits.begin(), from.design.edits.end(),
+                       [&](const Edit& earlier) { return takes_back(suggestion.edit, earlier); });
+  });
+  return edits;
 }
 
 void make(Successor& successor, const SearchTools& tools, const Standpoint& from, const SearchTree& tree) {

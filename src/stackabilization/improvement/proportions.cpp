@@ -15,14 +15,19 @@ double ratio_of(double rest, double now) {
 double least_ratio(const Cuboid& rest, const Cuboid& now) {
   const double smallest = tolerance::least_thickness * (rest.corners.row(7) - rest.corners.row(0)).norm();
   double least = 1;
-  for (int corner = 0; corner < 8; ++corner)
-    for (int axis = 1; axis < 8; axis *= 2) {
+  for (int axis = 1; axis < 8; axis *= 2) {
+    Eigen::RowVector3d whole_before = Eigen::RowVector3d::Zero(), whole_after = whole_before;
+    for (int corner = 0; corner < 8; ++corner) {
       if (corner & axis) continue;
-      const double length = (rest.corners.row(corner | axis) - rest.corners.row(corner)).norm();
-      if (length > 2 * smallest)
-        least = std::min(least,
-                         ratio_of(length, (now.corners.row(corner | axis) - now.corners.row(corner)).norm()));
+      const Eigen::RowVector3d before = rest.corners.row(corner | axis) - rest.corners.row(corner),
+                               after = now.corners.row(corner | axis) - now.corners.row(corner);
+      if (before.norm() > 2 * smallest) least = std::min(least, after.norm() / before.norm());
+      whole_before += before;
+      whole_after += after;
     }
+    if (whole_before.norm() > 8 * smallest)
+      least = std::min(least, ratio_of(whole_before.norm(), whole_after.norm()));
+  }
   return least;
 }
 
