@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "stackabilization/improvement/design_match.h"
 #include "stackabilization/improvement/primitive_axis.h"
 #include "stackabilization/shape/boxes.h"
 #include "stackabilization/shape/errors.h"
@@ -31,12 +32,6 @@ double miss(const SymmetricPair& pair, const std::vector<Primitive>& primitives)
     sum += (image - to.row(pair.counterpart[static_cast<std::size_t>(i)]).transpose()).norm();
   }
   return sum;
-}
-
-std::vector<Primitive> primitives_of(const Structure& structure) {
-  std::vector<Primitive> primitives;
-  for (const Part& part : structure.parts) primitives.push_back(part.primitive);
-  return primitives;
 }
 
 std::vector<SymmetricPair> symmetric_pairs(const Structure& structure,
@@ -92,7 +87,7 @@ Eigen::Vector3d extents(const Points& vertices, const std::vector<Eigen::Index>&
 struct EnergyMeter::Rest {
   Rest(const StructuredShape& rest, BoxModel boxes)
       : diagonal(rest.structure.diagonal),
-        primitives(primitives_of(rest.structure)),
+        primitives(detail::primitives_of(rest.structure)),
         vertex_count(rest.shape.vertex_count()),
         rows(used_rows(rest.shape)),
         axes(main_axes(rest.shape, boxes)),
@@ -170,12 +165,7 @@ EnergyMeter::EnergyMeter(const StructuredShape& rest, BoxModel boxes, double alp
 }
 
 Distortion EnergyMeter::distortion(const Design& design) const {
-  bool same = design.primitives.size() == rest_->primitives.size() &&
-              design.shape.vertex_count() == rest_->vertex_count;
-  for (std::size_t i = 0; same && i < design.primitives.size(); ++i)
-    same = design.primitives[i].index() == rest_->primitives[i].index() &&
-           control_points(design.primitives[i]).rows() == control_points(rest_->primitives[i]).rows();
-  if (!same) throw UsageError("the design does not have the vertices and primitives of the shape at rest");
+  detail::require_match(design, rest_->primitives, rest_->vertex_count);
   return {rest_->volume_change(design.primitives), rest_->proximity_change(design.primitives),
           rest_->box_change(design.shape.vertices), rest_->symmetry_change(design.primitives)};
 }

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "stackabilization/deformation/relation_residual.h"
+#include "stackabilization/envelope/contacts.h"
+#include "stackabilization/improvement/draft.h"
 #include "stackabilization/improvement/proportions.h"
 #include "stackabilization/shape/tolerances.h"
+#include "stackabilization/stacking/standing.h"
 
 namespace stackabilization::detail {
 
@@ -63,6 +67,7 @@ RequirementChecks::RequirementChecks(const DesignSpace& space, const Requirement
     if (entry.by_primitive) entry.vertices.clear();
     staying_.push_back(std::move(entry));
   }
+  if (requirements.least_thickness) probes_ = thickness_probes(rest);
 }
 
 std::vector<Check> RequirementChecks::of(const CheckedDesign& checked) const {
@@ -74,6 +79,9 @@ std::vector<Check> RequirementChecks::of(const CheckedDesign& checked) const {
   if (requirements_.least_proportion > 0) checks.push_back(proportions(checked));
   if (requirements_.box_tolerance) checks.push_back(box(checked));
   if (!staying_.empty()) checks.push_back(parts(checked));
+  if (requirements_.least_thickness) checks.push_back(thickness(checked));
+  if (requirements_.least_draft_degrees) checks.push_back(draft(checked));
+  if (requirements_.standing_copies) checks.push_back(standing(checked));
   return checks;
 }
 
@@ -89,7 +97,7 @@ Check RequirementChecks::relations(const CheckedDesign& checked) const {
   const std::vector<double> residuals = relation_residuals(structure, checked.design.primitives);
   Check check{"relations", 0, tolerance::relation, true, "of the diagonal", ""};
   for (std::size_t i = 0; i < residuals.size(); ++i) {
-    if (residuals[i] <= check.value) continue;
+    if (residuals[i] <= check.value || std::isnan(check.value)) continue;
     check.value = residuals[i];
     check.note = words_for(structure.relations[i], structure);
   }
@@ -139,6 +147,60 @@ Check RequirementChecks::parts(const CheckedDesign& checked) const {
     check.note = quoted(space_.rest().structure, staying.part);
   }
   check.passed = check.value <= check.demanded;
+  return check;
+}
+
+Check RequirementChecks::thickness(const CheckedDesign& checked) const {
+  const Structure& structure = space_.rest().structure;
+  const double least = *requirements_.least_thickness, slack = tolerance::relative * structure.diagonal;
+  Check check{"thickness", 0, least, true, "model units", "nothing has a thickness"};
+  // The probe with the least excess over what it needs decides; the thinnest one is reported.
+  double worst = std::numeric_limits<double>::infinity(), thinnest = worst;
+  for (const ThicknessProbe& probe : probes_) {
+    const double measured = stackabilization::thickness(probe, checked.design.shape);
+    const double excess = measured - std::min(least, probe.at_rest);
+    thinnest = std::min(thinnest, measured);
+    if (excess >= worst) continue;
+    worst = excess;
+    const auto triangle = static_cast<std::size_t>(probe.near_triangle);
+    check.note = quoted(structure, checked.design.shape.triangle_part[triangle]);
+  }
+  if (probes_.empty()) return check;
+  check.value = thinnest;
+  check.passed = worst >= -slack;
+  if (check.passed) check.note = thinnest < least - slack ? "nowhere thinner than at rest" : "";
+  return check;
+}
+
+Check RequirementChecks::draft(const CheckedDesign& checked) const {
+  const double least = *requirements_.least_draft_degrees;
+  const Shape& shape = checked.design.shape;
+  Check check{"draft", 90, least, true, "degrees", ""};
+  if (!checked.assessment.separation.blocked) return check;
+  ContactOptions options;
+  options.semantics = requirements_.measure.semantics;
+  check.value = contact_draft_degrees(
+      shape,
+      contact_regions({shape, checked.tree, checked.direction, checked.assessment.separation}, options),
+      checked.direction);
+  check.passed = check.value >= least * (1 - tolerance::relative);
+  return check;
+}
+
+Check RequirementChecks::standing(const CheckedDesign& checked) const {
+  Check check{"standing", 0, requirements_.least_tilt_degrees, false, "degrees", ""};
+  if (!checked.assessment.separation.blocked) {
+    check.note = "copies pass each other along the direction";
+    return check;
+  }
+  StandingOptions options;
+  options.copies = *requirements_.standing_copies;
+  options.semantics = requirements_.measure.semantics;
+  const Standing stack = stackabilization::standing(checked.design.shape, checked.direction, options);
+  check.value = stack.tilt_degrees;
+  check.passed = stack.stands && stack.tilt_degrees >= check.demanded * (1 - tolerance::relative);
+  check.note = "copy " + std::to_string(stack.weakest_copy + 1) + " of " + std::to_string(options.copies) +
+               " topples first";
   return check;
 }
 

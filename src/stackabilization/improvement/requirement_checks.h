@@ -41,7 +41,6 @@ class RequirementChecks {
   Check draft(const CheckedDesign& checked) const;
   Check standing(const CheckedDesign& checked) const;
   double displacement(const StayingPart& staying, const Design& design) const;
-  double length_rounding() const;
 
   const DesignSpace& space_;
   const Requirements& requirements_;

@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "stackabilization/improvement/design_match.h"
 #include "stackabilization/improvement/proportions.h"
 #include "stackabilization/improvement/requirement_checks.h"
 #include "stackabilization/shape/errors.h"
@@ -89,6 +90,7 @@ struct RequirementChecker::Data {
   Data(const DesignSpace& designs, Requirements required)
       : space(designs),
         requirements(validated(std::move(required), designs.rest())),
+        primitives(detail::primitives_of(designs.rest().structure)),
         checks(designs, requirements, parts_that_stay(requirements, designs.rest().structure)) {}
 
   /// How far apart copies are, with the air, where they are `touching` without any.
@@ -114,6 +116,7 @@ struct RequirementChecker::Data {
 
   const DesignSpace& space;
   Requirements requirements;
+  std::vector<Primitive> primitives;  ///< at rest
   detail::RequirementChecks checks;
 };
 
@@ -153,9 +156,7 @@ std::optional<std::string> RequirementChecker::out_of_proportion(const Design& d
 }
 
 Assessment RequirementChecker::checked(const Design& design, const Direction& direction) const {
-  if (design.shape.vertex_count() != data_->space.rest().shape.vertex_count() ||
-      design.primitives.size() != data_->space.rest().structure.parts.size())
-    throw UsageError("the design does not have the vertices and primitives of the shape at rest");
+  detail::require_match(design, data_->primitives, data_->space.rest().shape.vertex_count());
   validate(design.shape);
   const StackabilityOptions& measure = data_->requirements.measure;
   const SeparationTree tree(design.shape);
