@@ -66,12 +66,17 @@ Eigen::MatrixXd basis_of(const GeneralizedCylinder& cylinder) {
 }
 
 /// The products of the signs of the three coordinates of a corner: 1, x, y, z are affine, xy, yz, zx and xyz
-/// are not.
-Eigen::MatrixXd basis_of(const Cuboid&) {
+/// are not. Equal strains have equal prices: to change the thickness of a plate by half of it is as dear as
+/// to change its length by half.
+Eigen::MatrixXd basis_of(const Cuboid& cuboid) {
+  Eigen::Vector3d sides;
+  for (int axis = 0; axis < 3; ++axis)
+    sides(axis) = (cuboid.corners.row(1 << axis) - cuboid.corners.row(0)).norm();
+  sides /= sides.maxCoeff();
   Eigen::MatrixXd affine(8, 4), bent(8, 4);
   for (int k = 0; k < 8; ++k) {
     const double x = (k & 1) != 0 ? 1 : -1, y = (k & 2) != 0 ? 1 : -1, z = (k & 4) != 0 ? 1 : -1;
-    affine.row(k) << 1, x, y, z;
+    affine.row(k) << 1, x * sides.x(), y * sides.y(), z * sides.z();
     bent.row(k) << x * y, y * z, z * x, x * y * z;
   }
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(24, 24);

@@ -22,8 +22,8 @@ Eigen::VectorXd linear_weights(const GeneralizedCylinder& rest, int section);
 Eigen::MatrixXd edit_kernel(const Primitive& rest);
 
 /// B whose columns, all of the same price, span what a solver may do to a primitive: cheap affine motions of
-/// the whole (a translation by 1 is a column), dearer smooth bending, and dearest non-affine moves of single
-/// corners and changes of radii.
+/// the whole (a translation by 1 is a column; of a cuboid strains by 1 over its longest side), dearer smooth
+/// bending, and dearest non-affine moves of single corners and changes of radii.
 Eigen::MatrixXd correction_basis(const Primitive& rest);
 
 /// 3 x 3n: rotation vector of the rigid motion nearest to small displacements of the centres; no component

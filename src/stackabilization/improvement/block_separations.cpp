@@ -11,9 +11,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// About as many blocks are made, at most so many slabs of each part.
+/// About as many blocks are made.
 constexpr int many_blocks = 96;
-constexpr int most_slabs = 12;
 
 }  // namespace
 
@@ -23,7 +22,8 @@ struct BlockSeparations::Placed {
   std::shared_ptr<const SeparationTree> tree;  ///< made where it is needed
 };
 
-BlockSeparations::BlockSeparations(const Shape& rest, const Direction& direction, Semantics semantics)
+BlockSeparations::BlockSeparations(const Shape& rest, const Direction& direction, Semantics semantics,
+                                   int most_slabs)
     : direction_(direction), frame_(frame_of(direction)), semantics_(semantics) {
   const Range heights = range_along(rest, frame_.w);
   const int slabs = std::clamp(many_blocks / static_cast<int>(rest.part_count()), 1, most_slabs);

@@ -21,8 +21,8 @@ struct BlockPair {
 /// smoothly with the shape. Const, safe from any number of threads.
 class BlockSeparations {
  public:
-  /// `rest`: the shape that the blocks are made of.
-  BlockSeparations(const Shape& rest, const Direction& direction, Semantics semantics);
+  /// `rest`: the shape that the blocks are made of; `most_slabs`: into which a part is cut.
+  BlockSeparations(const Shape& rest, const Direction& direction, Semantics semantics, int most_slabs = 12);
 
   /// Pairs with f >= `least` in a shape with the triangles of `rest`, largest f first.
   std::vector<BlockPair> pairs_above(const Shape& shape, double least) const;

@@ -25,7 +25,7 @@ class Pursuit {
         constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction_)),
         meter_(checker.space().rest(), checker.requirements().measure.boxes, options.alpha),
         handles_(checker.space().handles()),
-        blocks_(checker.space().rest().shape, direction_, checker.requirements().measure.semantics),
+        blocks_(checker.space().rest().shape, direction_, checker.requirements().measure.semantics, 1),
         at_rest_(start.measured.value - start.energy.gain) {
     now_.candidate = start;
     now_.excess = excess(now_.candidate);
