@@ -34,7 +34,7 @@ struct BestFirstOptions {
   std::vector<Eigen::Vector3d> directions = {{0, 0, 1}};
   std::function<void(const ImprovementProgress&)> progress = {};  ///< called from the calling thread
   std::function<bool()> cancelled = {};                           ///< asked from the calling thread
-  /// Called now and then, and at the end, with a text that `resume` takes.
+  /// Called now and then, and at the end, with a text that best_first_resumed takes.
   std::function<void(const std::string& state)> save = {};
 };
 
@@ -47,9 +47,10 @@ struct Candidate {
   std::vector<std::string> reasons;  ///< per edit, see ContactEdit::why
 };
 
-/// How often successors were refused, and why: what a diagnosis looks at.
+/// How often successors were refused, or designs that reach the target failed a check, and why: what a
+/// diagnosis looks at.
 struct RefusalCount {
-  std::string reason;  ///< without its amounts
+  std::string reason;  ///< with "..." for amounts
   std::int64_t count = 0;
 };
 
@@ -65,21 +66,24 @@ struct BestFirstResult {
 };
 
 /// Algorithm 1 of the paper: of all candidates that of least E (ties: made first) is taken; one that reaches
-/// the target and passes every check is a solution; of the others the contacts suggest successors
-/// (contact_edits.h). With a visited set, so that no configuration is looked at twice (to a grid of 1e-6 of
-/// the diagonal), and limits. Starting directions take turns, each with a queue of its own. The direction is
-/// searched again when a candidate is taken, inside a cone and within the symmetry planes that contain it,
-/// where the height stays what it was.
+/// the target and passes every check is a solution, and is not edited further; of the others the contacts
+/// suggest successors (contact_edits.h). With a visited set, so that no configuration is looked at twice (to a
+/// grid of 1e-6 of the diagonal, wherever the whole is), and limits. Starting directions take turns, each with
+/// a queue of its own. The direction is searched again when a candidate is taken, inside a cone and within the
+/// symmetry planes that contain it, where the height stays what it was. Gains are over S of the shape at rest
+/// along the first starting direction, so that energies compare across directions.
 ///
-/// Two solutions are different when their edits take hold of different sets of handles (symmetric parts
-/// counted as one) or move them otherwise, or when one is as far from the other as it is from rest, halved.
+/// Two solutions are different when the change between them (shape_change.h) is at least half of the smaller
+/// of their changes from rest; a tenth is enough when their edits take hold of different handles (symmetric
+/// parts counted as one) or move them otherwise.
 ///
 /// The same result for any number of threads, and after any interruption, unless the time limit ends it.
 /// Throws UsageError for options out of range.
 BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOptions& options);
 
-/// Goes on from a text given to `save` by a search with the same checker and options. Throws InputError when
-/// it is none, or belongs to another shape, other requirements or other options.
+/// Goes on from a text given to `save` by a search with the same checker and options; only its limits, of
+/// expansions and seconds, may be others. The seconds it used count. Throws InputError when the text is none,
+/// or belongs to another shape, other requirements or other options.
 BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
                                    const std::string& state);
 

@@ -66,6 +66,7 @@ void add(Fingerprint& print, const Requirements& requirements) {
   add_integer(print, requirements.keep_height ? 1 : 0);
   add_integers(print, requirements.kept_parts);
   add_integers(print, requirements.editable_parts);
+  print.add(requirements.least_proportion);
   add_optional(print, requirements.box_tolerance);
   add_optional(print, requirements.least_thickness);
   print.add(requirements.clearance);
