@@ -67,11 +67,11 @@ struct BestFirstResult {
 
 /// Algorithm 1 of the paper: of all candidates that of least E (ties: made first) is taken; one that reaches
 /// the target and passes every check is a solution, and is not edited further; of the others the contacts
-/// suggest successors (contact_edits.h). With a visited set, so that no configuration is looked at twice (to a
-/// grid of 1e-6 of the diagonal, wherever the whole is), and limits. Starting directions take turns, each with
-/// a queue of its own. The direction is searched again when a candidate is taken, inside a cone and within the
-/// symmetry planes that contain it, where the height stays what it was. Gains are over S of the shape at rest
-/// along the first starting direction, so that energies compare across directions.
+/// suggest successors (contact_edits.h). With a visited set, so that no configuration is looked at twice (to
+/// a grid of 1e-6 of the diagonal, wherever the whole is), and limits. Starting directions take turns, each
+/// with a queue of its own. The direction is searched again when a candidate is taken, inside a cone and
+/// within the symmetry planes that contain it, where the height stays what it was. Gains are over S of the
+/// shape at rest along the first starting direction, so that energies compare across directions.
 ///
 /// Two solutions are different when the change between them (shape_change.h) is at least half of the smaller
 /// of their changes from rest; a tenth is enough when their edits take hold of different handles (symmetric

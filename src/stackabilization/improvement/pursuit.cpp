@@ -29,7 +29,6 @@ class Pursuit {
         at_rest_(start.measured.value - start.energy.gain) {
     now_.candidate = start;
     now_.excess = excess(now_.candidate);
-    first_excess_ = now_.excess;
   }
 
   Candidate run() {
@@ -57,9 +56,9 @@ class Pursuit {
     return sum / candidate.measured.extent;
   }
 
+  /// Distortion against what is left of the excess.
   double merit(const State& state) const {
-    const double price = options_.alpha * state.candidate.energy.distortion.total();
-    return price + (1 - options_.alpha) * state.excess / first_excess_;
+    return state.candidate.energy.distortion.total() + state.excess / now_.excess;
   }
 
   /// What every region that asks for more than is allowed suggests.
@@ -97,11 +96,10 @@ class Pursuit {
       if (!stopped_here()) made[k] = after(edits[k]);
     });
     if (stopped_here()) return false;
-    const double before = merit(now_);
+    const double before = merit(now_) - least_progress;
     std::optional<std::size_t> best;
     for (std::size_t k = 0; k < made.size(); ++k)
-      if (made[k] && merit(*made[k]) < (best ? merit(*made[*best]) : before - least_progress * before))
-        best = k;
+      if (made[k] && merit(*made[k]) < (best ? merit(*made[*best]) : before)) best = k;
     if (!best) return false;
     Candidate& next = made[*best]->candidate;
     next.direction = now_.candidate.direction;
@@ -122,7 +120,6 @@ class Pursuit {
   detail::BlockSeparations blocks_;
   double at_rest_;
   State now_;
-  double first_excess_ = 0;
 };
 
 }  // namespace

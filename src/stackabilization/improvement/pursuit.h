@@ -7,7 +7,7 @@
 namespace stackabilization {
 
 struct PursuitOptions {
-  double alpha = 0.2;  ///< of the energies reported, and of the price of distortion against excess
+  double alpha = 0.2;  ///< of the energies reported
   ContactEditOptions edits;
   int steps = 24;                        ///< edits added at most, >= 1
   std::function<bool()> cancelled = {};  ///< asked from the calling thread
@@ -15,13 +15,14 @@ struct PursuitOptions {
 
 /// Beyond the paper: where several pairs of contacts keep copies apart at the same height, separating one of
 /// them does not raise S, so a search by S alone wanders about on the plateau. The pursuit takes edits, one
-/// after the other, by the sum over all pairs of blocks of the shape of what each lacks to the target,
+/// after the other, by the sum over all pairs of parts of what each lacks to the target,
 ///
-///     alpha D + (1 - alpha) sum max(0, f_ij - f*) / sum at the start,   f* = (1 - target) h V(M) / V(M, r),
+///     F = sum max(0, f_ij - f*),   f* = (1 - target) h V(M) / V(M, r),
 ///
-/// which falls with every pair that gives way. The edits are those that all regions with f > f* suggest
-/// (contact_edits.h). Ends when the target is reached, no edit lowers the sum, or after `steps`. What it
-/// finds is coarse; refinement.h makes it good. Deterministic for any number of threads.
+/// which falls with every pair that gives way: the edit of least D + F / F_before is next. The edits are
+/// those that all regions with f > f* suggest (contact_edits.h). Ends when the target is reached, no edit is
+/// worth its distortion, or after `steps`. What it finds is coarse; refinement.h makes it good. Deterministic
+/// for any number of threads.
 Candidate pursued(const RequirementChecker& checker, const Candidate& start,
                   const PursuitOptions& options = {});
 
