@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <tuple>
+#include <utility>
 
 namespace stackabilization::detail {
 
@@ -64,12 +64,12 @@ BlockSeparations::Placed BlockSeparations::placed(const Shape& shape, int block)
   return result;
 }
 
-double BlockSeparations::separation(const Placed& upper, const Placed& lower) const {
-  const double least = upper.box.min().z() - lower.box.max().z();
+BlockSeparation BlockSeparations::separation(const Placed& upper, const Placed& lower) const {
   const Enclosure enclosure =
       separation_enclosure(*upper.tree, *lower.tree, direction_, {semantics_, std::nullopt});
-  if (enclosure.upper == -std::numeric_limits<double>::infinity()) return least;
-  return (enclosure.lower + enclosure.upper) / 2 * direction_.length();
+  if (enclosure.upper == -std::numeric_limits<double>::infinity())
+    return {false, upper.box.min().z() - lower.box.max().z()};
+  return {true, (enclosure.lower + enclosure.upper) / 2 * direction_.length()};
 }
 
 std::vector<BlockPair> BlockSeparations::pairs_above(const Shape& shape, double least) const {
@@ -81,7 +81,7 @@ std::vector<BlockPair> BlockSeparations::pairs_above(const Shape& shape, double 
     if (!block.tree) block.tree = std::make_shared<const SeparationTree>(block.shape);
     return block;
   };
-  std::vector<BlockPair> pairs;
+  std::vector<std::pair<double, BlockPair>> pairs;  // with -f, to be sorted by
   for (int a = 0; a < count; ++a)
     for (int b = 0; b < count; ++b) {
       const Eigen::AlignedBox3d &upper = placed_blocks[static_cast<std::size_t>(a)].box,
@@ -89,17 +89,18 @@ std::vector<BlockPair> BlockSeparations::pairs_above(const Shape& shape, double 
       const bool apart = (upper.min().head<2>().array() > lower.max().head<2>().array()).any() ||
                          (lower.min().head<2>().array() > upper.max().head<2>().array()).any();
       if (apart || upper.max().z() - lower.min().z() < least) continue;
-      const double f = separation(with_tree(a), with_tree(b));
-      if (f >= least) pairs.push_back({a, b, f});
+      const BlockSeparation between = separation(with_tree(a), with_tree(b));
+      if (between.blocked && between.f >= least) pairs.push_back({-between.f, {a, b}});
     }
-  std::sort(pairs.begin(), pairs.end(), [](const BlockPair& a, const BlockPair& b) {
-    return std::tie(b.f, a.upper, a.lower) < std::tie(a.f, b.upper, b.lower);
-  });
-  return pairs;
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<BlockPair> result;
+  for (const auto& [negated, pair] : pairs) result.push_back(pair);
+  return result;
 }
 
-std::vector<double> BlockSeparations::separations(const Shape& shape,
-                                                  const std::vector<BlockPair>& pairs) const {
+std::vector<BlockSeparation> BlockSeparations::separations(const Shape& shape,
+                                                           const std::vector<BlockPair>& pairs) const {
   std::vector<std::optional<Placed>> placed_blocks(blocks_.size());
   const auto with_tree = [&](int b) -> const Placed& {
     std::optional<Placed>& block = placed_blocks[static_cast<std::size_t>(b)];
@@ -109,7 +110,7 @@ std::vector<double> BlockSeparations::separations(const Shape& shape,
     }
     return *block;
   };
-  std::vector<double> result;
+  std::vector<BlockSeparation> result;
   for (const BlockPair& pair : pairs)
     result.push_back(separation(with_tree(pair.upper), with_tree(pair.lower)));
   return result;

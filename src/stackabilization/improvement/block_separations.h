@@ -13,7 +13,14 @@ namespace stackabilization::detail {
 /// A block of the copy below and one of the copy above.
 struct BlockPair {
   int upper = 0, lower = 0;
-  double f = 0;  ///< see BlockSeparations::separations, model units
+};
+
+/// What a pair asks for.
+struct BlockSeparation {
+  bool blocked = false;  ///< false: the blocks pass each other at any height
+  /// Their separation along r, within 1e-12 of the extent, model units. Not blocked: the least that they
+  /// would ask for if they met, that of the lowest and the highest point.
+  double f = 0;
 };
 
 /// A shape in blocks that stay the same while it deforms: its parts, cut into slabs across r by the heights
@@ -24,12 +31,11 @@ class BlockSeparations {
   /// `rest`: the shape that the blocks are made of; `most_slabs`: into which a part is cut.
   BlockSeparations(const Shape& rest, const Direction& direction, Semantics semantics, int most_slabs = 12);
 
-  /// Pairs with f >= `least` in a shape with the triangles of `rest`, largest f first.
+  /// Pairs that are blocked and ask for at least `least` in a shape with the triangles of `rest`, those that
+  /// ask for most first.
   std::vector<BlockPair> pairs_above(const Shape& shape, double least) const;
-  /// f of each of `pairs`, model units: the separation of the two blocks along r, within 1e-12 of the extent.
-  /// A pair that passes at any height is given what it would ask for if lowest and highest points met, which
-  /// no pair that meets falls below.
-  std::vector<double> separations(const Shape& shape, const std::vector<BlockPair>& pairs) const;
+  /// What each of `pairs` asks for.
+  std::vector<BlockSeparation> separations(const Shape& shape, const std::vector<BlockPair>& pairs) const;
 
  private:
   struct Block {
@@ -40,7 +46,7 @@ class BlockSeparations {
   struct Placed;  ///< a block of a deformed shape
 
   Placed placed(const Shape& shape, int block) const;
-  double separation(const Placed& upper, const Placed& lower) const;
+  BlockSeparation separation(const Placed& upper, const Placed& lower) const;
 
   std::vector<Block> blocks_;
   Direction direction_;

@@ -73,6 +73,7 @@ class MagnitudeProblem {
   const std::optional<Magnitudes>& best() const { return best_; }
   const std::optional<Magnitudes>& nearest() const { return nearest_; }
   double best_distortion() const { return best_distortion_; }
+  double nearest_stackability() const { return nearest_stackability_; }
   int evaluations() const { return evaluations_; }
   /// The limit of evaluations is used up, or it was cancelled.
   bool stopped() const;
