@@ -81,6 +81,7 @@ Requirements stacks(double target) {
   Requirements requirements;
   requirements.target = target;
   requirements.measure.boxes = BoxModel::frame;
+  requirements.least_proportion = 0;
   return requirements;
 }
 
@@ -241,6 +242,20 @@ TEST_CASE("an edit that is of no use is left out, its counterpart merged") {
   CHECK(radius(result, 0) == Approx(0.5).epsilon(1e-6));
 }
 
+TEST_CASE("proportions are kept") {
+  // The kink lies at b = 0.65: b stays at what it may, and t = 2 b.
+  const Cups cups;
+  Requirements requirements = stacks(0.8);
+  requirements.least_proportion = limit;
+  const RequirementChecker checker(cups, requirements);
+  const RefinementResult result =
+      refined_candidate(checker, cups.candidate(checker, {scale(0, 0.65), scale(1, 1.35)}));
+  check_met(result, 0.8);
+  CHECK(radius(result, 0) == Approx(limit).epsilon(1e-4));
+  CHECK(radius(result, 0) >= limit);
+  CHECK(radius(result, 1) == Approx(2 * limit).epsilon(1e-4));
+}
+
 TEST_CASE("where edits are refused the best of the others is found") {
   // The kink lies at b = 0.65, which is refused: b stays at its limit, and t = 2 b.
   const Cups cups(limit);
@@ -256,7 +271,7 @@ TEST_CASE("where edits are refused the best of the others is found") {
 TEST_CASE("a target out of reach gives the largest S, and says so") {
   const Cups cups(limit);
   const RequirementChecker checker(cups, stacks(0.8));
-  const RefinementResult result = refined_candidate(checker, cups.candidate(checker, {scale(0, 0.9)}));
+  const RefinementResult result = refined_candidate(checker, cups.candidate(checker, {scale(0, 0.8)}));
   CHECK_FALSE(result.reached);
   CHECK(radius(result, 0) >= limit);
   CHECK(result.candidate.measured.value == Approx(1 - wall / (1 - limit)).epsilon(0.01));

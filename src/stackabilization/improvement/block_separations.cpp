@@ -81,7 +81,7 @@ std::vector<BlockPair> BlockSeparations::pairs_above(const Shape& shape, double 
     if (!block.tree) block.tree = std::make_shared<const SeparationTree>(block.shape);
     return block;
   };
-  std::vector<std::pair<double, BlockPair>> pairs;  // with -f, to be sorted by
+  std::vector<BlockPair> pairs;
   for (int a = 0; a < count; ++a)
     for (int b = 0; b < count; ++b) {
       const Eigen::AlignedBox3d &upper = placed_blocks[static_cast<std::size_t>(a)].box,
@@ -90,13 +90,11 @@ std::vector<BlockPair> BlockSeparations::pairs_above(const Shape& shape, double 
                          (lower.min().head<2>().array() > upper.max().head<2>().array()).any();
       if (apart || upper.max().z() - lower.min().z() < least) continue;
       const BlockSeparation between = separation(with_tree(a), with_tree(b));
-      if (between.blocked && between.f >= least) pairs.push_back({-between.f, {a, b}});
+      if (between.blocked && between.f >= least) pairs.push_back({a, b, between.f});
     }
   std::stable_sort(pairs.begin(), pairs.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<BlockPair> result;
-  for (const auto& [negated, pair] : pairs) result.push_back(pair);
-  return result;
+                   [](const BlockPair& a, const BlockPair& b) { return a.f > b.f; });
+  return pairs;
 }
 
 std::vector<BlockSeparation> BlockSeparations::separations(const Shape& shape,

@@ -13,6 +13,7 @@ namespace stackabilization::detail {
 /// A block of the copy below and one of the copy above.
 struct BlockPair {
   int upper = 0, lower = 0;
+  double f = 0;  ///< what it asked for when it was found, model units
 };
 
 /// What a pair asks for.

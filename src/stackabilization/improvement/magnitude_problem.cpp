@@ -125,18 +125,19 @@ MagnitudeSample MagnitudeProblem::measured(const Magnitudes& x) const {
   }
   std::erase_if(assessment.checks, [](const Check& check) { return !is_open(check); });
   sample.stackability = assessment.measured.value;
+  const Requirements& asked = checker_.requirements();
   const double proportion = least_proportion(checker_.space().rest(), outcome.design).ratio;
-  sample.feasible = proportion >= checker_.requirements().least_proportion &&
-                    sample.stackability >= checker_.requirements().target + tolerance::stackability &&
-                    std::all_of(assessment.checks.begin(), assessment.checks.end(),
-                                [](const Check& c) { return c.passed; });
+  sample.passes =
+      proportion >= asked.least_proportion && std::all_of(assessment.checks.begin(), assessment.checks.end(),
+                                                          [](const Check& c) { return c.passed; });
+  sample.feasible = sample.passes && sample.stackability >= asked.target + tolerance::stackability;
   const auto of_pairs = static_cast<Eigen::Index>(pairs_.size()) + 1;
   const auto checks = static_cast<Eigen::Index>(assessment.checks.size());
   sample.shortfalls.resize(of_pairs + checks + 1);
-  sample.shortfalls[of_pairs + checks] = checker_.requirements().least_proportion - proportion;
   measure_blocks(outcome.design, assessment.measured, sample);
-  for (std::size_t c = 0; c < assessment.checks.size(); ++c)
-    sample.shortfalls[of_pairs + static_cast<Eigen::Index>(c)] = shortfall(assessment.checks[c]);
+  for (Eigen::Index c = 0; c < checks; ++c)
+    sample.shortfalls[of_pairs + c] = shortfall(assessment.checks[static_cast<std::size_t>(c)]);
+  sample.shortfalls[of_pairs + checks] = asked.least_proportion + magnitude_tolerance - proportion;
   return sample;
 }
 
@@ -146,7 +147,7 @@ void MagnitudeProblem::remember(const Magnitudes& x, MagnitudeSample sample) {
     best_ = x;
     best_distortion_ = sample.distortion;
   }
-  if (sample.made && (!nearest_ || sample.stackability > nearest_stackability_)) {
+  if (sample.passes && (!nearest_ || sample.stackability > nearest_stackability_)) {
     nearest_ = x;
     nearest_stackability_ = sample.stackability;
   }

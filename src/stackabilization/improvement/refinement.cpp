@@ -159,7 +159,7 @@ class Refiner {
     double radius = problem_.highest() - problem_.lowest();
     for (int run = 0; run < most_runs && radius >= least_radius && !problem_.best(); ++run) {
       if (problem_.stopped()) return;
-      const Magnitudes from = *problem_.nearest();
+      const Magnitudes from = problem_.nearest().value_or(found);
       const double before = problem_.nearest_stackability();
       problem_.constrain_pairs(from);
       optimised_magnitudes(problem_, {from, radius, MagnitudeGoal::feasible});
