@@ -41,12 +41,16 @@ class BlockSeparations {
  private:
   struct Block {
     std::vector<std::int32_t> vertices;  ///< rows of the shape
-    Triangles triangles;                 ///< of those
+    Triangles triangles;                 ///< of those, and a triangle without size at the anchor
   };
 
   struct Placed;  ///< a block of a deformed shape
 
-  Placed placed(const Shape& shape, int block) const;
+  /// A point beside the shape that becomes the origin and is put into every block. It meets nothing but
+  /// itself, and keeps separation trees from choosing an origin each, which would have them built again for
+  /// every pair.
+  Eigen::Vector3d anchor(const Shape& shape) const;
+  Placed placed(const Shape& shape, int block, const Eigen::Vector3d& anchor) const;
   BlockSeparation separation(const Placed& upper, const Placed& lower) const;
 
   std::vector<Block> blocks_;
