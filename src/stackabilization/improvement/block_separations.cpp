@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <tuple>
+#include <utility>
 
 namespace stackabilization::detail {
 
@@ -39,7 +39,7 @@ BlockSeparations::BlockSeparations(const Shape& rest, const Direction& direction
   for (const std::vector<std::int32_t>& triangles : members) {
     if (triangles.empty()) continue;
     Block block;
-    block.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+    block.triangles.resize(static_cast<Eigen::Index>(triangles.size()) + 1, 3);
     for (std::size_t t = 0; t < triangles.size(); ++t)
       for (int c = 0; c < 3; ++c) {
         const std::int32_t vertex = rest.triangles(triangles[t], c);
@@ -50,32 +50,45 @@ BlockSeparations::BlockSeparations(const Shape& rest, const Direction& direction
         }
         block.triangles(static_cast<Eigen::Index>(t), c) = row;
       }
+    block.triangles.bottomRows<1>().setConstant(static_cast<std::int32_t>(block.vertices.size()));
     for (const std::int32_t vertex : block.vertices) row_in_block[static_cast<std::size_t>(vertex)] = -1;
     blocks_.push_back(std::move(block));
   }
 }
 
-BlockSeparations::Placed BlockSeparations::placed(const Shape& shape, int block) const {
+Eigen::Vector3d BlockSeparations::anchor(const Shape& shape) const {
+  const Eigen::Vector3d low = shape.vertices.colwise().minCoeff(), high = shape.vertices.colwise().maxCoeff();
+  return (low + high) / 2 + (high - low).norm() * frame_.u;
+}
+
+BlockSeparations::Placed BlockSeparations::placed(const Shape& shape, int block,
+                                                  const Eigen::Vector3d& anchor) const {
   const Block& of = blocks_[static_cast<std::size_t>(block)];
+  const auto count = static_cast<Eigen::Index>(of.vertices.size());
+  Points points(count + 1, 3);
   Placed result;
-  result.shape = make_shape(shape.vertices(of.vertices, Eigen::all), of.triangles);
-  for (Eigen::Index v = 0; v < result.shape.vertex_count(); ++v)
-    result.box.extend(frame_.to_local(result.shape.vertices.row(v).transpose()));
+  for (Eigen::Index v = 0; v < count; ++v) {
+    points.row(v) = shape.vertices.row(of.vertices[static_cast<std::size_t>(v)]) - anchor.transpose();
+    result.box.extend(frame_.to_local(points.row(v).transpose()));
+  }
+  points.row(count).setZero();
+  result.shape = make_shape(std::move(points), of.triangles);
   return result;
 }
 
-double BlockSeparations::separation(const Placed& upper, const Placed& lower) const {
-  const double least = upper.box.min().z() - lower.box.max().z();
+BlockSeparation BlockSeparations::separation(const Placed& upper, const Placed& lower) const {
   const Enclosure enclosure =
       separation_enclosure(*upper.tree, *lower.tree, direction_, {semantics_, std::nullopt});
-  if (enclosure.upper == -std::numeric_limits<double>::infinity()) return least;
-  return (enclosure.lower + enclosure.upper) / 2 * direction_.length();
+  if (enclosure.upper == -std::numeric_limits<double>::infinity())
+    return {false, upper.box.min().z() - lower.box.max().z()};
+  return {true, (enclosure.lower + enclosure.upper) / 2 * direction_.length()};
 }
 
 std::vector<BlockPair> BlockSeparations::pairs_above(const Shape& shape, double least) const {
   const int count = static_cast<int>(blocks_.size());
+  const Eigen::Vector3d at = anchor(shape);
   std::vector<Placed> placed_blocks;
-  for (int b = 0; b < count; ++b) placed_blocks.push_back(placed(shape, b));
+  for (int b = 0; b < count; ++b) placed_blocks.push_back(placed(shape, b, at));
   const auto with_tree = [&](int b) -> const Placed& {
     Placed& block = placed_blocks[static_cast<std::size_t>(b)];
     if (!block.tree) block.tree = std::make_shared<const SeparationTree>(block.shape);
@@ -89,27 +102,27 @@ std::vector<BlockPair> BlockSeparations::pairs_above(const Shape& shape, double 
       const bool apart = (upper.min().head<2>().array() > lower.max().head<2>().array()).any() ||
                          (lower.min().head<2>().array() > upper.max().head<2>().array()).any();
       if (apart || upper.max().z() - lower.min().z() < least) continue;
-      const double f = separation(with_tree(a), with_tree(b));
-      if (f >= least) pairs.push_back({a, b, f});
+      const BlockSeparation between = separation(with_tree(a), with_tree(b));
+      if (between.blocked && between.f >= least) pairs.push_back({a, b, between.f});
     }
-  std::sort(pairs.begin(), pairs.end(), [](const BlockPair& a, const BlockPair& b) {
-    return std::tie(b.f, a.upper, a.lower) < std::tie(a.f, b.upper, b.lower);
-  });
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const BlockPair& a, const BlockPair& b) { return a.f > b.f; });
   return pairs;
 }
 
-std::vector<double> BlockSeparations::separations(const Shape& shape,
-                                                  const std::vector<BlockPair>& pairs) const {
+std::vector<BlockSeparation> BlockSeparations::separations(const Shape& shape,
+                                                           const std::vector<BlockPair>& pairs) const {
+  const Eigen::Vector3d at = anchor(shape);
   std::vector<std::optional<Placed>> placed_blocks(blocks_.size());
   const auto with_tree = [&](int b) -> const Placed& {
     std::optional<Placed>& block = placed_blocks[static_cast<std::size_t>(b)];
     if (!block) {
-      block = placed(shape, b);
+      block = placed(shape, b, at);
       block->tree = std::make_shared<const SeparationTree>(block->shape);
     }
     return *block;
   };
-  std::vector<double> result;
+  std::vector<BlockSeparation> result;
   for (const BlockPair& pair : pairs)
     result.push_back(separation(with_tree(pair.upper), with_tree(pair.lower)));
   return result;

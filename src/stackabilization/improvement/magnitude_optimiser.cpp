@@ -20,6 +20,9 @@ constexpr double scaled_distortion = 10;
 /// Added to what is minimised where an edit is refused, so that line searches turn back.
 constexpr double refused = 1e3;
 
+/// Calls of one run, also of points known already.
+constexpr int most_calls = 200;
+
 using Row = Eigen::RowVectorXd;
 
 /// A sum of changes that grow and shrink together: symmetric parts, mostly.
@@ -32,24 +35,26 @@ struct Group {
 /// group of changes, or the largest shortfall).
 class Programme {
  public:
-  Programme(MagnitudeProblem& problem, const Magnitudes& start, MagnitudeGoal goal)
-      : problem_(problem), goal_(goal), start_(start) {
-    const MagnitudeSample base = problem.at(start);
-    const MagnitudeSlopes slopes = problem.slopes(start);
-    if (goal == MagnitudeGoal::unchanged) group_changes(base, slopes);
-    choose_constraints(base, slopes);
+  Programme(MagnitudeProblem& problem, const MagnitudeRun& run)
+      : problem_(problem), goal_(run.goal), start_(run.start), radius_(run.radius) {
+    const MagnitudeSample base = problem.at(start_);
+    const MagnitudeSlopes slopes = problem.slopes(start_);
+    if (goal_ == MagnitudeGoal::unchanged) group_changes(base, slopes);
+    group_constraints(base, slopes);
     scale_ = base.distortion > 0 ? scaled_distortion / base.distortion : 1;
   }
 
-  Magnitudes run() {
+  MagnitudeRunEnd run() {
     const std::size_t count = problem_.size() + slacks();
     const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimiser(
         nlopt_create(NLOPT_LD_SLSQP, static_cast<unsigned>(count)), &nlopt_destroy);
     optimiser_ = optimiser.get();
     std::vector<double> lowest(count, goal_ == MagnitudeGoal::unchanged ? 0 : -infinity_),
         highest(count, infinity_);
-    std::fill_n(lowest.begin(), problem_.size(), problem_.lowest());
-    std::fill_n(highest.begin(), problem_.size(), problem_.highest());
+    for (std::size_t k = 0; k < problem_.size(); ++k) {
+      lowest[k] = std::max(problem_.lowest(), start_[k] - radius_);
+      highest[k] = std::min(problem_.highest(), start_[k] + radius_);
+    }
     nlopt_set_lower_bounds(optimiser_, lowest.data());
     nlopt_set_upper_bounds(optimiser_, highest.data());
     nlopt_set_min_objective(optimiser_, &Programme::objective, this);
@@ -58,12 +63,13 @@ class Programme {
                                      this, exactly.data());
     nlopt_set_xtol_rel(optimiser_, magnitude_tolerance);
     nlopt_set_ftol_rel(optimiser_, magnitude_tolerance);
+    nlopt_set_maxeval(optimiser_, most_calls);
     std::vector<double> variables = start_variables();
     double value = 0;
     nlopt_optimize(optimiser_, variables.data(), &value);
     if (error_) std::rethrow_exception(error_);
     variables.resize(problem_.size());
-    return variables;
+    return {variables, refused_};
   }
 
  private:
@@ -91,28 +97,36 @@ class Programme {
     }
   }
 
-  /// Constraints that are the same, as values and slopes, are one: SLSQP does not like repetition.
-  void choose_constraints(const MagnitudeSample& base, const MagnitudeSlopes& slopes) {
+  /// Constraints that are the same, as values and slopes, become one, their maximum: optimisers do not like
+  /// repetition.
+  void group_constraints(const MagnitudeSample& base, const MagnitudeSlopes& slopes) {
     std::vector<Row> shapes;
     for (Eigen::Index row = 0; row < base.shortfalls.size(); ++row) {
       Row shape(1 + slopes.shortfalls.cols());
       shape << base.shortfalls[row], slopes.shortfalls.row(row);
-      const bool repeated = std::any_of(shapes.begin(), shapes.end(), [&](const Row& other) {
+      const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const Row& other) {
         return (shape - other).norm() <= magnitude_tolerance * (1 + shape.norm());
       });
-      if (repeated) continue;
-      shapes.push_back(shape);
-      rows_.push_back(row);
+      const auto group = static_cast<std::size_t>(same - shapes.begin());
+      if (same == shapes.end()) {
+        shapes.push_back(shape);
+        rows_.emplace_back();
+      }
+      rows_[group].push_back(row);
     }
+  }
+
+  static Eigen::Index largest(const MagnitudeSample& sample, const std::vector<Eigen::Index>& rows) {
+    return *std::max_element(rows.begin(), rows.end(), [&](Eigen::Index a, Eigen::Index b) {
+      return sample.shortfalls[a] < sample.shortfalls[b];
+    });
   }
 
   std::vector<double> start_variables() {
     std::vector<double> variables = start_;
     const MagnitudeSample& base = problem_.at(start_);
     if (goal_ == MagnitudeGoal::feasible) {
-      double most = -infinity_;
-      for (const Eigen::Index row : rows_) most = std::max(most, base.shortfalls[row]);
-      variables.push_back(most);
+      variables.push_back(base.shortfalls.maxCoeff());
     }
     for (const Group& group : groups_) variables.push_back(scale_ * std::abs(change(base, group)));
     return variables;
@@ -147,7 +161,10 @@ class Programme {
     for (std::size_t k = problem_.size(); k < count; ++k) value += variables[k];
     if (gradient)
       for (std::size_t k = 0; k < count; ++k) gradient[k] = k < problem_.size() ? 0 : 1;
-    if (!problem_.at(magnitudes(variables)).made) value += refused;
+    if (!problem_.at(magnitudes(variables)).made) {
+      refused_ = true;
+      value += refused;
+    }
     stop_if_done();
     return value;
   }
@@ -175,7 +192,8 @@ class Programme {
         if (gradient) gradient[row * count + size + g] = -1;
         ++row;
       }
-    for (const Eigen::Index of : rows_) {
+    for (const std::vector<Eigen::Index>& rows : rows_) {
+      const Eigen::Index of = largest(sample, rows);
       const double slack = goal_ == MagnitudeGoal::feasible ? variables[size] : 0;
       set(row, sample.shortfalls[of] - slack, slopes ? Row(slopes->shortfalls.row(of)) : Row());
       if (gradient && goal_ == MagnitudeGoal::feasible) gradient[row * count + size] = -1;
@@ -212,17 +230,19 @@ class Programme {
   MagnitudeProblem& problem_;
   MagnitudeGoal goal_;
   Magnitudes start_;
+  double radius_;
   std::vector<Group> groups_;
-  std::vector<Eigen::Index> rows_;  ///< of shortfalls
-  double scale_ = 1;                ///< of D
+  std::vector<std::vector<Eigen::Index>> rows_;  ///< of shortfalls, in groups
+  double scale_ = 1;                             ///< of D
   nlopt_opt optimiser_ = nullptr;
+  bool refused_ = false;
   std::exception_ptr error_;
 };
 
 }  // namespace
 
-Magnitudes optimised_magnitudes(MagnitudeProblem& problem, const Magnitudes& start, MagnitudeGoal goal) {
-  return Programme(problem, start, goal).run();
+MagnitudeRunEnd optimised_magnitudes(MagnitudeProblem& problem, const MagnitudeRun& run) {
+  return Programme(problem, run).run();
 }
 
 }  // namespace stackabilization::detail

@@ -9,10 +9,22 @@ enum class MagnitudeGoal {
   unchanged,  ///< D is made as small as can be while no constraint falls short
 };
 
-/// Goes on from `start` to a local optimum by sequential quadratic programming (NLopt's SLSQP; Kraft 1994),
-/// with extra variables for the largest shortfall or the magnitude of each change of D, so that all it sees
-/// is smooth. Returns where it ended, which need not be the best point on its way (see
-/// MagnitudeProblem::best), nor quite feasible. Precondition: at(start).made.
-Magnitudes optimised_magnitudes(MagnitudeProblem& problem, const Magnitudes& start, MagnitudeGoal goal);
+/// Where a run of the optimiser begins, and how far it may go.
+struct MagnitudeRun {
+  Magnitudes start;
+  double radius = 0;  ///< no magnitude changes by more, > 0
+  MagnitudeGoal goal = MagnitudeGoal::unchanged;
+};
+
+/// Where it ended, which need not be the best point on its way (see MagnitudeProblem::best), nor feasible.
+struct MagnitudeRunEnd {
+  Magnitudes end;
+  bool refused = false;  ///< it met edits that are refused
+};
+
+/// Goes on to a local optimum by sequential quadratic programming (NLopt's SLSQP; Kraft 1994), with extra
+/// variables for the largest shortfall or the magnitude of each change of D, so that all it sees is smooth.
+/// Precondition: the start can be made.
+MagnitudeRunEnd optimised_magnitudes(MagnitudeProblem& problem, const MagnitudeRun& run);
 
 }  // namespace stackabilization::detail

@@ -26,6 +26,10 @@ constexpr double difference_step = 0x1p-12;
 /// Shortfall of the whole shape where the pairs stand for it.
 constexpr double no_shortfall = -1;
 
+/// And at most that of a pair that passes at any height: as it moves apart, what it asks for falls to what
+/// its lowest and highest points would, and then to nothing.
+constexpr double passing_shortfall = -0.02;
+
 /// Whether the deformation cannot see to it: it keeps extent, relations and box by itself.
 bool is_open(const Check& check) {
   return check.name == "thickness" || check.name == "draft" || check.name == "standing";
@@ -93,12 +97,13 @@ void MagnitudeProblem::constrain_pairs(const Magnitudes& x) {
 void MagnitudeProblem::measure_blocks(const Design& design, const Stackability& whole,
                                       MagnitudeSample& sample) const {
   const double loss = loss_per_length(whole), clearance = checker_.requirements().clearance;
-  const std::vector<double> separations = blocks_.separations(design.shape, pairs_);
+  const std::vector<BlockSeparation> separations = blocks_.separations(design.shape, pairs_);
   double largest = 0;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const double f = separations[p] + clearance;
-    sample.shortfalls[static_cast<Eigen::Index>(p) + 1] = aim() - (1 - f * loss);
-    largest = std::max(largest, f);
+    const double f = separations[p].f + clearance, lack = aim() - (1 - f * loss);
+    sample.shortfalls[static_cast<Eigen::Index>(p) + 1] =
+        separations[p].blocked ? lack : std::min(lack, passing_shortfall);
+    if (separations[p].blocked) largest = std::max(largest, f);
   }
   const bool covered = !pairs_.empty() && largest >= whole.f_max - tolerance::relative * whole.extent;
   sample.shortfalls[0] = covered ? no_shortfall : aim() - whole.value;
@@ -120,18 +125,19 @@ MagnitudeSample MagnitudeProblem::measured(const Magnitudes& x) const {
   }
   std::erase_if(assessment.checks, [](const Check& check) { return !is_open(check); });
   sample.stackability = assessment.measured.value;
+  const Requirements& asked = checker_.requirements();
   const double proportion = least_proportion(checker_.space().rest(), outcome.design).ratio;
-  sample.feasible = proportion >= checker_.requirements().least_proportion &&
-                    sample.stackability >= checker_.requirements().target + tolerance::stackability &&
-                    std::all_of(assessment.checks.begin(), assessment.checks.end(),
-                                [](const Check& c) { return c.passed; });
+  sample.passes =
+      proportion >= asked.least_proportion && std::all_of(assessment.checks.begin(), assessment.checks.end(),
+                                                          [](const Check& c) { return c.passed; });
+  sample.feasible = sample.passes && sample.stackability >= asked.target + tolerance::stackability;
   const auto of_pairs = static_cast<Eigen::Index>(pairs_.size()) + 1;
   const auto checks = static_cast<Eigen::Index>(assessment.checks.size());
   sample.shortfalls.resize(of_pairs + checks + 1);
-  sample.shortfalls[of_pairs + checks] = checker_.requirements().least_proportion - proportion;
   measure_blocks(outcome.design, assessment.measured, sample);
-  for (std::size_t c = 0; c < assessment.checks.size(); ++c)
-    sample.shortfalls[of_pairs + static_cast<Eigen::Index>(c)] = shortfall(assessment.checks[c]);
+  for (Eigen::Index c = 0; c < checks; ++c)
+    sample.shortfalls[of_pairs + c] = shortfall(assessment.checks[static_cast<std::size_t>(c)]);
+  sample.shortfalls[of_pairs + checks] = asked.least_proportion + magnitude_tolerance - proportion;
   return sample;
 }
 
@@ -141,7 +147,7 @@ void MagnitudeProblem::remember(const Magnitudes& x, MagnitudeSample sample) {
     best_ = x;
     best_distortion_ = sample.distortion;
   }
-  if (sample.made && (!nearest_ || sample.stackability > nearest_stackability_)) {
+  if (sample.passes && (!nearest_ || sample.stackability > nearest_stackability_)) {
     nearest_ = x;
     nearest_stackability_ = sample.stackability;
   }

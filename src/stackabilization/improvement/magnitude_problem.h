@@ -24,7 +24,8 @@ using Magnitudes = std::vector<double>;
 /// A design by its magnitudes, measured.
 struct MagnitudeSample {
   bool made = false;           ///< no edit was refused; otherwise the rest means nothing
-  bool feasible = false;       ///< reaches the target and passes the checks
+  bool passes = false;         ///< every check, but perhaps for the target
+  bool feasible = false;       ///< and reaches the target
   double distortion = 0;       ///< D
   double stackability = 0;     ///< S, with the air asked for
   Eigen::VectorXd changes;     ///< DistortionTerms::changes
@@ -56,7 +57,8 @@ class MagnitudeProblem {
   double aim() const;
 
   /// From now on shortfalls have one row for the whole shape, one for each pair of blocks that comes near its
-  /// f_max at `x`, and one per check. That of the whole shape counts only where no such pair attains f_max,
+  /// f_max at `x`, and one per check
+  /// and the proportions. That of the whole shape counts only where no such pair attains f_max,
   /// so that no pair is forgotten. Precondition: at(x).made.
   void constrain_pairs(const Magnitudes& x);
 
@@ -69,10 +71,11 @@ class MagnitudeProblem {
   std::vector<Edit> edits(const Magnitudes& x) const;
   DesignOutcome design(const Magnitudes& x) const;
 
-  /// The feasible sample of least D so far, if any, and the one of largest S.
+  /// The feasible sample of least D so far, if any, and of those that pass the one of largest S.
   const std::optional<Magnitudes>& best() const { return best_; }
   const std::optional<Magnitudes>& nearest() const { return nearest_; }
   double best_distortion() const { return best_distortion_; }
+  double nearest_stackability() const { return nearest_stackability_; }
   int evaluations() const { return evaluations_; }
   /// The limit of evaluations is used up, or it was cancelled.
   bool stopped() const;

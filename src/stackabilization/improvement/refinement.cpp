@@ -22,10 +22,13 @@ using namespace detail;
 /// Uniform multiples of the magnitudes that are tried before anything else when the target is not reached.
 constexpr double multiples[] = {1.25, 1.5, 2, 3};
 
-/// Runs of the optimiser, each from the best point so far with its own pairs of blocks; it stops earlier when
-/// one lessens D by less than this fraction.
-constexpr int most_runs = 5;
+/// Runs of the optimiser, each from the best point so far with its own pairs of blocks. One that lessens D or
+/// raises S by less than this fraction is the last, unless it came to where edits are refused or S jumps:
+/// then the next may go only so much as far, down to the least radius.
+constexpr int most_runs = 12;
 constexpr double least_progress = 1e-3;
+constexpr double less_far = 0.2;
+constexpr double least_radius = 1e-3;
 
 /// Steps of a search along a segment.
 constexpr std::uintmax_t most_steps = 40;
@@ -153,23 +156,30 @@ class Refiner {
     for (const double factor : multiples)
       if (factor <= options_.reach) larger.emplace_back(found.size(), factor);
     problem_.prepare(larger);
-    for (int run = 0; run < most_runs && !problem_.best() && !problem_.stopped(); ++run) {
-      const Magnitudes from = *problem_.nearest();
+    double radius = problem_.highest() - problem_.lowest();
+    for (int run = 0; run < most_runs && radius >= least_radius && !problem_.best(); ++run) {
+      if (problem_.stopped()) return;
+      const Magnitudes from = problem_.nearest().value_or(found);
+      const double before = problem_.nearest_stackability();
       problem_.constrain_pairs(from);
-      optimised_magnitudes(problem_, from, MagnitudeGoal::feasible);
-      if (from == *problem_.nearest()) return;
+      optimised_magnitudes(problem_, {from, radius, MagnitudeGoal::feasible});
+      if (problem_.nearest_stackability() - before < least_progress * (1 - before)) radius *= less_far;
     }
   }
 
   /// Phase 2.
   void descend() {
-    for (int run = 0; run < most_runs && !problem_.stopped(); ++run) {
+    double radius = problem_.highest() - problem_.lowest();
+    for (int run = 0; run < most_runs && radius >= least_radius && !problem_.stopped(); ++run) {
       const Magnitudes from = *problem_.best();
       const double before = problem_.best_distortion();
       problem_.constrain_pairs(from);
-      const Magnitudes to = optimised_magnitudes(problem_, from, MagnitudeGoal::unchanged);
-      approach(to);
-      if (!(problem_.best_distortion() < before * (1 - least_progress))) return;
+      const MagnitudeRunEnd end = optimised_magnitudes(problem_, {from, radius, MagnitudeGoal::unchanged});
+      const bool blocked = end.refused || problem_.at(end.end).stackability < problem_.aim() - least_progress;
+      approach(end.end);
+      if (problem_.best_distortion() < before * (1 - least_progress)) continue;
+      if (!blocked) return;
+      radius *= less_far;
     }
   }
 
