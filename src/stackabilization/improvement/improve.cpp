@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "stackabilization/improvement/distinct.h"
+#include "stackabilization/improvement/pursuit.h"
 
 namespace stackabilization {
 
@@ -12,16 +13,19 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Share of the time that the search may take where its results are refined afterwards.
-constexpr double search_share = 0.6;
+/// Shares of the time that pursuits may take, and that these and the search may take where their results are
+/// refined afterwards.
+constexpr double pursuit_share = 0.4;
+constexpr double search_share = 0.7;
+/// The search gets this share at least.
+constexpr double least_search = 0.05;
 
-BestFirstOptions search_options(const ImprovementOptions& options) {
-  BestFirstOptions search = options.search;
-  if (options.preset == ImprovementPreset::paper)
-    search.edits.family = EditFamily::paper;
-  else
-    search.seconds *= search_share;
-  return search;
+Clock::time_point after(Clock::time_point start, double seconds) {
+  return start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+bool more_stackable(const Candidate& a, const Candidate& b) {
+  return a.measured.value > b.measured.value;
 }
 
 bool less_energy(const Candidate& a, const Candidate& b) {
@@ -42,24 +46,25 @@ class Refiner {
     };
   }
 
-  std::vector<Candidate> refined(const BestFirstResult& found) {
-    for (const Candidate& solution : found.solutions) add(solution, true);
+  /// `starts`: what the pursuits found.
+  std::vector<Candidate> refined(const std::vector<Candidate>& starts, const BestFirstResult& found) {
+    for (const Candidate& start : starts) add(start);
+    for (const Candidate& solution : found.solutions) add(solution);
     for (const Candidate& near : found.nearest) {
       if (static_cast<int>(solutions_.size()) >= wanted_) break;
-      add(near, false);
+      add(near);
     }
     std::stable_sort(solutions_.begin(), solutions_.end(), less_energy);
+    if (static_cast<int>(solutions_.size()) > wanted_) solutions_.resize(static_cast<std::size_t>(wanted_));
     return std::move(solutions_);
   }
 
   const std::optional<Candidate>& nearest() const { return nearest_; }
 
  private:
-  void add(const Candidate& start, bool solved) {
-    if (options_.cancelled()) {
-      if (solved) keep(start);
-      return;
-    }
+  /// Out of time, it still looks whether the candidate is a solution as it is.
+  void add(const Candidate& start) {
+    if (start.design.edits.empty() && start.measured.value < checker_.requirements().target) return;
     RefinementResult result = refined_candidate(checker_, start, options_);
     if (result.reached)
       keep(std::move(result.candidate));
@@ -93,25 +98,55 @@ Candidate at_rest(const RequirementChecker& checker, const Eigen::Vector3d& dire
   return rest;
 }
 
+/// One pursuit per starting direction.
+std::vector<Candidate> pursuits(const RequirementChecker& checker, const BestFirstOptions& search,
+                                Clock::time_point end) {
+  PursuitOptions options;
+  options.alpha = search.alpha;
+  options.edits = search.edits;
+  options.cancelled = [cancelled = search.cancelled, end] {
+    return Clock::now() > end || (cancelled && cancelled());
+  };
+  std::vector<Candidate> found;
+  double first = 0;
+  for (const Eigen::Vector3d& direction : search.directions) {
+    Candidate start = at_rest(checker, direction);
+    if (found.empty()) first = start.measured.value;
+    start.energy.gain = start.measured.value - first;
+    start.energy.value = -(1 - search.alpha) * start.energy.gain;
+    found.push_back(pursued(checker, start, options));
+  }
+  return found;
+}
+
 }  // namespace
 
 Improvement improve(const RequirementChecker& checker, const ImprovementOptions& options,
                     const std::optional<std::string>& state) {
-  const Clock::time_point end = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                                   std::chrono::duration<double>(options.search.seconds));
-  const BestFirstOptions search = search_options(options);
+  const Clock::time_point start = Clock::now();
+  const double seconds = options.search.seconds;
+  const bool refine = options.preset == ImprovementPreset::refined;
+  BestFirstOptions search = options.search;
+  std::vector<Candidate> starts;
+  if (refine) {
+    starts = pursuits(checker, search, after(start, pursuit_share * seconds));
+    const std::chrono::duration<double> used = Clock::now() - start;
+    search.seconds = std::max(search_share * seconds - used.count(), least_search * seconds);
+  } else {
+    search.edits.family = EditFamily::paper;
+  }
   BestFirstResult found = state ? best_first_resumed(checker, search, *state) : best_first(checker, search);
 
   Improvement result;
   result.progress = found.progress;
   result.end = found.end;
-  std::optional<Candidate> nearest;
-  if (!found.nearest.empty()) nearest = found.nearest.front();
-  if (options.preset == ImprovementPreset::refined) {
-    Refiner refiner(checker, options, end);
-    result.solutions = refiner.refined(found);
-    if (refiner.nearest() && (!nearest || refiner.nearest()->measured.value > nearest->measured.value))
-      nearest = refiner.nearest();
+  if (refine) {
+    Refiner refiner(checker, options, after(start, seconds));
+    result.solutions = refiner.refined(starts, found);
+    if (refiner.nearest()) found.nearest.insert(found.nearest.begin(), *refiner.nearest());
+    std::stable_sort(found.nearest.begin(), found.nearest.end(), more_stackable);
+    if (!result.solutions.empty() && found.solutions.empty() && result.end == SearchEnd::exhausted)
+      result.end = SearchEnd::solved;
   } else {
     result.solutions = found.solutions;
   }
@@ -121,11 +156,10 @@ Improvement improve(const RequirementChecker& checker, const ImprovementOptions&
   Eigen::Vector3d direction = options.search.directions.front();
   if (!result.solutions.empty()) {
     direction = result.solutions.front().direction;
-  } else if (nearest) {
-    direction = nearest->direction;
-    found.nearest.insert(found.nearest.begin(), *nearest);
+  } else if (!found.nearest.empty()) {
+    direction = found.nearest.front().direction;
     result.diagnosis = diagnosed(checker, found);
-    result.nearest = std::move(nearest);
+    result.nearest = found.nearest.front();
   }
   result.before = at_rest(checker, direction);
   return result;

@@ -13,7 +13,7 @@ namespace stackabilization {
 
 enum class ImprovementPreset {
   paper,    ///< search only, with the paper's edits and steps
-  refined,  ///< search with further edits, then continuous magnitudes
+  refined,  ///< pursuit and search with further edits, then continuous magnitudes
 };
 
 struct ImprovementOptions {
@@ -32,9 +32,10 @@ struct Improvement {
   SearchEnd end = SearchEnd::exhausted;
 };
 
-/// From a wish to designs that stack: best-first search, refinement of what it finds (and, where it finds
-/// nothing, of what came nearest), checks, and a reason when it cannot be done. See best_first.h and
-/// refinement.h for guarantees. `state`: what an interrupted run of the same task saved.
+/// From a wish to designs that stack: a pursuit along every starting direction, best-first search, refinement
+/// of what they find (and, where there are too few solutions, of what came nearest), checks, and a reason
+/// when it cannot be done. See pursuit.h, best_first.h and refinement.h for guarantees. `state`: what an
+/// interrupted run of the same task saved.
 Improvement improve(const RequirementChecker& checker, const ImprovementOptions& options,
                     const std::optional<std::string>& state = std::nullopt);
 
