@@ -263,7 +263,7 @@ class EditSolution {
   void solve() {
     std::vector<Constraint> constraints = joint_constraints(rig_);
     for (const Constraint& fixed : fixed_point_constraints()) constraints.push_back(fixed);
-    fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.joints.size()),
+    fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.distinct_joints.size()),
                      constraints.end()};
     state_ = solved(rig_, bases_, constraints, std::move(state_));
     if (watch_.bounds().empty() || largest_gap(rig_, constraints, state_) > tolerance::relation * diagonal())

@@ -207,7 +207,8 @@ class Solver {
 
 std::vector<Constraint> joint_constraints(const Rig& rig) {
   std::vector<Constraint> constraints;
-  for (const JointPoint& joint : rig.joints) {
+  for (const int k : rig.distinct_joints) {
+    const JointPoint& joint = rig.joints[at(k)];
     Constraint constraint;
     constraint.riders = {{joint.parts[0], joint.bindings[0], 1}, {joint.parts[1], joint.bindings[1], -1}};
     constraints.push_back(std::move(constraint));
