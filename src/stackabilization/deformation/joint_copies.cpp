@@ -60,7 +60,10 @@ class JointCopies {
     double phase = 0;
     for (std::size_t c = 0; c < states.size(); ++c) {
       Eigen::VectorXd amounts(rig_.bases[c].cols());
-      for (double& amount : amounts) amount = std::sin(++phase * phase);
+      for (double& amount : amounts) {
+        phase += 1;
+        amount = std::sin(phase * phase);
+      }
       states[c].values = rig_.bases[c] * amounts;
       const double largest = states[c].values.size() > 0 ? states[c].values.cwiseAbs().maxCoeff() : 0;
       if (largest > 0) states[c].values *= trial * rig_.rest.diagonal / largest;
