@@ -40,6 +40,7 @@ class RandomEdits {
                              whole && random_.below(2) == 0 ? std::optional(direction()) : std::nullopt};
     else
       edit.operation = Move{random_.uniform(0, 0.05) * diagonal_ * direction()};
+    if (edit.handle.kind == HandleKind::section && random_.below(2) == 0) edit.falloff = Falloff::linear;
     return edit;
   }
 

@@ -2,12 +2,12 @@
 
 #include <Eigen/QR>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
-#include "stackabilization/deformation/correction_basis.h"
+#include "stackabilization/deformation/prescription.h"
 #include "stackabilization/deformation/primitive_validity.h"
 #include "stackabilization/deformation/propagation.h"
+#include "stackabilization/deformation/refusal_words.h"
 #include "stackabilization/deformation/relation_residual.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
@@ -16,57 +16,11 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// How much the part that carries the handle resists corrections of what the edit left open of it: length of
-/// its columns relative to those of other parts.
-constexpr double stiffness = 0.3;
 /// Rounds in which vertices that a solve made outermost are held as well.
 constexpr int extent_rounds = 10;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
-}
-
-std::string fraction(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 3).ptr;
-  return {buffer, end};
-}
-
-std::string name_of(const Relation& relation, const Structure& structure) {
-  std::string name =
-      "the " + name_of(relation.type) + " of '" + structure.parts[at(relation.parts.front())].name + "'";
-  if (relation.parts.size() > 1) name += " and '" + structure.parts[at(relation.parts.back())].name + "'";
-  return name;
-}
-
-Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-  solver.setThreshold(tolerance::relative);
-  solver.compute(matrix);
-  return solver.pseudoInverse();
-}
-
-/// `primitive` with its control values changed, and turned where it can be.
-Primitive changed(Primitive primitive, const PartEdit& edit) {
-  const auto change = [&](auto& points, Eigen::VectorXd* radii) {
-    const auto count = static_cast<int>(3 * points.rows());
-    for (std::size_t i = 0; i < edit.values.size(); ++i) {
-      const int value = edit.values[i];
-      const double by = edit.changes(static_cast<Eigen::Index>(i));
-      if (value < count)
-        points(value / 3, value % 3) += by;
-      else
-        (*radii)(value - count) += by;
-    }
-  };
-  if (auto* cuboid = std::get_if<Cuboid>(&primitive)) {
-    change(cuboid->corners, nullptr);
-  } else {
-    auto& cylinder = std::get<GeneralizedCylinder>(primitive);
-    change(cylinder.centres, &cylinder.radii);
-    cylinder.rotation = edit.rotation * cylinder.rotation;
-  }
-  return primitive;
 }
 
 bool changes_nothing(const PartEdit& edit) {
@@ -121,30 +75,18 @@ class EditSolution {
     }
   }
 
-  /// Rows of the prescribed values of the edited part, given columns of changes of its class.
-  Eigen::MatrixXd handle_rows(const Eigen::MatrixXd& columns) const {
-    const auto count = static_cast<int>(3 * control_points(task_.now[at(edit_.part)]).rows());
-    Eigen::MatrixXd rows(static_cast<Eigen::Index>(edit_.values.size()), columns.cols());
-    for (std::size_t i = 0; i < edit_.values.size(); ++i) {
-      const int value = edit_.values[i];
-      const auto row = static_cast<Eigen::Index>(i);
-      if (value < count)
-        rows.row(row) = rig_.space.point_rows(edit_.part, value / 3, columns).row(value % 3);
-      else
-        rows.row(row) = rig_.space.radius_row(edit_.part, value - count, columns);
-    }
-    return rows;
-  }
-
-  bool whole() const { return static_cast<Eigen::Index>(edit_.values.size()) == bases_[at(class_)].rows(); }
-
   /// Gives the edited class what the edit prescribes, within its symmetries, and leaves its basis what keeps
   /// that.
   std::optional<Refusal> prescribe() {
     if (progress_[at(class_)] == Progress::settled)
       return Refusal{"'" + part_name(edit_.part) + "' is fixed, or symmetric to a part that is", std::nullopt,
                      0};
-    return whole() ? prescribe_whole() : prescribe_handle();
+    Prescription wanted =
+        prescription(rig_, {task_.now[at(edit_.part)], start_[at(class_)], edit_, task_.constraints});
+    if (wanted.refusal) return std::move(wanted.refusal);
+    state_.controls[at(class_)] = std::move(wanted.state);
+    bases_[at(class_)] = std::move(wanted.basis);
+    return std::nullopt;
   }
 
   /// Gives every part what the edit prescribes, as far as all symmetries allow that.
@@ -170,100 +112,10 @@ class EditSolution {
     return std::nullopt;
   }
 
-  std::optional<Refusal> prescribe_whole() {
-    const ControlState wanted = rig_.space.state_of(edit_.part, changed(task_.now[at(edit_.part)], edit_));
-    ControlState& state = state_.controls[at(class_)];
-    state = rig_.space.invariant(class_, wanted);
-    bases_[at(class_)].resize(bases_[at(class_)].rows(), 0);
-    const double miss = (wanted.values - state.values).cwiseAbs().maxCoeff() / diagonal();
-    const double turn = wanted.rotation.angularDistance(state.rotation);
-    if (miss > tolerance::relative) return missed(miss, "of the diagonal");
-    if (turn > tolerance::relation) return missed(turn, "radians");
-    return std::nullopt;
-  }
-
-  std::optional<Refusal> prescribe_handle() {
-    const Eigen::MatrixXd spread = edit_.linear_from ? linear_spread(*edit_.linear_from)
-                                                     : handle_rows(rig_.edit_kernels[at(class_)]).transpose();
-    const Eigen::VectorXd change = spread * (pseudo_inverse(handle_rows(spread)) * edit_.changes);
-    const double miss = (handle_rows(change) - edit_.changes).cwiseAbs().maxCoeff() / diagonal();
-    if (miss > tolerance::relative) return missed(miss, "of the diagonal");
-    state_.controls[at(class_)].values += change;
-    Eigen::MatrixXd& basis = bases_[at(class_)];
-    const Eigen::MatrixXd rows = held(handle_rows(basis));
-    basis = stiffness * (basis - basis * (pseudo_inverse(rows) * rows));
-    return std::nullopt;
-  }
-
-  /// As the columns of an edit kernel that belong to the handle, of W W^T: W holds three moves and a change
-  /// of radii, each in proportion to the linear weights, within what the self-symmetries leave free.
-  Eigen::MatrixXd linear_spread(int section) const {
-    const auto& rest = std::get<GeneralizedCylinder>(rig_.space.rest(edit_.part));
-    const Eigen::VectorXd weights = linear_weights(rest, section);
-    const auto n = static_cast<int>(weights.size());
-    Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(4 * n, 4);
-    for (int i = 0; i < n; ++i) {
-      const int k = rig_.space.counterpart(edit_.part, i);
-      changes.block<3, 3>(3 * k, 0) = weights(i) * Eigen::Matrix3d::Identity();
-      changes(3 * n + k, 3) = weights(i);
-    }
-    changes = rig_.space.invariant_columns(class_, changes);
-    return changes * handle_rows(changes).transpose();
-  }
-
-  /// What corrections must leave alone of the rows of the prescribed values: all; but where the ends of an
-  /// extent are fixed, a move across it says nothing about heights, and a foot that leans has to give way to
-  /// stay on the ground.
-  Eigen::MatrixXd held(const Eigen::MatrixXd& rows) const {
-    const DeformationConstraints& constraints = task_.constraints;
-    const auto points = static_cast<Eigen::Index>(edit_.values.size()) / 3;
-    if (!constraints.keep_extent || constraints.extent_ends != ExtentEnds::fixed || 3 * points != rows.rows())
-      return rows;
-    const Frame frame = frame_of(*constraints.keep_extent);
-    Eigen::MatrixXd across(2 * points, rows.cols());
-    for (Eigen::Index k = 0; k < points; ++k) {
-      const auto first = static_cast<std::size_t>(3 * k);
-      const bool is_point =
-          edit_.values[first] % 3 == 0 && edit_.values[first + 2] == edit_.values[first] + 2;
-      const Eigen::Vector3d by = edit_.changes.segment<3>(3 * k);
-      if (!is_point || std::abs(by.dot(frame.w)) > tolerance::relative * by.norm()) return rows;
-      across.row(2 * k) = frame.u.transpose() * rows.middleRows<3>(3 * k);
-      across.row(2 * k + 1) = frame.v.transpose() * rows.middleRows<3>(3 * k);
-    }
-    return across;
-  }
-
-  Refusal missed(double amount, const std::string& unit) const {
-    const std::optional<int> relation = contradicting_relation();
-    const std::string cause = relation ? name_of(rig_.rest.relations[at(*relation)], rig_.rest) : "rounding";
-    return {cause + " does not let '" + part_name(edit_.part) +
-                "' go where the edit takes it: it would miss by " + fraction(amount) + " " + unit,
-            relation, amount};
-  }
-
-  /// The symmetry of the edited class that what is prescribed contradicts most.
-  std::optional<int> contradicting_relation() const {
-    const ControlState wanted = rig_.space.state_of(edit_.part, changed(task_.now[at(edit_.part)], edit_));
-    const Eigen::VectorXd change = wanted.values - start_[at(class_)].values;
-    const auto& stabilisers = rig_.space.stabilisers(class_);
-    std::optional<int> worst;
-    if (!stabilisers.empty()) worst = stabilisers.front().relation;
-    double most = 0;
-    for (const ControlSpace::Stabiliser& g : stabilisers)
-      for (std::size_t i = 0; i < g.order.size(); ++i) {
-        const Eigen::Vector3d move = change.segment<3>(static_cast<Eigen::Index>(3 * i));
-        const Eigen::Vector3d image = change.segment<3>(3 * g.order[i]);
-        const bool both = !move.isZero(0) && !image.isZero(0);
-        const double gap = both ? (g.linear * move - image).norm() : 0;
-        if (gap > most) most = gap, worst = g.relation;
-      }
-    return worst;
-  }
-
   void solve() {
     std::vector<Constraint> constraints = joint_constraints(rig_);
     for (const Constraint& fixed : fixed_point_constraints()) constraints.push_back(fixed);
-    fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.joints.size()),
+    fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.distinct_joints.size()),
                      constraints.end()};
     state_ = solved(rig_, bases_, constraints, std::move(state_));
     if (watch_.bounds().empty() || largest_gap(rig_, constraints, state_) > tolerance::relation * diagonal())

@@ -178,4 +178,26 @@ std::vector<PartEdit> prescribed(const std::vector<Primitive>& now, const Operat
   return edits;
 }
 
+Primitive changed(Primitive primitive, const PartEdit& edit) {
+  const auto change = [&](auto& points, Eigen::VectorXd* radii) {
+    const auto count = static_cast<int>(3 * points.rows());
+    for (std::size_t i = 0; i < edit.values.size(); ++i) {
+      const int value = edit.values[i];
+      const double by = edit.changes(static_cast<Eigen::Index>(i));
+      if (value < count)
+        points(value / 3, value % 3) += by;
+      else
+        (*radii)(value - count) += by;
+    }
+  };
+  if (auto* cuboid = std::get_if<Cuboid>(&primitive)) {
+    change(cuboid->corners, nullptr);
+  } else {
+    auto& cylinder = std::get<GeneralizedCylinder>(primitive);
+    change(cylinder.centres, &cylinder.radii);
+    cylinder.rotation = edit.rotation * cylinder.rotation;
+  }
+  return primitive;
+}
+
 }  // namespace stackabilization::detail

@@ -45,4 +45,7 @@ PartEdit prescribed(const Primitive& now, const Edit& edit, const std::string& p
 /// One per part, in order: the same operation on all of them as wholes, about the centre of the shape.
 std::vector<PartEdit> prescribed(const std::vector<Primitive>& now, const Operation& operation);
 
+/// `primitive` with its control values changed, and turned where it can be.
+Primitive changed(Primitive primitive, const PartEdit& edit);
+
 }  // namespace stackabilization::detail

@@ -1,8 +1,9 @@
 #include "stackabilization/deformation/relation_solver.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "stackabilization/shape/tolerances.h"
 
@@ -91,9 +92,9 @@ class Solver {
       idle = largest > idle_ratio * before ? idle + 1 : 0;
       if (idle == 2) break;
       before = largest;
-      const Eigen::MatrixXd jacobian = slopes();
-      Eigen::MatrixXd gram(gap.size(), gap.size());
-      gram.noalias() = jacobian * jacobian.transpose();
+      // A joint depends on two classes only: most of it is zeros.
+      const Eigen::SparseMatrix<double> jacobian = slopes().sparseView();
+      Eigen::MatrixXd gram = jacobian * jacobian.transpose();
       advance(-jacobian.transpose() * semidefinite_solution(std::move(gram), gap));
     }
     return std::move(state_);
@@ -207,7 +208,8 @@ class Solver {
 
 std::vector<Constraint> joint_constraints(const Rig& rig) {
   std::vector<Constraint> constraints;
-  for (const JointPoint& joint : rig.joints) {
+  for (const int k : rig.distinct_joints) {
+    const JointPoint& joint = rig.joints[at(k)];
     Constraint constraint;
     constraint.riders = {{joint.parts[0], joint.bindings[0], 1}, {joint.parts[1], joint.bindings[1], -1}};
     constraints.push_back(std::move(constraint));

@@ -30,7 +30,7 @@ struct SolverState {
   Eigen::VectorXd levels;              ///< free levels of constraints with a normal, model units
 };
 
-/// One per joint point of the rig, in its order.
+/// One per joint point of the rig that is no symmetric copy of another, in its order.
 std::vector<Constraint> joint_constraints(const Rig& rig);
 
 /// Largest violation of the constraints, model units.

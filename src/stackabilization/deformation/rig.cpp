@@ -1,8 +1,30 @@
 #include "stackabilization/deformation/rig.h"
 
+#include <Eigen/Eigenvalues>
+
 #include "stackabilization/deformation/correction_basis.h"
+#include "stackabilization/deformation/joint_copies.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
+
+namespace {
+
+/// What the symmetries of a class leave of `basis`, in as few columns as it takes: B' with B' B'^T = B B^T,
+/// on which alone the steps of the solver depend.
+Eigen::MatrixXd invariant_basis(const ControlSpace& space, int of_class, const Eigen::MatrixXd& basis) {
+  const Eigen::MatrixXd columns = space.invariant_columns(of_class, basis);
+  if (space.stabilisers(of_class).empty()) return columns;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(columns * columns.transpose());
+  const Eigen::VectorXd& strength = solver.eigenvalues();
+  Eigen::Index first = 0;
+  while (first < strength.size() && strength(first) <= tolerance::redundant * strength.maxCoeff()) ++first;
+  const Eigen::Index count = strength.size() - first;
+  return space.invariant_columns(
+      of_class, solver.eigenvectors().rightCols(count) * strength.tail(count).cwiseSqrt().asDiagonal());
+}
+
+}  // namespace
 
 Rig::Rig(const Structure& structure) : rest(structure), space(structure) {
   for (const Part& part : rest.parts) carriers.emplace_back(part.primitive);
@@ -22,10 +44,11 @@ Rig::Rig(const Structure& structure) : rest(structure), space(structure) {
     const Primitive& first = space.rest(space.members(c).front());
     const Eigen::MatrixXd half = space.invariant_columns(c, edit_kernel(first));
     edit_kernels.push_back(space.invariant_columns(c, half.transpose()));
-    bases.push_back(space.invariant_columns(c, correction_basis(first)));
+    bases.push_back(invariant_basis(space, c, correction_basis(first)));
     const auto* cylinder = std::get_if<GeneralizedCylinder>(&first);
     turnings.push_back(cylinder ? turning(*cylinder) : Eigen::MatrixXd());
   }
+  distinct_joints = detail::distinct_joints(*this);
 }
 
 }  // namespace stackabilization::detail

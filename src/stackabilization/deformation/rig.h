@@ -27,6 +27,7 @@ struct Rig {
   ControlSpace space;
   std::vector<Carrier> carriers;              ///< per part
   std::vector<JointPoint> joints;             ///< a line joint has two
+  std::vector<int> distinct_joints;           ///< rows of joints, see joint_copies.h
   std::vector<Eigen::MatrixXd> edit_kernels;  ///< per class, within what its self-symmetries leave free
   std::vector<Eigen::MatrixXd> bases;         ///< per class, likewise: see correction_basis.h
   std::vector<Eigen::MatrixXd> turnings;      ///< per class; empty for cuboids
