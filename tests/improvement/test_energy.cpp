@@ -278,3 +278,21 @@ TEST_CASE("Distances of axes agree with dense sampling, also for nearly parallel
     CHECK(axis_distance(rod(c, d), rod(a, b)) == Approx(found).margin(1e-12));
   }
 }
+
+TEST_CASE("The distance of two curves is the least one of their pieces", "[energy]") {
+  solids::Random random(11);
+  for (int trial = 0; trial < 40; ++trial) {
+    GeneralizedCylinder a = structures::straight_cylinder({0, 0, 0}, {1, 0, 0}, 0.1, 6), b = a;
+    for (Eigen::Index i = 0; i < 6; ++i) {
+      a.centres.row(i) = random.in_cube().transpose();
+      b.centres.row(i) = random.in_cube().transpose() + Eigen::RowVector3d(2, 0, 0);
+    }
+    double least = 10;
+    for (Eigen::Index i = 0; i < 5; ++i)
+      for (Eigen::Index j = 0; j < 5; ++j)
+        least = std::min(least,
+                         axis_distance(rod(a.centres.row(i).transpose(), a.centres.row(i + 1).transpose()),
+                                       rod(b.centres.row(j).transpose(), b.centres.row(j + 1).transpose())));
+    CHECK(axis_distance(a, b) == Approx(least).epsilon(1e-12));
+  }
+}
