@@ -8,6 +8,7 @@
 #include "apps/measurement.h"
 #include "stackabilization/deformation/deformation_model.h"
 #include "stackabilization/envelope/height_field.h"
+#include "stackabilization/improvement/design.h"
 #include "stackabilization/stacking/map.h"
 #include "stackabilization/stacking/validation.h"
 
@@ -61,5 +62,18 @@ struct EditedShape {
   std::vector<std::string> notes;
 };
 void write_deformation_picture(const PictureFile& file, const EditedShape& edited);
+/// Designs of one shape, the first one where it stands.
+struct DesignSheet {
+  struct Tile {
+    Design design;
+    std::optional<Handle> edited;
+    std::vector<ContactRegion> contacts;
+    std::vector<std::string> captions;
+  };
+  std::vector<Tile> tiles;
+  Direction direction{0, 0, 1};
+  std::vector<std::string> notes;
+};
+void write_design_sheet(const PictureFile& file, const DesignSheet& sheet);
 
 }  // namespace stackabilization::apps

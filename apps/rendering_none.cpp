@@ -45,4 +45,8 @@ void write_deformation_picture(const PictureFile&, const EditedShape&) {
   refuse();
 }
 
+void write_design_sheet(const PictureFile&, const DesignSheet&) {
+  refuse();
+}
+
 }  // namespace stackabilization::apps

@@ -71,4 +71,16 @@ void write_deformation_picture(const PictureFile& file, const EditedShape& edite
   write(file, deformation_picture(edited.rest, edited.result, handles, options));
 }
 
+void write_design_sheet(const PictureFile& file, const DesignSheet& sheet) {
+  DesignSheetOptions options;
+  options.title = file.title;
+  options.notes = sheet.notes;
+  std::vector<DesignTile> tiles;
+  for (const DesignSheet::Tile& tile : sheet.tiles) {
+    tiles.push_back({tile.design.shape, tile.design.primitives, {}, tile.contacts, tile.captions});
+    if (tile.edited) tiles.back().handles.push_back(*tile.edited);
+  }
+  write(file, design_sheet(tiles, sheet.direction, options));
+}
+
 }  // namespace stackabilization::apps

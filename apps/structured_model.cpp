@@ -5,7 +5,6 @@
 
 #include "apps/values.h"
 #include "stackabilization/structure/authors_files.h"
-#include "stackabilization/structure/project_file.h"
 #include "stackabilization/structure/seeds.h"
 
 namespace stackabilization::apps {
@@ -150,7 +149,10 @@ StructuredModel load_structured(const CLI::App& command, const CommonOptions& co
       throw UsageError(std::string(option) +
                        " does not go with a project file, which holds shape and structure: " + common.model);
   StructuredModel result;
-  result.structured = read_project(common.model);
+  Project project = read_project_with_history(common.model);
+  result.structured = std::move(project.rest);
+  result.history = std::move(project.history);
+  result.space = project.space;
   result.model.name = common.model;
   result.model.shape = result.structured.shape;
   result.model.findings = inspect(result.model.shape);

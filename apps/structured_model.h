@@ -6,6 +6,7 @@
 
 #include "apps/model.h"
 #include "apps/output.h"
+#include "stackabilization/improvement/history.h"
 #include "stackabilization/structure/analysis.h"
 
 namespace stackabilization::apps {
@@ -31,6 +32,8 @@ std::vector<InputFile> analysis_inputs(const AnalysisArguments& arguments);
 struct StructuredModel {
   Model model;
   StructuredShape structured;
+  History history;           ///< of the project file; no nodes where there is none
+  DesignSpaceOptions space;  ///< what made the designs of the history
 };
 
 /// Is it the name of a project file, which ends in .json?

@@ -79,6 +79,28 @@ Drawing deformation_picture(const StructuredShape& rest, const DeformationResult
                             const std::vector<Handle>& handles,
                             const DeformationPictureOptions& options = {});
 
+/// One of several designs of a shape.
+struct DesignTile {
+  Shape shape;
+  std::vector<Primitive> primitives;    ///< of its parts, for handles on them; may be empty
+  std::vector<Handle> handles;          ///< that were edited: red
+  std::vector<ContactRegion> contacts;  ///< along the direction of the sheet: red
+  std::vector<std::string> captions;    ///< lines below it, the first one bold
+};
+
+struct DesignSheetOptions {
+  int width = 1600;                ///< pixels; the height follows
+  int columns = 4;                 ///< >= 1
+  std::string title;               ///< heading; may be empty
+  std::vector<std::string> notes;  ///< lines under the heading
+};
+
+/// Designs in rows from one viewpoint and in one scale, `direction` up: the first one, where one stands
+/// (yellow), then what it could become (green). Throws UsageError when there is no tile or no column,
+/// RenderError when there is no OpenGL context.
+Drawing design_sheet(const std::vector<DesignTile>& tiles, const Direction& direction,
+                     const DesignSheetOptions& options = {});
+
 /// The sampled gap function f = u - l with colour bar and the place of its maximum. Needs no OpenGL.
 Drawing gap_picture(const HeightField& field, const PictureOptions& options = {1000, 860, {}});
 

@@ -25,7 +25,7 @@ class ProjectReader {
   explicit ProjectReader(const JsonNode& root) : root_(root) {}
 
   StructuredShape read() {
-    root_.expect_keys({"format", "version", "unit", "parts", "symmetries", "relations", "mesh"});
+    root_.expect_keys({"format", "version", "unit", "parts", "symmetries", "relations", "mesh", "history"}, 1);
     root_["format"].one_of({"stackabilize project"});
     root_["version"].integer(1, 1);
     const std::vector<Unit> units = {Unit::unknown, Unit::micrometre, Unit::millimetre, Unit::centimetre,
@@ -202,16 +202,22 @@ bool is_ideal(const Structure& structure) {
 
 }  // namespace
 
-StructuredShape project_of_text(std::string_view text, const std::string& name) {
+ProjectContents project_contents(std::string_view text, const std::string& name) {
   const nlohmann::ordered_json document = detail::parse_json(text, name);
-  StructuredShape result = ProjectReader(JsonNode(document, name)).read();
+  ProjectContents result{ProjectReader(JsonNode(document, name)).read(), {}};
   try {
-    validate(result);
-    if (!is_ideal(result.structure)) idealise(result.structure);
+    validate(result.structured);
+    if (!is_ideal(result.structured.structure)) idealise(result.structured.structure);
   } catch (const InputError& error) {
     throw InputError(name + ": " + error.what());
   }
+  if (const auto history = document.find("history"); history != document.end())
+    result.sections.history = history->dump();
   return result;
+}
+
+StructuredShape project_of_text(std::string_view text, const std::string& name) {
+  return project_contents(text, name).structured;
 }
 
 StructuredShape read_project(const std::filesystem::path& path) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -30,8 +31,19 @@ inline constexpr std::string_view project_suffix = ".stackabilize.json";
 /// unknown. Numbers are written so that they read back as the same doubles; `centre` and `half_axes` are
 /// rounded to 2^-48 of the cuboid's largest coordinate first, once.
 ///
+/// A last entry, "history", is for other rooms (`ProjectSections`).
+///
 /// Throws InputError when `structured` is invalid or a part name is not UTF-8.
 std::string project_text(const StructuredShape& structured);
+
+/// Entries of a project file that are written and understood elsewhere: the JSON text of each value; nothing
+/// where the file has no such entry.
+struct ProjectSections {
+  std::optional<std::string> history;  ///< the designs that were tried: see improvement/history.h
+};
+
+/// The same with further entries, their texts as they are. Precondition: each is one JSON value.
+std::string project_text(const StructuredShape& structured, const ProjectSections& sections);
 
 /// Writes that text (`write_file_atomically`). Throws OutputError as well.
 void write_project(const StructuredShape& structured, const std::filesystem::path& path);
@@ -41,10 +53,19 @@ void write_project(const StructuredShape& structured, const std::filesystem::pat
 /// Throws InputError, one sentence with `name`, the place as a JSON pointer ("/parts/2/primitive/half_axes";
 /// the line for text that is no JSON) and what was expected there, for anything that is not as described
 /// above: unknown and repeated keys, missing entries, wrong types and sizes, names of parts that do not
-/// exist, numbers that are not finite, relations that contradict each other.
+/// exist, numbers that are not finite, relations that contradict each other. Sections are passed over.
 StructuredShape project_of_text(std::string_view text, const std::string& name);
 
 /// The same with the text of a file; "-" is standard input.
 StructuredShape read_project(const std::filesystem::path& path);
+
+/// A project with the entries that this room does not look into.
+struct ProjectContents {
+  StructuredShape structured;
+  ProjectSections sections;
+};
+
+/// As `project_of_text`; the sections are JSON, and whoever knows them checks the rest.
+ProjectContents project_contents(std::string_view text, const std::string& name);
 
 }  // namespace stackabilization

@@ -140,6 +140,10 @@ std::string mesh_text(const Shape& shape) {
 }  // namespace
 
 std::string project_text(const StructuredShape& structured) {
+  return project_text(structured, ProjectSections{});
+}
+
+std::string project_text(const StructuredShape& structured, const ProjectSections& sections) {
   validate(structured);
   const auto& [shape, structure] = structured;
   std::string text = "{\"format\": \"stackabilize project\",\n \"version\": 1,\n \"unit\": \"";
@@ -150,7 +154,9 @@ std::string project_text(const StructuredShape& structured) {
   text += "],\n \"relations\": [";
   text += lines(structure.relations,
                 [&](const Relation& relation) { return text_of(relation, structured.structure.parts); });
-  return text + "],\n \"mesh\": " + mesh_text(shape) + "}\n";
+  text += "],\n \"mesh\": " + mesh_text(shape);
+  if (sections.history) text += ",\n \"history\": " + *sections.history;
+  return text + "}\n";
 }
 
 void write_project(const StructuredShape& structured, const std::filesystem::path& path) {

@@ -1,0 +1,116 @@
+#include <memory>
+
+#include "apps/command.h"
+#include "apps/output.h"
+#include "apps/rendering.h"
+#include "apps/suggest_run.h"
+#include "apps/values.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+void check(const SuggestCommandOptions& options) {
+  check_outputs(options.common, {{"--save", options.save, OutputKind::project}},
+                analysis_inputs(options.analysis));
+  options.destination();
+  if (options.pictures) require_rendering();
+  if (options.show_history && (options.apply || options.roll_back || options.pictures))
+    throw UsageError("--history only prints what was tried, so it goes with no --apply, --roll-back or "
+                     "--pictures");
+  if (options.all && options.apply)
+    throw UsageError("--all shows what cannot be applied, so it does not go with --apply");
+}
+
+std::string report(const SuggestCommandOptions& options, const SuggestRun& run, const Model& model) {
+  if (options.destination() == "-") return "";
+  if (options.show_history) return history_text(run.project);
+  if (options.roll_back && !options.apply)
+    return options.common.quiet ? "" : history_text(run.project);
+  return options.common.quiet ? essential_suggestions(run, options) : suggestions_text(run, options, model);
+}
+
+int run(const CLI::App& command, const SuggestCommandOptions& options) {
+  const Stopwatch watch;
+  check(options);
+  const ThreadLimit limit(options.common);
+  const StructuredModel input = load_structured(command, options.common, options.analysis);
+  const SuggestRun result = run_suggest(options, input);
+
+  Json document = document_head(command, input.model);
+  add_suggestions(document, result, options);
+  add_document_tail(document, options.common, input.model, watch);
+  if (options.pictures) write_suggestion_pictures(result, options, input.model);
+  if (const auto destination = options.destination())
+    write_output(*destination, project_text(result.project));
+  deliver(options.common, document, report(options, result, input.model));
+  const bool asked = !options.show_history && (!options.roll_back || options.apply);
+  return asked && result.possible() == 0 ? status_no : status_done;
+}
+
+void add_part_option(CLI::App& command, const std::string& name, std::vector<std::string>& target,
+                     const std::string& description) {
+  command.add_option(name, target, description)->type_size(1)->allow_extra_args(false)->type_name("PART");
+}
+
+void add_wishes(CLI::App& command, SuggestCommandOptions& options) {
+  add_direction(command, "--direction", options.direction,
+                "Direction along which copies are stacked (default: that of the current node, else 0 0 1)");
+  add_semantics_option(command, options.measure.semantics);
+  add_boxes_option(command, options.measure.boxes);
+  const Choices<DeformationKind> kinds = {{"controllers", DeformationKind::controllers},
+                                          {"surface", DeformationKind::surface},
+                                          {"iwires", DeformationKind::iwires},
+                                          {"gap-scaling", DeformationKind::gap_scaling}};
+  add_choice(command, "--model", options.kind, kinds,
+             "What moves the mesh (default: that of the history, else controllers)");
+  const Choices<EditFamily> families = {{"paper", EditFamily::paper}, {"extended", EditFamily::extended}};
+  add_choice(command, "--edits", options.family, families,
+             "Which edits contacts suggest: those of the paper, or further ones too (default: extended)");
+  add_number(command, "--alpha", options.alpha, "Weight of distortion in the energy (default: 0.2)");
+  add_number(command, "--target", options.target, "Say which suggestions reach this stackability");
+  add_part_option(command, "--keep", options.kept, "Part that stays as it is; repeatable");
+  add_part_option(command, "--only", options.editable, "Only these parts may change; repeatable");
+  add_number(command, "--box-tolerance", options.box_tolerance,
+             "Fraction by which the sides of the box along x, y and z may change");
+  command.add_flag("--change-height", options.change_height,
+                   "Let the extent along the direction change (default: it is kept exactly)");
+}
+
+void add_session(CLI::App& command, SuggestCommandOptions& options) {
+  constexpr std::uint64_t most = 1'000'000;
+  add_count(command, {"--top", "Suggestions to show (default: 12)", 1, most}, options.top);
+  command.add_flag("--all", options.all, "Show all of them, and those that are refused with the reason");
+  add_count(command, {"--apply", "Take the suggestion of this number, and write the project", 1, most},
+            options.apply);
+  add_count(command, {"--roll-back", "Make this node of the history current, and write the project", 0, most},
+            options.roll_back);
+  command.add_flag("--history", options.show_history, "Print the tree of what was tried");
+  command
+      .add_option("--save", options.save,
+                  "Write the project file there (default: MODEL, when that is a project that changes)")
+      ->type_name("PROJECT");
+  command
+      .add_option("--pictures", options.pictures,
+                  "Draw all that is shown on a sheet, and each suggestion before and after, into this folder")
+      ->type_name("FOLDER");
+}
+
+}  // namespace
+
+Command make_suggest_command(CLI::App& program) {
+  const auto options = std::make_shared<SuggestCommandOptions>();
+  CLI::App* const command = add_command(
+      program, "suggest", "List the edits of one step that would make a shape stack better",
+      "stackabilize suggest chair.obj --save chair.json\n"
+      "  stackabilize suggest chair.json --apply 1\n"
+      "  stackabilize suggest chair.json --roll-back 0\n\n"
+      "Exit status 1: no edit can be made.");
+  add_common_options(*command, options->common);
+  add_analysis_options(*command, options->analysis);
+  add_wishes(*command, *options);
+  add_session(*command, *options);
+  return {command, [command, options] { return run(*command, *options); }};
+}
+
+}  // namespace stackabilization::apps

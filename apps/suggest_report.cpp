@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <array>
+#include <functional>
+
+#include "apps/edit_grammar.h"
+#include "apps/measurement.h"
+#include "apps/suggest_run.h"
+#include "apps/text.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+constexpr std::array<const char*, 3> contact_types = {"dot", "line", "ring"};
+
+const char* type_name(ContactType type) {
+  return contact_types.at(static_cast<std::size_t>(type));
+}
+
+/// How many of the suggestions are shown.
+std::size_t shown(const SuggestRun& run, const SuggestCommandOptions& options) {
+  return options.all ? run.suggestions.size()
+                     : std::min(run.possible(), static_cast<std::size_t>(options.top));
+}
+
+Json to_json(const Energy& energy) {
+  return {{"value", energy.value},
+          {"gain", energy.gain},
+          {"distortion", energy.distortion.total()},
+          {"volume", energy.distortion.volume},
+          {"proximity", energy.distortion.proximity},
+          {"box", energy.distortion.box},
+          {"symmetry", energy.distortion.symmetry}};
+}
+
+Json to_json(const Stackability& measured, const Energy& energy) {
+  return {{"stackability", measured.value},
+          {"f_max", measured.f_max},
+          {"extent", measured.extent},
+          {"energy", to_json(energy)}};
+}
+
+Json to_json(const Suggestion& suggestion, const std::vector<std::string>& part_names) {
+  const ContactEdit& edit = suggestion.edit;
+  Json json = {{"edit", edit_text(edit.edit, part_names)},
+               {"words", describe(edit.edit, part_names)},
+               {"why", edit.why},
+               {"contact",
+                {{"region", edit.region},
+                 {"type", type_name(edit.type)},
+                 {"copy", edit.of_lower_copy ? "below" : "above"}}},
+               {"refusal", apps::to_json(suggestion.refusal)}};
+  if (suggestion.refusal) return json;
+  json.update(to_json(suggestion.measured, suggestion.energy));
+  return json;
+}
+
+std::vector<std::string> edit_lines(const HistoryNode& node, const std::vector<std::string>& part_names) {
+  std::vector<std::string> lines;
+  for (const Edit& edit : node.edits) lines.push_back(edit_text(edit, part_names));
+  return lines;
+}
+
+Json to_json(const Project& project) {
+  Json nodes = Json::array();
+  for (const HistoryNode& node : project.history.nodes)
+    nodes.push_back({{"parent", node.parent},
+                     {"name", node.name},
+                     {"edits", edit_lines(node, project.rest.shape.part_names)},
+                     {"direction", apps::to_json(node.direction)},
+                     {"stackability", node.stackability},
+                     {"energy", node.energy}});
+  return {{"current", project.history.current}, {"nodes", std::move(nodes)}};
+}
+
+std::string contacts_text(const std::vector<ContactRegion>& regions) {
+  std::string text;
+  for (const ContactType type : {ContactType::dot, ContactType::line, ContactType::ring}) {
+    const auto count = std::count_if(regions.begin(), regions.end(),
+                                     [&](const ContactRegion& region) { return region.type == type; });
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, type_name(type));
+  }
+  return text;
+}
+
+std::string suggestion_table(const SuggestRun& run, const SuggestCommandOptions& options) {
+  const std::vector<std::string>& names = run.project.rest.shape.part_names;
+  std::vector<std::string> headings = {"no.", "S", "E", "D", "edit", "why"};
+  ColumnTable table(headings);
+  for (std::size_t k = 0; k < shown(run, options); ++k) {
+    const Suggestion& one = run.suggestions[k];
+    const std::string edit = edit_text(one.edit.edit, names);
+    if (one.refusal)
+      table.add({"-", "-", "-", "-", edit, "refused: " + *one.refusal});
+    else
+      table.add({std::to_string(k + 1), stackability_text(one.measured.value), rounded(one.energy.value),
+                 rounded(one.energy.distortion.total()), edit,
+                 one.edit.why + (options.target && one.reaches_target ? " (reaches the target)" : "")});
+  }
+  return table.empty() ? "" : "\n" + table.text();
+}
+
+}  // namespace
+
+void add_suggestions(Json& document, const SuggestRun& run, const SuggestCommandOptions& options) {
+  const std::vector<std::string>& names = run.project.rest.shape.part_names;
+  document["deformation"] = name_of(run.project.space.kind);
+  document["direction"] = apps::to_json(run.direction.vector());
+  document["boxes"] = name_of(options.measure.boxes);
+  document["semantics"] = name_of(options.measure.semantics);
+  document["node"] = run.node;
+  document["now"] = to_json(run.now.measured, run.now.energy);
+  document["contacts"] = apps::to_json(run.now.contacts, names);
+  Json list = Json::array();
+  for (std::size_t k = 0; k < shown(run, options); ++k) {
+    Json one = {{"number", run.suggestions[k].refusal ? Json(nullptr) : Json(k + 1)}};
+    one.update(to_json(run.suggestions[k], names));
+    if (options.target) one["reaches_target"] = run.suggestions[k].reaches_target;
+    list.push_back(std::move(one));
+  }
+  document["possible"] = run.possible();
+  document["refused"] = run.suggestions.size() - run.possible();
+  document["suggestions"] = std::move(list);
+  document["applied"] = run.applied ? Json(*run.applied + 1) : Json(nullptr);
+  document["history"] = to_json(run.project);
+}
+
+std::string suggestions_text(const SuggestRun& run, const SuggestCommandOptions& options,
+                             const Model& model) {
+  TextTable table;
+  add_model_line(table, model);
+  table.add("Node", std::to_string(run.node),
+            "of " + counted(static_cast<long long>(run.project.history.nodes.size()), "node") +
+                " in the history");
+  table.add("Direction", vector_text(run.direction.vector()));
+  table.add("S", stackability_text(run.now.measured.value),
+            "f_max " + quantity(run.now.measured.f_max, model.shape.unit) + ", h " +
+                quantity(run.now.measured.extent, model.shape.unit));
+  table.add("E", rounded(run.now.energy.value), "distortion " + rounded(run.now.energy.distortion.total()));
+  table.add("Contacts", std::to_string(run.now.contacts.size()), contacts_text(run.now.contacts));
+  const std::size_t refused = run.suggestions.size() - run.possible();
+  table.add("Suggestions", std::to_string(run.possible()),
+            std::to_string(refused) + " more are refused" + (refused > 0 ? ": see --all" : ""));
+  std::string text = table.text() + suggestion_table(run, options);
+  if (run.applied)
+    text += "\nApplied number " + std::to_string(*run.applied + 1) + " as node " +
+            std::to_string(run.project.history.current) + ".\n";
+  return text;
+}
+
+std::string history_text(const Project& project) {
+  const History& history = project.history;
+  ColumnTable table({"node", "S", "E", "edits"});
+  const std::function<void(int, const std::string&)> add = [&](int row, const std::string& indent) {
+    const HistoryNode& node = history.nodes[static_cast<std::size_t>(row)];
+    std::string edits;
+    for (const std::string& line : edit_lines(node, project.rest.shape.part_names))
+      edits += (edits.empty() ? "" : "; ") + line;
+    if (!node.name.empty()) edits += edits.empty() ? node.name : " (" + node.name + ")";
+    table.add({std::to_string(row) + (row == history.current ? " *" : ""),
+               stackability_text(node.stackability), rounded(node.energy), indent + edits});
+    for (std::size_t child = 0; child < history.nodes.size(); ++child)
+      if (history.nodes[child].parent == row) add(static_cast<int>(child), indent + "  ");
+  };
+  add(0, "");
+  return table.text() + "\n* is the current node.\n";
+}
+
+std::string essential_suggestions(const SuggestRun& run, const SuggestCommandOptions& options) {
+  std::string text;
+  for (std::size_t k = 0; k < std::min(shown(run, options), run.possible()); ++k)
+    text += std::to_string(k + 1) + " " + exact_digits(run.suggestions[k].measured.value) + " " +
+            exact_digits(run.suggestions[k].energy.value) + "\n";
+  return text;
+}
+
+}  // namespace stackabilization::apps
