@@ -7,7 +7,7 @@
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/structure/project_file.h"
 #include "support/catch.h"
-#include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 
