@@ -10,7 +10,7 @@ using namespace stackabilization::apps;
 namespace {
 
 const std::vector<std::string> commands = {"inspect", "measure",  "search",    "map",
-                                           "stack",   "validate", "structure", "deform"};
+                                           "stack",   "validate", "structure", "deform", "suggest"};
 
 /// "--json" and "-o" in a help text; the descriptions mention options too.
 std::set<std::string> options_in(const std::string& help) {
