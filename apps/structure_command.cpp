@@ -33,7 +33,8 @@ int run(const CLI::App& command, const Options& options) {
   Json document = document_head(command, input.model);
   add_structure(document, input.structured);
   add_document_tail(document, options.common, input.model, watch);
-  if (options.save) write_output(*options.save, project_text(Project{input.structured, input.history, input.space}));
+  if (options.save)
+    write_output(*options.save, project_text(Project{input.structured, input.history, input.space}));
   if (options.graph) write_output(*options.graph, graphviz(input.structured.structure));
   if (options.picture) write_structure_picture({*options.picture, title_of(input.model)}, input.structured);
   const bool printed = options.save == "-" || options.graph == "-";

@@ -16,8 +16,9 @@ void check(const SuggestCommandOptions& options) {
   options.destination();
   if (options.pictures) require_rendering();
   if (options.show_history && (options.apply || options.roll_back || options.pictures))
-    throw UsageError("--history only prints what was tried, so it goes with no --apply, --roll-back or "
-                     "--pictures");
+    throw UsageError(
+        "--history only prints what was tried, so it goes with no --apply, --roll-back or "
+        "--pictures");
   if (options.all && options.apply)
     throw UsageError("--all shows what cannot be applied, so it does not go with --apply");
 }
@@ -25,8 +26,7 @@ void check(const SuggestCommandOptions& options) {
 std::string report(const SuggestCommandOptions& options, const SuggestRun& run, const Model& model) {
   if (options.destination() == "-") return "";
   if (options.show_history) return history_text(run.project);
-  if (options.roll_back && !options.apply)
-    return options.common.quiet ? "" : history_text(run.project);
+  if (options.roll_back && !options.apply) return options.common.quiet ? "" : history_text(run.project);
   return options.common.quiet ? essential_suggestions(run, options) : suggestions_text(run, options, model);
 }
 
@@ -100,12 +100,12 @@ void add_session(CLI::App& command, SuggestCommandOptions& options) {
 
 Command make_suggest_command(CLI::App& program) {
   const auto options = std::make_shared<SuggestCommandOptions>();
-  CLI::App* const command = add_command(
-      program, "suggest", "List the edits of one step that would make a shape stack better",
-      "stackabilize suggest chair.obj --save chair.json\n"
-      "  stackabilize suggest chair.json --apply 1\n"
-      "  stackabilize suggest chair.json --roll-back 0\n\n"
-      "Exit status 1: no edit can be made.");
+  CLI::App* const command =
+      add_command(program, "suggest", "List the edits of one step that would make a shape stack better",
+                  "stackabilize suggest chair.obj --save chair.json\n"
+                  "  stackabilize suggest chair.json --apply 1\n"
+                  "  stackabilize suggest chair.json --roll-back 0\n\n"
+                  "Exit status 1: no edit can be made.");
   add_common_options(*command, options->common);
   add_analysis_options(*command, options->analysis);
   add_wishes(*command, *options);

@@ -40,8 +40,10 @@ void write_suggestion_pictures(const SuggestRun& run, const SuggestCommandOption
   DesignSheet sheet;
   sheet.direction = run.direction;
   sheet.notes = {"along " + vector_text(run.direction.vector()) + ", with contact regions in red"};
-  sheet.tiles.push_back(
-      {run.design, std::nullopt, run.now.contacts, {"now: " + values_text(run.now.measured, run.now.energy)}});
+  sheet.tiles.push_back({run.design,
+                         std::nullopt,
+                         run.now.contacts,
+                         {"now: " + values_text(run.now.measured, run.now.energy)}});
   const std::size_t count = std::min(run.possible(), static_cast<std::size_t>(options.top));
   for (std::size_t k = 0; k < count; ++k) {
     const Suggestion& one = run.suggestions[k];
@@ -52,10 +54,8 @@ void write_suggestion_pictures(const SuggestRun& run, const SuggestCommandOption
     write_deformation_picture(
         {(folder / ("suggestion_" + number + ".png")).string(), title_of(model) + ", suggestion " + number},
         {before, result, {edit}, {}, {edit_text(edit, names), values + "   " + one.edit.why}});
-    sheet.tiles.push_back({std::move(after),
-                           edit.handle,
-                           {},
-                           {number + ": " + values, edit_text(edit, names), one.edit.why}});
+    sheet.tiles.push_back(
+        {std::move(after), edit.handle, {}, {number + ": " + values, edit_text(edit, names), one.edit.why}});
   }
   write_design_sheet({(folder / "suggestions.png").string(), title_of(model)}, sheet);
 }

@@ -129,9 +129,9 @@ std::string suggestions_text(const SuggestRun& run, const SuggestCommandOptions&
                              const Model& model) {
   TextTable table;
   add_model_line(table, model);
-  table.add("Node", std::to_string(run.node),
-            "of " + counted(static_cast<long long>(run.project.history.nodes.size()), "node") +
-                " in the history");
+  table.add(
+      "Node", std::to_string(run.node),
+      "of " + counted(static_cast<long long>(run.project.history.nodes.size()), "node") + " in the history");
   table.add("Direction", vector_text(run.direction.vector()));
   table.add("S", stackability_text(run.now.measured.value),
             "f_max " + quantity(run.now.measured.f_max, model.shape.unit) + ", h " +

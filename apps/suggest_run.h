@@ -35,15 +35,15 @@ struct SuggestCommandOptions {
 
 /// One step of an editing session.
 struct SuggestRun {
-  Project project;          ///< as it is to be written: with the node that was applied
+  Project project;  ///< as it is to be written: with the node that was applied
   Direction direction{0, 0, 1};
   std::unique_ptr<DesignSpace> space;
   DeformationConstraints constraints;
-  Design design;                         ///< the current one, before anything is applied
-  int node = 0;                          ///< its row in the history
-  Situation now;                         ///< of it
-  std::vector<Suggestion> suggestions;   ///< empty when none were asked for
-  std::optional<int> applied;            ///< row of `suggestions`
+  Design design;                        ///< the current one, before anything is applied
+  int node = 0;                         ///< its row in the history
+  Situation now;                        ///< of it
+  std::vector<Suggestion> suggestions;  ///< empty when none were asked for
+  std::optional<int> applied;           ///< row of `suggestions`
   /// How many of the suggestions can be made: they come first.
   std::size_t possible() const;
 };
@@ -52,8 +52,7 @@ struct SuggestRun {
 SuggestRun run_suggest(const SuggestCommandOptions& options, const StructuredModel& input);
 
 void add_suggestions(Json& document, const SuggestRun& run, const SuggestCommandOptions& options);
-std::string suggestions_text(const SuggestRun& run, const SuggestCommandOptions& options,
-                             const Model& model);
+std::string suggestions_text(const SuggestRun& run, const SuggestCommandOptions& options, const Model& model);
 /// The tree, a node per line.
 std::string history_text(const Project& project);
 /// Per possible suggestion that is shown: its number, S and E.

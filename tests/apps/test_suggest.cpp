@@ -36,7 +36,9 @@ json suggested(const Arguments& arguments) {
 }
 
 double measured(const std::string& mesh) {
-  return run_program({"measure", mesh, "--boxes", "frame", "--json", "-"}).json()["stackability"].get<double>();
+  return run_program({"measure", mesh, "--boxes", "frame", "--json", "-"})
+      .json()["stackability"]
+      .get<double>();
 }
 
 }  // namespace
@@ -58,7 +60,8 @@ TEST_CASE("suggestions are listed best first, with what each would do") {
     CHECK(list[k]["refusal"].is_null());
     CHECK(!list[k]["why"].get<std::string>().empty());
     CHECK(list[k]["extent"].get<double>() == Approx(6).epsilon(1e-9));
-    if (k > 0) CHECK(list[k - 1]["energy"]["value"].get<double>() <= list[k]["energy"]["value"].get<double>());
+    if (k > 0)
+      CHECK(list[k - 1]["energy"]["value"].get<double>() <= list[k]["energy"]["value"].get<double>());
   }
   CHECK(suggested({folder.project, "--top", "2"})["suggestions"].size() == 2);
   const json all = suggested({folder.project, "--all"});
@@ -99,8 +102,7 @@ TEST_CASE("a session: take one, take another, go back, take a third; the file is
   CHECK(nodes.back()["edits"][0] == start["suggestions"][1]["edit"]);
   const std::string tree = run_program({"suggest", folder.project, "--history"}).out;
   for (const json& node : nodes)
-    for (const json& edit : node["edits"])
-      CHECK(tree.find(edit.get<std::string>()) != std::string::npos);
+    for (const json& edit : node["edits"]) CHECK(tree.find(edit.get<std::string>()) != std::string::npos);
 }
 
 TEST_CASE("a mesh gives the same session as its project file, once it is saved") {
@@ -119,7 +121,8 @@ TEST_CASE("other commands start from the shape at rest; structure keeps the hist
   REQUIRE(run_program(joined({"deform", folder.project, "-o", before}, deform)).status == 0);
   suggested({folder.project, "--apply", "1"});
   const std::string settled = folder / "settled.json", copy = folder / "copy.json";
-  REQUIRE(run_program(joined({"deform", folder.project, "-o", after, "--save", settled}, deform)).status == 0);
+  REQUIRE(run_program(joined({"deform", folder.project, "-o", after, "--save", settled}, deform)).status ==
+          0);
   CHECK(bytes_of(before) == bytes_of(after));
   CHECK(bytes_of(settled).find("\"history\"") == std::string::npos);
   REQUIRE(run_program({"structure", folder.project, "--save", copy}).status == 0);

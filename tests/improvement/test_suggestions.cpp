@@ -1,11 +1,10 @@
-#include "stackabilization/improvement/suggestions.h"
-
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "deformation/structures.h"
+#include "stackabilization/improvement/suggestions.h"
 #include "stackabilization/shape/errors.h"
 #include "support/catch.h"
 
@@ -59,7 +58,7 @@ TEST_CASE("a table has suggestions: possible ones by energy, then refused ones w
 
 TEST_CASE("what a suggestion promises is what its edit does") {
   const Task task(structures::mug());
-  const double at_rest = task.checker.measured(task.space->rest().shape, upwards).value;
+  const double at_rest = task.checker.checked(task.space->at_rest(), upwards).measured.value;
   const EnergyMeter meter(task.space->rest(), BoxModel::frame);
   const std::vector<Suggestion> list = task.all();
   REQUIRE(possible(list) > 0);

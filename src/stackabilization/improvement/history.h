@@ -13,8 +13,8 @@ namespace stackabilization {
 struct HistoryNode {
   int parent = -1;          ///< row of History::nodes, above this one; -1 for the root, the shape at rest
   std::vector<Edit> edits;  ///< made on top of the parent's design; none for the root
-  DeformationConstraints constraints;  ///< under which they were made
-  std::string name;                    ///< for people, UTF-8; may be empty
+  DeformationConstraints constraints;                    ///< under which they were made
+  std::string name;                                      ///< for people, UTF-8; may be empty
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< r along which it was measured
   double stackability = 0;                               ///< S(M, r)
   double energy = 0;                                     ///< E(M)

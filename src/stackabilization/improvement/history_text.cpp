@@ -193,8 +193,7 @@ class HistoryReader {
       node.expect_keys({"kind", "index"});
     else
       node.expect_keys({"kind"});
-    if (has_part(result.kind))
-      result.part = static_cast<int>(node["part"].one_of(rest_.shape.part_names));
+    if (has_part(result.kind)) result.part = static_cast<int>(node["part"].one_of(rest_.shape.part_names));
     if (has_index(result.kind))
       result.index = static_cast<int>(node["index"].integer(0, largest_index(node, result)));
     return result;
@@ -226,8 +225,7 @@ class HistoryReader {
     }
     if (node.has("fixed_parts"))
       for (std::size_t k = 0; k < node["fixed_parts"].list_size(); ++k)
-        result.fixed_parts.push_back(
-            static_cast<int>(node["fixed_parts"][k].one_of(rest_.shape.part_names)));
+        result.fixed_parts.push_back(static_cast<int>(node["fixed_parts"][k].one_of(rest_.shape.part_names)));
     if (node.has("fixed_points"))
       for (std::size_t k = 0; k < node["fixed_points"].list_size(); ++k)
         result.fixed_points.push_back(vector(node["fixed_points"][k]));

@@ -28,9 +28,8 @@ class Judge {
       : checker_(checker),
         direction_(direction),
         meter_(checker.space().rest(), checker.requirements().measure.boxes, alpha),
-        constraints_(
-            deformation_constraints(checker.requirements(), checker.space().rest(), direction)),
-        at_rest_(checker.measured(checker.space().rest().shape, direction).value) {}
+        constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction)),
+        at_rest_(checker.checked(checker.space().at_rest(), direction).measured.value) {}
 
   Energy energy(const Design& design, const Stackability& measured) const {
     return meter_.energy(design, measured.value - at_rest_);
@@ -70,7 +69,7 @@ class Judge {
 Situation situation(const RequirementChecker& checker, const Design& design, const Direction& direction,
                     const SuggestionOptions& options) {
   Situation result;
-  result.measured = checker.measured(design.shape, direction);
+  result.measured = checker.checked(design, direction).measured;
   result.energy = Judge(checker, direction, options.alpha).energy(design, result.measured);
   result.contacts = contacts_of(checker, design.shape, direction, options.edits.contacts);
   return result;

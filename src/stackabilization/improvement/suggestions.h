@@ -16,7 +16,7 @@ struct Suggestion {
   /// Why it cannot be made: the refusal of the model, or the first requirement, other than the target, that
   /// the design would break. When set, `measured` and `energy` say nothing.
   std::optional<std::string> refusal;
-  Stackability measured;  ///< S(M, r) after the edit, with the air asked for
+  Stackability measured;  ///< S(M, r) after the edit, exact, with the air asked for
   Energy energy;          ///< against rest
   bool reaches_target = false;
 };
@@ -28,7 +28,7 @@ struct SuggestionOptions {
 
 /// A design stacked on itself, looked at: what the next step starts from.
 struct Situation {
-  Stackability measured;                ///< S(M, r) with the air asked for
+  Stackability measured;                ///< S(M, r), exact, with the air asked for
   Energy energy;                        ///< against rest
   std::vector<ContactRegion> contacts;  ///< without air; none when nothing touches
 };

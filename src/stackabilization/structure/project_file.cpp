@@ -25,7 +25,8 @@ class ProjectReader {
   explicit ProjectReader(const JsonNode& root) : root_(root) {}
 
   StructuredShape read() {
-    root_.expect_keys({"format", "version", "unit", "parts", "symmetries", "relations", "mesh", "history"}, 1);
+    root_.expect_keys({"format", "version", "unit", "parts", "symmetries", "relations", "mesh", "history"},
+                      1);
     root_["format"].one_of({"stackabilize project"});
     root_["version"].integer(1, 1);
     const std::vector<Unit> units = {Unit::unknown, Unit::micrometre, Unit::millimetre, Unit::centimetre,
