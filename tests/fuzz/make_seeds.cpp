@@ -3,6 +3,7 @@
 #include <iostream>
 #include <string>
 
+#include "stackabilization/improvement/history.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/formats/zip.h"
 #include "stackabilization/shape/write.h"
@@ -78,6 +79,21 @@ StructuredShape two_primitives() {
   return result;
 }
 
+Project two_designs() {
+  Project project{two_primitives(), {}, {}};
+  project.history.nodes.push_back({});
+  HistoryNode node;
+  node.edits = {{{HandleKind::part, 0, 0}, Move{{1, 2, 3}}, {}},
+                {{HandleKind::face, 0, 3}, Scale{0.5, {}}, Falloff::linear},
+                {{HandleKind::shape, 0, 0}, Rotate{{0, 0, 1}, 0.5}, {}}};
+  node.constraints.keep_extent = Direction(0, 0, 1);
+  node.constraints.box_tolerance = 0.5;
+  node.constraints.fixed_parts = {1};
+  node.constraints.fixed_points = {{1, 2, 3}};
+  project.history = apply(project.history, node);
+  return project;
+}
+
 void write_seeds(const std::filesystem::path& folder) {
   const auto seed = [&folder](const char* target, const char* name, const std::string& bytes) {
     std::filesystem::create_directories(folder / target);
@@ -101,6 +117,7 @@ void write_seeds(const std::filesystem::path& folder) {
   seed("labels", "names", "leg\nseat\nleg\n# c\nleg\n");
   seed("labels", "numbers", "0\n3\n3\n1\n");
   seed("project", "written", project_text(two_primitives()));
+  seed("history", "written", project_text(two_designs()));
   seed("authors_files", "controls", controls);
   seed("authors_files", "groups", groups);
 }
