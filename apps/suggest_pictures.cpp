@@ -1,6 +1,5 @@
 #include <filesystem>
 
-#include "apps/edit_grammar.h"
 #include "apps/rendering.h"
 #include "apps/suggest_run.h"
 #include "apps/text.h"
@@ -19,7 +18,7 @@ void make_folder(const std::filesystem::path& folder) {
 }
 
 std::string values_text(const Stackability& measured, const Energy& energy) {
-  return "S " + stackability_text(measured.value) + "   E " + rounded(energy.value);
+  return "S " + stackability_text(measured.value) + "   E " + stackability_text(energy.value);
 }
 
 StructuredShape as_rest(const StructuredShape& rest, const Design& design) {
@@ -49,13 +48,13 @@ void write_suggestion_pictures(const SuggestRun& run, const SuggestCommandOption
     const Suggestion& one = run.suggestions[k];
     const Edit& edit = one.edit.edit;
     Design after = run.space->edited(run.design, edit, run.constraints).design;
-    const std::string number = std::to_string(k + 1), values = values_text(one.measured, one.energy);
+    const std::string number = std::to_string(k + 1), words = describe(edit, names),
+                      values = values_text(one.measured, one.energy);
     const DeformationResult result{std::nullopt, after.shape, after.primitives};
     write_deformation_picture(
         {(folder / ("suggestion_" + number + ".png")).string(), title_of(model) + ", suggestion " + number},
-        {before, result, {edit}, {}, {edit_text(edit, names), values + "   " + one.edit.why}});
-    sheet.tiles.push_back(
-        {std::move(after), edit.handle, {}, {number + ": " + values, edit_text(edit, names), one.edit.why}});
+        {before, result, {edit}, {}, {words, values + "   " + one.edit.why}});
+    sheet.tiles.push_back({std::move(after), edit.handle, {}, {number + ": " + values, words, one.edit.why}});
   }
   write_design_sheet({(folder / "suggestions.png").string(), title_of(model)}, sheet);
 }

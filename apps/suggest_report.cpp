@@ -89,12 +89,12 @@ std::string suggestion_table(const SuggestRun& run, const SuggestCommandOptions&
   ColumnTable table(headings);
   for (std::size_t k = 0; k < shown(run, options); ++k) {
     const Suggestion& one = run.suggestions[k];
-    const std::string edit = edit_text(one.edit.edit, names);
+    const std::string edit = describe(one.edit.edit, names);
     if (one.refusal)
       table.add({"-", "-", "-", "-", edit, "refused: " + *one.refusal});
     else
-      table.add({std::to_string(k + 1), stackability_text(one.measured.value), rounded(one.energy.value),
-                 rounded(one.energy.distortion.total()), edit,
+      table.add({std::to_string(k + 1), stackability_text(one.measured.value),
+                 stackability_text(one.energy.value), stackability_text(one.energy.distortion.total()), edit,
                  one.edit.why + (options.target && one.reaches_target ? " (reaches the target)" : "")});
   }
   return table.empty() ? "" : "\n" + table.text();
@@ -136,7 +136,8 @@ std::string suggestions_text(const SuggestRun& run, const SuggestCommandOptions&
   table.add("S", stackability_text(run.now.measured.value),
             "f_max " + quantity(run.now.measured.f_max, model.shape.unit) + ", h " +
                 quantity(run.now.measured.extent, model.shape.unit));
-  table.add("E", rounded(run.now.energy.value), "distortion " + rounded(run.now.energy.distortion.total()));
+  table.add("E", stackability_text(run.now.energy.value),
+            "distortion " + stackability_text(run.now.energy.distortion.total()));
   table.add("Contacts", std::to_string(run.now.contacts.size()), contacts_text(run.now.contacts));
   const std::size_t refused = run.suggestions.size() - run.possible();
   table.add("Suggestions", std::to_string(run.possible()),
@@ -154,11 +155,11 @@ std::string history_text(const Project& project) {
   const std::function<void(int, const std::string&)> add = [&](int row, const std::string& indent) {
     const HistoryNode& node = history.nodes[static_cast<std::size_t>(row)];
     std::string edits;
-    for (const std::string& line : edit_lines(node, project.rest.shape.part_names))
-      edits += (edits.empty() ? "" : "; ") + line;
+    for (const Edit& edit : node.edits)
+      edits += (edits.empty() ? "" : "; ") + describe(edit, project.rest.shape.part_names);
     if (!node.name.empty()) edits += edits.empty() ? node.name : " (" + node.name + ")";
     table.add({std::to_string(row) + (row == history.current ? " *" : ""),
-               stackability_text(node.stackability), rounded(node.energy), indent + edits});
+               stackability_text(node.stackability), stackability_text(node.energy), indent + edits});
     for (std::size_t child = 0; child < history.nodes.size(); ++child)
       if (history.nodes[child].parent == row) add(static_cast<int>(child), indent + "  ");
   };
