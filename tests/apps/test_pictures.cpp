@@ -18,6 +18,18 @@ bool is_svg(const std::string& bytes) {
 
 }  // namespace
 
+TEST_CASE("suggestions are drawn on one sheet, and each before and after") {
+  const TemporaryFolder folder;
+  const std::string table = folder.model("table.obj", solids::table({}));
+  const Outcome outcome =
+      run_program({"suggest", table, "--top", "2", "--pictures", folder / "ideas/of/today", "--quiet"});
+  CHECK(outcome.status == 0);
+  CHECK(outcome.err.empty());
+  for (const std::string name : {"suggestions.png", "suggestion_1.png", "suggestion_2.png"})
+    CHECK(is_png(bytes_of(folder / ("ideas/of/today/" + name))));
+  CHECK(run_program({"suggest", table, "--pictures", table}).status == 2);
+}
+
 TEST_CASE("every --picture is a picture of its kind") {
   const TemporaryFolder folder;
   const std::string cup = folder.model("cup.obj", solids::frustum_shell({}));

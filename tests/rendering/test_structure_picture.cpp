@@ -240,3 +240,27 @@ TEST_CASE("before and after share one scale, and edited handles are red") {
   result.refusal = Refusal{"it would break", {}, 1};
   CHECK_THROWS_AS(deformation_picture(table, result, {}, options), UsageError);
 }
+
+TEST_CASE("a sheet shows where a design stands and what it could become, in rows and in one scale") {
+  const StructuredShape table = structured_table();
+  std::vector<DesignTile> tiles = {{table.shape, {}, {}, {}, {"now", "a note"}}};
+  for (int k = 0; k < 4; ++k) tiles.push_back({table.shape, {}, {}, {}, {"number " + std::to_string(k)}});
+  tiles[2].handles = {{HandleKind::part, 2, 0}};
+  DesignSheetOptions options;
+  options.title = "table.obj";
+  options.columns = 3;
+  const Drawing drawing = design_sheet(tiles, Direction(0, 0, 1), options);
+  check_nothing_clipped(drawing);
+  for (const char* words : {"table.obj", "now", "a note", "number 0", "number 3"})
+    CHECK(says(drawing, words));
+  const Image image = rasterize(drawing);
+  const int yellow = pixels_of(image, palette::input);
+  CHECK(yellow > 1000);
+  CHECK(pixels_of(image, palette::output) > 3.5 * yellow);
+  CHECK(pixels_of(image, palette::contact) > 40);
+  options.columns = 5;
+  CHECK(design_sheet(tiles, Direction(0, 0, 1), options).height < drawing.height);
+  CHECK_THROWS_AS(design_sheet({}, Direction(0, 0, 1), options), UsageError);
+  options.columns = 0;
+  CHECK_THROWS_AS(design_sheet(tiles, Direction(0, 0, 1), options), UsageError);
+}
