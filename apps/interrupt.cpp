@@ -32,16 +32,15 @@ void install_interrupt_handler() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-DeferredInterrupts::DeferredInterrupts() {
-  deferred = true;
-}
+DeferredInterrupts::DeferredInterrupts()
+    : deferred_before_(deferred.exchange(true)), remembered_before_(remembered) {}
 
 DeferredInterrupts::~DeferredInterrupts() {
-  deferred = false;
+  deferred = deferred_before_;
 }
 
 bool DeferredInterrupts::requested() const {
-  return remembered;
+  return remembered && !remembered_before_;
 }
 
 }  // namespace stackabilization::apps

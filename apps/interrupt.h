@@ -16,7 +16,8 @@ inline constexpr int status_interrupted = 130;  ///< as shells report it
 
 void install_interrupt_handler();
 
-/// While it lives a signal is remembered instead of ending the program; a second one ends it.
+/// While it lives a signal is remembered instead of ending the program; a second one ends it. May be nested:
+/// the innermost one is told.
 class DeferredInterrupts {
  public:
   DeferredInterrupts();
@@ -24,7 +25,11 @@ class DeferredInterrupts {
   DeferredInterrupts(const DeferredInterrupts&) = delete;
   DeferredInterrupts& operator=(const DeferredInterrupts&) = delete;
 
+  /// Has a signal come since this object was made?
   bool requested() const;
+
+ private:
+  bool deferred_before_, remembered_before_;
 };
 
 }  // namespace stackabilization::apps

@@ -73,7 +73,8 @@ int parse_and_run(int argc, char** argv) {
   const std::array commands = {
       make_inspect_command(program),   make_measure_command(program), make_search_command(program),
       make_map_command(program),       make_stack_command(program),   make_validate_command(program),
-      make_structure_command(program), make_deform_command(program),  make_suggest_command(program)};
+      make_structure_command(program), make_deform_command(program),  make_improve_command(program),
+      make_suggest_command(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

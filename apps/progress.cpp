@@ -11,6 +11,7 @@ namespace stackabilization::apps {
 namespace {
 
 constexpr int bar_width = 40;  ///< characters
+constexpr std::chrono::milliseconds between_lines(100);
 
 }  // namespace
 
@@ -29,6 +30,24 @@ void ProgressBar::show(double fraction) {
   const int filled = bar_width * percent / 100;
   std::cerr << '\r' << label_ << " [" << std::string(filled, '=') << std::string(bar_width - filled, ' ')
             << "] " << percent << '%' << std::flush;
+}
+
+StatusLine::StatusLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
+
+StatusLine::~StatusLine() {
+  if (width_ > 0) std::cerr << '\r' << std::string(width_, ' ') << '\r' << std::flush;
+}
+
+bool StatusLine::due() const {
+  return terminal_ && Clock::now() - shown_ >= between_lines;
+}
+
+void StatusLine::show(const std::string& line) {
+  if (!terminal_) return;
+  shown_ = Clock::now();
+  std::cerr << '\r' << line << std::string(width_ > line.size() ? width_ - line.size() : 0, ' ')
+            << std::flush;
+  width_ = line.size();
 }
 
 }  // namespace stackabilization::apps

@@ -7,6 +7,7 @@
 
 #include "apps/measurement.h"
 #include "stackabilization/deformation/deformation_model.h"
+#include "stackabilization/envelope/contacts.h"
 #include "stackabilization/envelope/height_field.h"
 #include "stackabilization/improvement/design.h"
 #include "stackabilization/stacking/map.h"
@@ -75,5 +76,20 @@ struct DesignSheet {
   std::vector<std::string> notes;
 };
 void write_design_sheet(const PictureFile& file, const DesignSheet& sheet);
+
+/// Why this program draws nothing at all; empty when it does. Throws nothing.
+std::string rendering_missing();
+/// A design before and after it was made stackable, measured along one direction.
+struct DesignView {
+  const Shape& shape;
+  const Stackability& measured;
+  const std::vector<ContactRegion>& contacts;
+};
+struct ComparedDesigns {
+  DesignView before, after;
+  std::vector<std::string> notes;  ///< lines below the heading
+};
+void write_improvement_picture(const PictureFile& file, const ComparedDesigns& designs);
+void write_stacks_picture(const PictureFile& file, const ComparedDesigns& designs, int copies);
 
 }  // namespace stackabilization::apps

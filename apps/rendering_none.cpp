@@ -49,4 +49,16 @@ void write_design_sheet(const PictureFile&, const DesignSheet&) {
   refuse();
 }
 
+std::string rendering_missing() {
+  return "this program was built without rendering";
+}
+
+void write_improvement_picture(const PictureFile&, const ComparedDesigns&) {
+  refuse();
+}
+
+void write_stacks_picture(const PictureFile&, const ComparedDesigns&, int) {
+  refuse();
+}
+
 }  // namespace stackabilization::apps

@@ -16,6 +16,10 @@ void write(const PictureFile& file, const Drawing& drawing) {
   if (until_written.requested()) throw Interrupted();
 }
 
+MeasuredShape measured_shape(const DesignView& design) {
+  return {design.shape, design.measured, design.contacts};
+}
+
 }  // namespace
 
 void require_rendering() {}
@@ -81,6 +85,25 @@ void write_design_sheet(const PictureFile& file, const DesignSheet& sheet) {
     if (tile.edited) tiles.back().handles.push_back(*tile.edited);
   }
   write(file, design_sheet(tiles, sheet.direction, options));
+}
+
+std::string rendering_missing() {
+  return {};
+}
+
+void write_improvement_picture(const PictureFile& file, const ComparedDesigns& designs) {
+  ImprovementPictureOptions options;
+  options.title = file.title;
+  options.notes = designs.notes;
+  write(file, improvement_picture({measured_shape(designs.before), measured_shape(designs.after)}, options));
+}
+
+void write_stacks_picture(const PictureFile& file, const ComparedDesigns& designs, int copies) {
+  StacksPictureOptions options;
+  options.title = file.title;
+  options.notes = designs.notes;
+  options.copies = copies;
+  write(file, stacks_picture({measured_shape(designs.before), measured_shape(designs.after)}, options));
 }
 
 }  // namespace stackabilization::apps

@@ -41,6 +41,31 @@ double parse_number(const std::string& option, const std::string& text) {
   return leading.value;
 }
 
+double parse_fraction(const std::string& option, const std::string& text) {
+  constexpr double hundred = 100;
+  const Leading leading = leading_number(text);
+  const bool is_percentage = leading.rest == "%";
+  const double value = is_percentage ? leading.value / hundred : leading.value;
+  if (!leading.valid || !(leading.rest.empty() || is_percentage) || !(value >= 0 && value <= 1))
+    throw UsageError(option + " expects a fraction from 0 to 1 or a percentage such as 5%, found '" + text +
+                     "'");
+  return value;
+}
+
+namespace {
+
+/// Three of `texts`, from the one at `first` on.
+Eigen::Vector3d parse_vector(const std::string& option, const std::vector<std::string>& texts,
+                             std::size_t first) {
+  Eigen::Vector3d vector;
+  for (std::size_t i = 0; i < 3; ++i)
+    vector[static_cast<Eigen::Index>(i)] = parse_number(option, texts.at(first + i));
+  if (vector.isZero(0)) throw UsageError(option + " expects a vector that is not zero");
+  return vector;
+}
+
+}  // namespace
+
 std::uint64_t parse_count(const Count& count, const std::string& text) {
   std::uint64_t value = 0;
   const char* const end = text.data() + text.size();
@@ -80,6 +105,12 @@ void add_number(CLI::App& command, const std::string& name, std::optional<double
   command.add_option_function<std::string>(name, take, description)->type_name("NUMBER");
 }
 
+void add_fraction(CLI::App& command, const std::string& name, std::optional<double>& target,
+                  const std::string& description) {
+  const auto take = [name, &target](const std::string& text) { target = parse_fraction(name, text); };
+  command.add_option_function<std::string>(name, take, description)->type_name("FRACTION");
+}
+
 void add_length(CLI::App& command, const std::string& name, std::optional<Length>& target,
                 const std::string& description) {
   const auto take = [name, &target](const std::string& text) { target = parse_length(name, text); };
@@ -89,15 +120,31 @@ void add_length(CLI::App& command, const std::string& name, std::optional<Length
 void add_direction(CLI::App& command, const std::string& name, std::optional<Eigen::Vector3d>& target,
                    const std::string& description) {
   const auto take = [name, &target](const std::vector<std::string>& texts) {
-    target.emplace();
-    for (int i = 0; i < 3; ++i) (*target)[i] = parse_number(name, texts.at(i));
-    if (target->isZero(0)) throw UsageError(name + " expects a vector that is not zero");
+    target = parse_vector(name, texts, 0);
   };
   command.add_option_function<std::vector<std::string>>(name, take, description)
       ->type_size(3)
       ->expected(1)
       ->allow_extra_args(false)
       ->type_name("X Y Z");
+}
+
+void add_directions(CLI::App& command, const std::string& name, std::vector<Eigen::Vector3d>& target,
+                    const std::string& description) {
+  const auto take = [name, &target](const std::vector<std::string>& texts) {
+    target.clear();
+    for (std::size_t i = 0; i + 2 < texts.size(); i += 3) target.push_back(parse_vector(name, texts, i));
+  };
+  command.add_option_function<std::vector<std::string>>(name, take, description)
+      ->type_size(3)
+      ->expected(-1)
+      ->allow_extra_args(false)
+      ->type_name("X Y Z");
+}
+
+void add_parts(CLI::App& command, const std::string& name, std::vector<std::string>& target,
+               const std::string& description) {
+  command.add_option(name, target, description)->type_size(1)->allow_extra_args(false)->type_name("PART");
 }
 
 }  // namespace stackabilization::apps

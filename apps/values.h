@@ -20,6 +20,9 @@ namespace stackabilization::apps {
 /// A finite decimal number, all of `text`.
 double parse_number(const std::string& option, const std::string& text);
 
+/// A fraction in [0, 1], as 0.05 or 5%.
+double parse_fraction(const std::string& option, const std::string& text);
+
 /// A length as typed: "0.5" in model units, or with a unit, "5mm".
 struct Length {
   double value = 0;
@@ -52,11 +55,20 @@ void add_count(CLI::App& command, const Count& count, Target& target) {
 
 void add_number(CLI::App& command, const std::string& name, std::optional<double>& target,
                 const std::string& description);
+void add_fraction(CLI::App& command, const std::string& name, std::optional<double>& target,
+                  const std::string& description);
 void add_length(CLI::App& command, const std::string& name, std::optional<Length>& target,
                 const std::string& description);
 /// Three numbers, not all zero.
 void add_direction(CLI::App& command, const std::string& name, std::optional<Eigen::Vector3d>& target,
                    const std::string& description);
+
+/// The same, any number of times.
+void add_directions(CLI::App& command, const std::string& name, std::vector<Eigen::Vector3d>& target,
+                    const std::string& description);
+/// An option with the name of a part, any number of times.
+void add_parts(CLI::App& command, const std::string& name, std::vector<std::string>& target,
+               const std::string& description);
 
 /// An option whose values have names.
 template <class Value>

@@ -9,8 +9,8 @@ using namespace stackabilization::apps;
 
 namespace {
 
-const std::vector<std::string> commands = {"inspect",  "measure",   "search", "map",    "stack",
-                                           "validate", "structure", "deform", "suggest"};
+const std::vector<std::string> commands = {"inspect",  "measure",   "search", "map",     "stack",
+                                           "validate", "structure", "deform", "suggest", "improve"};
 
 /// "--json" and "-o" in a help text; the descriptions mention options too.
 std::set<std::string> options_in(const std::string& help) {

@@ -24,3 +24,15 @@ TEST_CASE("a program without rendering says so instead of drawing") {
   }
   CHECK(folder.names() == std::vector<std::string>{"box.obj"});
 }
+
+TEST_CASE("solutions are written without pictures, and the page says so") {
+  const TemporaryFolder folder;
+  const std::string cup = folder.model("cup.obj", solids::frustum_shell({}));
+  const Outcome outcome = run_program({"improve", cup, "--target", "0", "--direction", "0", "0", "1",
+                                       "--expansions", "5", "-o", folder / "out"});
+  CHECK(outcome.status == 0);
+  CHECK(outcome.out.find("No pictures: this program was built without rendering") != std::string::npos);
+  const std::string page = bytes_of(folder / "out/index.html");
+  CHECK(page.find("built without rendering") != std::string::npos);
+  CHECK(page.find("<img") == std::string::npos);
+}

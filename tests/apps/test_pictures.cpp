@@ -55,6 +55,20 @@ TEST_CASE("every --picture is a picture of its kind") {
     }
 }
 
+TEST_CASE("solutions come with pictures of the shape and of stacks, before and after") {
+  const TemporaryFolder folder;
+  const std::string cup = folder.model("cup.obj", solids::frustum_shell({}));
+  const Outcome outcome = run_program({"improve", cup, "--target", "0", "--direction", "0", "0", "1",
+                                       "--expansions", "5", "-o", folder / "out"});
+  CHECK(outcome.status == 0);
+  CHECK(outcome.out.find("No pictures") == std::string::npos);
+  const std::string page = bytes_of(folder / "out/index.html");
+  for (const std::string name : {"solution_1_before_after.png", "solution_1_stack.png"}) {
+    CHECK(is_png(bytes_of(folder / ("out/" + name))));
+    CHECK(page.find("<img src=\"" + name + "\"") != std::string::npos);
+  }
+}
+
 TEST_CASE("measure and validate use the depth buffer of OpenGL") {
   const TemporaryFolder folder;
   const std::string cup = folder.model("cup.obj", solids::frustum_shell({}));

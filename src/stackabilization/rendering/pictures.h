@@ -101,6 +101,43 @@ struct DesignSheetOptions {
 Drawing design_sheet(const std::vector<DesignTile>& tiles, const Direction& direction,
                      const DesignSheetOptions& options = {});
 
+/// A shape measured along a direction, and where copies of it touch.
+struct MeasuredShape {
+  Shape shape;
+  Stackability measured;  ///< `measured.f_max` is the lift from copy to copy, air between copies included
+  std::vector<ContactRegion> contacts;  ///< may be empty
+};
+
+/// The same design before and after it was made stackable, measured along one direction.
+struct ImprovedShape {
+  MeasuredShape before, after;
+};
+
+struct ImprovementPictureOptions {
+  int width = 1200, height = 820;  ///< pixels
+  std::string title;               ///< heading; may be empty
+  std::vector<std::string> notes;  ///< lines under the heading, such as the edits
+};
+
+/// A shape before (yellow) and after (green), side by side from one viewpoint and in one scale, with the
+/// contact regions in red and S, f_max and h below each, both on the same ground wherever they are in their
+/// files; the direction points up. Throws UsageError when the
+/// directions differ, RenderError when there is no OpenGL context.
+Drawing improvement_picture(const ImprovedShape& shapes, const ImprovementPictureOptions& options = {});
+
+struct StacksPictureOptions {
+  int width = 1200, height = 900;  ///< pixels
+  int copies = 5;                  ///< in each stack, in [1, 200]
+  std::string title;               ///< heading; may be empty
+  std::vector<std::string> notes;  ///< lines under the heading, such as the saving
+};
+
+/// A stack of copies before (yellow) and one after (green), on the same ground and in the same scale, each
+/// with its height; every copy is lifted by `measured.f_max` above the one below it. Throws UsageError when
+/// the directions differ or the number of copies is out of range, RenderError when there is no OpenGL
+/// context.
+Drawing stacks_picture(const ImprovedShape& shapes, const StacksPictureOptions& options = {});
+
 /// The sampled gap function f = u - l with colour bar and the place of its maximum. Needs no OpenGL.
 Drawing gap_picture(const HeightField& field, const PictureOptions& options = {1000, 860, {}});
 

@@ -1,0 +1,175 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include "apps/command.h"
+#include "apps/improve_files.h"
+#include "apps/improve_page.h"
+#include "apps/improve_report.h"
+#include "apps/interrupt.h"
+#include "apps/rendering.h"
+#include "stackabilization/deformation/settled.h"
+#include "stackabilization/structure/project_file.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// More copies than that are a comb.
+constexpr int most_drawn_copies = 20;
+
+/// The first of some lines, and how many more there are.
+std::vector<std::string> shortened(std::vector<std::string> lines) {
+  constexpr std::size_t most_lines = 4;
+  if (lines.size() <= most_lines) return lines;
+  const std::size_t more = lines.size() - (most_lines - 1);
+  lines.resize(most_lines - 1);
+  lines.push_back("and " + std::to_string(more) + " more edits");
+  return lines;
+}
+
+/// Fills the folder, and knows what is in it.
+class Writer {
+ public:
+  explicit Writer(ImproveReport& report) : report_(report), folder_(report.options.folder) {}
+
+  void write_all(const Json& document) {
+    write("result.json", json_text(document));
+    write("index.html", improvement_page(report_));
+    remove_other_files(folder_, written_);
+    std::error_code error;
+    if (ended_by_itself(report_.run)) fs::remove(state_file(folder_), error);
+  }
+
+  /// Everything that is drawn or asked of the mesh of a solution belongs to its report.
+  void write_meshes(SolutionReport& solution) {
+    const Design& design = solution.candidate.design;
+    const std::string mesh = solution.name + ".obj";
+    write_mesh(mesh, design.shape);
+    write_mesh(solution.name + ".3mf", design.shape);
+    DeformationResult result;
+    result.shape = design.shape;
+    result.primitives = design.primitives;
+    write(solution.name + std::string(project_suffix), project_text(settled(report_.task.rest(), result)));
+    solution.written = check_written(folder_ / mesh, report_.task, solution);
+  }
+
+  void write_pictures(const SolutionReport& solution) {
+    if (!report_.pictures_missing.empty()) return;
+    try {
+      draw(solution);
+    } catch (const RenderError& error) {
+      report_.pictures_missing = error.what();
+    }
+  }
+
+  void write_report(const SolutionReport& solution) {
+    write(solution.name + ".json", json_text(solution_json(report_, solution)));
+  }
+
+ private:
+  void write(const std::string& name, const std::string& text) {
+    write_output((folder_ / name).string(), text);
+    written_.push_back(name);
+  }
+
+  void write_mesh(const std::string& name, const Shape& shape) {
+    CommonOptions silent = report_.options.common;
+    silent.quiet = true;  // solutions are in whatever unit the model is in
+    write_mesh_output(silent, (folder_ / name).string(), shape);
+    written_.push_back(name);
+  }
+
+  void draw(const SolutionReport& solution) {
+    const StructuredShape& rest = report_.task.rest();
+    const Shape& after = solution.candidate.design.shape;
+    const Semantics semantics = report_.options.measure.semantics;
+    const std::vector<ContactRegion> contacts_before =
+        contacts_along(rest.shape, solution.direction(), semantics);
+    const std::vector<ContactRegion> contacts = contacts_along(after, solution.direction(), semantics);
+    ComparedDesigns designs{{rest.shape, solution.before, contacts_before},
+                            {after, solution.assessment.measured, contacts},
+                            shortened(edit_lines(report_.task, solution))};
+    const std::string title = title_of(report_.task.model) + ", " + title_of(solution);
+    const std::string pair = solution.name + "_before_after.png", stack = solution.name + "_stack.png";
+    write_improvement_picture({(folder_ / pair).string(), title}, designs);
+    designs.notes = {saving_text(solution.stack, rest.shape.unit)};
+    write_stacks_picture({(folder_ / stack).string(), title}, designs,
+                         std::min(solution.stack.copies, most_drawn_copies));
+    written_.insert(written_.end(), {pair, stack});
+  }
+
+  ImproveReport& report_;
+  fs::path folder_;
+  std::vector<std::string> written_;
+};
+
+/// Solutions with what is known about them, and their files.
+void write_solutions(ImproveReport& report, Writer& writer) {
+  const Improvement& result = report.run.result;
+  const auto reported = [&report](const Candidate& candidate, const Assessment& assessment,
+                                  std::string name) {
+    SolutionReport solution = solution_report(report.options, report.task, candidate, assessment);
+    solution.name = std::move(name);
+    return solution;
+  };
+  for (std::size_t i = 0; i < result.solutions.size(); ++i)
+    report.solutions.push_back(
+        reported(result.solutions[i], result.assessments.at(i), "solution_" + std::to_string(i + 1)));
+  if (report.solutions.empty() && result.nearest)
+    report.nearest =
+        reported(*result.nearest,
+                 report.task.checker->checked(result.nearest->design, Direction(result.nearest->direction)),
+                 "nearest");
+  const auto write = [&](SolutionReport& solution) {
+    writer.write_meshes(solution);
+    writer.write_pictures(solution);
+    writer.write_report(solution);
+  };
+  for (SolutionReport& solution : report.solutions) write(solution);
+  if (report.nearest) write(*report.nearest);
+}
+
+/// "0.8 3": S of the best solution, or of what came nearest, and the number of solutions.
+std::string essential(const ImproveReport& report) {
+  const std::vector<const SolutionReport*> shown = report.shown();
+  return (shown.empty() ? "undefined" : exact_digits(shown.front()->assessment.measured.value)) + " " +
+         std::to_string(report.solutions.size()) + "\n";
+}
+
+int run(const CLI::App& command, const ImproveCommandOptions& options) {
+  const Stopwatch watch;
+  check(options);
+  const ThreadLimit limit(options.common);
+  const ImproveTask task = improve_task(command, options);
+  make_folder(options.folder);
+  const ImproveRun found = run_improve(options, task);
+
+  ImproveReport report{options, task, found, {}, {}, rendering_missing()};
+  Writer writer(report);
+  write_solutions(report, writer);
+  Json document = document_head(command, task.model);
+  add_improvement(document, report);
+  add_document_tail(document, options.common, task.model, watch);
+  writer.write_all(document);
+  deliver(options.common, document, options.common.quiet ? essential(report) : improvement_text(report));
+  if (found.interrupted) throw Interrupted();
+  return report.reached() ? status_done : status_no;
+}
+
+}  // namespace
+
+Command make_improve_command(CLI::App& program) {
+  const auto options = std::make_shared<ImproveCommandOptions>();
+  CLI::App* const command =
+      add_command(program, "improve", "Change a design as little as possible so that it stacks as asked for",
+                  "stackabilize improve table.obj --target 0.8 --keep top -o table_stackable");
+  add_improve_options(*command, *options);
+  return {command, [command, options] { return run(*command, *options); }};
+}
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,220 @@
+#include <algorithm>
+#include <array>
+
+#include "apps/edit_grammar.h"
+#include "apps/improve_report.h"
+#include "apps/measurement.h"
+#include "apps/structure_report.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+constexpr std::array<const char*, 3> contact_types = {"dot", "line", "ring"};
+
+const char* name_of(WrittenCheck::Verdict verdict) {
+  switch (verdict) {
+    case WrittenCheck::Verdict::agrees:
+      return "agrees";
+    case WrittenCheck::Verdict::skipped:
+      return "skipped";
+    case WrittenCheck::Verdict::disagrees:
+      return "disagrees";
+  }
+  return "";
+}
+
+const char* name_of(SearchEnd end) {
+  switch (end) {
+    case SearchEnd::solved:
+      return "solved";
+    case SearchEnd::exhausted:
+      return "exhausted";
+    case SearchEnd::expansion_limit:
+      return "expansion limit";
+    case SearchEnd::time_limit:
+      return "time limit";
+    case SearchEnd::cancelled:
+      return "interrupted";
+  }
+  return "";
+}
+
+Json edit_json(const Edit& edit, const std::string& reason, const std::vector<std::string>& part_names) {
+  Json document = {{"text", edit_text(edit, part_names)},
+                   {"words", describe(edit, part_names)},
+                   {"reason", reason},
+                   {"handle", handle_text(edit.handle, part_names)}};
+  if (const auto* const move = std::get_if<Move>(&edit.operation)) {
+    document["move"] = to_json(move->by);
+  } else if (const auto* const turn = std::get_if<Rotate>(&edit.operation)) {
+    document["rotate"] = {{"axis", to_json(turn->axis)}, {"radians", turn->radians}};
+  } else if (const auto* const scale = std::get_if<Scale>(&edit.operation)) {
+    document["scale"] = {{"factor", scale->factor},
+                         {"along", scale->along ? to_json(*scale->along) : Json(nullptr)}};
+  }
+  document["falloff"] = edit.falloff == Falloff::linear ? "linear" : "gaussian";
+  return document;
+}
+
+Json edits_json(const ImproveTask& task, const Candidate& candidate) {
+  Json list = Json::array();
+  const std::vector<Edit>& edits = candidate.design.edits;
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    // Refinement may merge edits; then reasons and edits no longer go together.
+    const bool known = candidate.reasons.size() == edits.size();
+    list.push_back(edit_json(edits[i], known ? candidate.reasons[i] : "", task.rest().shape.part_names));
+  }
+  return list;
+}
+
+Json energy_json(const Energy& energy, double alpha) {
+  const Distortion& distortion = energy.distortion;
+  return {{"value", energy.value},
+          {"alpha", alpha},
+          {"gain", energy.gain},
+          {"distortion",
+           {{"total", distortion.total()},
+            {"volume", distortion.volume},
+            {"proximity", distortion.proximity},
+            {"box", distortion.box},
+            {"symmetry", distortion.symmetry}}}};
+}
+
+Json measured_json(const Stackability& measured) {
+  return {{"stackability", measured.value},
+          {"f_max", measured.f_max},
+          {"height", measured.extent},
+          {"box_volume", measured.box_volume},
+          {"stack_box_volume", measured.stack_box_volume}};
+}
+
+Json requirements_json(const Assessment& assessment) {
+  Json list = Json::array();
+  for (const Check& check : assessment.checks)
+    list.push_back({{"name", check.name},
+                    {"value", check.value},
+                    {"demanded", check.demanded},
+                    {"unit", check.unit},
+                    {"passed", check.passed},
+                    {"note", check.note}});
+  return list;
+}
+
+Json checks_json(const SolutionReport& solution) {
+  Json list = Json::array();
+  for (const WrittenCheck& check : solution.written)
+    list.push_back({{"name", check.name}, {"verdict", name_of(check.verdict)}, {"note", check.note}});
+  return list;
+}
+
+Json relations_json(const Structure& structure, const std::vector<double>& residuals) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < residuals.size(); ++i)
+    list.push_back(
+        {{"relation", relation_text(structure.relations[i], structure)}, {"residual", residuals[i]}});
+  return list;
+}
+
+Json stack_json(const SolutionReport& solution) {
+  const StackHeights& stack = solution.stack;
+  Json document = {{"copies", stack.copies},        {"height_before", stack.before},
+                   {"height", stack.after},         {"saving", 1 - stack.after / stack.before},
+                   {"within", to_json(stack.room)}, {"fits", stack.fits()}};
+  if (solution.twist)
+    document["twist"] = {{"degrees", solution.twist->twist_degrees},
+                         {"stackability", solution.twist->stack.stackability},
+                         {"height", solution.twist->stack.height},
+                         {"untwisted_stackability", solution.twist->untwisted_stackability}};
+  return document;
+}
+
+Json parts_json(const std::vector<int>& parts, const StructuredShape& rest) {
+  Json list = Json::array();
+  for (const int part : parts)
+    list.push_back(part < 0 ? Json(nullptr) : Json(rest.shape.part_names.at(static_cast<std::size_t>(part))));
+  return list;
+}
+
+Json diagnosis_json(const Diagnosis& diagnosis, const StructuredShape& rest) {
+  Json blockers = Json::array(), remedies = Json::array();
+  for (const Blocker& blocker : diagnosis.blockers)
+    blockers.push_back({{"parts", parts_json({blocker.upper_part, blocker.lower_part}, rest)},
+                        {"type", contact_types.at(static_cast<std::size_t>(blocker.type))},
+                        {"f", blocker.f},
+                        {"stackability", blocker.stackability},
+                        {"reason", blocker.reason}});
+  for (const Remedy& remedy : diagnosis.remedies) {
+    const bool turns = remedy.kind == Remedy::Kind::other_direction;
+    remedies.push_back({{"what", remedy.what},
+                        {"parts", parts_json(remedy.parts, rest)},
+                        {"direction", turns ? to_json(remedy.direction) : Json(nullptr)},
+                        {"stackability", remedy.stackability}});
+  }
+  return {{"target", diagnosis.target}, {"reached", diagnosis.reached},
+          {"blockers", blockers},       {"constraints", diagnosis.constraints},
+          {"remedies", remedies},       {"text", text(diagnosis, rest)}};
+}
+
+Json wish_json(const ImproveReport& report) {
+  const ImproveTask& task = report.task;
+  Json directions = Json::array();
+  for (const Eigen::Vector3d& direction : task.directions) directions.push_back(to_json(direction));
+  const StackabilityOptions& measure = task.checker->requirements().measure;
+  return {{"stackability", task.target()},
+          {"copies", to_json(report.options.copies)},
+          {"within", to_json(task.room)},
+          {"directions", directions},
+          {"semantics", apps::name_of(measure.semantics)},
+          {"boxes", apps::name_of(measure.boxes)},
+          {"deformation", stackabilization::name_of(task.space->kind())},
+          {"preset", report.options.preset == ImprovementPreset::paper ? "paper" : "refined"},
+          {"words", wish_lines(report)}};
+}
+
+}  // namespace
+
+Json solution_json(const ImproveReport& report, const SolutionReport& solution) {
+  const ImproveTask& task = report.task;
+  const Stackability& after = solution.assessment.measured;
+  const Separation& exact = solution.assessment.separation;
+  return {{"name", solution.name},
+          {"direction", to_json(solution.candidate.direction)},
+          {"target", task.target()},
+          {"stackability", after.value},
+          {"stackability_before", solution.before.value},
+          {"f_max", exact.blocked ? exact.length : 0},
+          {"f_max_exact", to_json(exact.blocked ? exact.value : Rational())},
+          {"height", after.extent},
+          {"energy", energy_json(solution.candidate.energy, report.run.options.search.alpha)},
+          {"edits", edits_json(task, solution.candidate)},
+          {"change",
+           {{"root_mean_square", solution.change.root_mean_square}, {"largest", solution.change.largest}}},
+          {"before", measured_json(solution.before)},
+          {"after", measured_json(after)},
+          {"stack", stack_json(solution)},
+          {"requirements", requirements_json(solution.assessment)},
+          {"relations", relations_json(task.rest().structure, solution.residuals)},
+          {"checks", checks_json(solution)},
+          {"good", solution.good()}};
+}
+
+void add_improvement(Json& document, const ImproveReport& report) {
+  const Improvement& result = report.run.result;
+  document["target"] = wish_json(report);
+  document["reached"] = report.reached();
+  document["solutions"] = Json::array();
+  for (const SolutionReport& solution : report.solutions)
+    document["solutions"].push_back(solution_json(report, solution));
+  document["nearest"] = report.nearest ? solution_json(report, *report.nearest) : Json(nullptr);
+  document["diagnosis"] =
+      result.diagnosis ? diagnosis_json(*result.diagnosis, report.task.rest()) : Json(nullptr);
+  document["search"] = {{"end", name_of(result.end)},
+                        {"expanded", result.progress.expanded},
+                        {"evaluated", result.progress.evaluated},
+                        {"queued", result.progress.queued}};
+  document["pictures_missing"] =
+      report.pictures_missing.empty() ? Json(nullptr) : Json(report.pictures_missing);
+}
+
+}  // namespace stackabilization::apps

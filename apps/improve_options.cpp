@@ -1,0 +1,193 @@
+#include "apps/improve_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "apps/improve_files.h"
+#include "apps/text.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+constexpr double most_degrees = 90;
+constexpr int most_solutions = 20, most_copies = 10000;
+
+void refuse(bool given, const char* option, const char* reason) {
+  if (given) throw UsageError(std::string(option) + " " + reason);
+}
+
+/// A number that was given, in [least, most].
+void check_range(const char* option, const std::optional<double>& value, double least, double most) {
+  if (value && !(*value >= least && *value <= most))
+    throw UsageError(std::string(option) + " expects a number from " + exact_digits(least) + " to " +
+                     exact_digits(most) + ", found " + exact_digits(*value));
+}
+
+void check_wish(const ImproveCommandOptions& options) {
+  if (options.target && (options.copies || options.within))
+    throw UsageError("--target and --copies with --within are two ways to say the same: give one of them");
+  if (options.copies.has_value() != options.within.has_value())
+    throw UsageError("--copies and --within go together: how many copies within what length");
+  if (!options.target && !options.copies)
+    throw UsageError("expected --target S, or --copies N with --within LENGTH");
+  refuse(options.target && *options.target >= 1, "--target",
+         "expects a stackability below 1, which would be copies without any height of their own");
+  refuse(options.within && options.within->value <= 0, "--within", "expects a length above 0");
+  refuse(options.copies && options.directions.size() > 1, "--direction",
+         "is given once with --copies and --within: the room is along it");
+}
+
+void check_numbers(const ImproveCommandOptions& options) {
+  check_range("--cone-degrees", options.cone_degrees, 0, most_degrees);
+  check_range("--alpha", options.alpha, 0, 1);
+  check_range("--draft-degrees", options.draft_degrees, 0, most_degrees);
+  check_range("--tilt-degrees", options.tilt_degrees, 0, most_degrees);
+  refuse(options.seconds && !(*options.seconds > 0), "--time", "expects a number of seconds above 0");
+  refuse(options.tilt_degrees && !options.standing, "--tilt-degrees",
+         "is the tilt at which the stack of --standing still stands: give that too");
+}
+
+void check_parts(const ImproveCommandOptions& options) {
+  for (const std::string& name : options.kept)
+    if (std::find(options.editable.begin(), options.editable.end(), name) != options.editable.end())
+      throw UsageError("--keep and --only contradict each other: both name '" + name + "'");
+}
+
+double length_in(const char* option, const std::optional<Length>& length, Unit unit) {
+  if (!length) return 0;
+  if (length->value < 0)
+    throw UsageError(std::string(option) + " expects a length that is not negative, found " + length->text);
+  return length->in(unit);
+}
+
+void add_wish_options(CLI::App& command, ImproveCommandOptions& options) {
+  add_number(command, "--target", options.target, "Stackability to be reached, below 1");
+  add_count(command, {"--copies", "Instead: so many copies are to fit ...", 2, most_copies}, options.copies);
+  add_length(command, "--within", options.within,
+             "... into this length along the direction, as 1.5 or 150cm");
+  add_directions(
+      command, "--direction", options.directions,
+      "Direction to stack along; repeatable, the first is preferred (default: 0 0 1, then the best "
+      "one found)");
+  add_semantics_option(command, options.measure.semantics);
+  add_boxes_option(command, options.measure.boxes);
+}
+
+void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
+  add_count(command, {"--solutions", "Different solutions to look for (default: 3)", 1, most_solutions},
+            options.solutions);
+  const Choices<DeformationKind> kinds = {{"controllers", DeformationKind::controllers},
+                                          {"surface", DeformationKind::surface},
+                                          {"iwires", DeformationKind::iwires},
+                                          {"gap-scaling", DeformationKind::gap_scaling}};
+  add_choice(command, "--model", options.kind, kinds, "What moves the mesh (default: controllers)");
+  const Choices<ImprovementPreset> presets = {{"paper", ImprovementPreset::paper},
+                                              {"refined", ImprovementPreset::refined}};
+  add_choice(command, "--preset", options.preset, presets,
+             "paper: search in the paper's steps; refined: then least change of continuous magnitudes "
+             "(default: refined)");
+  add_number(command, "--time", options.seconds, "Seconds to search at most (default: 60)");
+  add_count(command, {"--expansions", "Candidates to expand at most (default: 2000)", 1}, options.expansions);
+  add_number(command, "--alpha", options.alpha, "Weight of the distortion in the energy (default: 0.2)");
+  add_number(command, "--cone-degrees", options.cone_degrees,
+             "The direction may turn by this angle at each edit, 0: never (default: 10; with --copies: 0)");
+}
+
+void add_requirement_options(CLI::App& command, ImproveCommandOptions& options) {
+  add_parts(command, "--keep", options.kept, "Part that stays as it is; repeatable");
+  add_parts(command, "--only", options.editable, "Part that may change, and no other; repeatable");
+  add_parts(command, "--remove", options.removed, "Part to leave out of the design first; repeatable");
+  command.add_flag("--change-height", options.change_height,
+                   "The height along the direction need not stay what it is");
+  add_fraction(command, "--box-tolerance", options.box_tolerance,
+               "Fraction by which the sides of the box along x, y and z may change, as 0.05 or 5%");
+  add_length(command, "--thickness", options.thickness,
+             "Walls get no thinner than this; what is thinner already may stay so");
+  add_length(command, "--clearance", options.clearance,
+             "Air between copies along the direction, as 0.5 or 2mm");
+  add_length(command, "--lateral-clearance", options.lateral_clearance,
+             "Sideways play that every contact allows");
+  add_number(command, "--draft-degrees", options.draft_degrees,
+             "Least angle between the direction and surfaces that copies touch with");
+  add_count(command, {"--standing", "A stack of so many copies stands by itself", 1, most_copies},
+            options.standing);
+  add_number(command, "--tilt-degrees", options.tilt_degrees,
+             "... also on ground that is tilted by this angle (default: 0)");
+}
+
+}  // namespace
+
+void add_improve_options(CLI::App& command, ImproveCommandOptions& options) {
+  add_common_options(command, options.common);
+  add_wish_options(command, options);
+  add_search_options(command, options);
+  add_requirement_options(command, options);
+  add_analysis_options(command, options.analysis);
+  command.add_flag("--twist", options.twist,
+                   "Report too how well copies stack that are turned against each other");
+  command.add_flag("--resume", options.resume, "Go on with the search that was stopped in the folder");
+  command.add_option("-o,--output", options.folder, "Folder for solutions, pictures and the page index.html")
+      ->type_name("FOLDER")
+      ->required();
+}
+
+void check(const ImproveCommandOptions& options) {
+  check_wish(options);
+  check_numbers(options);
+  check_parts(options);
+  check_outputs(options.common, {}, analysis_inputs(options.analysis));
+  check_folder(options);
+}
+
+std::vector<int> parts_named(const std::string& option, const std::vector<std::string>& names,
+                             const StructuredShape& rest) {
+  const std::vector<std::string>& known = rest.shape.part_names;
+  std::vector<int> parts;
+  for (const std::string& name : names) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end())
+      throw UsageError(option + " expects the name of a part, and there is no part '" + name + "'");
+    parts.push_back(static_cast<int>(found - known.begin()));
+  }
+  std::sort(parts.begin(), parts.end());
+  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+  return parts;
+}
+
+Requirements requirements_of(const ImproveCommandOptions& options, const StructuredShape& rest) {
+  const Unit unit = rest.shape.unit;
+  Requirements requirements;
+  requirements.target = options.target.value_or(0);
+  requirements.measure = options.measure;
+  requirements.keep_height = !options.change_height;
+  requirements.kept_parts = parts_named("--keep", options.kept, rest);
+  requirements.editable_parts = parts_named("--only", options.editable, rest);
+  requirements.box_tolerance = options.box_tolerance;
+  if (options.thickness) requirements.least_thickness = length_in("--thickness", options.thickness, unit);
+  requirements.clearance = length_in("--clearance", options.clearance, unit);
+  requirements.play = length_in("--lateral-clearance", options.lateral_clearance, unit);
+  requirements.least_draft_degrees = options.draft_degrees;
+  requirements.standing_copies = options.standing;
+  requirements.least_tilt_degrees = options.tilt_degrees.value_or(0);
+  return requirements;
+}
+
+ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) {
+  ImprovementOptions improvement;
+  improvement.preset = options.preset;
+  BestFirstOptions& search = improvement.search;
+  search.alpha = options.alpha.value_or(search.alpha);
+  improvement.refinement.alpha = search.alpha;
+  if (options.preset == ImprovementPreset::paper) search.edits.family = EditFamily::paper;
+  search.edits.contacts.semantics = options.measure.semantics;
+  search.solutions = options.solutions;
+  search.expansions = options.expansions.value_or(search.expansions);
+  search.seconds = options.seconds.value_or(search.seconds);
+  if (options.copies) search.cone_degrees = 0;  // the room is along the direction as given
+  search.cone_degrees = options.cone_degrees.value_or(search.cone_degrees);
+  return improvement;
+}
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/structured_model.h"
+#include "apps/values.h"
+#include "stackabilization/improvement/improve.h"
+
+namespace stackabilization::apps {
+
+/// Options of `stackabilize improve` as typed; what is left out keeps its default.
+struct ImproveCommandOptions {
+  CommonOptions common;
+  AnalysisArguments analysis;
+  StackabilityOptions measure;
+  std::optional<double> target;  ///< --target
+  std::optional<int> copies;     ///< --copies
+  std::optional<Length> within;  ///< --within
+  int solutions = 3;
+  DeformationKind kind = DeformationKind::controllers;
+  ImprovementPreset preset = ImprovementPreset::refined;
+  std::vector<Eigen::Vector3d> directions;
+  std::optional<double> cone_degrees, alpha, seconds;
+  std::optional<std::int64_t> expansions;
+  std::vector<std::string> kept, editable, removed;  ///< names of parts
+  bool change_height = false;
+  std::optional<double> box_tolerance;  ///< fraction
+  std::optional<Length> thickness, clearance, lateral_clearance;
+  std::optional<double> draft_degrees, tilt_degrees;
+  std::optional<int> standing;
+  bool twist = false, resume = false;
+  std::string folder;
+
+  /// Copies of the stacks that are shown.
+  int shown_copies() const { return copies.value_or(5); }
+};
+
+void add_improve_options(CLI::App& command, ImproveCommandOptions& options);
+
+/// Throws UsageError when options contradict each other or the folder holds what would be replaced,
+/// OutputError when it cannot be written.
+void check(const ImproveCommandOptions& options);
+
+/// What is asked of solutions; the target is left at 0 where it follows from --copies and --within. Throws
+/// UsageError for parts that do not exist and values out of range.
+Requirements requirements_of(const ImproveCommandOptions& options, const StructuredShape& rest);
+
+/// Rows of parts with these names. Throws UsageError naming the option and the part.
+std::vector<int> parts_named(const std::string& option, const std::vector<std::string>& names,
+                             const StructuredShape& rest);
+
+/// How the search goes; without directions, limits of interruption and callbacks.
+ImprovementOptions improvement_options_of(const ImproveCommandOptions& options);
+
+}  // namespace stackabilization::apps

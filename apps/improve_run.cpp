@@ -1,0 +1,126 @@
+#include "apps/improve_run.h"
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <utility>
+
+#include "apps/improve_files.h"
+#include "apps/interrupt.h"
+#include "apps/progress.h"
+#include "apps/text.h"
+#include "stackabilization/improvement/removal.h"
+#include "stackabilization/shape/read_file.h"
+#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/shape/write_file.h"
+#include "stackabilization/stacking/plan.h"
+#include "stackabilization/stacking/search.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.cross(b).norm() <= tolerance::direction_step * a.norm() * b.norm();
+}
+
+/// Those given, else up and, where another one is better, the best one found.
+std::vector<Eigen::Vector3d> directions_of(const ImproveCommandOptions& options,
+                                           const StructuredShape& rest) {
+  if (!options.directions.empty()) return options.directions;
+  std::vector<Eigen::Vector3d> directions = {Eigen::Vector3d::UnitZ()};
+  if (options.copies) return directions;
+  const StackabilitySolver solver(rest.shape, options.measure);
+  ProgressBar bar("Looking for directions");
+  SearchOptions search;
+  search.progress = [&bar](double fraction) { bar.show(fraction); };
+  const Stackability best = best_direction(solver, search).best;
+  const double up = solver.measure(Direction(directions.front())).value;
+  if (best.value > up + tolerance::stackability && !parallel(best.direction, directions.front()))
+    directions.push_back(best.direction);
+  return directions;
+}
+
+/// The target that a wish for copies comes to, with the height and the boxes at rest.
+double target_of(const ImproveCommandOptions& options, double room, const Stackability& rest) {
+  const StackPlan plan = plan_within(rest, {*options.copies, room, 0});
+  if (!plan.possible || *plan.stackability >= 1)
+    throw UsageError("--within " + options.within->text + " has no room for " +
+                     std::to_string(*options.copies) + " copies of height " + exact_digits(rest.extent) +
+                     ", however well they stack");
+  return *plan.stackability;
+}
+
+std::optional<std::string> saved_state(const ImproveCommandOptions& options) {
+  const std::filesystem::path file = state_file(options.folder);
+  std::error_code error;
+  if (!options.resume) {
+    std::filesystem::remove(file, error);
+    return std::nullopt;
+  }
+  if (std::filesystem::exists(file, error)) return read_file(file);
+  if (!options.common.quiet)
+    std::cerr << "stackabilize: there is no " + file.string() + " to go on with, so the search starts anew\n";
+  return std::nullopt;
+}
+
+std::string status_text(const ImprovementProgress& progress) {
+  std::string text = "best S " + rounded(progress.best_stackability) + "  best E " +
+                     rounded(progress.best_energy) + "  expanded " + std::to_string(progress.expanded) +
+                     "  queued " + std::to_string(progress.queued) + "  solutions " +
+                     std::to_string(progress.solutions);
+  if (std::isfinite(progress.seconds_left))
+    text += "  " + std::to_string(std::lround(std::ceil(progress.seconds_left))) + " s left";
+  return text;
+}
+
+}  // namespace
+
+ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& options) {
+  StructuredModel input = load_structured(command, options.common, options.analysis);
+  ImproveTask task;
+  task.model = std::move(input.model);
+  named(task.model, [&] {
+    StructuredShape rest = std::move(input.structured);
+    if (!options.removed.empty()) rest = without_parts(rest, parts_named("--remove", options.removed, rest));
+    Requirements requirements = requirements_of(options, rest);
+    if (options.within) task.room = options.within->in(rest.shape.unit);
+    task.directions = directions_of(options, rest);
+    const Direction first(task.directions.front());
+    if (task.room)
+      requirements.target = target_of(options, *task.room, stackability(rest.shape, first, options.measure));
+    task.space = design_space(std::move(rest), {options.kind, first});
+    task.checker = std::make_unique<RequirementChecker>(*task.space, requirements);
+  });
+  return task;
+}
+
+bool ended_by_itself(const ImproveRun& run) {
+  return !run.interrupted && (run.result.end == SearchEnd::solved || run.result.end == SearchEnd::exhausted);
+}
+
+ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& task) {
+  ImproveRun run;
+  run.options = improvement_options_of(options);
+  const std::filesystem::path state = state_file(options.folder);
+  const std::optional<std::string> saved = saved_state(options);
+  const DeferredInterrupts interrupts;
+  StatusLine status;
+  BestFirstOptions& search = run.options.search;
+  search.directions = task.directions;
+  search.progress = [&status](const ImprovementProgress& progress) {
+    if (status.due()) status.show(status_text(progress));
+  };
+  search.cancelled = [&interrupts] { return interrupts.requested(); };
+  search.save = [&state](const std::string& text) { write_file_atomically(state, text); };
+  run.options.refinement.cancelled = search.cancelled;
+  try {
+    run.result = improve(*task.checker, run.options, saved);
+  } catch (const InputError& error) {
+    throw InputError((saved ? state.string() : display_name(task.model)) + ": " + error.what());
+  }
+  run.interrupted = interrupts.requested();
+  return run;
+}
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,172 @@
+#include "apps/improve_solution.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/text.h"
+#include "stackabilization/deformation/relation_residual.h"
+#include "stackabilization/shape/exact_triangles.h"
+#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/stacking/collision.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+using Verdict = WrittenCheck::Verdict;
+
+/// Collision tests take seconds beyond this many triangles.
+constexpr Eigen::Index most_collision_triangles = 50000;
+
+StackHeights stack_heights(const ImproveCommandOptions& options, const ImproveTask& task,
+                           const SolutionReport& report) {
+  const int copies = options.shown_copies();
+  const auto height = [copies](const Stackability& measured) {
+    return measured.extent + (copies - 1) * measured.f_max;
+  };
+  return {copies, height(report.before), height(report.assessment.measured), task.room};
+}
+
+TwistResult twisted(const ImproveTask& task, const SolutionReport& report) {
+  const Requirements& asked = task.checker->requirements();
+  TwistOptions search;
+  search.stack.copies = report.stack.copies;
+  search.stack.semantics = asked.measure.semantics;
+  search.stack.boxes = asked.measure.boxes;
+  search.stack.clearance = asked.clearance;
+  search.stack.play = asked.play;
+  return best_twist(report.candidate.design.shape, report.direction(), search);
+}
+
+WrittenCheck compared(const std::string& name, double found, double said) {
+  const bool same = std::abs(found - said) <= tolerance::relative * std::max(1.0, std::abs(said));
+  return {same ? Verdict::agrees : Verdict::disagrees, name,
+          exact_digits(found) + (same ? "" : " instead of " + exact_digits(said))};
+}
+
+WrittenCheck same_lift(const Separation& found, const Separation& said) {
+  const bool same = found.blocked == said.blocked && (!found.blocked || found.value == said.value);
+  return {same ? Verdict::agrees : Verdict::disagrees, "exact f_max",
+          same ? "the same rational number" : "another rational number"};
+}
+
+/// Collision tests around f_max of one mesh along one direction.
+class CollisionChecks {
+ public:
+  CollisionChecks(const Shape& shape, const Direction& direction)
+      : shape_(shape), direction_(direction), tree_(shape), tester_(shape, shape) {}
+
+  std::vector<WrittenCheck> run(Semantics semantics) const {
+    if (semantics == Semantics::solid && tester_.solids()) return around(Semantics::solid);
+    std::vector<WrittenCheck> checks = around(Semantics::closed);
+    if (semantics == Semantics::solid)
+      for (WrittenCheck& check : checks) check.note += ", of surfaces: an open mesh has no interior";
+    return checks;
+  }
+
+ private:
+  std::vector<WrittenCheck> around(Semantics semantics) const {
+    SeparationOptions options;
+    options.semantics = semantics;
+    const Separation answer = separation(tree_, tree_, direction_, options);
+    if (!answer.blocked)
+      return {{Verdict::skipped, "collision", "nothing is in the way along the direction"}};
+    std::vector<WrittenCheck> checks = {expected(semantics, answer, 1)};
+    // Where a triangle without area attains f_max, or a sheet ends, only freedom above it can be demanded.
+    const bool with_area = has_area(answer.witness.lower_triangle) && has_area(answer.witness.upper_triangle);
+    if (semantics == Semantics::solid)
+      checks.push_back(expected(semantics, answer, -1));
+    else if (with_area)
+      checks.push_back(expected(semantics, answer, 0));
+    return checks;
+  }
+
+  /// A test so many margins above f_max: free above it, colliding at it (closed) and below it.
+  WrittenCheck expected(Semantics semantics, const Separation& answer, int margins) const {
+    const double size = range_along(shape_, direction_.unit()).length();
+    const Rational lift =
+        answer.value + Rational(margins * tolerance::collision_margin * size / direction_.length());
+    const bool collides = semantics == Semantics::solid ? tester_.interiors_overlap(direction_, lift)
+                                                        : tester_.closed_contact(direction_, lift);
+    const bool right = collides == (margins <= 0);
+    const char* const place = margins > 0 ? "above" : margins < 0 ? "below" : "at";
+    return {right ? Verdict::agrees : Verdict::disagrees, "collision " + std::string(place) + " f_max",
+            collides ? "colliding" : "free"};
+  }
+
+  bool has_area(Eigen::Index t) const {
+    return !are_collinear(shape_.corner(t, 0), shape_.corner(t, 1), shape_.corner(t, 2));
+  }
+
+  const Shape& shape_;
+  const Direction& direction_;
+  SeparationTree tree_;
+  CollisionTester tester_;
+};
+
+}  // namespace
+
+bool StackHeights::fits() const {
+  return !room || after <= *room * (1 + tolerance::relative);
+}
+
+bool SolutionReport::confirmed() const {
+  return std::none_of(written.begin(), written.end(),
+                      [](const WrittenCheck& check) { return check.verdict == Verdict::disagrees; });
+}
+
+bool SolutionReport::good() const {
+  return assessment.passed() && stack.fits() && confirmed();
+}
+
+SolutionReport solution_report(const ImproveCommandOptions& options, const ImproveTask& task,
+                               const Candidate& candidate, const Assessment& assessment) {
+  SolutionReport report;
+  report.candidate = candidate;
+  report.assessment = assessment;
+  const Direction direction = report.direction();
+  const StructuredShape& rest = task.rest();
+  report.before = task.checker->measured(rest.shape, direction);
+  report.change = shape_change(rest.shape, candidate.design.shape);
+  report.residuals = relation_residuals(rest.structure, candidate.design.primitives);
+  report.stack = stack_heights(options, task, report);
+  if (options.twist) report.twist = twisted(task, report);
+  return report;
+}
+
+std::vector<WrittenCheck> check_written(const std::filesystem::path& mesh, const ImproveTask& task,
+                                        const SolutionReport& report) {
+  const Direction direction = report.direction();
+  const Requirements& asked = task.checker->requirements();
+  const Shape shape = read_shape(mesh);
+  const Stackability measured = task.checker->measured(shape, direction);
+  SeparationOptions options;
+  options.semantics = asked.measure.semantics;
+  std::vector<WrittenCheck> checks = {
+      compared("stackability", measured.value, report.assessment.measured.value),
+      same_lift(minimal_stacking_translation(shape, direction, options), report.assessment.separation)};
+  if (asked.keep_height)
+    checks.push_back(compared("height over that at rest", measured.extent / report.before.extent, 1));
+  if (shape.triangle_count() > most_collision_triangles) {
+    checks.push_back({Verdict::skipped, "collision",
+                      "more than " + std::to_string(most_collision_triangles) + " triangles"});
+    return checks;
+  }
+  for (WrittenCheck& check : CollisionChecks(shape, direction).run(asked.measure.semantics))
+    checks.push_back(std::move(check));
+  return checks;
+}
+
+std::vector<ContactRegion> contacts_along(const Shape& shape, const Direction& direction,
+                                          Semantics semantics) {
+  const SeparationTree tree(shape);
+  SeparationOptions options;
+  options.semantics = semantics;
+  const Separation answer = separation(tree, tree, direction, options);
+  if (!answer.blocked) return {};
+  ContactOptions contacts;
+  contacts.semantics = semantics;
+  return contact_regions({shape, tree, direction, answer}, contacts);
+}
+
+}  // namespace stackabilization::apps

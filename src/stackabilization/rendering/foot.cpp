@@ -1,0 +1,11 @@
+#include "stackabilization/rendering/foot.h"
+
+namespace stackabilization::detail {
+
+Eigen::Vector3d foot_of(const Shape& shape, const Direction& direction) {
+  const Frame frame = frame_of(direction);
+  const Range u = range_along(shape, frame.u), v = range_along(shape, frame.v);
+  return frame.to_world({(u.low + u.high) / 2, (v.low + v.high) / 2, range_along(shape, frame.w).low});
+}
+
+}  // namespace stackabilization::detail

@@ -1,0 +1,358 @@
+#include <algorithm>
+#include <pugixml.hpp>
+#include <set>
+
+#include "apps/run_program.h"
+#include "stackabilization/shape/read.h"
+#include "stackabilization/stacking/stackability.h"
+#include "support/catch.h"
+#include "support/solids.h"
+
+using namespace stackabilization;
+using namespace stackabilization::apps;
+using nlohmann::json;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Arguments = std::vector<std::string>;
+
+Arguments joined(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// A cup with walls so steep that a search of a second makes it stack, and the folder for what is found.
+struct CupFolder : TemporaryFolder {
+  std::string cup = model("cup.obj", solids::frustum_shell({}));
+  std::string out = *this / "out";
+
+  double stackability_now() const { return stackability(read_shape(cup), {0, 0, 1}).value; }
+  /// A little more than it has, and no time limit that could be met.
+  Arguments more(double gain = 0.05) const {
+    return {"improve",
+            cup,
+            "--target",
+            std::to_string(stackability_now() + gain),
+            "--direction",
+            "0",
+            "0",
+            "1",
+            "--expansions",
+            "40",
+            "--time",
+            "600",
+            "--solutions",
+            "2",
+            "--no-timing",
+            "-o",
+            out};
+  }
+  std::string written(const std::string& name) const { return bytes_of((fs::path(out) / name).string()); }
+  json document(const std::string& name) const { return json::parse(written(name)); }
+};
+
+/// Name and bytes of all files of a folder but its pictures.
+std::vector<std::pair<std::string, std::string>> contents(const std::string& folder) {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().extension() != ".png")
+      files.emplace_back(entry.path().filename().string(), bytes_of(entry.path().string()));
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::set<std::string> names_in(const std::string& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+/// Well-formed, and all it refers to is there.
+void check_page(const std::string& folder) {
+  const std::string bytes = bytes_of((fs::path(folder) / "index.html").string());
+  pugi::xml_document page;
+  const pugi::xml_parse_result parsed = page.load_string(bytes.c_str(), pugi::parse_full);
+  INFO(parsed.description() << " at " << parsed.offset);
+  CHECK(parsed.status == pugi::status_ok);
+  CHECK(bytes.find("http", bytes.find("<body>")) == std::string::npos);
+  int references = 0;
+  for (const char* path : {"//img/@src", "//a/@href"})
+    for (const pugi::xpath_node& node : page.select_nodes(path)) {
+      INFO(node.attribute().value());
+      CHECK(fs::exists(fs::path(folder) / node.attribute().value()));
+      ++references;
+    }
+  CHECK(references > 3);
+}
+
+void check_solution(const CupFolder& folder, const json& solution) {
+  const std::string name = solution["name"];
+  INFO(name);
+  CHECK(folder.document(name + ".json") == solution);
+  for (const char* ending : {".obj", ".3mf", ".stackabilize.json"})
+    CHECK(!folder.written(name + ending).empty());
+  const Shape shape = read_shape((fs::path(folder.out) / (name + ".obj")).string());
+  const Shape rest = read_shape(folder.cup);
+  const Stackability measured = stackability(shape, {0, 0, 1});
+  CHECK(solution["stackability"].get<double>() == Approx(measured.value).epsilon(1e-9));
+  CHECK(measured.value >= solution["target"].get<double>() - 1e-9);
+  CHECK(measured.extent == Approx(stackability(rest, {0, 0, 1}).extent).epsilon(1e-9));
+  const json& terms = solution["energy"]["distortion"];
+  const double total = terms["volume"].get<double>() + terms["proximity"].get<double>() +
+                       terms["box"].get<double>() + terms["symmetry"].get<double>();
+  CHECK(terms["total"].get<double>() == Approx(total / 4));
+  CHECK(solution["energy"]["gain"].get<double>() ==
+        Approx(solution["stackability"].get<double>() - solution["stackability_before"].get<double>()));
+  CHECK(solution["energy"]["value"].get<double>() ==
+        Approx(0.2 * total / 4 - 0.8 * solution["energy"]["gain"].get<double>()));
+  CHECK(!solution["edits"].empty());
+  CHECK(solution["good"] == true);
+  CHECK(solution["checks"].size() >= 4);
+  for (const json& check : solution["checks"]) CHECK(check["verdict"] == "agrees");
+  for (const json& requirement : solution["requirements"]) CHECK(requirement["passed"] == true);
+  for (const json& relation : solution["relations"]) CHECK(relation["residual"].get<double>() < 1e-6);
+}
+
+}  // namespace
+
+TEST_CASE("a cup is made to stack: solutions, best first, that are what they say") {
+  const CupFolder folder;
+  const Outcome outcome = run_program(folder.more());
+  INFO(outcome.err << outcome.out);
+  REQUIRE(outcome.status == 0);
+  CHECK(outcome.err.empty());
+  CHECK(outcome.out.find("Reached: ") != std::string::npos);
+  const json result = folder.document("result.json");
+  CHECK(result["command"] == "improve");
+  CHECK(result["reached"] == true);
+  CHECK(result["nearest"].is_null());
+  CHECK(result["diagnosis"].is_null());
+  REQUIRE(!result["solutions"].empty());
+  double energy = -1;
+  for (const json& solution : result["solutions"]) {
+    check_solution(folder, solution);
+    CHECK(solution["energy"]["value"].get<double>() >= energy);
+    energy = solution["energy"]["value"];
+  }
+  check_page(folder.out);
+  CHECK(!names_in(folder.out).contains("search-state.json"));
+}
+
+TEST_CASE("edits of a solution make the same shape with deform") {
+  const CupFolder folder;
+  REQUIRE(run_program(joined(folder.more(), {"--solutions", "1"})).status == 0);
+  Arguments again = {"deform", folder.cup, "--keep-extent", "0", "0", "1", "-o", folder / "again.obj"};
+  for (const json& edit : folder.document("solution_1.json")["edits"])
+    again = joined(again, {"--edit", edit["text"].get<std::string>()});
+  REQUIRE(run_program(again).status == 0);
+  const Shape a = read_shape(folder / "again.obj"), b = read_shape(folder.out + "/solution_1.obj");
+  CHECK((a.vertices - b.vertices).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("the same bytes for any number of threads, on paper and on standard output") {
+  const CupFolder one, two;
+  const Outcome first = run_program(joined(one.more(), {"--threads", "1", "--json", "-"}));
+  const Outcome second = run_program(joined(two.more(), {"--threads", "2", "--json", "-"}));
+  CHECK(first.status == 0);
+  CHECK(first.json()["solutions"] == second.json()["solutions"]);
+  CHECK(first.out == one.written("result.json"));
+  std::vector<std::pair<std::string, std::string>> a = contents(one.out), b = contents(two.out);
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    CHECK(a[i].first == b[i].first);
+    if (a[i].first != "result.json") CHECK(a[i].second == b[i].second);  // it names the model's folder
+  }
+}
+
+TEST_CASE("so many copies within a length become a target, and the stack fits") {
+  const CupFolder folder;
+  const Stackability now = stackability(read_shape(folder.cup), {0, 0, 1});
+  const double room = now.extent + 9 * now.f_max * 0.95;
+  const Outcome outcome =
+      run_program({"improve", folder.cup, "--copies", "10", "--within", std::to_string(room), "--boxes",
+                   "frame", "--solutions", "1", "-o", folder.out});
+  INFO(outcome.err << outcome.out);
+  REQUIRE(outcome.status == 0);
+  const json result = folder.document("result.json");
+  CHECK(result["target"]["copies"] == 10);
+  CHECK(result["target"]["directions"] == json::parse("[[0.0, 0.0, 1.0]]"));
+  const json& stack = result["solutions"][0]["stack"];
+  CHECK(stack["copies"] == 10);
+  CHECK(stack["height"].get<double>() <= room * (1 + 1e-9));
+  CHECK(stack["height_before"].get<double>() == Approx(now.extent + 9 * now.f_max));
+  CHECK(stack["fits"] == true);
+}
+
+TEST_CASE("a target out of reach ends with 1, what came nearest and the reason") {
+  const CupFolder folder;
+  const Outcome outcome = run_program(joined(folder.more(), {"--keep", "part"}));
+  const Outcome told =
+      run_program({"improve", folder.cup, "--target", "0.99", "--direction", "0", "0", "1", "--keep",
+                   read_shape(folder.cup).part_names[0], "--expansions", "5", "-o", folder.out});
+  CHECK(outcome.status == (read_shape(folder.cup).part_names[0] == "part" ? 1 : 2));
+  INFO(told.err << told.out);
+  CHECK(told.status == 1);
+  CHECK(told.err.empty());
+  CHECK(told.out.find("Not reached.") != std::string::npos);
+  const json result = folder.document("result.json");
+  CHECK(result["reached"] == false);
+  CHECK(result["solutions"].empty());
+  CHECK(result["nearest"]["name"] == "nearest");
+  CHECK(result["diagnosis"]["reached"].get<double>() == Approx(folder.stackability_now()));
+  CHECK(!result["diagnosis"]["text"].get<std::string>().empty());
+  const std::set<std::string> names = names_in(folder.out);
+  CHECK(names.contains("nearest.obj"));
+  CHECK(!names.contains("solution_1.obj"));
+  check_page(folder.out);
+  CHECK(folder.written("index.html").find("would help") != std::string::npos);
+}
+
+TEST_CASE("files of an earlier run go, other files stay") {
+  const CupFolder folder;
+  fs::create_directory(folder.out);
+  for (const char* name :
+       {"out/solution_7.obj", "out/solution_7_stack.png", "out/nearest.json", "out/search-state.json",
+        "out/solution_x.obj", "out/notes.txt", "out/solution_.json"})
+    CHECK(!folder.file(name, "old").empty());
+  REQUIRE(run_program(folder.more()).status == 0);
+  const std::set<std::string> names = names_in(folder.out);
+  for (const char* gone : {"solution_7.obj", "solution_7_stack.png", "nearest.json", "search-state.json"})
+    CHECK(!names.contains(gone));
+  for (const char* there : {"solution_x.obj", "notes.txt", "solution_.json", "solution_1.obj"})
+    CHECK(names.contains(there));
+  CHECK(folder.written("notes.txt") == "old");
+}
+
+TEST_CASE("names that mean something in HTML do not break the page") {
+  const CupFolder folder;
+  Shape cup = read_shape(folder.cup);
+  cup.part_names[0] = "<b>a&b'\"]]>";
+  const std::string model = folder.model("<i>&'\"\xe9.obj", cup);
+  Arguments arguments = folder.more();
+  arguments[1] = model;
+  REQUIRE(run_program(arguments).status == 0);
+  check_page(folder.out);
+  const std::string page = folder.written("index.html");
+  CHECK(page.find("<i>") == std::string::npos);
+  CHECK(page.find("&lt;b&gt;a&amp;b") != std::string::npos);
+}
+
+TEST_CASE("an interrupted run says what it has, and goes on to the same result") {
+  const CupFolder folder, whole;
+  const auto far = [](const CupFolder& where) {
+    return Arguments{"improve",      where.cup, "--target", "0.97", "--direction", "0",  "0",      "1",
+                     "--expansions", "60",      "--time",   "600",  "--no-timing", "-o", where.out};
+  };
+  const Outcome stopped = run_program(far(folder), "", "timeout --foreground --preserve-status -s INT 1");
+  INFO(stopped.err << stopped.out);
+  CHECK(stopped.status == 130);
+  CHECK(stopped.err == "stackabilize: interrupted\n");
+  CHECK(stopped.out.find("interrupted; --resume goes on") != std::string::npos);
+  CHECK(names_in(folder.out).contains("search-state.json"));
+  check_page(folder.out);
+  const Outcome resumed = run_program(joined(far(folder), {"--resume"}));
+  const Outcome at_once = run_program(far(whole));
+  CHECK(resumed.status == at_once.status);
+  CHECK(folder.written("search-state.json") == whole.written("search-state.json"));
+  json a = folder.document("result.json"), b = whole.document("result.json");
+  a["model"] = b["model"];
+  CHECK(a == b);
+}
+
+TEST_CASE("--resume starts anew where there is nothing, and refuses the state of another search") {
+  const CupFolder folder;
+  const Outcome anew = run_program(joined(folder.more(), {"--resume"}));
+  CHECK(anew.status == 0);
+  CHECK(is_one_sentence(anew.err));
+  CHECK(anew.err.find("starts anew") != std::string::npos);
+  CHECK(run_program(joined(folder.more(), {"--resume", "--quiet"})).err.empty());
+  for (const std::string state : {"", "{}", "state", "[1, 2"}) {
+    CHECK(!folder.file("out/search-state.json", state).empty());
+    const Outcome outcome = run_program(joined(folder.more(), {"--resume"}));
+    CHECK(outcome.status == 3);
+    CHECK(is_one_sentence(outcome.err));
+    CHECK(outcome.err.find("search-state.json") != std::string::npos);
+  }
+}
+
+TEST_CASE("wrong uses of improve end with 2, name the mistake and leave no folder") {
+  const CupFolder folder;
+  const std::string& cup = folder.cup;
+  const Arguments good = {"improve", cup, "-o", folder.out}, target = {"--target", "0.5"};
+  const std::vector<std::pair<Arguments, std::string>> cases = {
+      {{"improve", cup, "--target", "0.5"}, "--output"},
+      {good, "expected --target S"},
+      {joined(good, {"--target", "1"}), "below 1"},
+      {joined(good, {"--target", "nan"}), "--target"},
+      {joined(good, {"--target", "0.5", "--copies", "3", "--within", "9"}), "two ways"},
+      {joined(good, {"--copies", "3"}), "go together"},
+      {joined(good, {"--within", "3"}), "go together"},
+      {joined(good, {"--copies", "1", "--within", "30"}), "--copies"},
+      {joined(good, {"--copies", "3", "--within", "0"}), "above 0"},
+      {joined(good, {"--copies", "3", "--within", "7"}), "no room"},
+      {joined(good, {"--copies", "3", "--within", "2m"}), "--unit"},
+      {joined(good, {"--copies", "3", "--within", "30", "--direction", "0", "0", "1", "--direction", "1", "0",
+                     "0"}),
+       "given once"},
+      {joined(good, joined(target, {"--direction", "0", "0", "0"})), "zero"},
+      {joined(good, joined(target, {"--direction", "0", "0"})), "--direction"},
+      {joined(good, joined(target, {"--keep", "lid"})), "'lid'"},
+      {joined(good, joined(target, {"--only", "lid"})), "'lid'"},
+      {joined(good, joined(target, {"--remove", "lid"})), "'lid'"},
+      {joined(good, joined(target, {"--keep", "lid", "--only", "lid"})), "contradict"},
+      {joined(good, joined(target, {"--solutions", "0"})), "--solutions"},
+      {joined(good, joined(target, {"--model", "clay"})), "controllers|surface"},
+      {joined(good, joined(target, {"--preset", "best"})), "paper|refined"},
+      {joined(good, joined(target, {"--box-tolerance", "5"})), "5%"},
+      {joined(good, joined(target, {"--box-tolerance", "-1%"})), "--box-tolerance"},
+      {joined(good, joined(target, {"--thickness", "-1"})), "--thickness"},
+      {joined(good, joined(target, {"--clearance", "2mm"})), "--unit"},
+      {joined(good, joined(target, {"--cone-degrees", "91"})), "--cone-degrees"},
+      {joined(good, joined(target, {"--draft-degrees", "-1"})), "--draft-degrees"},
+      {joined(good, joined(target, {"--tilt-degrees", "5"})), "--standing"},
+      {joined(good, joined(target, {"--standing", "0"})), "--standing"},
+      {joined(good, joined(target, {"--time", "0"})), "--time"},
+      {joined(good, joined(target, {"--expansions", "0"})), "--expansions"},
+      {joined(good, joined(target, {"--alpha", "1.5"})), "--alpha"},
+      {{"improve", cup, "--target", "0.5", "-o", cup}, "not a folder"},
+      {{"improve", cup, "--target", "0.5", "-o", cup + "/out"}, "not a folder"},
+      {{"improve", cup, "--target", "0.5", "-o", "-"}, "folder"},
+      {{"improve", cup, "--target", "0.5", "-o", ""}, "folder"},
+  };
+  const std::vector<std::string> before = folder.names();
+  for (const auto& [arguments, words] : cases) {
+    std::string line;
+    for (const std::string& argument : arguments) line += " " + argument;
+    INFO("stackabilize" << line);
+    const Outcome outcome = run_program(arguments);
+    INFO(outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.out.empty());
+    CHECK(is_one_sentence(outcome.err));
+    CHECK(outcome.err.find(words) != std::string::npos);
+  }
+  CHECK(folder.names() == before);
+}
+
+TEST_CASE("improve replaces no file that it reads") {
+  const CupFolder folder;
+  fs::create_directory(folder.out);
+  const std::string model = folder.out + "/solution_2.obj";
+  fs::copy_file(folder.cup, model);
+  const std::string bytes = bytes_of(model);
+  for (const Arguments& arguments :
+       std::vector<Arguments>{{"improve", model, "--target", "0.5", "-o", folder.out},
+                              {"improve", model, "--target", "0.5", "-o", folder.out + "/../out/."},
+                              {"improve", folder.cup, "--labels", folder.out + "/result.json", "--target",
+                               "0.5", "-o", folder.out},
+                              {"improve", folder.cup, "--json", folder.out + "/index.html", "--target", "0.5",
+                               "-o", folder.out}}) {
+    const Outcome outcome = run_program(arguments);
+    INFO(outcome.err);
+    CHECK(outcome.status == 2);
+    CHECK(outcome.err.find("would replace") != std::string::npos);
+  }
+  CHECK(bytes_of(model) == bytes);
+  CHECK(names_in(folder.out) == std::set<std::string>{"solution_2.obj"});
+}
