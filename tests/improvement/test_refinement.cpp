@@ -93,6 +93,12 @@ double volume_change(double bottom, double top) {
   return (bottom * bottom + bottom * top + top * top) / 3 - 1;
 }
 
+RefinementOptions alone() {
+  RefinementOptions options;
+  options.companions = Companions::none;
+  return options;
+}
+
 void check_met(const RefinementResult& result, double target) {
   CHECK(result.reached);
   CHECK(result.candidate.measured.value >= target);
@@ -203,7 +209,8 @@ TEST_CASE("the least taper of a cup has a closed form") {
     const double bottom = 1 - wall / (1 - target);
     // Too much, just so, too little.
     for (const double start : {bottom - 0.1, bottom, std::sqrt(bottom)}) {
-      const RefinementResult result = refined_candidate(checker, cups.candidate(checker, {scale(0, start)}));
+      const RefinementResult result =
+          refined_candidate(checker, cups.candidate(checker, {scale(0, start)}), alone());
       check_met(result, target);
       CHECK(radius(result, 0) == Approx(bottom).epsilon(1e-6));
       CHECK(radius(result, 1) == 1);
@@ -231,12 +238,26 @@ TEST_CASE("of two edits those magnitudes are found that keep the volume, where D
   }
 }
 
+TEST_CASE("what one end takes away the other may give back") {
+  const Cups cups;
+  const RequirementChecker checker(cups, stacks(0.8));
+  const Candidate start = cups.candidate(checker, {scale(0, 0.5)});
+  const RefinementResult result = refined_candidate(checker, start);
+  check_met(result, 0.8);
+  CHECK(radius(result, 1) == Approx(std::sqrt(12.0 / 7)).epsilon(1e-3));
+  REQUIRE(result.candidate.design.edits.size() == 2);
+  CHECK(result.candidate.design.edits[1].handle == Handle{HandleKind::section, 0, 1});
+  REQUIRE(result.candidate.reasons.size() == 2);
+  CHECK(result.candidate.reasons[0] == "edit 0");
+  CHECK(result.candidate.reasons[1] == "makes up for the change opposite");
+}
+
 TEST_CASE("an edit that is of no use is left out, its counterpart merged") {
   const Cups cups;
   const RequirementChecker checker(cups, stacks(0.8));
   const Candidate start =
       cups.candidate(checker, {scale(0, 0.5), scale(1, 1.25), scale(0, 0.8), scale(1, 0.8)});
-  const RefinementResult result = refined_candidate(checker, start);
+  const RefinementResult result = refined_candidate(checker, start, alone());
   check_met(result, 0.8);
   REQUIRE(result.candidate.design.edits.size() == 1);
   CHECK(radius(result, 0) == Approx(0.5).epsilon(1e-6));
@@ -271,7 +292,8 @@ TEST_CASE("where edits are refused the best of the others is found") {
 TEST_CASE("a target out of reach gives the largest S, and says so") {
   const Cups cups(limit);
   const RequirementChecker checker(cups, stacks(0.8));
-  const RefinementResult result = refined_candidate(checker, cups.candidate(checker, {scale(0, 0.8)}));
+  const RefinementResult result =
+      refined_candidate(checker, cups.candidate(checker, {scale(0, 0.8)}), alone());
   CHECK_FALSE(result.reached);
   CHECK(radius(result, 0) >= limit);
   CHECK(result.candidate.measured.value == Approx(1 - wall / (1 - limit)).epsilon(0.01));

@@ -154,6 +154,11 @@ void MagnitudeProblem::remember(const Magnitudes& x, MagnitudeSample sample) {
   samples_.emplace(x, std::move(sample));
 }
 
+void MagnitudeProblem::prefer(const Magnitudes& x) {
+  best_ = x;
+  best_distortion_ = samples_.at(x).distortion;
+}
+
 void MagnitudeProblem::prepare(const std::vector<Magnitudes>& points) {
   std::vector<Magnitudes> fresh;
   for (const Magnitudes& x : points)

@@ -73,6 +73,8 @@ class MagnitudeProblem {
 
   /// The feasible sample of least D so far, if any, and of those that pass the one of largest S.
   const std::optional<Magnitudes>& best() const { return best_; }
+  /// From now on this is the best one. Precondition: it is known and feasible.
+  void prefer(const Magnitudes& x);
   const std::optional<Magnitudes>& nearest() const { return nearest_; }
   double best_distortion() const { return best_distortion_; }
   double nearest_stackability() const { return nearest_stackability_; }

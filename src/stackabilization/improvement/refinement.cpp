@@ -1,13 +1,12 @@
 #include "stackabilization/improvement/refinement.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
-#include <tuple>
 #include <utility>
 
+#include "stackabilization/improvement/edit_magnitudes.h"
 #include "stackabilization/improvement/magnitude_optimiser.h"
 #include "stackabilization/improvement/magnitude_problem.h"
 #include "stackabilization/shape/errors.h"
@@ -33,66 +32,12 @@ constexpr double least_radius = 1e-3;
 /// Steps of a search along a segment.
 constexpr std::uintmax_t most_steps = 40;
 
-/// +1 or -1 where the vectors lie on one line through 0, else 0.
-int same_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  if (a.cross(b).norm() > tolerance::relative * a.norm() * b.norm()) return 0;
-  return a.dot(b) < 0 ? -1 : 1;
-}
+/// Multiples less 1 of the other magnitudes that are tried when an edit is left out.
+constexpr double make_up[] = {0, 0x1p-20, 0x1p-16, 0x1p-12, 0x1p-8};
 
-/// Both operations as one, where they do the same thing.
-struct Merge {
-  std::optional<Operation> operator()(const Move& a, const Move& b) const {
-    if (same_line(a.by, b.by) == 0) return std::nullopt;
-    const Eigen::Vector3d sum = a.by + b.by;
-    if (sum.norm() <= tolerance::relative * a.by.norm()) return Move{};
-    return Move{sum};
-  }
-  std::optional<Operation> operator()(const Rotate& a, const Rotate& b) const {
-    const int side = same_line(a.axis, b.axis);
-    if (side == 0) return std::nullopt;
-    const double sum = a.radians + side * b.radians;
-    return Rotate{a.axis, std::abs(sum) <= tolerance::relative * std::abs(a.radians) ? 0 : sum};
-  }
-  std::optional<Operation> operator()(const Scale& a, const Scale& b) const {
-    if (a.along.has_value() != b.along.has_value()) return std::nullopt;
-    if (a.along && same_line(*a.along, *b.along) == 0) return std::nullopt;
-    const double product = a.factor * b.factor;
-    return Scale{std::abs(product - 1) <= tolerance::relative ? 1 : product, a.along};
-  }
-  template <typename A, typename B>
-  std::optional<Operation> operator()(const A&, const B&) const {
-    return std::nullopt;
-  }
-};
-
-bool changes_nothing(const Edit& edit) {
-  if (const auto* move = std::get_if<Move>(&edit.operation)) return move->by.isZero(0);
-  if (const auto* turn = std::get_if<Rotate>(&edit.operation)) return turn->radians == 0;
-  return std::get<Scale>(edit.operation).factor == 1;
-}
-
-/// An edit with the number of the one that it stands for.
-struct NumberedEdit {
-  Edit edit;
-  std::size_t first = 0;
-};
-
-std::vector<NumberedEdit> merged_numbered(const std::vector<Edit>& edits) {
-  std::vector<NumberedEdit> result;
-  for (std::size_t k = 0; k < edits.size(); ++k) {
-    if (changes_nothing(edits[k])) continue;
-    const auto taken = std::find_if(result.begin(), result.end(), [&](NumberedEdit& other) {
-      if (!(other.edit.handle == edits[k].handle) || other.edit.falloff != edits[k].falloff) return false;
-      std::optional<Operation> both = std::visit(Merge(), other.edit.operation, edits[k].operation);
-      if (both) other.edit.operation = std::move(*both);
-      return both.has_value();
-    });
-    if (taken == result.end())
-      result.push_back({edits[k], k});
-    else if (changes_nothing(taken->edit))
-      result.erase(taken);
-  }
-  return result;
+Magnitudes scaled(Magnitudes x, double factor) {
+  for (double& magnitude : x) magnitude *= factor;
+  return x;
 }
 
 /// The last word on one candidate: everything checked.
@@ -108,8 +53,8 @@ class Refiner {
       : checker_(checker),
         start_(start),
         options_(options),
-        edits_(merged_numbered(start.design.edits)),
         direction_(start.direction),
+        edits_(variables(checker, start, options.companions)),
         meter_(checker.space().rest(), checker.requirements().measure.boxes, options.alpha),
         problem_(checker, plain(edits_), direction_,
                  {options.evaluations, options.reach, options.cancelled}) {}
@@ -117,9 +62,8 @@ class Refiner {
   RefinementResult result() {
     const Verdict given = judged(start_.design, start_.reasons);
     Verdict best = given;
-    const Magnitudes found(edits_.size(), 1);
-    if (!edits_.empty() && problem_.at(found).made) {
-      search(found);
+    if (!edits_.empty() && problem_.at(found()).made) {
+      search();
       for (const Magnitudes& x : finalists()) {
         Verdict verdict = judged(x);
         const bool better = verdict.reached != best.reached ? verdict.reached
@@ -133,16 +77,38 @@ class Refiner {
   }
 
  private:
-  static std::vector<Edit> plain(const std::vector<NumberedEdit>& edits) {
+  /// The edits given, merged unless their order matters so much that they are refused then, and counterparts.
+  static std::vector<MagnitudeEdit> variables(const RequirementChecker& checker, const Candidate& start,
+                                              Companions companions) {
+    const DeformationConstraints constraints =
+        deformation_constraints(checker.requirements(), checker.space().rest(), Direction(start.direction));
+    std::vector<MagnitudeEdit> edits = merged_edits(start.design.edits);
+    if (checker.space().replayed(plain(edits), constraints).refusal) {
+      edits.clear();
+      for (std::size_t k = 0; k < start.design.edits.size(); ++k) edits.push_back({start.design.edits[k], k});
+    }
+    if (companions == Companions::opposite) {
+      const std::vector<MagnitudeEdit> others = counterparts(edits, checker.space());
+      edits.insert(edits.end(), others.begin(), others.end());
+    }
+    return edits;
+  }
+  static std::vector<Edit> plain(const std::vector<MagnitudeEdit>& edits) {
     std::vector<Edit> result;
-    for (const NumberedEdit& numbered : edits) result.push_back(numbered.edit);
+    for (const MagnitudeEdit& one : edits) result.push_back(one.edit);
     return result;
+  }
+  /// The magnitudes of what was given.
+  Magnitudes found() const {
+    Magnitudes x;
+    for (const MagnitudeEdit& one : edits_) x.push_back(one.source ? 1 : 0);
+    return x;
   }
   static double distortion(const Verdict& verdict) { return verdict.candidate.energy.distortion.total(); }
   static double stackability(const Verdict& verdict) { return verdict.candidate.measured.value; }
 
-  void search(const Magnitudes& found) {
-    if (!problem_.at(found).feasible) reach(found);
+  void search() {
+    if (!problem_.at(found()).feasible) reach();
     if (!problem_.best()) return;
     pull_back();
     descend();
@@ -151,15 +117,15 @@ class Refiner {
   }
 
   /// Phase 1: any feasible point.
-  void reach(const Magnitudes& found) {
+  void reach() {
     std::vector<Magnitudes> larger;
     for (const double factor : multiples)
-      if (factor <= options_.reach) larger.emplace_back(found.size(), factor);
+      if (factor <= options_.reach) larger.push_back(scaled(found(), factor));
     problem_.prepare(larger);
     double radius = problem_.highest() - problem_.lowest();
     for (int run = 0; run < most_runs && radius >= least_radius && !problem_.best(); ++run) {
       if (problem_.stopped()) return;
-      const Magnitudes from = problem_.nearest().value_or(found);
+      const Magnitudes from = problem_.nearest().value_or(found());
       const double before = problem_.nearest_stackability();
       problem_.constrain_pairs(from);
       optimised_magnitudes(problem_, {from, radius, MagnitudeGoal::feasible});
@@ -213,13 +179,19 @@ class Refiner {
   /// Towards the shape at rest as far as the target allows.
   void pull_back() { approach(Magnitudes(edits_.size(), 0)); }
 
-  /// Tries without the edits that do next to nothing.
+  /// Leaves out edits that do next to nothing, one by one, and makes up for it with the others.
   void leave_out() {
     for (std::size_t k = 0; k < edits_.size() && !problem_.stopped(); ++k) {
-      Magnitudes x = *problem_.best();
-      if (x[k] == 0 || std::abs(x[k]) >= options_.negligible) continue;
-      x[k] = 0;
-      problem_.at(x);
+      Magnitudes without = *problem_.best();
+      if (without[k] == 0 || std::abs(without[k]) >= options_.negligible) continue;
+      without[k] = 0;
+      for (const double more : make_up) {
+        const Magnitudes x = scaled(without, 1 + more);
+        const MagnitudeSample& sample = problem_.at(x);
+        if (!sample.feasible) continue;
+        if (sample.distortion <= problem_.best_distortion() * (1 + least_progress)) problem_.prefer(x);
+        break;
+      }
     }
   }
 
@@ -234,8 +206,10 @@ class Refiner {
   Verdict judged(const Magnitudes& x) const {
     std::vector<std::string> reasons;
     for (std::size_t k = 0; k < edits_.size(); ++k)
-      if (x[k] != 0 && edits_[k].first < start_.reasons.size())
-        reasons.push_back(start_.reasons[edits_[k].first]);
+      if (x[k] != 0)
+        reasons.push_back(edits_[k].source && *edits_[k].source < start_.reasons.size()
+                              ? start_.reasons[*edits_[k].source]
+                              : "makes up for the change opposite");
     return judged(problem_.design(x).design, std::move(reasons));
   }
 
@@ -256,31 +230,13 @@ class Refiner {
   const RequirementChecker& checker_;
   const Candidate& start_;
   const RefinementOptions& options_;
-  std::vector<NumberedEdit> edits_;
   Direction direction_;
+  std::vector<MagnitudeEdit> edits_;
   EnergyMeter meter_;
   MagnitudeProblem problem_;
 };
 
 }  // namespace
-
-Edit with_magnitude(Edit edit, double x) {
-  if (auto* move = std::get_if<Move>(&edit.operation))
-    move->by *= x;
-  else if (auto* turn = std::get_if<Rotate>(&edit.operation))
-    turn->radians *= x;
-  else {
-    auto& scale = std::get<Scale>(edit.operation);
-    if (x != 1) scale.factor = std::pow(scale.factor, x);
-  }
-  return edit;
-}
-
-std::vector<Edit> merged(const std::vector<Edit>& edits) {
-  std::vector<Edit> result;
-  for (const NumberedEdit& numbered : merged_numbered(edits)) result.push_back(numbered.edit);
-  return result;
-}
 
 RefinementResult refined_candidate(const RequirementChecker& checker, const Candidate& start,
                                    const RefinementOptions& options) {

@@ -8,7 +8,15 @@
 
 namespace stackabilization {
 
+/// Which magnitudes are looked for.
+enum class Companions {
+  none,      ///< those of the edits given
+  opposite,  ///< also of the same operations on the opposite handles: what one end takes, the other gives
+             ///< back
+};
+
 struct RefinementOptions {
+  Companions companions = Companions::opposite;
   int evaluations = 600;     ///< designs measured at most, >= 10
   double alpha = 0.2;        ///< of the energies reported
   double reach = 3;          ///< magnitudes are sought in [-reach, reach] times those given, > 0
@@ -31,7 +39,8 @@ struct RefinementResult {
 };
 
 /// Beyond the paper: the search takes coarse steps; from its edits, the magnitudes that reach the target with
-/// the least D. Where the edits given do not reach it, first the magnitudes of largest S.
+/// the least D. Edits of their opposite handles (the other end, the opposite face) may join them, edits of no
+/// use leave. Where the edits given do not reach it, first the magnitudes of largest S.
 ///
 /// min D(x) subject to S_ij(x) >= target for every pair of blocks of the shape that come near each other
 /// (parts, cut into slabs across r): each is smooth where their maximum is not; and to every check of the
