@@ -24,11 +24,32 @@ bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a.cross(b).norm() <= tolerance::direction_step * a.norm() * b.norm();
 }
 
-/// Those given, else up and, where another one is better, the best one found.
+/// Another direction than up is worth its time when it is better by this much.
+constexpr double clearly_better = 0.1;
+/// Cosine of the largest angle, one degree, by which an axis of the shape may miss the upward axis of the file and
+/// still be what "up" means: a hat that stands a hair aslant stacks along its own axis.
+constexpr double nearly_up = 0.99985;
+
+/// Up: along an axis of symmetry, or the line that two mirror planes share, where there is one.
+Eigen::Vector3d upward(const Structure& structure) {
+  std::vector<Eigen::Vector3d> axes;
+  const std::vector<Symmetry>& symmetries = structure.symmetries;
+  for (std::size_t i = 0; i < symmetries.size(); ++i) {
+    if (symmetries[i].kind != SymmetryKind::reflection) axes.push_back(symmetries[i].axis);
+    for (std::size_t j = 0; j < i; ++j)
+      if (symmetries[i].kind == SymmetryKind::reflection && symmetries[j].kind == SymmetryKind::reflection)
+        axes.push_back(symmetries[i].axis.cross(symmetries[j].axis));
+  }
+  for (const Eigen::Vector3d& axis : axes)
+    if (std::abs(axis.z()) > nearly_up * axis.norm()) return axis.z() < 0 ? Eigen::Vector3d(-axis) : axis;
+  return Eigen::Vector3d::UnitZ();
+}
+
+/// Those given, else up and, where another one is clearly better, the best one found.
 std::vector<Eigen::Vector3d> directions_of(const ImproveCommandOptions& options,
                                            const StructuredShape& rest) {
   if (!options.directions.empty()) return options.directions;
-  std::vector<Eigen::Vector3d> directions = {Eigen::Vector3d::UnitZ()};
+  std::vector<Eigen::Vector3d> directions = {upward(rest.structure)};
   if (options.copies) return directions;
   const StackabilitySolver solver(rest.shape, options.measure);
   ProgressBar bar("Looking for directions");
@@ -36,7 +57,7 @@ std::vector<Eigen::Vector3d> directions_of(const ImproveCommandOptions& options,
   search.progress = [&bar](double fraction) { bar.show(fraction); };
   const Stackability best = best_direction(solver, search).best;
   const double up = solver.measure(Direction(directions.front())).value;
-  if (best.value > up + tolerance::stackability && !parallel(best.direction, directions.front()))
+  if (best.value > up + clearly_better && !parallel(best.direction, directions.front()))
     directions.push_back(best.direction);
   return directions;
 }
