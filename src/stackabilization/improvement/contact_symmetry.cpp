@@ -73,12 +73,12 @@ std::optional<Eigen::Vector3d> ContactSymmetry::allowed_move(int part, const Eig
 }
 
 std::optional<Eigen::Vector3d> ContactSymmetry::allowed_axis(int part, const Eigen::Vector3d& axis) const {
-  Eigen::Vector3d sum = axis;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Isometry3d& map : place(part).onto_itself) {
     const Eigen::Vector3d image = map.linear() * axis;
     sum += image.dot(axis) < 0 ? Eigen::Vector3d(-image) : image;
   }
-  Eigen::Vector3d allowed = sum.normalized();
+  Eigen::Vector3d allowed = sum.isZero() ? axis : Eigen::Vector3d(sum.normalized());
   for (const Symmetry& one : place(part).revolutions) {
     const double along = allowed.dot(one.axis);
     allowed = along < 0 ? Eigen::Vector3d(-one.axis) : one.axis;
