@@ -87,4 +87,20 @@ std::optional<Eigen::Vector3d> ContactSymmetry::allowed_axis(int part, const Eig
   return allowed;
 }
 
+std::vector<int> different_regions(const std::vector<ContactRegion>& regions, const ContactSymmetry& symmetry,
+                                   int most) {
+  std::vector<int> chosen;
+  for (std::size_t k = 0; k < regions.size() && static_cast<int>(chosen.size()) < most; ++k) {
+    const ContactRegion& one = regions[k];
+    const bool seen = std::any_of(chosen.begin(), chosen.end(), [&](int row) {
+      const ContactRegion& other = regions[static_cast<std::size_t>(row)];
+      return one.type == other.type &&
+             symmetry.same_place(other.upper_part, other.upper_centre, one.upper_part, one.upper_centre) &&
+             symmetry.same_place(other.lower_part, other.lower_centre, one.lower_part, one.lower_centre);
+    });
+    if (!seen) chosen.push_back(static_cast<int>(k));
+  }
+  return chosen;
+}
+
 }  // namespace stackabilization::detail
