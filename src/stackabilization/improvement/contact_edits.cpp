@@ -19,8 +19,8 @@ using Role = ContactHandle::Role;
 
 /// A contact is off the centre of what it is on beyond this fraction of the way to its outside.
 constexpr double off_centre = 0.25;
-/// Farthest that a handle goes to pass the other part, in steps.
-constexpr double most_steps = 6;
+/// Least and farthest that a handle goes to pass the other part, in steps.
+constexpr double least_steps = 0.25, most_steps = 6;
 
 void check(const ContactEditOptions& options) {
   const auto& multiples = options.multiples;
@@ -62,7 +62,7 @@ class ContactEditor {
   }
 
   std::vector<ContactEdit> run() {
-    for (const int row : different_regions())
+    for (const int row : different_regions(situation_.regions, symmetry_, options_.most_regions))
       for (const bool of_lower_copy : {true, false}) look_at(side(row, of_lower_copy));
     return std::move(edits_);
   }
@@ -72,24 +72,6 @@ class ContactEditor {
     Structure structure = situation.rest.structure;
     if (situation.kind == DeformationKind::surface) structure.relations.clear();
     return structure;
-  }
-
-  /// The first of each class of symmetric regions.
-  std::vector<int> different_regions() const {
-    std::vector<int> chosen;
-    const auto& regions = situation_.regions;
-    for (std::size_t k = 0; k < regions.size(); ++k) {
-      if (static_cast<int>(chosen.size()) == options_.most_regions) break;
-      const ContactRegion& one = regions[k];
-      const bool seen = std::any_of(chosen.begin(), chosen.end(), [&](int row) {
-        const ContactRegion& other = regions[static_cast<std::size_t>(row)];
-        return one.type == other.type &&
-               symmetry_.same_place(other.upper_part, other.upper_centre, one.upper_part, one.upper_centre) &&
-               symmetry_.same_place(other.lower_part, other.lower_centre, one.lower_part, one.lower_centre);
-      });
-      if (!seen) chosen.push_back(static_cast<int>(k));
-    }
-    return chosen;
   }
 
   ContactSide side(int row, bool of_lower_copy) const {
@@ -174,7 +156,10 @@ class ContactEditor {
     const Eigen::Vector3d along = side.of_lower_copy ? Eigen::Vector3d(-frame_.w) : frame_.w;
     const auto allowed = symmetry_.allowed_move(side.part, handle.centre, along);
     if (!allowed) return;
-    for (const double size : sizes(options_.move_step * extent(along), std::nullopt))
+    const double step = options_.move_step * extent(along);
+    std::vector<double> chosen = sizes(step, std::nullopt);
+    if (extended_) chosen.insert(chosen.begin(), chosen.front() / 2);
+    for (const double size : chosen)
       add(side, handle, Move{size * *allowed}, side.of_lower_copy ? "down" : "up");
   }
 
@@ -228,7 +213,7 @@ class ContactEditor {
         if (!shorter && handle.role != Role::nearest) continue;
         if (!shorter)
           chosen.resize(1);
-        else if (out > 0 && out <= most_steps * step)
+        else if (out >= least_steps * step && out <= most_steps * step)
           chosen = with_reserve(sizes(step, out), out);
       }
       for (const double size : chosen)
@@ -316,7 +301,8 @@ class ContactEditor {
     const double free =
         range_of_part(side.other, outwards).low - options_.contacts.band * extent(axis) - middle;
     const double size = 1 - free / reach;
-    if (!(size > 0) || size > most_steps * options_.scale_step || size >= 1) return std::nullopt;
+    if (!(size >= least_steps * options_.scale_step) || size > most_steps * options_.scale_step || size >= 1)
+      return std::nullopt;
     return size;
   }
 

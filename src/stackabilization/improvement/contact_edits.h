@@ -63,7 +63,8 @@ struct ContactSituation {
 /// with Falloff::linear, instead of bending what is straight) and of the part as a whole, and scales
 /// cross-sections, faces and wholes at dots and lines too, where the contact is off their centre. Sideways it
 /// goes the shorter way past the other part and no farther than that takes; the longer way is tried with the
-/// nearest handle and the least multiple only.
+/// nearest handle and the least multiple only. Along r, where most stands in the way, half of the least
+/// multiple is tried too.
 ///
 /// Edits that a self-symmetry rules out are left out, such as moves of a handle across the mirror plane that
 /// it lies on. Of regions that symmetries of the structure take onto each other the first stands for all,

@@ -73,18 +73,34 @@ std::optional<Eigen::Vector3d> ContactSymmetry::allowed_move(int part, const Eig
 }
 
 std::optional<Eigen::Vector3d> ContactSymmetry::allowed_axis(int part, const Eigen::Vector3d& axis) const {
-  Eigen::Vector3d sum = axis;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Eigen::Isometry3d& map : place(part).onto_itself) {
     const Eigen::Vector3d image = map.linear() * axis;
     sum += image.dot(axis) < 0 ? Eigen::Vector3d(-image) : image;
   }
-  Eigen::Vector3d allowed = sum.normalized();
+  Eigen::Vector3d allowed = sum.isZero() ? axis : Eigen::Vector3d(sum.normalized());
   for (const Symmetry& one : place(part).revolutions) {
     const double along = allowed.dot(one.axis);
     allowed = along < 0 ? Eigen::Vector3d(-one.axis) : one.axis;
   }
   if (!nearly(allowed, axis)) return std::nullopt;
   return allowed;
+}
+
+std::vector<int> different_regions(const std::vector<ContactRegion>& regions, const ContactSymmetry& symmetry,
+                                   int most) {
+  std::vector<int> chosen;
+  for (std::size_t k = 0; k < regions.size() && static_cast<int>(chosen.size()) < most; ++k) {
+    const ContactRegion& one = regions[k];
+    const bool seen = std::any_of(chosen.begin(), chosen.end(), [&](int row) {
+      const ContactRegion& other = regions[static_cast<std::size_t>(row)];
+      return one.type == other.type &&
+             symmetry.same_place(other.upper_part, other.upper_centre, one.upper_part, one.upper_centre) &&
+             symmetry.same_place(other.lower_part, other.lower_centre, one.lower_part, one.lower_centre);
+    });
+    if (!seen) chosen.push_back(static_cast<int>(k));
+  }
+  return chosen;
 }
 
 }  // namespace stackabilization::detail

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "stackabilization/envelope/contacts.h"
 #include "stackabilization/structure/structure.h"
 
 /// Not installed.
@@ -37,5 +38,9 @@ class ContactSymmetry {
   std::vector<Place> places_;
   double near_ = 0;  ///< model units
 };
+
+/// Rows of the first region of each class that symmetries take onto each other, `most` at most.
+std::vector<int> different_regions(const std::vector<ContactRegion>& regions, const ContactSymmetry& symmetry,
+                                   int most);
 
 }  // namespace stackabilization::detail

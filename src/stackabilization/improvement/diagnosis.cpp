@@ -1,1 +1,276 @@
 #include "stackabilization/improvement/diagnosis.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "stackabilization/improvement/contact_symmetry.h"
+#include "stackabilization/improvement/refusal_reason.h"
+#include "stackabilization/improvement/removal.h"
+#include "stackabilization/stacking/search.h"
+
+namespace stackabilization {
+
+namespace {
+
+/// What raises S by less is no help.
+constexpr double worth_saying = 0.01;
+constexpr int most_blockers = 4;
+constexpr std::size_t most_constraints = 3, most_removals = 3;
+
+std::string number(double value) {
+  char buffer[32];
+  const double rounded = std::round(1000 * value) / 1000 + 0.0;  // no -0.000
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, rounded, std::chars_format::fixed, 3).ptr;
+  return {buffer, end};
+}
+
+std::string text_of(const Eigen::Vector3d& v) {
+  std::string text = "(";
+  for (int k = 0; k < 3; ++k) text += (k > 0 ? ", " : "") + number(v(k));
+  return text + ")";
+}
+
+std::string names(const std::vector<int>& parts, const Shape& shape) {
+  std::string text;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (k > 0) text += k + 1 < parts.size() ? ", " : " and ";
+    text += "'" + shape.part_names[static_cast<std::size_t>(parts[k])] + "'";
+  }
+  return text;
+}
+
+bool contains(const std::vector<int>& parts, int part) {
+  return std::find(parts.begin(), parts.end(), part) != parts.end();
+}
+
+/// What became of the edits that would separate regions.
+struct Trial {
+  double best = 0;  ///< largest S; the S before where no edit was made
+  std::map<std::string, int> refusals;
+  int made = 0;
+};
+
+class Diagnostician {
+ public:
+  Diagnostician(const RequirementChecker& checker, const BestFirstResult& result)
+      : checker_(checker),
+        result_(result),
+        best_(result.nearest.front()),
+        rest_(checker.space().rest()),
+        direction_(best_.direction),
+        handles_(checker.space().handles()),
+        solver_(best_.design.shape, checker.requirements().measure) {}
+
+  Diagnosis run() {
+    diagnosis_.target = checker_.requirements().target;
+    diagnosis_.reached = best_.measured.value;
+    find_blockers();
+    for (const RefusalCount& refusal : result_.refusals) {
+      if (diagnosis_.constraints.size() == most_constraints) break;
+      diagnosis_.constraints.push_back(refusal.reason + " (" + std::to_string(refusal.count) +
+                                       (refusal.count == 1 ? " edit)" : " edits)"));
+    }
+    look_elsewhere();
+    free_parts();
+    relax();
+    remove_parts();
+    std::stable_sort(diagnosis_.remedies.begin(), diagnosis_.remedies.end(),
+                     [](const Remedy& a, const Remedy& b) { return a.stackability > b.stackability; });
+    return std::move(diagnosis_);
+  }
+
+ private:
+  const std::string& name(int part) const { return rest_.shape.part_names[static_cast<std::size_t>(part)]; }
+
+  bool helps(double stackability) const { return stackability > diagnosis_.reached + worth_saying; }
+
+  void find_blockers() {
+    const Separation separation = solver_.separation(direction_);
+    if (!separation.blocked) return;
+    ContactOptions contacts;
+    contacts.semantics = checker_.requirements().measure.semantics;
+    const auto all = contact_regions({best_.design.shape, solver_.tree(), direction_, separation}, contacts);
+    const detail::ContactSymmetry symmetry(rest_.structure);
+    for (const int row : detail::different_regions(all, symmetry, most_blockers)) {
+      regions_.push_back(all[static_cast<std::size_t>(row)]);
+      diagnosis_.blockers.push_back(blocker(regions_.back()));
+    }
+    std::stable_sort(diagnosis_.blockers.begin(), diagnosis_.blockers.end(),
+                     [](const Blocker& a, const Blocker& b) { return a.f > b.f; });
+  }
+
+  Blocker blocker(const ContactRegion& region) const {
+    Blocker blocker;
+    blocker.upper_part = region.upper_part;
+    blocker.lower_part = region.lower_part;
+    blocker.type = region.type;
+    const SeparationTree below(extract_part(best_.design.shape, region.upper_part)),
+        above(extract_part(best_.design.shape, region.lower_part));
+    SeparationOptions options;
+    options.semantics = checker_.requirements().measure.semantics;
+    const Stackability& measured = best_.measured;
+    const Separation apart = separation(below, above, direction_, options);
+    blocker.f = apart.blocked ? apart.length : measured.f_max;
+    blocker.stackability =
+        1 - blocker.f / measured.extent * (measured.stack_box_volume / measured.box_volume);
+    blocker.reason = reason_of(tried({region}, constraints(checker_.requirements())));
+    return blocker;
+  }
+
+  DeformationConstraints constraints(const Requirements& requirements) const {
+    return deformation_constraints(requirements, rest_, direction_);
+  }
+
+  /// All edits that these regions suggest, each by itself.
+  Trial tried(const std::vector<ContactRegion>& regions, const DeformationConstraints& constraints) const {
+    Trial trial;
+    trial.best = best_.measured.value;
+    const DesignSpace& space = checker_.space();
+    for (const ContactEdit& one :
+         contact_edits({rest_, space.kind(), handles_, best_.design, regions, direction_})) {
+      const DesignOutcome outcome = space.edited(best_.design, one.edit, constraints);
+      if (outcome.refusal) {
+        ++trial.refusals[detail::without_amounts(outcome.refusal->reason)];
+        continue;
+      }
+      ++trial.made;
+      if (const auto better = checker_.measured_above(outcome.design.shape, direction_, trial.best))
+        trial.best = std::max(trial.best, better->value);
+    }
+    return trial;
+  }
+
+  std::string reason_of(const Trial& trial) const {
+    if (trial.made == 0 && trial.refusals.empty())
+      return "no edit would separate it: symmetries and the height that is kept leave none";
+    if (trial.made > 0)
+      return helps(trial.best)
+                 ? "one more edit would give S = " + number(trial.best)
+                 : "edits separate it, but other contacts ask for as much, or it takes more than one edit";
+    const auto most = std::max_element(trial.refusals.begin(), trial.refusals.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    return "every edit that would separate it is refused, most because " + most->first;
+  }
+
+  void look_elsewhere() {
+    const StackabilitySolver rest(rest_.shape, checker_.requirements().measure);
+    SearchOptions options;
+    for (const Symmetry& symmetry : rest_.structure.symmetries) options.candidates.push_back(symmetry.axis);
+    const Stackability best = best_direction(rest, options).best;
+    if (!helps(best.value)) return;
+    add({Remedy::Kind::other_direction,
+         "stack along " + text_of(best.direction) + ", without any edit",
+         {},
+         best.direction,
+         best.value});
+  }
+
+  /// The blocking parts that have to stay, one class of symmetric ones at a time.
+  void free_parts() {
+    const Requirements& asked = checker_.requirements();
+    for (const std::vector<int>& parts : symmetric_classes(rest_.structure)) {
+      const bool blocks = std::any_of(regions_.begin(), regions_.end(), [&](const ContactRegion& region) {
+        return contains(parts, region.upper_part) || contains(parts, region.lower_part);
+      });
+      const auto stays = [&](int part) {
+        return contains(asked.kept_parts, part) ||
+               (!asked.editable_parts.empty() && !contains(asked.editable_parts, part));
+      };
+      if (!blocks || std::none_of(parts.begin(), parts.end(), stays)) continue;
+      Requirements freed = asked;
+      std::erase_if(freed.kept_parts, [&](int part) { return contains(parts, part); });
+      if (!freed.editable_parts.empty())
+        freed.editable_parts.insert(freed.editable_parts.end(), parts.begin(), parts.end());
+      offer(Remedy::Kind::free_part, "let " + names(parts, rest_.shape) + " change", freed, parts);
+    }
+  }
+
+  void relax() {
+    Requirements relaxed = checker_.requirements();
+    if (relaxed.keep_height) {
+      relaxed.keep_height = false;
+      offer(Remedy::Kind::relax, "let the height change", relaxed, {});
+    }
+    relaxed = checker_.requirements();
+    if (relaxed.box_tolerance) {
+      relaxed.box_tolerance.reset();
+      offer(Remedy::Kind::relax, "let the box change", relaxed, {});
+    }
+  }
+
+  /// A remedy when one edit helps that is refused without it.
+  void offer(Remedy::Kind kind, const std::string& what, const Requirements& instead,
+             const std::vector<int>& parts) {
+    const Trial trial = tried(regions_, constraints(instead));
+    if (helps(trial.best) && trial.best > best_as_asked() + worth_saying)
+      add({kind, what, parts, best_.direction, trial.best});
+  }
+
+  double best_as_asked() {
+    if (!as_asked_) as_asked_ = tried(regions_, constraints(checker_.requirements())).best;
+    return *as_asked_;
+  }
+
+  void remove_parts() {
+    RemovalOptions options;
+    options.measure = checker_.requirements().measure;
+    options.directions = {best_.direction};
+    std::size_t offered = 0;
+    for (const Removal& removal : removals(rest_, options)) {
+      if (offered == most_removals || !helps(removal.stackability)) break;
+      const bool all_may_go = std::none_of(removal.parts.begin(), removal.parts.end(), [&](int part) {
+        return contains(checker_.requirements().kept_parts, part);
+      });
+      if (!all_may_go) continue;
+      add({Remedy::Kind::remove_part, "leave out " + names(removal.parts, rest_.shape), removal.parts,
+           removal.direction, removal.stackability});
+      ++offered;
+    }
+  }
+
+  void add(Remedy remedy) { diagnosis_.remedies.push_back(std::move(remedy)); }
+
+  const RequirementChecker& checker_;
+  const BestFirstResult& result_;
+  const Candidate& best_;
+  const StructuredShape& rest_;
+  Direction direction_;
+  std::vector<Handle> handles_;
+  StackabilitySolver solver_;
+  std::vector<ContactRegion> regions_;  ///< one of each class of symmetric ones
+  std::optional<double> as_asked_;      ///< best S after one more edit
+  Diagnosis diagnosis_;
+};
+
+std::string sentence(const Blocker& blocker, const Shape& shape) {
+  const std::string above = names({blocker.lower_part}, shape), below = names({blocker.upper_part}, shape);
+  const char* how = blocker.type == ContactType::ring   ? " all around"
+                    : blocker.type == ContactType::line ? " along a line"
+                                                        : "";
+  return above + " of each copy comes down on " + below + " of the copy below" + how +
+         ". These two alone leave S = " + number(blocker.stackability) + ": " + blocker.reason + ".\n";
+}
+
+}  // namespace
+
+Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& result) {
+  return Diagnostician(checker, result).run();
+}
+
+std::string text(const Diagnosis& diagnosis, const StructuredShape& rest) {
+  std::string text = "S = " + number(diagnosis.target) +
+                     " was not reached; the best is S = " + number(diagnosis.reached) + ".\n";
+  for (const Blocker& blocker : diagnosis.blockers) text += sentence(blocker, rest.shape);
+  if (!diagnosis.constraints.empty()) text += "What stood against edits most often:\n";
+  for (const std::string& constraint : diagnosis.constraints) text += "  " + constraint + "\n";
+  if (diagnosis.remedies.empty()) return text + "No single change was found that would help.\n";
+  text += "What would help:\n";
+  for (const Remedy& remedy : diagnosis.remedies)
+    text += "  " + remedy.what + ": S = " + number(remedy.stackability) + "\n";
+  return text;
+}
+
+}  // namespace stackabilization
