@@ -36,6 +36,8 @@ void check(const ContactEditOptions& options) {
 
 /// What is offered besides the size that would just be enough, as a multiple of it.
 constexpr double reserve = 1.5;
+/// Least size that is offered, in steps: creeping out of a contact hair by hair leads nowhere.
+constexpr double least_step = 0.2;
 /// Directions whose cosine is above this are one way out.
 constexpr double one_way = 0.998;
 /// Cosine from which a move is called outwards.
@@ -143,6 +145,7 @@ class ContactEditor {
 
   /// Multiples of `step`, none beyond what is enough.
   std::vector<double> sizes(double step, std::optional<double> enough) const {
+    if (enough) enough = std::max(*enough, least_step * step);
     std::vector<double> result;
     for (const double m : multiples_)
       if (!enough || m * step < *enough) result.push_back(m * step);
@@ -241,7 +244,7 @@ class ContactEditor {
 
   /// Joints that give way take back some of what an edit does.
   static std::vector<double> with_reserve(std::vector<double> sizes, double enough) {
-    sizes.push_back(reserve * enough);
+    sizes.push_back(std::max(reserve * enough, sizes.back()));
     return sizes;
   }
 
