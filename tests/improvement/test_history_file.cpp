@@ -83,7 +83,7 @@ TEST_CASE("histories that could not be read again are not written") {
   refused([](HistoryNode& node) { node.stackability = std::nan(""); });
   refused([](HistoryNode& node) { node.energy = infinite; });
   refused([](HistoryNode& node) { node.direction.setZero(); });
-  refused([](HistoryNode& node) { node.name = "\xff"; });
+  refused([](HistoryNode& node) { node.name = std::string(1, static_cast<char>(0xff)); });
   refused([](HistoryNode& node) { node.edits[0].handle.part = 99; });
   refused([](HistoryNode& node) { node.edits[0].handle.part = -1; });
   refused([](HistoryNode& node) { node.edits[3].handle.index = -1; });
