@@ -26,8 +26,8 @@ bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 /// Another direction than up is worth its time when it is better by this much.
 constexpr double clearly_better = 0.1;
-/// Cosine of the largest angle, one degree, by which an axis of the shape may miss the upward axis of the file and
-/// still be what "up" means: a hat that stands a hair aslant stacks along its own axis.
+/// Cosine of the largest angle, one degree, by which an axis of the shape may miss the upward axis of the
+/// file and still be what "up" means: a hat that stands a hair aslant stacks along its own axis.
 constexpr double nearly_up = 0.99985;
 
 /// Up: along an axis of symmetry, or the line that two mirror planes share, where there is one.

@@ -70,11 +70,11 @@ int parse_and_run(int argc, char** argv) {
       "Example:\n  stackabilize measure chair.obj --direction 0 0 1\n\n"
       "stackabilize COMMAND --help explains a command. Exit status: 0 done; 1 the answer is no;\n"
       "2 wrong usage; 3 unusable input.");
-  const std::array commands = {
-      make_inspect_command(program),   make_measure_command(program), make_search_command(program),
-      make_map_command(program),       make_stack_command(program),   make_validate_command(program),
-      make_structure_command(program), make_deform_command(program),  make_improve_command(program),
-      make_suggest_command(program)};
+  const std::array commands = {make_inspect_command(program),   make_measure_command(program),
+                               make_search_command(program),    make_map_command(program),
+                               make_stack_command(program),     make_validate_command(program),
+                               make_structure_command(program), make_deform_command(program),
+                               make_improve_command(program),   make_suggest_command(program)};
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

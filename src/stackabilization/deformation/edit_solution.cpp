@@ -9,6 +9,7 @@
 #include "stackabilization/deformation/propagation.h"
 #include "stackabilization/deformation/refusal_words.h"
 #include "stackabilization/deformation/relation_residual.h"
+#include "stackabilization/deformation/straightness.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
 
@@ -52,6 +53,7 @@ class EditSolution {
       progress_[at(class_)] = Progress::modified;
       state_.controls = propagated(rig_, std::move(state_.controls), progress_);
     }
+    keep_straight();
     solve();
     primitives_ = current_primitives();
     if (auto refusal = broken()) return refused(std::move(*refusal));
@@ -110,6 +112,16 @@ class EditSolution {
     }
     state_.controls = rig_.space.states(wanted);
     return std::nullopt;
+  }
+
+  /// What is straight stays so, unless the edit itself bends it.
+  void keep_straight() {
+    for (int c = 0; c < rig_.space.class_count(); ++c) {
+      const Primitive now = rig_.space.primitive(rig_.space.members(c).front(), state_.controls[at(c)]);
+      const auto* cylinder = std::get_if<GeneralizedCylinder>(&now);
+      if (cylinder != nullptr && bases_[at(c)].cols() > 0 && is_straight(*cylinder))
+        bases_[at(c)] = straight_columns(*cylinder, bases_[at(c)]);
+    }
   }
 
   void solve() {

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "stackabilization/structure/primitive.h"
+
+namespace stackabilization::detail {
+
+/// Whether the curve of an open generalized cylinder stays near to its chord.
+bool is_straight(const GeneralizedCylinder& cylinder);
+
+/// The combinations of `basis` (columns of changes of control values, see ControlState) that leave the
+/// sections of a straight cylinder on one line, to first order: they may slide along it and the line may move
+/// and lean, but not bend. A leg whose rail goes up is not to be drawn into a knee.
+Eigen::MatrixXd straight_columns(const GeneralizedCylinder& now, const Eigen::MatrixXd& basis);
+
+}  // namespace stackabilization::detail
