@@ -101,7 +101,9 @@ SearchNode node_of(const json& text, int id, int queues) {
   SearchNode node;
   node.parent = text.at("parent").get<int>();
   node.queue = text.at("queue").get<int>();
-  if (node.parent < -1 || node.parent >= id || node.queue < 0 || node.queue >= queues)
+  const bool is_root = id < queues;
+  if (node.parent < -1 || node.parent >= id || node.queue < 0 || node.queue >= queues ||
+      is_root != (node.parent < 0) || (is_root && node.queue != id))
     throw InputError("candidate " + std::to_string(id) + " of a saved search has no such parent or queue");
   node.state = static_cast<NodeState>(index_in(state_names, text.at("state").get<std::string>()));
   node.direction = Direction(vector_of(text.at("direction"))).vector();
