@@ -51,7 +51,9 @@ class EditSolution {
     } else {
       if (auto refusal = prescribe()) return refused(std::move(*refusal));
       progress_[at(class_)] = Progress::modified;
-      state_.controls = propagated(rig_, std::move(state_.controls), progress_);
+      // Where the ends of an extent are fixed, what is moved is not to take everything along.
+      if (task_.constraints.extent_ends == ExtentEnds::free)
+        state_.controls = propagated(rig_, std::move(state_.controls), progress_);
     }
     keep_straight();
     solve();
