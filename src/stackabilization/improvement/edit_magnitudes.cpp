@@ -12,9 +12,9 @@ namespace stackabilization {
 
 namespace {
 
-/// +1 or -1 where the vectors lie on one line through 0, else 0.
+/// +1 or -1 where the vectors lie on one line through 0 as nearly as relations hold, else 0.
 int same_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  if (a.cross(b).norm() > tolerance::relative * a.norm() * b.norm()) return 0;
+  if (a.cross(b).norm() > tolerance::relation * a.norm() * b.norm()) return 0;
   return a.dot(b) < 0 ? -1 : 1;
 }
 

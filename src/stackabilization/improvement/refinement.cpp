@@ -29,6 +29,9 @@ constexpr double least_progress = 1e-3;
 constexpr double less_far = 0.2;
 constexpr double least_radius = 1e-3;
 
+/// Rounds of pulling back one magnitude after the other.
+constexpr int most_sweeps = 3;
+
 /// Steps of a search along a segment.
 constexpr std::uintmax_t most_steps = 40;
 
@@ -112,6 +115,7 @@ class Refiner {
     if (!problem_.best()) return;
     pull_back();
     descend();
+    pull_back_singly();
     leave_out();
     pull_back();
   }
@@ -178,6 +182,21 @@ class Refiner {
 
   /// Towards the shape at rest as far as the target allows.
   void pull_back() { approach(Magnitudes(edits_.size(), 0)); }
+
+  /// The same with one magnitude after the other, for as long as that helps: what is left to do where S
+  /// jumps, which slopes do not tell.
+  void pull_back_singly() {
+    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+      const double before = problem_.best_distortion();
+      for (std::size_t k = 0; k < edits_.size() && !problem_.stopped(); ++k) {
+        if (problem_.at(*problem_.best()).stackability <= problem_.aim() + target_tolerance / 2) return;
+        Magnitudes without = *problem_.best();
+        without[k] = 0;
+        approach(without);
+      }
+      if (!(problem_.best_distortion() < before * (1 - least_progress))) return;
+    }
+  }
 
   /// Leaves out edits that do next to nothing, one by one, and makes up for it with the others.
   void leave_out() {
