@@ -2,8 +2,6 @@
 
 #include "deformation/structures.h"
 #include "stackabilization/improvement/diagnosis.h"
-#include "stackabilization/shape/read.h"
-#include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
 #include "support/solids.h"
 
@@ -130,24 +128,6 @@ TEST_CASE("a box that lies on its side is better stacked another way") {
   CHECK(other->stackability > 0.3);
   CHECK(checker.measured(l.shape, Direction(other->direction)).value == Approx(other->stackability));
   CHECK(says(stackabilization::text(diagnosis, l), "stack along ("));
-}
-
-TEST_CASE("the swivel chair is kept apart by its base under the back") {
-  const StructuredShape chair =
-      analyse_structure(read_shape(STACKABILIZATION_SOURCE_DIR "/data/models/swivel_chair.obj"));
-  const auto space = design_space(chair);
-  const RequirementChecker checker(*space, reach(0.8));
-  const Diagnosis diagnosis = diagnosed(checker, stuck_at_rest(checker));
-  REQUIRE_FALSE(diagnosis.blockers.empty());
-  const Blocker& blocker = diagnosis.blockers.front();
-  const auto name = [&](int part) { return chair.shape.part_names[static_cast<std::size_t>(part)]; };
-  CHECK(name(blocker.upper_part) == "back");
-  CHECK(says(name(blocker.lower_part), "castor_"));
-  CHECK(blocker.f == Approx(diagnosis.blockers.front().f));
-  CHECK_FALSE(blocker.reason.empty());
-  const std::string text = stackabilization::text(diagnosis, chair);
-  CHECK(says(text, "of each copy comes down on 'back' of the copy below"));
-  CHECK(says(text, "What would help:"));
 }
 
 }  // namespace

@@ -19,8 +19,14 @@ using Role = ContactHandle::Role;
 
 /// A contact is off the centre of what it is on beyond this fraction of the way to its outside.
 constexpr double off_centre = 0.25;
-/// Least and farthest that a handle goes to pass the other part, in steps.
-constexpr double least_steps = 0.25, most_steps = 6;
+/// Least and farthest that a handle goes to pass the other part, in steps: creeping out of a contact hair by
+/// hair leads nowhere.
+constexpr double least_steps = 0.2, most_steps = 6;
+
+/// Cosine from which a direction is not across r.
+constexpr double across_r = 0.1;
+/// What is offered besides the size that would just be enough, as a multiple of it.
+constexpr double reserve = 1.5;
 
 void check(const ContactEditOptions& options) {
   const auto& multiples = options.multiples;
@@ -34,28 +40,13 @@ void check(const ContactEditOptions& options) {
   if (options.most_regions < 1) throw UsageError("at least one contact region must be looked at");
 }
 
-/// What is offered besides the size that would just be enough, as a multiple of it.
-constexpr double reserve = 1.5;
-/// Least size that is offered, in steps: creeping out of a contact hair by hair leads nowhere.
-constexpr double least_step = 0.2;
-/// Directions whose cosine is above this are one way out.
-constexpr double one_way = 0.998;
-/// Cosine from which a move is called outwards.
-constexpr double clearly = 0.1;
-
-/// A way out sideways.
-struct Way {
-  Eigen::Vector3d along;  ///< unit
-  std::string word;
-};
-
 /// Collects the edits of one situation.
 class ContactEditor {
  public:
   ContactEditor(const ContactSituation& situation, const ContactEditOptions& options)
       : situation_(situation),
         options_(options),
-        frame_(contact_frame(situation)),
+        frame_(contact_frame(situation, std::max(options.contacts.band, tolerance::relative))),
         symmetry_(symmetric_structure(situation)),
         extended_(options.family == EditFamily::extended),
         multiples_(extended_ ? options.multiples : std::vector<double>{1}),
@@ -65,7 +56,7 @@ class ContactEditor {
 
   std::vector<ContactEdit> run() {
     for (const int row : different_regions(situation_.regions, symmetry_, options_.most_regions))
-      for (const bool of_lower_copy : {true, false}) look_at(side(row, of_lower_copy));
+      for (const ContactSide& side : contact_sides(situation_, row, frame_)) look_at(side);
     return std::move(edits_);
   }
 
@@ -74,28 +65,6 @@ class ContactEditor {
     Structure structure = situation.rest.structure;
     if (situation.kind == DeformationKind::surface) structure.relations.clear();
     return structure;
-  }
-
-  ContactSide side(int row, bool of_lower_copy) const {
-    const ContactRegion& region = situation_.regions[static_cast<std::size_t>(row)];
-    ContactSide side{region, row, of_lower_copy};
-    side.part = of_lower_copy ? region.upper_part : region.lower_part;
-    side.other = of_lower_copy ? region.lower_part : region.upper_part;
-    side.centre = of_lower_copy ? region.upper_centre : region.lower_centre;
-    const double height = side.centre.dot(frame_.w);
-    Range range{height, height};
-    for (const ContactPolygon& polygon : region.polygons) {
-      const Eigen::VectorXd heights =
-          (of_lower_copy ? polygon.upper_points : polygon.lower_points) * frame_.w;
-      range = {std::min(range.low, heights.minCoeff()), std::max(range.high, heights.maxCoeff())};
-    }
-    side.on_end = on_end(range);
-    return side;
-  }
-
-  bool on_end(const Range& range) const {
-    const double band = std::max(options_.contacts.band, tolerance::relative) * frame_.height.length();
-    return range.low <= frame_.height.low + band || range.high >= frame_.height.high - band;
   }
 
   void look_at(const ContactSide& side) {
@@ -145,7 +114,7 @@ class ContactEditor {
 
   /// Multiples of `step`, none beyond what is enough.
   std::vector<double> sizes(double step, std::optional<double> enough) const {
-    if (enough) enough = std::max(*enough, least_step * step);
+    if (enough) enough = std::max(*enough, least_steps * step);
     std::vector<double> result;
     for (const double m : multiples_)
       if (!enough || m * step < *enough) result.push_back(m * step);
@@ -155,7 +124,7 @@ class ContactEditor {
 
   void move_along(const ContactSide& side, const ContactHandle& handle) {
     if (side.region.type == ContactType::ring && !extended_) return;
-    if (handle.role == Role::end || side.on_end || on_end(handle.range(frame_.w))) return;
+    if (handle.role == Role::end || side.on_end || frame_.on_end(handle.range(frame_.w))) return;
     const Eigen::Vector3d along = side.of_lower_copy ? Eigen::Vector3d(-frame_.w) : frame_.w;
     const auto allowed = symmetry_.allowed_move(side.part, handle.centre, along);
     if (!allowed) return;
@@ -168,27 +137,6 @@ class ContactEditor {
 
   double extent(const Eigen::Vector3d& axis) const {
     return range_along(situation_.rest.shape, axis).length();
-  }
-
-  std::vector<Way> ways(const ContactSide& side) const {
-    Eigen::Vector3d radial = side.centre - frame_.centre;
-    radial -= radial.dot(frame_.w) * frame_.w;
-    const bool off_axis = radial.norm() > tolerance::same_symmetry * diagonal_;
-    if (off_axis) radial.normalize();
-    std::vector<Eigen::Vector3d> axes = {frame_.u, frame_.v};
-    if (side.region.type == ContactType::line)
-      axes = {frame_.w.cross(side.region.long_axis).normalized()};
-    else if (off_axis && std::max(std::abs(radial.dot(frame_.u)), std::abs(radial.dot(frame_.v))) < one_way)
-      axes.insert(axes.begin(), radial);
-    std::vector<Way> result;
-    for (const Eigen::Vector3d& axis : axes)
-      for (const double sign : {1.0, -1.0}) {
-        const double outwards = off_axis ? sign * axis.dot(radial) : 0;
-        result.push_back({sign * axis, outwards > clearly    ? "outwards"
-                                       : outwards < -clearly ? "inwards"
-                                                             : "sideways"});
-      }
-    return result;
   }
 
   /// How far the handle must go to leave the other part behind, with a margin of the contact band.
@@ -205,7 +153,7 @@ class ContactEditor {
   }
 
   void move_sideways(const ContactSide& side, const ContactHandle& handle) {
-    for (const Way& way : ways(side)) {
+    for (const ContactWay& way : ways_out(side, frame_, tolerance::same_symmetry * diagonal_)) {
       const auto allowed = symmetry_.allowed_move(side.part, handle.centre, way.along);
       if (!allowed) continue;
       const double step = options_.move_step * extent(way.along);
@@ -229,7 +177,7 @@ class ContactEditor {
   void move_edge(const ContactSide& side, const ContactHandle& handle) {
     const Eigen::Vector3d inwards = -handle.normal;
     const auto allowed = symmetry_.allowed_move(side.part, handle.centre, inwards);
-    if (!allowed || std::abs(inwards.dot(frame_.w)) > clearly) return;
+    if (!allowed || std::abs(inwards.dot(frame_.w)) > across_r) return;
     double innermost = handle.centre.dot(inwards);
     for (const ContactPolygon& polygon : side.region.polygons)
       innermost =
@@ -279,7 +227,7 @@ class ContactEditor {
   void scale_whole(const ContactSide& side, const ContactHandle& whole, const Eigen::Vector3d& axis) {
     const bool ring = side.region.type == ContactType::ring, upright = axis == frame_.w;
     const Range own = whole.range(axis);
-    if (upright && on_end(own)) return;
+    if (upright && frame_.on_end(own)) return;
     const auto allowed = symmetry_.allowed_axis(side.part, axis);
     if (!allowed) return;
     const double offset = (side.centre - whole.centre).dot(axis);

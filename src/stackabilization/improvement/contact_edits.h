@@ -64,7 +64,8 @@ struct ContactSituation {
 /// cross-sections, faces and wholes at dots and lines too, where the contact is off their centre. Sideways it
 /// goes the shorter way past the other part and no farther than that takes; the longer way is tried with the
 /// nearest handle and the least multiple only. Along r, where most stands in the way, half of the least
-/// multiple is tried too.
+/// multiple is tried too. Plates (cuboids thin along the contact) do not move or scale by the face that is
+/// touched: their edges draw back from the contact.
 ///
 /// Edits that a self-symmetry rules out are left out, such as moves of a handle across the mirror plane that
 /// it lies on. Of regions that symmetries of the structure take onto each other the first stands for all,

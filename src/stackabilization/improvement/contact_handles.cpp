@@ -4,9 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "stackabilization/shape/boxes.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
@@ -101,7 +99,8 @@ void add_cuboid_handles(std::vector<ContactHandle>& handles, const Cuboid& cuboi
   if (family == EditFamily::extended && box.is_plate(across)) {
     handles.back().of_plate = true;
     for (const int axis : {(across + 1) % 3, (across + 2) % 3}) {
-      handles.push_back(face_of(cuboid, side.part, 2 * axis + (at(axis) > 0 ? 1 : 0)));
+      handles.push_back(
+          face_of(cuboid, side.part, 2 * axis + (at(axis) >= -tolerance::same_symmetry ? 1 : 0)));
       handles.back().role = ContactHandle::Role::end;
       handles.back().of_plate = true;
     }
@@ -195,18 +194,6 @@ std::vector<ContactHandle> surface_handles(const ContactSituation& situation, co
   return result;
 }
 
-/// Normal of the first mirror plane that contains `w`: of the whole, or of its parts.
-std::optional<Eigen::Vector3d> mirror_normal(const Structure& structure, const Eigen::Vector3d& w) {
-  std::vector<Symmetry> symmetries = structure.symmetries;
-  for (const Relation& relation : structure.relations)
-    if (relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry)
-      symmetries.push_back(relation.symmetry);
-  for (const Symmetry& one : symmetries)
-    if (one.kind == SymmetryKind::reflection && std::abs(one.axis.dot(w)) <= tolerance::same_symmetry)
-      return one.axis;
-  return std::nullopt;
-}
-
 }  // namespace
 
 Points part_points(const Shape& shape, int part) {
@@ -218,28 +205,6 @@ Points part_points(const Shape& shape, int part) {
     for (int k = 0; k < 3; ++k) points.row(row++) = shape.vertices.row(shape.triangles(t, k));
   }
   return points;
-}
-
-ContactFrame contact_frame(const ContactSituation& situation) {
-  ContactFrame frame;
-  frame.w = situation.direction.unit();
-  const Shape& shape = situation.design.shape;
-  if (const auto normal = mirror_normal(situation.rest.structure, frame.w)) {
-    frame.u = (*normal - normal->dot(frame.w) * frame.w).normalized();
-  } else {
-    const OrientedBox box = HullSupport(shape).box_along(situation.direction);
-    Eigen::Index along = 0;
-    (frame.w.transpose() * box.axes).cwiseAbs().maxCoeff(&along);
-    frame.u = box.axes.col((along + 1) % 3);
-  }
-  frame.v = frame.w.cross(frame.u);
-  frame.height = range_along(shape, frame.w);
-  frame.centre = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& axis : {frame.u, frame.v, frame.w}) {
-    const Range range = range_along(shape, axis);
-    frame.centre += (range.low + range.high) / 2 * axis;
-  }
-  return frame;
 }
 
 Range ContactHandle::range(const Eigen::Vector3d& axis) const {

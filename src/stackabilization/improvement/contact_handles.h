@@ -4,31 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "stackabilization/improvement/contact_edits.h"
+#include "stackabilization/improvement/contact_side.h"
 
 /// Not installed.
 namespace stackabilization::detail {
-
-/// The axes along which contacts are pulled apart: r, and the sides of the box around the shape across it.
-struct ContactFrame {
-  Eigen::Vector3d u, v, w;  ///< unit, orthogonal; w = r / |r|
-  Eigen::Vector3d centre;   ///< of the box
-  Range height;             ///< of the design along w
-};
-
-/// The first mirror plane of the structure that contains r gives u; without one the least rectangle around
-/// the projection does.
-ContactFrame contact_frame(const ContactSituation& situation);
-
-/// One of the two surfaces that touch.
-struct ContactSide {
-  const ContactRegion& region;
-  int row = 0;                ///< of the region
-  bool of_lower_copy = true;  ///< this surface belongs to the copy below
-  int part = 0, other = 0;    ///< of this surface, and of the one that it touches
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  bool on_end = false;  ///< on the top or bottom of the extent along r
-};
 
 /// Something to take hold of, and what goes with it.
 struct ContactHandle {

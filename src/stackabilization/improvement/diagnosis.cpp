@@ -1,5 +1,7 @@
 #include "stackabilization/improvement/diagnosis.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -126,19 +128,26 @@ class Diagnostician {
 
   /// All edits that these regions suggest, each by itself.
   Trial tried(const std::vector<ContactRegion>& regions, const DeformationConstraints& constraints) const {
+    const DesignSpace& space = checker_.space();
+    const std::vector<ContactEdit> edits =
+        contact_edits({rest_, space.kind(), handles_, best_.design, regions, direction_});
+    std::vector<std::optional<std::string>> refusals(edits.size());
+    std::vector<double> reached(edits.size(), best_.measured.value);
+    tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
+      const DesignOutcome outcome = space.edited(best_.design, edits[k].edit, constraints);
+      if (outcome.refusal)
+        refusals[k] = detail::without_amounts(outcome.refusal->reason);
+      else if (const auto better = checker_.measured_above(outcome.design.shape, direction_, reached[k]))
+        reached[k] = std::max(reached[k], better->value);
+    });
     Trial trial;
     trial.best = best_.measured.value;
-    const DesignSpace& space = checker_.space();
-    for (const ContactEdit& one :
-         contact_edits({rest_, space.kind(), handles_, best_.design, regions, direction_})) {
-      const DesignOutcome outcome = space.edited(best_.design, one.edit, constraints);
-      if (outcome.refusal) {
-        ++trial.refusals[detail::without_amounts(outcome.refusal->reason)];
-        continue;
-      }
-      ++trial.made;
-      if (const auto better = checker_.measured_above(outcome.design.shape, direction_, trial.best))
-        trial.best = std::max(trial.best, better->value);
+    for (std::size_t k = 0; k < edits.size(); ++k) {
+      trial.best = std::max(trial.best, reached[k]);
+      if (refusals[k])
+        ++trial.refusals[*refusals[k]];
+      else
+        ++trial.made;
     }
     return trial;
   }
