@@ -44,6 +44,13 @@ struct Merge {
   }
 };
 
+std::optional<Edit> merge(const Edit& a, const Edit& b) {
+  if (!(a.handle == b.handle) || a.falloff != b.falloff) return std::nullopt;
+  std::optional<Operation> both = std::visit(Merge(), a.operation, b.operation);
+  if (!both) return std::nullopt;
+  return Edit{a.handle, std::move(*both), a.falloff};
+}
+
 bool changes_nothing(const Edit& edit) {
   if (const auto* move = std::get_if<Move>(&edit.operation)) return move->by.isZero(0);
   if (const auto* turn = std::get_if<Rotate>(&edit.operation)) return turn->radians == 0;
@@ -64,36 +71,37 @@ std::optional<Handle> opposite(const Handle& handle, const Structure& structure)
 
 namespace detail {
 
-std::vector<MagnitudeEdit> merged_edits(const std::vector<Edit>& edits) {
+std::vector<MagnitudeEdit> merged_edits(
+    const std::vector<Edit>& edits,
+    const std::function<bool(const std::vector<MagnitudeEdit>&)>& acceptable) {
   std::vector<MagnitudeEdit> result;
-  for (std::size_t k = 0; k < edits.size(); ++k) {
-    if (changes_nothing(edits[k])) continue;
-    const auto taken = std::find_if(result.begin(), result.end(), [&](MagnitudeEdit& other) {
-      if (!(other.edit.handle == edits[k].handle) || other.edit.falloff != edits[k].falloff) return false;
-      std::optional<Operation> both = std::visit(Merge(), other.edit.operation, edits[k].operation);
-      if (both) other.edit.operation = std::move(*both);
-      return both.has_value();
-    });
-    if (taken == result.end())
-      result.push_back({edits[k], k});
-    else if (changes_nothing(taken->edit))
-      result.erase(taken);
-  }
+  for (std::size_t k = 0; k < edits.size(); ++k)
+    if (!changes_nothing(edits[k])) result.push_back({edits[k], k});
+  for (std::size_t later = 1; later < result.size(); ++later)
+    for (std::size_t first = 0; first < later; ++first) {
+      std::optional<Edit> both = merge(result[first].edit, result[later].edit);
+      if (!both) continue;
+      std::vector<MagnitudeEdit> fewer = result;
+      fewer[first].edit = std::move(*both);
+      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(later));
+      const bool nothing = changes_nothing(fewer[first].edit);
+      if (nothing) fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(first));
+      if (!acceptable(fewer)) continue;
+      result = std::move(fewer);
+      later -= nothing ? 2 : 1;
+      break;
+    }
   return result;
 }
 
 std::vector<MagnitudeEdit> counterparts(const std::vector<MagnitudeEdit>& edits, const DesignSpace& space) {
   const std::vector<Handle> handles = space.handles();
   std::vector<MagnitudeEdit> result;
-  const auto does_it = [](const MagnitudeEdit& there, const Edit& edit) {
-    return there.edit.handle == edit.handle && there.edit.falloff == edit.falloff &&
-           std::visit(Merge(), there.edit.operation, edit.operation).has_value();
-  };
   for (const MagnitudeEdit& given : edits) {
     const std::optional<Handle> handle = opposite(given.edit.handle, space.rest().structure);
     if (!handle || std::find(handles.begin(), handles.end(), *handle) == handles.end()) continue;
     const Edit edit{*handle, given.edit.operation, given.edit.falloff};
-    const auto is_there = [&](const MagnitudeEdit& there) { return does_it(there, edit); };
+    const auto is_there = [&](const MagnitudeEdit& there) { return merge(there.edit, edit).has_value(); };
     if (std::none_of(edits.begin(), edits.end(), is_there) &&
         std::none_of(result.begin(), result.end(), is_there))
       result.push_back({edit, std::nullopt});
@@ -117,7 +125,8 @@ Edit with_magnitude(Edit edit, double x) {
 
 std::vector<Edit> merged(const std::vector<Edit>& edits) {
   std::vector<Edit> result;
-  for (const detail::MagnitudeEdit& one : detail::merged_edits(edits)) result.push_back(one.edit);
+  for (const detail::MagnitudeEdit& one : detail::merged_edits(edits, [](const auto&) { return true; }))
+    result.push_back(one.edit);
   return result;
 }
 

@@ -80,16 +80,16 @@ class Refiner {
   }
 
  private:
-  /// The edits given, merged unless their order matters so much that they are refused then, and counterparts.
+  /// The edits given, merged where their order does not matter so much that they are refused, and
+  /// counterparts.
   static std::vector<MagnitudeEdit> variables(const RequirementChecker& checker, const Candidate& start,
                                               Companions companions) {
     const DeformationConstraints constraints =
         deformation_constraints(checker.requirements(), checker.space().rest(), Direction(start.direction));
-    std::vector<MagnitudeEdit> edits = merged_edits(start.design.edits);
-    if (checker.space().replayed(plain(edits), constraints).refusal) {
-      edits.clear();
-      for (std::size_t k = 0; k < start.design.edits.size(); ++k) edits.push_back({start.design.edits[k], k});
-    }
+    std::vector<MagnitudeEdit> edits =
+        merged_edits(start.design.edits, [&](const std::vector<MagnitudeEdit>& fewer) {
+          return !checker.space().replayed(plain(fewer), constraints).refusal;
+        });
     if (companions == Companions::opposite) {
       const std::vector<MagnitudeEdit> others = counterparts(edits, checker.space());
       edits.insert(edits.end(), others.begin(), others.end());
@@ -113,6 +113,7 @@ class Refiner {
   void search() {
     if (!problem_.at(found()).feasible) reach();
     if (!problem_.best()) return;
+    do_without();
     pull_back();
     descend();
     pull_back_singly();
@@ -134,6 +135,22 @@ class Refiner {
       problem_.constrain_pairs(from);
       optimised_magnitudes(problem_, {from, radius, MagnitudeGoal::feasible});
       if (problem_.nearest_stackability() - before < least_progress * (1 - before)) radius *= less_far;
+    }
+  }
+
+  /// Takes away edits that the target does not need, for as long as that lessens D: each time the one whose
+  /// loss does so most.
+  void do_without() {
+    for (std::size_t round = 0; round < edits_.size() && !problem_.stopped(); ++round) {
+      const Magnitudes best = *problem_.best();
+      std::vector<Magnitudes> fewer;
+      for (std::size_t k = 0; k < best.size(); ++k) {
+        if (best[k] == 0) continue;
+        fewer.push_back(best);
+        fewer.back()[k] = 0;
+      }
+      problem_.prepare(fewer);
+      if (*problem_.best() == best) return;
     }
   }
 
