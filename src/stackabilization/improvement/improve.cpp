@@ -28,8 +28,8 @@ bool more_stackable(const Candidate& a, const Candidate& b) {
   return a.measured.value > b.measured.value;
 }
 
-bool less_energy(const Candidate& a, const Candidate& b) {
-  return a.energy.value < b.energy.value;
+bool less_distorted(const Candidate& a, const Candidate& b) {
+  return a.energy.distortion.total() < b.energy.distortion.total();
 }
 
 /// Refines what a search found until there are as many different solutions as wanted.
@@ -54,7 +54,7 @@ class Refiner {
       if (static_cast<int>(solutions_.size()) >= wanted_) break;
       add(near);
     }
-    std::stable_sort(solutions_.begin(), solutions_.end(), less_energy);
+    std::stable_sort(solutions_.begin(), solutions_.end(), less_distorted);
     if (static_cast<int>(solutions_.size()) > wanted_) solutions_.resize(static_cast<std::size_t>(wanted_));
     return std::move(solutions_);
   }
@@ -72,11 +72,11 @@ class Refiner {
       nearest_ = std::move(result.candidate);
   }
 
-  /// Of two solutions that are not different the one of less energy stays.
+  /// Of two solutions that are not different the less distorted one stays.
   void keep(Candidate candidate) {
     for (Candidate& other : solutions_)
       if (!distinct_.differ(other.design, candidate.design)) {
-        if (less_energy(candidate, other)) other = std::move(candidate);
+        if (less_distorted(candidate, other)) other = std::move(candidate);
         return;
       }
     solutions_.push_back(std::move(candidate));

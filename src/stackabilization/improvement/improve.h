@@ -23,8 +23,10 @@ struct ImprovementOptions {
 };
 
 struct Improvement {
-  Candidate before;                     ///< the shape at rest, along the direction of the best solution
-  std::vector<Candidate> solutions;     ///< best first: least E
+  Candidate before;  ///< the shape at rest, along the direction of the best solution
+  /// Best first: of the paper's preset those of least E. Refined ones all meet the target, so that more S is
+  /// no merit: those of least D.
+  std::vector<Candidate> solutions;
   std::vector<Assessment> assessments;  ///< of the solutions
   std::optional<Candidate> nearest;     ///< the best S reached, when there is no solution
   std::optional<Diagnosis> diagnosis;   ///< why there is none
