@@ -24,10 +24,13 @@ constexpr double multiples[] = {1.25, 1.5, 2, 3};
 /// Runs of the optimiser, each from the best point so far with its own pairs of blocks. One that lessens D or
 /// raises S by less than this fraction is the last, unless it came to where edits are refused or S jumps:
 /// then the next may go only so much as far, down to the least radius.
-constexpr int most_runs = 12;
+constexpr int most_runs = 8;
 constexpr double least_progress = 1e-3;
-constexpr double less_far = 0.2;
-constexpr double least_radius = 1e-3;
+constexpr double less_far = 0.1;
+constexpr double least_radius = 0.01;
+
+/// Longer lists of edits get no counterparts: every variable costs a sample per slope.
+constexpr std::size_t most_with_counterparts = 6;
 
 /// Rounds of pulling back one magnitude after the other.
 constexpr int most_sweeps = 3;
@@ -90,7 +93,7 @@ class Refiner {
         merged_edits(start.design.edits, [&](const std::vector<MagnitudeEdit>& fewer) {
           return !checker.space().replayed(plain(fewer), constraints).refusal;
         });
-    if (companions == Companions::opposite) {
+    if (companions == Companions::opposite && edits.size() <= most_with_counterparts) {
       const std::vector<MagnitudeEdit> others = counterparts(edits, checker.space());
       edits.insert(edits.end(), others.begin(), others.end());
     }
