@@ -25,7 +25,7 @@ constexpr double multiples[] = {1.25, 1.5, 2, 3};
 /// raises S by less than this fraction is the last, unless it came to where edits are refused or S jumps:
 /// then the next may go only so much as far, down to the least radius.
 constexpr int most_runs = 8;
-constexpr double least_progress = 1e-3;
+constexpr double least_progress = 0.001;
 constexpr double less_far = 0.1;
 constexpr double least_radius = 0.01;
 

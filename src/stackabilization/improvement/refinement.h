@@ -44,10 +44,12 @@ struct RefinementResult {
 ///
 /// min D(x) subject to S_ij(x) >= target for every pair of blocks of the shape that come near each other
 /// (parts, cut into slabs across r): each is smooth where their maximum is not; and to every check of the
-/// requirements. By NLopt, gradients by differences evaluated in parallel; the last step is a bisection in
-/// exact arithmetic, so that the target is met, and by no more than 1e-7 where D depends on it. The direction
-/// is kept. Never worse than what was given: if that reaches the target, D of the result is at most the same.
-/// Deterministic for any number of threads.
+/// requirements. By NLopt's SLSQP, with a variable of its own for the magnitude of every change that D adds
+/// up, and slopes by differences evaluated in parallel; the last step is a root search on the way to the
+/// shape at rest. The target is met, by exact separation, and by no more than 1e-7, unless S jumps there or D
+/// does not depend on it. A local optimum, not more. The direction is kept. Never worse than what was given:
+/// if that reaches the target, D of the result is at most the same. Throws UsageError for options out of
+/// range. Deterministic for any number of threads.
 RefinementResult refined_candidate(const RequirementChecker& checker, const Candidate& start,
                                    const RefinementOptions& options = {});
 
