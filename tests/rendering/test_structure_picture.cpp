@@ -245,7 +245,8 @@ TEST_CASE("a sheet shows where a design stands and what it could become, in rows
   const StructuredShape table = structured_table();
   std::vector<DesignTile> tiles = {{table.shape, {}, {}, {}, {"now", "a note"}}};
   for (int k = 0; k < 4; ++k) tiles.push_back({table.shape, {}, {}, {}, {"number " + std::to_string(k)}});
-  tiles[2].handles = {{HandleKind::part, 2, 0}};
+  for (const Part& part : table.structure.parts) tiles[2].primitives.push_back(part.primitive);
+  tiles[2].handles = {{HandleKind::face, 0, 5}};
   DesignSheetOptions options;
   options.title = "table.obj";
   options.columns = 3;
