@@ -5,13 +5,11 @@
 #include <variant>
 
 #include "stackabilization/improvement/fingerprint.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
 
 namespace {
-
-/// Fraction of the diagonal: far above what rounding makes of edits in another order, far below any step.
-constexpr double same_design_tolerance = 1e-6;
 
 template <class Now, class Rest>
 void add_displacements(Fingerprint& print, const Now& now, const Rest& rest, double grid) {
@@ -33,13 +31,15 @@ void add(Fingerprint& print, const Primitive& now, const Primitive& rest, const 
   if (cylinder == nullptr) return;
   const auto& at_rest = std::get<GeneralizedCylinder>(rest);
   add_displacements(print, cylinder->radii, at_rest.radii, grid.step);
-  add_displacements(print, cylinder->rotation.coeffs(), at_rest.rotation.coeffs(), same_design_tolerance);
+  add_displacements(print, cylinder->rotation.coeffs(), at_rest.rotation.coeffs(), tolerance::same_design);
 }
 
 }  // namespace
 
 ConfigurationKeys::ConfigurationKeys(const DesignSpace& space)
-    : space_(space), rest_(space.at_rest()), grid_(same_design_tolerance * space.rest().structure.diagonal) {}
+    : space_(space),
+      rest_(space.at_rest()),
+      grid_(tolerance::same_design * space.rest().structure.diagonal) {}
 
 std::uint64_t ConfigurationKeys::key(const Design& design) const {
   Fingerprint print;

@@ -61,8 +61,8 @@ class Programme {
     const std::vector<double> exactly(constraints(), 0);
     nlopt_add_inequality_mconstraint(optimiser_, static_cast<unsigned>(constraints()), &Programme::constraint,
                                      this, exactly.data());
-    nlopt_set_xtol_rel(optimiser_, magnitude_tolerance);
-    nlopt_set_ftol_rel(optimiser_, magnitude_tolerance);
+    nlopt_set_xtol_rel(optimiser_, tolerance::magnitude);
+    nlopt_set_ftol_rel(optimiser_, tolerance::magnitude);
     nlopt_set_maxeval(optimiser_, most_calls);
     std::vector<double> variables = start_variables();
     double value = 0;
@@ -82,10 +82,10 @@ class Programme {
     for (Eigen::Index row = 0; row < base.changes.size(); ++row) {
       Row shape(1 + slopes.changes.cols());
       shape << base.changes[row], slopes.changes.row(row);
-      if (shape.tail(shape.size() - 1).norm() <= magnitude_tolerance * base.distortion) continue;
+      if (shape.tail(shape.size() - 1).norm() <= tolerance::magnitude * base.distortion) continue;
       shape.normalize();
       const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const Row& other) {
-        return std::abs(shape.dot(other)) >= 1 - magnitude_tolerance;
+        return std::abs(shape.dot(other)) >= 1 - tolerance::magnitude;
       });
       const auto group = static_cast<std::size_t>(same - shapes.begin());
       if (same == shapes.end()) {
@@ -105,7 +105,7 @@ class Programme {
       Row shape(1 + slopes.shortfalls.cols());
       shape << base.shortfalls[row], slopes.shortfalls.row(row);
       const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const Row& other) {
-        return (shape - other).norm() <= magnitude_tolerance * (1 + shape.norm());
+        return (shape - other).norm() <= tolerance::magnitude * (1 + shape.norm());
       });
       const auto group = static_cast<std::size_t>(same - shapes.begin());
       if (same == shapes.end()) {

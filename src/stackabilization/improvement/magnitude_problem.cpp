@@ -19,16 +19,12 @@ namespace {
 constexpr double near_band = 0.2;
 constexpr std::size_t most_pairs = 160;
 
-/// Step of the differences that give slopes, as a fraction of the edits given: far above the rounding of
-/// solved edits, long enough to see over the facets of curved surfaces.
-constexpr double difference_step = 0x1p-12;
-
 /// Shortfall of the whole shape where the pairs stand for it.
 constexpr double no_shortfall = -1;
 
-/// And at most that of a pair that passes at any height: as it moves apart, what it asks for falls to what
-/// its lowest and highest points would, and then to nothing.
-constexpr double passing_shortfall = -0.02;
+/// Less the shortfall, at least, of a pair that passes at any height: as it moves apart, what it asks for
+/// falls to what its lowest and highest points would, and then to nothing.
+constexpr double passing_surplus = 0.02;
 
 /// Whether the deformation cannot see to it: it keeps extent, relations and box by itself.
 bool is_open(const Check& check) {
@@ -63,7 +59,7 @@ MagnitudeProblem::MagnitudeProblem(const RequirementChecker& checker, std::vecto
 }
 
 double MagnitudeProblem::aim() const {
-  return checker_.requirements().target + target_tolerance / 2;
+  return checker_.requirements().target + tolerance::target / 2;
 }
 
 bool MagnitudeProblem::stopped() const {
@@ -102,7 +98,7 @@ void MagnitudeProblem::measure_blocks(const Design& design, const Stackability& 
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
     const double f = separations[p].f + clearance, lack = aim() - (1 - f * loss);
     sample.shortfalls[static_cast<Eigen::Index>(p) + 1] =
-        separations[p].blocked ? lack : std::min(lack, passing_shortfall);
+        separations[p].blocked ? lack : std::min(lack, -passing_surplus);
     if (separations[p].blocked) largest = std::max(largest, f);
   }
   const bool covered = !pairs_.empty() && largest >= whole.f_max - tolerance::relative * whole.extent;
@@ -137,7 +133,7 @@ MagnitudeSample MagnitudeProblem::measured(const Magnitudes& x) const {
   measure_blocks(outcome.design, assessment.measured, sample);
   for (Eigen::Index c = 0; c < checks; ++c)
     sample.shortfalls[of_pairs + c] = shortfall(assessment.checks[static_cast<std::size_t>(c)]);
-  sample.shortfalls[of_pairs + checks] = asked.least_proportion + magnitude_tolerance - proportion;
+  sample.shortfalls[of_pairs + checks] = asked.least_proportion + tolerance::magnitude - proportion;
   return sample;
 }
 
@@ -182,7 +178,8 @@ MagnitudeSlopes MagnitudeProblem::slopes(const Magnitudes& x) {
   std::vector<double> steps(size());
   std::vector<Magnitudes> neighbours;
   for (std::size_t k = 0; k < size(); ++k) {
-    steps[k] = x[k] + difference_step <= highest() ? difference_step : -difference_step;
+    steps[k] = x[k] + tolerance::magnitude_step <= highest() ? tolerance::magnitude_step
+                                                             : -tolerance::magnitude_step;
     neighbours.push_back(neighbour(k, steps[k]));
   }
   prepare(neighbours);

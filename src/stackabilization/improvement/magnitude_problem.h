@@ -12,12 +12,6 @@
 
 namespace stackabilization::detail {
 
-/// By how much S of a refined design may exceed its target, where its distortion depends on it.
-inline constexpr double target_tolerance = 1e-7;
-
-/// Relative accuracy at which magnitudes, and the distortion that they cause, count as settled.
-inline constexpr double magnitude_tolerance = 1e-6;
-
 /// One magnitude per edit.
 using Magnitudes = std::vector<double>;
 

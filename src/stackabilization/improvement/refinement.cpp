@@ -39,7 +39,7 @@ constexpr int most_sweeps = 3;
 constexpr std::uintmax_t most_steps = 40;
 
 /// Multiples less 1 of the other magnitudes that are tried when an edit is left out.
-constexpr double make_up[] = {0, 0x1p-20, 0x1p-16, 0x1p-12, 0x1p-8};
+constexpr double make_up[] = {0, 1. / (1 << 20), 1. / (1 << 16), 1. / (1 << 12), 1. / (1 << 8)};
 
 Magnitudes scaled(Magnitudes x, double factor) {
   for (double& magnitude : x) magnitude *= factor;
@@ -189,10 +189,10 @@ class Refiner {
       if (!sample.made) return -1.0;
       const double above = sample.stackability - problem_.aim();
       if (sample.feasible) excess = std::min(excess, std::abs(above));
-      return sample.feasible ? above : std::min(above, -target_tolerance);
+      return sample.feasible ? above : std::min(above, -tolerance::target);
     };
     const auto close_enough = [&](double a, double b) {
-      return excess <= target_tolerance / 2 || std::abs(b - a) <= tolerance::rounding || problem_.stopped();
+      return excess <= tolerance::target / 2 || std::abs(b - a) <= tolerance::rounding || problem_.stopped();
     };
     const double at_start = margin(0), at_end = margin(1);
     if (!(at_start > 0) || !(at_end < 0)) return;
@@ -209,7 +209,7 @@ class Refiner {
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
       const double before = problem_.best_distortion();
       for (std::size_t k = 0; k < edits_.size() && !problem_.stopped(); ++k) {
-        if (problem_.at(*problem_.best()).stackability <= problem_.aim() + target_tolerance / 2) return;
+        if (problem_.at(*problem_.best()).stackability <= problem_.aim() + tolerance::target / 2) return;
         Magnitudes without = *problem_.best();
         without[k] = 0;
         approach(without);

@@ -17,7 +17,7 @@ enum class Companions {
 
 struct RefinementOptions {
   Companions companions = Companions::opposite;
-  int evaluations = 600;     ///< designs measured at most, >= 10
+  int evaluations = 300;     ///< designs measured at most, >= 10
   double alpha = 0.2;        ///< of the energies reported
   double reach = 3;          ///< magnitudes are sought in [-reach, reach] times those given, > 0
   double negligible = 0.01;  ///< edits below this fraction of what was given are tried without

@@ -102,6 +102,20 @@ inline constexpr double difference_step = 0x1p-24;
 /// order; the others are at least 4 sin^2(pi / order), far above.
 inline constexpr double invariance = 1e-6;
 
+/// Two designs are the same to a search when their controls differ by less than this, as a fraction of the
+/// diagonal: far above what rounding makes of edits in another order, far below any step.
+inline constexpr double same_design = 1e-6;
+
+/// By how much S of a refined design may exceed its target, where its distortion depends on it.
+inline constexpr double target = 1e-7;
+
+/// Relative accuracy at which magnitudes of edits, and the distortion that they cause, count as settled.
+inline constexpr double magnitude = 1e-6;
+
+/// Step of differences that give slopes along magnitudes, as a fraction of the edits given: far above the
+/// rounding of solved edits, long enough to see over the facets of curved surfaces.
+inline constexpr double magnitude_step = 0x1p-12;
+
 /// Smallest factor by which a deformation may shrink a radius, a piece of a curve, the volume at a corner of
 /// a cuboid, or length and area of a feature curve: what is smaller has collapsed.
 inline constexpr double collapse = 1e-3;
