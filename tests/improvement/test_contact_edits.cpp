@@ -402,6 +402,21 @@ TEST_CASE("models without primitives offer what lies nearest") {
   for (const ContactEdit& one : contact_edits(by_wires))
     CHECK(one.edit.handle == (one.of_lower_copy ? wires[0] : wires[1]));
 
+  DesignSpaceOptions by_curves;
+  by_curves.kind = DeformationKind::iwires;
+  const auto curves = design_space(table, by_curves);
+  const auto curve_handles = curves->handles();
+  const auto centres = curves->centres();
+  REQUIRE(centres.size() == curve_handles.size());
+  const Design drawn = curves->at_rest();
+  const auto on_curves =
+      contact_edits({curves->rest(), curves->kind(), curve_handles, drawn, regions, up, centres});
+  REQUIRE_FALSE(on_curves.empty());
+  for (const ContactEdit& one : on_curves) {
+    CHECK(one.edit.handle.kind == HandleKind::wire);
+    CHECK_NOTHROW(curves->edited(drawn, one.edit, keep_height()));
+  }
+
   const auto squashed =
       contact_edits({space->rest(), DeformationKind::gap_scaling, handles, design, regions, up});
   REQUIRE(squashed.size() == 1);

@@ -43,8 +43,7 @@ struct ContactSituation {
   const Design& design;
   const std::vector<ContactRegion>& regions;  ///< of the design along the direction
   const Direction& direction;
-  /// Where `handles` are at rest, one for each, model units: what models without primitives need to find
-  /// wires and slices. Empty: only points are found.
+  /// DesignSpace::centres, for models without primitives; empty: only points are found, no wires or slices.
   std::vector<Eigen::Vector3d> centres = {};
 };
 

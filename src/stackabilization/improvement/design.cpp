@@ -42,11 +42,14 @@ class ControllerDesigns : public DesignSpace {
 class CarriedDesigns : public DesignSpace {
  public:
   CarriedDesigns(StructuredShape rest, DeformationKind kind, std::unique_ptr<DeformationModel> model)
-      : rest_(std::move(rest)), kind_(kind), model_(std::move(model)), primitives_(rest_) {}
+      : rest_(std::move(rest)), kind_(kind), model_(std::move(model)), primitives_(rest_) {
+    for (const Handle& handle : model_->handles()) centres_.push_back(model_->centre(handle));
+  }
 
   const StructuredShape& rest() const override { return rest_; }
   DeformationKind kind() const override { return kind_; }
   std::vector<Handle> handles() const override { return model_->handles(); }
+  std::vector<Eigen::Vector3d> centres() const override { return centres_; }
   Design at_rest() const override { return {{}, primitives_.at(rest_.shape.vertices), rest_.shape}; }
 
   DesignOutcome edited(const Design& now, const Edit& edit,
@@ -63,6 +66,7 @@ class CarriedDesigns : public DesignSpace {
   DeformationKind kind_;
   std::unique_ptr<DeformationModel> model_;
   detail::CarriedPrimitives primitives_;
+  std::vector<Eigen::Vector3d> centres_;
 };
 
 /// Precondition: not of the controllers.

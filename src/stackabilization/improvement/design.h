@@ -44,6 +44,9 @@ class DesignSpace {
   virtual DeformationKind kind() const = 0;
   /// Everything that can be edited.
   virtual std::vector<Handle> handles() const = 0;
+  /// Where `handles` are at rest, in their order, model units; empty for controllers, whose primitives say
+  /// so.
+  virtual std::vector<Eigen::Vector3d> centres() const { return {}; }
   /// The design without edits: vertices and primitives at rest to the bit.
   virtual Design at_rest() const = 0;
   /// `now` with one more edit. Extents and boxes of the constraints are those of the shape at rest. Throws

@@ -130,7 +130,7 @@ class Diagnostician {
   Trial tried(const std::vector<ContactRegion>& regions, const DeformationConstraints& constraints) const {
     const DesignSpace& space = checker_.space();
     const std::vector<ContactEdit> edits =
-        contact_edits({rest_, space.kind(), handles_, best_.design, regions, direction_});
+        contact_edits({rest_, space.kind(), handles_, best_.design, regions, direction_, space.centres()});
     std::vector<std::optional<std::string>> refusals(edits.size());
     std::vector<double> reached(edits.size(), best_.measured.value);
     tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {

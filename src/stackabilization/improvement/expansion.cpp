@@ -37,7 +37,8 @@ std::vector<ContactEdit> suggestions(const SearchTools& tools, const Standpoint&
   if (!apart.blocked) return {};
   const std::vector<ContactRegion> regions = contact_regions({shape, tree, direction, apart}, contacts);
   std::vector<ContactEdit> edits = contact_edits(
-      {space.rest(), space.kind(), tools.handles, from.design, regions, direction}, tools.options.edits);
+      {space.rest(), space.kind(), tools.handles, from.design, regions, direction, space.centres()},
+      tools.options.edits);
   // Back and forth leads to places that steps of the same kind reach as well, or near them.
   std::erase_if(edits, [&](const ContactEdit& suggestion) {
     return std::any_of(from.design.edits.begin(), from.design.edits.end(),

@@ -73,9 +73,9 @@ class Pursuit {
     if (!apart.blocked) return {};
     std::vector<ContactRegion> regions =
         contact_regions({from.design.shape, tree, direction_, apart}, contacts);
-    return contact_edits(
-        {checker_.space().rest(), checker_.space().kind(), handles_, from.design, regions, direction_},
-        options_.edits);
+    return contact_edits({checker_.space().rest(), checker_.space().kind(), handles_, from.design, regions,
+                          direction_, checker_.space().centres()},
+                         options_.edits);
   }
 
   std::optional<State> after(const ContactEdit& suggestion) const {

@@ -81,8 +81,8 @@ std::vector<Suggestion> suggestions(const RequirementChecker& checker, const Des
   const std::vector<ContactRegion> regions =
       contacts_of(checker, design.shape, direction, options.edits.contacts);
   const std::vector<Handle> handles = space.handles();
-  const std::vector<ContactEdit> edits =
-      contact_edits({space.rest(), space.kind(), handles, design, regions, direction}, options.edits);
+  const std::vector<ContactEdit> edits = contact_edits(
+      {space.rest(), space.kind(), handles, design, regions, direction, space.centres()}, options.edits);
   const Judge judge(checker, direction, options.alpha);
   std::vector<Suggestion> result(edits.size());
   tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
