@@ -88,7 +88,7 @@ void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
   add_choice(command, "--preset", options.preset, presets,
              "paper: search in the paper's steps; refined: then least change of continuous magnitudes "
              "(default: refined)");
-  add_number(command, "--time", options.seconds, "Seconds to search at most (default: 60)");
+  add_number(command, "--time", options.seconds, "Seconds to search at most (default: 40)");
   add_count(command, {"--expansions", "Candidates to expand at most (default: 100)", 1}, options.expansions);
   add_number(command, "--alpha", options.alpha, "Weight of the distortion in the energy (default: 0.2)");
   add_number(command, "--cone-degrees", options.cone_degrees,

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "stackabilization/shape/tolerances.h"
 
@@ -14,6 +15,18 @@ constexpr double straight_enough = 0.02;
 
 Eigen::Vector3d chord_of(const GeneralizedCylinder& cylinder) {
   return (cylinder.centres.row(cylinder.centres.rows() - 1) - cylinder.centres.row(0)).transpose();
+}
+
+/// dr / ds of the profile at each section, by central differences.
+Eigen::VectorXd profile_slopes(const GeneralizedCylinder& cylinder, const Eigen::VectorXd& places) {
+  const Eigen::Index last = places.size() - 1;
+  Eigen::VectorXd slopes = Eigen::VectorXd::Zero(last + 1);
+  for (Eigen::Index i = 0; i <= last; ++i) {
+    const Eigen::Index before = std::max<Eigen::Index>(i - 1, 0), after = std::min(i + 1, last);
+    const double length = places(after) - places(before);
+    if (length > 0) slopes(i) = (cylinder.radii(after) - cylinder.radii(before)) / length;
+  }
+  return slopes;
 }
 
 }  // namespace
@@ -47,9 +60,16 @@ Eigen::MatrixXd straight_columns(const GeneralizedCylinder& now, const Eigen::Ma
   Eigen::Index free = 0;
   while (free < strength.size() && strength(free) <= tolerance::redundant * strength(strength.size() - 1))
     ++free;
-  return strength.size() == 0 || !(strength(strength.size() - 1) > 0)
-             ? basis
-             : Eigen::MatrixXd(basis * solver.eigenvectors().leftCols(free));
+  const bool bends_nowhere = strength.size() == 0 || !(strength(strength.size() - 1) > 0);
+  Eigen::MatrixXd columns =
+      bends_nowhere ? basis : Eigen::MatrixXd(basis * solver.eigenvectors().leftCols(free));
+  const Eigen::VectorXd slopes = profile_slopes(now, line.col(1));
+  for (Eigen::Index column = 0; column < columns.cols(); ++column) {
+    const Eigen::VectorXd values = columns.col(column).head(3 * n);
+    const Eigen::VectorXd slides = off_line * (Eigen::Map<const Points>(values.data(), n, 3) * along);
+    columns.col(column).tail(n) += slopes.cwiseProduct(slides);
+  }
+  return columns;
 }
 
 }  // namespace stackabilization::detail

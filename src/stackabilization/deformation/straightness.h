@@ -11,7 +11,8 @@ bool is_straight(const GeneralizedCylinder& cylinder);
 
 /// The combinations of `basis` (columns of changes of control values, see ControlState) that leave the
 /// sections of a straight cylinder on one line, to first order: they may slide along it and the line may move
-/// and lean, but not bend. A leg whose rail goes up is not to be drawn into a knee.
+/// and lean, but not bend. A leg whose rail goes up is not to be drawn into a knee. Sections that slide take
+/// the radii of the places they come to, so that the profile stays: a cone whose handle goes up stays a cone.
 Eigen::MatrixXd straight_columns(const GeneralizedCylinder& now, const Eigen::MatrixXd& basis);
 
 }  // namespace stackabilization::detail

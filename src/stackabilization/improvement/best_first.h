@@ -28,7 +28,7 @@ struct BestFirstOptions {
   ContactEditOptions edits;
   int solutions = 1;              ///< different ones wanted, >= 1
   std::int64_t expansions = 100;  ///< limit, >= 1
-  double seconds = 60;            ///< limit, > 0; what it ends depends on the machine
+  double seconds = 40;            ///< limit, > 0; what it ends depends on the machine
   double cone_degrees = 10;  ///< the direction is searched again within this of the previous one; 0: never
   /// Directions to start from, the first preferred; not empty.
   std::vector<Eigen::Vector3d> directions = {{0, 0, 1}};
