@@ -149,7 +149,8 @@ int run(const CLI::App& command, const ImproveCommandOptions& options) {
   make_folder(options.folder);
   const ImproveRun found = run_improve(options, task);
 
-  ImproveReport report{options, task, found, {}, {}, rendering_missing()};
+  ImproveReport report{options, task, found, {}, {}, {}};
+  report.pictures_missing = options.no_pictures ? "left out by --no-pictures" : rendering_missing();
   Writer writer(report);
   write_solutions(report, writer);
   Json document = document_head(command, task.model);

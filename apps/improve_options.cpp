@@ -127,6 +127,7 @@ void add_improve_options(CLI::App& command, ImproveCommandOptions& options) {
   add_analysis_options(command, options.analysis);
   command.add_flag("--twist", options.twist,
                    "Report too how well copies stack that are turned against each other");
+  command.add_flag("--no-pictures", options.no_pictures, "Leave the pictures out: quicker");
   command.add_flag("--resume", options.resume, "Go on with the search that was stopped in the folder");
   command.add_option("-o,--output", options.folder, "Folder for solutions, pictures and the page index.html")
       ->type_name("FOLDER")

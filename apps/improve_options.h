@@ -32,7 +32,7 @@ struct ImproveCommandOptions {
   std::optional<Length> thickness, clearance, lateral_clearance;
   std::optional<double> draft_degrees, tilt_degrees;
   std::optional<int> standing;
-  bool twist = false, resume = false;
+  bool twist = false, resume = false, no_pictures = false;
   std::string folder;
 
   /// Copies of the stacks that are shown.

@@ -142,9 +142,10 @@ std::string saving_text(const StackHeights& stack, Unit unit) {
 }
 
 std::string check_text(const Check& check) {
-  std::string text = check.name + " " + (check.passed ? "kept" : "NOT kept") + ": " + rounded(check.value);
+  std::string text = check.name + ": " + rounded(check.value);
   if (!check.unit.empty()) text += " " + check.unit;
   text += ", asked for " + rounded(check.demanded);
+  if (!check.passed) text += ", NOT met";
   return check.note.empty() ? text : text + " (" + check.note + ")";
 }
 
