@@ -121,8 +121,13 @@ class EditSolution {
     for (int c = 0; c < rig_.space.class_count(); ++c) {
       const Primitive now = rig_.space.primitive(rig_.space.members(c).front(), state_.controls[at(c)]);
       const auto* cylinder = std::get_if<GeneralizedCylinder>(&now);
-      if (cylinder != nullptr && bases_[at(c)].cols() > 0 && is_straight(*cylinder))
-        bases_[at(c)] = straight_columns(*cylinder, bases_[at(c)]);
+      if (cylinder == nullptr || bases_[at(c)].cols() == 0 || !is_straight(*cylinder)) continue;
+      const auto first_radius = static_cast<int>(3 * cylinder->centres.rows());
+      const bool prescribed = c == class_ && task_.wanted.size() == 1 &&
+                              std::any_of(edit_.values.begin(), edit_.values.end(),
+                                          [&](int value) { return value >= first_radius; });
+      bases_[at(c)] = straight_columns(*cylinder, bases_[at(c)],
+                                       prescribed ? SlidingRadii::kept : SlidingRadii::of_place);
     }
   }
 

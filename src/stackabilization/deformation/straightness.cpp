@@ -41,7 +41,8 @@ bool is_straight(const GeneralizedCylinder& cylinder) {
   return true;
 }
 
-Eigen::MatrixXd straight_columns(const GeneralizedCylinder& now, const Eigen::MatrixXd& basis) {
+Eigen::MatrixXd straight_columns(const GeneralizedCylinder& now, const Eigen::MatrixXd& basis,
+                                 SlidingRadii radii) {
   const Eigen::Index n = now.centres.rows();
   const Eigen::Vector3d along = chord_of(now).normalized();
   Eigen::MatrixXd line(n, 2);
@@ -60,9 +61,10 @@ Eigen::MatrixXd straight_columns(const GeneralizedCylinder& now, const Eigen::Ma
   Eigen::Index free = 0;
   while (free < strength.size() && strength(free) <= tolerance::redundant * strength(strength.size() - 1))
     ++free;
-  const bool bends_nowhere = strength.size() == 0 || !(strength(strength.size() - 1) > 0);
-  Eigen::MatrixXd columns =
-      bends_nowhere ? basis : Eigen::MatrixXd(basis * solver.eigenvectors().leftCols(free));
+  Eigen::MatrixXd columns = basis;
+  if (strength.size() > 0 && strength(strength.size() - 1) > 0)
+    columns = basis * solver.eigenvectors().leftCols(free);
+  if (radii == SlidingRadii::kept) return columns;
   const Eigen::VectorXd slopes = profile_slopes(now, line.col(1));
   for (Eigen::Index column = 0; column < columns.cols(); ++column) {
     const Eigen::VectorXd values = columns.col(column).head(3 * n);
