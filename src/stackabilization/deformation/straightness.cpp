@@ -68,7 +68,8 @@ Eigen::MatrixXd straight_columns(const GeneralizedCylinder& now, const Eigen::Ma
   const Eigen::VectorXd slopes = profile_slopes(now, line.col(1));
   for (Eigen::Index column = 0; column < columns.cols(); ++column) {
     const Eigen::VectorXd values = columns.col(column).head(3 * n);
-    const Eigen::VectorXd slides = off_line * (Eigen::Map<const Points>(values.data(), n, 3) * along);
+    const Eigen::VectorXd places = Eigen::Map<const Points>(values.data(), n, 3) * along;
+    const Eigen::VectorXd slides = off_line * places;
     columns.col(column).tail(n) += slopes.cwiseProduct(slides);
   }
   return columns;
