@@ -37,8 +37,8 @@ make_stackable() {
   show "$1_improve" improve "$out.stackabilize.json" --direction 0 0 1 --target "$2" --time 45 -o "$out"
   show "$1_validate" validate "$out/solution_1.obj" --unit m --direction 0 0 1
 }
-make_stackable table TABLE_TARGET
-make_stackable mug_with_handle MUG_TARGET
+make_stackable table 0.45
+make_stackable mug_with_handle 0.55
 
 cat <<END
 

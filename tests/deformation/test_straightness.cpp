@@ -38,8 +38,7 @@ double bend(const Points& centres) {
 TEST_CASE("corrections of straight cylinders slide, lean and stretch, but do not bend") {
   const GeneralizedCylinder cylinder = cone();
   const Eigen::MatrixXd basis = detail::correction_basis(cylinder);
-  const Eigen::MatrixXd columns =
-      detail::straight_columns(cylinder, basis, detail::SlidingRadii::kept);
+  const Eigen::MatrixXd columns = detail::straight_columns(cylinder, basis, detail::SlidingRadii::kept);
   const double step = 1e-4;
   double worst = 0, bent = 0, slid = 0;
   const Eigen::Index n = cylinder.centres.rows();
@@ -62,8 +61,7 @@ TEST_CASE("corrections of straight cylinders slide, lean and stretch, but do not
       affine(3 * i + k, k) = 1;
       affine(3 * i + k, 3 + k) = static_cast<double>(i);
     }
-  const Eigen::MatrixXd missing =
-      affine - columns * columns.completeOrthogonalDecomposition().solve(affine);
+  const Eigen::MatrixXd missing = affine - columns * columns.completeOrthogonalDecomposition().solve(affine);
   CHECK(missing.cwiseAbs().maxCoeff() < 1e-6 * n);
 }
 
@@ -81,7 +79,8 @@ TEST_CASE("sections that slide take the radii of the places they come to") {
   for (Eigen::Index i = 0; i < n; ++i) line.row(i) << 1, static_cast<double>(i);
   for (Eigen::Index c = 0; c < kept.cols(); ++c) {
     const Eigen::VectorXd values = kept.col(c).head(3 * n);
-    const Eigen::VectorXd slides = Eigen::Map<const Points>(values.data(), n, 3) * chord.normalized().transpose();
+    const Eigen::VectorXd slides =
+        Eigen::Map<const Points>(values.data(), n, 3) * chord.normalized().transpose();
     const Eigen::VectorXd uneven = slides - line * line.colPivHouseholderQr().solve(slides);
     CHECK((placed.col(c).tail(n) - kept.col(c).tail(n) - slope * uneven).cwiseAbs().maxCoeff() < 1e-12);
   }
