@@ -141,6 +141,8 @@ ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& 
     throw InputError((saved ? state.string() : display_name(task.model)) + ": " + error.what());
   }
   run.interrupted = interrupts.requested();
+  // What --time stops after the search proper is cancelled as well, but not by anybody.
+  if (run.result.end == SearchEnd::cancelled && !run.interrupted) run.result.end = SearchEnd::time_limit;
   return run;
 }
 
