@@ -258,7 +258,7 @@ TEST_CASE("an interrupted run says what it has, and goes on to the same result")
   CHECK(a == b);
 }
 
-TEST_CASE("--resume starts anew where there is nothing, and refuses the state of another search") {
+TEST_CASE("a resumed run starts anew where there is nothing, and refuses the state of another search") {
   const CupFolder folder;
   const Outcome anew = run_program(joined(folder.more(), {"--resume"}));
   CHECK(anew.status == 0);
