@@ -142,29 +142,14 @@ void check(const ImproveCommandOptions& options) {
   check_folder(options);
 }
 
-std::vector<int> parts_named(const std::string& option, const std::vector<std::string>& names,
-                             const StructuredShape& rest) {
-  const std::vector<std::string>& known = rest.shape.part_names;
-  std::vector<int> parts;
-  for (const std::string& name : names) {
-    const auto found = std::find(known.begin(), known.end(), name);
-    if (found == known.end())
-      throw UsageError(option + " expects the name of a part, and there is no part '" + name + "'");
-    parts.push_back(static_cast<int>(found - known.begin()));
-  }
-  std::sort(parts.begin(), parts.end());
-  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-  return parts;
-}
-
 Requirements requirements_of(const ImproveCommandOptions& options, const StructuredShape& rest) {
   const Unit unit = rest.shape.unit;
   Requirements requirements;
   requirements.target = options.target.value_or(0);
   requirements.measure = options.measure;
   requirements.keep_height = !options.change_height;
-  requirements.kept_parts = parts_named("--keep", options.kept, rest);
-  requirements.editable_parts = parts_named("--only", options.editable, rest);
+  requirements.kept_parts = parts_named("--keep", options.kept, rest.shape);
+  requirements.editable_parts = parts_named("--only", options.editable, rest.shape);
   requirements.box_tolerance = options.box_tolerance;
   if (options.thickness) requirements.least_thickness = length_in("--thickness", options.thickness, unit);
   requirements.clearance = length_in("--clearance", options.clearance, unit);

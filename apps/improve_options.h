@@ -49,10 +49,6 @@ void check(const ImproveCommandOptions& options);
 /// UsageError for parts that do not exist and values out of range.
 Requirements requirements_of(const ImproveCommandOptions& options, const StructuredShape& rest);
 
-/// Rows of parts with these names. Throws UsageError naming the option and the part.
-std::vector<int> parts_named(const std::string& option, const std::vector<std::string>& names,
-                             const StructuredShape& rest);
-
 /// How the search goes; without directions, limits of interruption and callbacks.
 ImprovementOptions improvement_options_of(const ImproveCommandOptions& options);
 

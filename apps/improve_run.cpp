@@ -103,7 +103,8 @@ ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& o
   task.model = std::move(input.model);
   named(task.model, [&] {
     StructuredShape rest = std::move(input.structured);
-    if (!options.removed.empty()) rest = without_parts(rest, parts_named("--remove", options.removed, rest));
+    if (!options.removed.empty())
+      rest = without_parts(rest, parts_named("--remove", options.removed, rest.shape));
     Requirements requirements = requirements_of(options, rest);
     if (options.within) task.room = options.within->in(rest.shape.unit);
     task.directions = directions_of(options, rest);

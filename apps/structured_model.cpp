@@ -1,5 +1,6 @@
 #include "apps/structured_model.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
@@ -157,6 +158,21 @@ StructuredModel load_structured(const CLI::App& command, const CommonOptions& co
   result.model.shape = result.structured.shape;
   result.model.findings = inspect(result.model.shape);
   return result;
+}
+
+std::vector<int> parts_named(const std::string& option, const std::vector<std::string>& names,
+                             const Shape& shape) {
+  const std::vector<std::string>& known = shape.part_names;
+  std::vector<int> parts;
+  for (const std::string& name : names) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    if (found == known.end())
+      throw UsageError(option + " expects the name of a part, and there is no part '" + name + "'");
+    parts.push_back(static_cast<int>(found - known.begin()));
+  }
+  std::sort(parts.begin(), parts.end());
+  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+  return parts;
 }
 
 }  // namespace stackabilization::apps

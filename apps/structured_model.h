@@ -44,4 +44,8 @@ bool is_project(const std::string& path);
 StructuredModel load_structured(const CLI::App& command, const CommonOptions& common,
                                 const AnalysisArguments& arguments);
 
+/// Rows of parts with these names, ascending, each once. Throws UsageError naming the option and the part.
+std::vector<int> parts_named(const std::string& option, const std::vector<std::string>& names,
+                             const Shape& shape);
+
 }  // namespace stackabilization::apps

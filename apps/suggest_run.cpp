@@ -1,6 +1,5 @@
 #include "apps/suggest_run.h"
 
-#include <algorithm>
 
 #include "apps/text.h"
 #include "stackabilization/shape/errors.h"
@@ -10,25 +9,13 @@ namespace stackabilization::apps {
 
 namespace {
 
-std::vector<int> parts_of(const std::string& option, const std::vector<std::string>& names,
-                          const Shape& shape) {
-  std::vector<int> parts;
-  for (const std::string& name : names) {
-    const auto found = std::find(shape.part_names.begin(), shape.part_names.end(), name);
-    if (found == shape.part_names.end())
-      throw UsageError(option + " expects the name of a part, and there is no part '" + name + "'");
-    parts.push_back(static_cast<int>(found - shape.part_names.begin()));
-  }
-  return parts;
-}
-
 Requirements requirements_of(const SuggestCommandOptions& options, const Shape& shape) {
   Requirements requirements;
   requirements.target = options.target.value_or(0);
   requirements.measure = options.measure;
   requirements.keep_height = !options.change_height;
-  requirements.kept_parts = parts_of("--keep", options.kept, shape);
-  requirements.editable_parts = parts_of("--only", options.editable, shape);
+  requirements.kept_parts = parts_named("--keep", options.kept, shape);
+  requirements.editable_parts = parts_named("--only", options.editable, shape);
   requirements.box_tolerance = options.box_tolerance;
   return requirements;
 }

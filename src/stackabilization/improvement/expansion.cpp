@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "stackabilization/improvement/design_contacts.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
@@ -28,14 +29,9 @@ bool takes_back(const Edit& edit, const Edit& earlier) {
 
 std::vector<ContactEdit> suggestions(const SearchTools& tools, const Standpoint& from) {
   const DesignSpace& space = tools.checker.space();
-  const Shape& shape = from.design.shape;
   const Direction direction(from.direction);
-  ContactOptions contacts = tools.options.edits.contacts;
-  contacts.semantics = tools.checker.requirements().measure.semantics;
-  const SeparationTree tree(shape);
-  const Separation apart = separation(tree, tree, direction, {contacts.semantics, std::nullopt});
-  if (!apart.blocked) return {};
-  const std::vector<ContactRegion> regions = contact_regions({shape, tree, direction, apart}, contacts);
+  const std::vector<ContactRegion> regions =
+      contacts_of(tools.checker, from.design.shape, direction, tools.options.edits.contacts);
   std::vector<ContactEdit> edits = contact_edits(
       {space.rest(), space.kind(), tools.handles, from.design, regions, direction, space.centres()},
       tools.options.edits);

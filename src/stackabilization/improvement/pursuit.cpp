@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "stackabilization/improvement/block_separations.h"
+#include "stackabilization/improvement/design_contacts.h"
 #include "stackabilization/improvement/energy.h"
 
 namespace stackabilization {
@@ -65,14 +66,10 @@ class Pursuit {
   std::vector<ContactEdit> suggestions() const {
     const Candidate& from = now_.candidate;
     ContactOptions contacts = options_.edits.contacts;
-    contacts.semantics = checker_.requirements().measure.semantics;
     const double lack = (from.measured.f_max - allowed(from.measured)) / from.measured.extent;
     contacts.band = std::clamp(lack, contacts.band, 1.0);
-    const SeparationTree tree(from.design.shape);
-    const Separation apart = separation(tree, tree, direction_, {contacts.semantics, std::nullopt});
-    if (!apart.blocked) return {};
-    std::vector<ContactRegion> regions =
-        contact_regions({from.design.shape, tree, direction_, apart}, contacts);
+    const std::vector<ContactRegion> regions =
+        detail::contacts_of(checker_, from.design.shape, direction_, contacts);
     return contact_edits({checker_.space().rest(), checker_.space().kind(), handles_, from.design, regions,
                           direction_, checker_.space().centres()},
                          options_.edits);

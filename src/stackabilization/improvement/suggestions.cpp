@@ -5,21 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stackabilization/improvement/design_contacts.h"
 #include "stackabilization/shape/errors.h"
 
 namespace stackabilization {
 
 namespace {
-
-/// In the semantics that S is measured in.
-std::vector<ContactRegion> contacts_of(const RequirementChecker& checker, const Shape& shape,
-                                       const Direction& direction, ContactOptions options) {
-  options.semantics = checker.requirements().measure.semantics;
-  const SeparationTree tree(shape);
-  const Separation apart = separation(tree, tree, direction, {options.semantics, std::nullopt});
-  if (!apart.blocked) return {};
-  return contact_regions({shape, tree, direction, apart}, options);
-}
 
 /// What designs along one direction are held against.
 class Judge {
@@ -71,7 +62,7 @@ Situation situation(const RequirementChecker& checker, const Design& design, con
   Situation result;
   result.measured = checker.checked(design, direction).measured;
   result.energy = Judge(checker, direction, options.alpha).energy(design, result.measured);
-  result.contacts = contacts_of(checker, design.shape, direction, options.edits.contacts);
+  result.contacts = detail::contacts_of(checker, design.shape, direction, options.edits.contacts);
   return result;
 }
 
@@ -79,7 +70,7 @@ std::vector<Suggestion> suggestions(const RequirementChecker& checker, const Des
                                     const Direction& direction, const SuggestionOptions& options) {
   const DesignSpace& space = checker.space();
   const std::vector<ContactRegion> regions =
-      contacts_of(checker, design.shape, direction, options.edits.contacts);
+      detail::contacts_of(checker, design.shape, direction, options.edits.contacts);
   const std::vector<Handle> handles = space.handles();
   const std::vector<ContactEdit> edits = contact_edits(
       {space.rest(), space.kind(), handles, design, regions, direction, space.centres()}, options.edits);
