@@ -32,15 +32,18 @@ std::vector<std::string> shortened(std::vector<std::string> lines) {
   return lines;
 }
 
-/// Fills the folder, and knows what is in it.
+/// Fills the folder, and knows what is in it. Killed at any moment, it leaves whole files of which the
+/// summaries say nothing wrong, and until the last one is there the state to go on from.
 class Writer {
  public:
-  explicit Writer(ImproveReport& report) : report_(report), folder_(report.options.folder) {}
+  explicit Writer(ImproveReport& report) : report_(report), folder_(report.options.folder) {
+    remove_summaries(folder_);
+  }
 
-  void write_all(const Json& document) {
+  void write_summaries(const Json& document) {
+    remove_other_files(folder_, written_);
     write("result.json", json_text(document));
     write("index.html", improvement_page(report_));
-    remove_other_files(folder_, written_);
     std::error_code error;
     if (ended_by_itself(report_.run)) fs::remove(state_file(folder_), error);
   }
@@ -156,7 +159,9 @@ int run(const CLI::App& command, const ImproveCommandOptions& options) {
   Json document = document_head(command, task.model);
   add_improvement(document, report);
   add_document_tail(document, options.common, task.model, watch);
-  writer.write_all(document);
+  Json untimed = document;
+  untimed.erase("seconds");  // every run fills the folder with the same bytes
+  writer.write_summaries(untimed);
   deliver(options.common, document, options.common.quiet ? essential(report) : improvement_text(report));
   if (found.interrupted) throw Interrupted();
   return report.reached() ? status_done : status_no;

@@ -6,6 +6,8 @@
 #include <array>
 #include <cctype>
 
+#include "stackabilization/shape/write_file.h"
+
 namespace stackabilization::apps {
 
 namespace {
@@ -13,7 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* state_name = "search-state.json";
-constexpr std::array<const char*, 3> single_files = {"index.html", "result.json", state_name};
+/// Those that speak of all solutions.
+constexpr std::array<const char*, 2> summaries = {"index.html", "result.json"};
 constexpr std::array<const char*, 6> endings = {
     ".obj", ".3mf", ".stackabilize.json", ".json", "_before_after.png", "_stack.png"};
 
@@ -27,7 +30,7 @@ bool is_solution(const std::string& name) {
 
 /// Is it a name that this command gives to files?
 bool is_written(const std::string& file) {
-  return std::find(single_files.begin(), single_files.end(), file) != single_files.end() ||
+  return file == state_name || std::find(summaries.begin(), summaries.end(), file) != summaries.end() ||
          std::any_of(endings.begin(), endings.end(), [&](const std::string& ending) {
            return file.ends_with(ending) && is_solution(file.substr(0, file.size() - ending.size()));
          });
@@ -72,13 +75,20 @@ fs::path state_file(const fs::path& folder) {
   return folder / state_name;
 }
 
+void remove_summaries(const fs::path& folder) {
+  std::error_code error;
+  for (const char* const name : summaries) fs::remove(folder / name, error);
+}
+
 void remove_other_files(const fs::path& folder, const std::vector<std::string>& kept) {
   std::error_code error;
   std::vector<fs::path> stale;
   for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (is_written(name) && name != state_name && std::find(kept.begin(), kept.end(), name) == kept.end())
-      stale.push_back(entry.path());
+    const std::optional<std::string> unfinished = target_of_temporary(name);
+    const bool old =
+        is_written(name) && name != state_name && std::find(kept.begin(), kept.end(), name) == kept.end();
+    if (old || (unfinished && is_written(*unfinished))) stale.push_back(entry.path());
   }
   for (const fs::path& file : stale) fs::remove(file, error);
 }

@@ -19,7 +19,12 @@ void make_folder(const std::filesystem::path& folder);
 /// Where the state of a search is kept.
 std::filesystem::path state_file(const std::filesystem::path& folder);
 
-/// Removes what earlier runs left under names that this command gives, but for `kept` and the state.
+/// Removes index.html and result.json, which are written last: where they are, all that they speak of is
+/// there too, and of one run.
+void remove_summaries(const std::filesystem::path& folder);
+
+/// Removes what earlier runs left under names that this command gives, but for `kept` and the state, and what
+/// they were writing when they were killed.
 void remove_other_files(const std::filesystem::path& folder, const std::vector<std::string>& kept);
 
 }  // namespace stackabilization::apps

@@ -245,15 +245,19 @@ TEST_CASE("a search that ended at a limit goes on when the limit is raised") {
   check_same(resumed, best_first(checker(0.6), how));
 }
 
-TEST_CASE("the time used before a search was resumed counts") {
+TEST_CASE("a search that ran out of time goes on with time of its own, and saves the same bytes") {
   BestFirstOptions how = options();
-  how.expansions = 1;
-  std::string state;
-  how.save = [&](const std::string& text) { state = text; };
+  std::string whole, state;
+  how.save = [&](const std::string& text) { whole = text; };
   best_first(checker(0.6), how);
-  how.expansions = 50;
+  how.save = [&](const std::string& text) { state = text; };
   how.seconds = 1e-9;
+  CHECK(best_first(checker(0.6), how).end == SearchEnd::time_limit);
+  CHECK(state != whole);
   CHECK(best_first_resumed(checker(0.6), how, state).end == SearchEnd::time_limit);
+  how.seconds = 1e6;
+  CHECK(best_first_resumed(checker(0.6), how, state).end == SearchEnd::solved);
+  CHECK(state == whole);
 }
 
 TEST_CASE("a state that belongs to another task, or is none, is refused") {

@@ -1,3 +1,6 @@
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <fstream>
 
 #include "shape/meshes.h"
@@ -13,6 +16,15 @@ namespace {
 
 std::size_t entries(const std::filesystem::path& folder) {
   return static_cast<std::size_t>(std::distance(std::filesystem::directory_iterator(folder), {}));
+}
+
+/// The number of a process that is no more.
+pid_t ended_process() {
+  const pid_t child = fork();
+  if (child == 0) _exit(0);
+  int status = 0;
+  waitpid(child, &status, 0);
+  return child;
 }
 
 }  // namespace
@@ -49,6 +61,30 @@ TEST_CASE("a written file replaces the old one whole, through links too") {
   CHECK(std::filesystem::is_symlink(folder.path() / "link.txt"));
   CHECK(entries(folder.path()) == 2);
   CHECK_NOTHROW(write_file_atomically("/dev/null", "x"));
+}
+
+TEST_CASE("what killed writers left goes with the next write of the same file, and nothing else does") {
+  const ScratchFolder folder("leftovers");
+  const std::string ended = std::to_string(ended_process()), parent = std::to_string(getppid());
+  const std::string ours = std::to_string(getpid());
+  for (const std::string& name :
+       {"a.txt." + ended + ".tmp", "a.txt." + ours + ".tmp", "a.txt." + parent + ".tmp",
+        "b.txt." + ended + ".tmp", std::string("a.txt.tmp"), std::string("a.txt.0.tmp"), "a.txt." + ended,
+        "a.txt." + ended + "x.tmp"})
+    std::ofstream(folder.path() / name) << "half";
+  write_file_atomically(folder.path() / "a.txt", "whole");
+  CHECK(read_file(folder.path() / "a.txt") == "whole");
+  CHECK(!std::filesystem::exists(folder.path() / ("a.txt." + ended + ".tmp")));
+  CHECK(!std::filesystem::exists(folder.path() / ("a.txt." + ours + ".tmp")));
+  CHECK(entries(folder.path()) == 7);  // that of a living writer is there too
+}
+
+TEST_CASE("temporary names say whose they are") {
+  CHECK(target_of_temporary("a.obj.4711.tmp") == "a.obj");
+  CHECK(target_of_temporary("a.1.2.tmp") == "a.1");
+  for (const char* name : {"a.obj", "a.tmp", "a.obj.tmp", ".12.tmp", "a.-3.tmp", "a.0.tmp", "a..tmp",
+                           "a.99999999999999999999.tmp", "a.12.tmp2", "", ".tmp"})
+    CHECK(!target_of_temporary(name));
 }
 
 TEST_CASE("what cannot be written is refused and leaves nothing behind") {

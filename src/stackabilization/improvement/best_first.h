@@ -28,7 +28,7 @@ struct BestFirstOptions {
   ContactEditOptions edits;
   int solutions = 1;              ///< different ones wanted, >= 1
   std::int64_t expansions = 100;  ///< limit, >= 1
-  double seconds = 40;            ///< limit, > 0; what it ends depends on the machine
+  double seconds = 40;            ///< limit, > 0, of one call; what it ends depends on the machine
   double cone_degrees = 10;  ///< the direction is searched again within this of the previous one; 0: never
   /// Directions to start from, the first preferred; not empty.
   std::vector<Eigen::Vector3d> directions = {{0, 0, 1}};
@@ -82,8 +82,9 @@ struct BestFirstResult {
 BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOptions& options);
 
 /// Goes on from a text given to `save` by a search with the same checker and options; only its limits, of
-/// expansions and seconds, may be others. The seconds it used count. Throws InputError when the text is none,
-/// or belongs to another shape, other requirements or other options.
+/// expansions and seconds, may be others. The expansions it made count, the seconds it used do not: they are
+/// of no state, so that the same search saves the same bytes. Throws InputError when the text is none, or
+/// belongs to another shape, other requirements or other options.
 BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
                                    const std::string& state);
 

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t most_nearest = 8;
 
 /// Seconds between two saves, and the most that saving may take of all time.
-constexpr double save_every = 3;
+constexpr double save_every = 1;
 constexpr double save_share = 0.05;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -26,7 +26,7 @@ BestFirstSearch::BestFirstSearch(const RequirementChecker& checker, const BestFi
                                  SearchState state)
     : tools_(checker, options),
       state_(std::move(state)),
-      interruption_(options, state_.seconds),
+      interruption_(options),
       designs_(checker, state_.tree),
       cone_(checker, options.cone_degrees),
       distinct_(checker.space().rest()) {
@@ -154,7 +154,6 @@ ImprovementProgress BestFirstSearch::progress() const {
 void BestFirstSearch::save() {
   if (!options().save) return;
   const auto start = std::chrono::steady_clock::now();
-  state_.seconds = interruption_.seconds();
   options().save(text_of(state_));
   save_seconds_ = seconds_since(start);
   last_save_ = std::chrono::steady_clock::now();

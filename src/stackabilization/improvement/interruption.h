@@ -13,12 +13,8 @@ namespace stackabilization::detail {
 /// asked from the thread that made this alone.
 class Interruption {
  public:
-  /// `seconds_used`: before, by the search that is resumed.
-  Interruption(const BestFirstOptions& options, double seconds_used)
-      : options_(options),
-        caller_(std::this_thread::get_id()),
-        start_(Clock::now()),
-        seconds_used_(seconds_used) {}
+  explicit Interruption(const BestFirstOptions& options)
+      : options_(options), caller_(std::this_thread::get_id()), start_(Clock::now()) {}
 
   bool now() {
     if (!timed_out_ && seconds() >= options_.seconds) timed_out_ = true;
@@ -31,10 +27,8 @@ class Interruption {
     if (timed_out_) return SearchEnd::time_limit;
     return std::nullopt;
   }
-  /// Used so far, with those before.
-  double seconds() const {
-    return seconds_used_ + std::chrono::duration<double>(Clock::now() - start_).count();
-  }
+  /// Used so far.
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -42,7 +36,6 @@ class Interruption {
   const BestFirstOptions& options_;
   std::thread::id caller_;
   Clock::time_point start_;
-  double seconds_used_;
   std::atomic<bool> timed_out_ = false, cancelled_ = false;
 };
 

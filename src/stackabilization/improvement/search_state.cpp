@@ -136,7 +136,6 @@ SearchState state_of(const json& text, std::uint64_t task, int queues) {
   state.refusals = text.at("refusals").get<std::map<std::string, std::int64_t>>();
   state.expanded = text.at("expanded").get<std::int64_t>();
   state.evaluated = text.at("evaluated").get<std::int64_t>();
-  state.seconds = finite(text.at("seconds"));
   return state;
 }
 
@@ -145,10 +144,10 @@ SearchState state_of(const json& text, std::uint64_t task, int queues) {
 std::string text_of(const SearchState& state) {
   json candidates = json::array();
   for (const SearchNode& node : state.tree.nodes()) candidates.push_back(json_of(node));
-  const json text = {
-      {"format", format_name},     {"version", format_version},  {"task", state.task},
-      {"turn", state.tree.turn()}, {"expanded", state.expanded}, {"evaluated", state.evaluated},
-      {"seconds", state.seconds},  {"refusals", state.refusals}, {"candidates", std::move(candidates)}};
+  const json text = {{"format", format_name},      {"version", format_version},
+                     {"task", state.task},         {"turn", state.tree.turn()},
+                     {"expanded", state.expanded}, {"evaluated", state.evaluated},
+                     {"refusals", state.refusals}, {"candidates", std::move(candidates)}};
   return text.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 

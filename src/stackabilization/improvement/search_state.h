@@ -17,7 +17,6 @@ struct SearchState {
   SearchTree tree;
   std::map<std::string, std::int64_t> refusals;  ///< by reason
   std::int64_t expanded = 0, evaluated = 0;
-  double seconds = 0;  ///< of wall clock that it took
 };
 
 /// Of the shape at rest with its structure, the requirements and the options, but for the limits: a search

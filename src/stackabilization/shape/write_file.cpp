@@ -1,11 +1,13 @@
 #include "stackabilization/shape/write_file.h"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
-#include <string>
+#include <vector>
 
 #include "stackabilization/shape/errors.h"
 
@@ -33,7 +35,55 @@ void write_directly(const std::filesystem::path& path, std::string_view bytes) {
   if (!reason.empty()) fail(path.string(), reason);
 }
 
+constexpr std::string_view temporary_ending = ".tmp";
+
+/// A temporary file, by its name: "a.obj.4711.tmp" holds what process 4711 is about to call "a.obj".
+struct TemporaryName {
+  std::string target;
+  pid_t writer = 0;
+};
+
+std::optional<TemporaryName> parsed(std::string_view name) {
+  if (!name.ends_with(temporary_ending)) return std::nullopt;
+  name.remove_suffix(temporary_ending.size());
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string_view::npos || dot == 0) return std::nullopt;
+  TemporaryName result{std::string(name.substr(0, dot)), 0};
+  const char* const end = name.data() + name.size();
+  const auto [rest, error] = std::from_chars(name.data() + dot + 1, end, result.writer);
+  if (error != std::errc() || rest != end || result.writer <= 0) return std::nullopt;
+  return result;
+}
+
+/// One that is left over from a process of the same number gives way.
+std::FILE* open_temporary(const std::filesystem::path& temporary) {
+  std::FILE* const file = std::fopen(temporary.c_str(), "wbx");
+  if (file || errno != EEXIST) return file;
+  std::error_code error;
+  std::filesystem::remove(temporary, error);
+  return std::fopen(temporary.c_str(), "wbx");
+}
+
+/// Removes what writers of `target` left that were killed.
+void remove_leftovers(const std::filesystem::path& target) {
+  const std::string name = target.filename().string();
+  std::error_code error;
+  std::vector<std::filesystem::path> left;
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const auto temporary = parsed(entry.path().filename().string());
+    if (temporary && temporary->target == name && kill(temporary->writer, 0) != 0 && errno == ESRCH)
+      left.push_back(entry.path());
+  }
+  for (const std::filesystem::path& file : left) std::filesystem::remove(file, error);
+}
+
 }  // namespace
+
+std::optional<std::string> target_of_temporary(std::string_view name) {
+  const auto temporary = parsed(name);
+  return temporary ? std::optional(temporary->target) : std::nullopt;
+}
 
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
   if (path == "-") {
@@ -53,10 +103,9 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
   if (std::filesystem::exists(status)) target = std::filesystem::canonical(path, error);
   if (error) fail(path.string(), error.message());
   std::filesystem::path temporary = target;
-  temporary += '.';
-  temporary += std::to_string(getpid());
-  temporary += ".tmp";
-  std::FILE* const file = std::fopen(temporary.c_str(), "wbx");
+  temporary += '.' + std::to_string(getpid());
+  temporary += temporary_ending;
+  std::FILE* const file = open_temporary(temporary);
   if (!file) fail(path.string(), std::strerror(errno));
   error.clear();
   if (std::filesystem::exists(status)) std::filesystem::permissions(temporary, status.permissions(), error);
@@ -66,7 +115,7 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
     std::filesystem::rename(temporary, target, error);
     if (error) reason = error.message();
   }
-  if (reason.empty()) return;
+  if (reason.empty()) return remove_leftovers(target);
   std::filesystem::remove(temporary, error);
   fail(path.string(), reason);
 }

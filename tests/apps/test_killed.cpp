@@ -1,0 +1,146 @@
+#include <chrono>
+#include <map>
+
+#include "apps/run_program.h"
+#include "stackabilization/shape/write_file.h"
+#include "support/catch.h"
+#include "support/solids.h"
+
+using namespace stackabilization;
+using namespace stackabilization::apps;
+using nlohmann::json;
+
+namespace {
+
+namespace fs = std::filesystem;
+using Arguments = std::vector<std::string>;
+
+/// Shares of the time that a whole run takes, after which others are killed.
+constexpr double moments[] = {0.1, 0.3, 0.5, 0.65, 0.75, 0.85, 0.9, 0.95};
+
+Arguments joined(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// Name and bytes of all files of a folder, none when there is no folder.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+  std::map<std::string, std::string> files;
+  if (!fs::exists(folder)) return files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    files[entry.path().filename().string()] = bytes_of(entry.path().string());
+  return files;
+}
+
+/// Runs the program and kills it after so many seconds, if it still runs then.
+void run_and_kill(const Arguments& arguments, double seconds) {
+  const Outcome outcome =
+      run_program(arguments, "", "timeout --foreground -s KILL " + std::to_string(seconds));
+  INFO(outcome.err);
+  CHECK((outcome.status == 137 || outcome.status == 0 || outcome.status == 1));
+}
+
+double seconds_of(const Arguments& arguments, int status) {
+  const auto start = std::chrono::steady_clock::now();
+  const Outcome outcome = run_program(arguments);
+  INFO(outcome.err);
+  REQUIRE(outcome.status == status);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// A search in a model and the folders that runs of it fill. All of it is over in a few seconds.
+struct SearchFolder : TemporaryFolder {
+  explicit SearchFolder(Arguments the_task) : task(std::move(the_task)) {
+    solids::FrustumShell coarse;
+    coarse.segments = 16;
+    cup = model("cup.obj", solids::frustum_shell(coarse));
+  }
+
+  Arguments into(const std::string& folder, const Arguments& further = {}) const {
+    return joined(
+        joined({"improve", cup, "--direction", "0", "0", "1", "--time", "600", "-o", *this / folder}, task),
+        further);
+  }
+
+  Arguments task;
+  std::string cup;
+};
+
+/// Every file is there as the whole run wrote it, or as `before`, or is a state that can be read; all others
+/// have temporary names.
+void check_whole(const std::map<std::string, std::string>& left,
+                 const std::map<std::string, std::string>& whole,
+                 const std::map<std::string, std::string>& before) {
+  for (const auto& [name, bytes] : left) {
+    INFO(name);
+    if (target_of_temporary(name)) continue;
+    if (name == "search-state.json") {
+      CHECK(json::accept(bytes));
+      continue;
+    }
+    const auto made = whole.find(name), old = before.find(name);
+    CHECK(((made != whole.end() && made->second == bytes) || (old != before.end() && old->second == bytes)));
+  }
+  // Summaries speak of what is there.
+  if (left.contains("index.html") && left.at("index.html") == whole.at("index.html"))
+    for (const auto& [name, bytes] : whole) CHECK((left.contains(name) && left.at(name) == bytes));
+}
+
+void check_resumed(const SearchFolder& folder, int status) {
+  const double seconds = seconds_of(folder.into("whole"), status);
+  const std::map<std::string, std::string> whole = contents(folder / "whole");
+  REQUIRE(whole.size() > 4);
+  // Left by something else before.
+  fs::create_directory(folder / "killed");
+  for (const char* name : {"index.html", "result.json", "solution_19.obj", "solution_1.json"})
+    CHECK(!folder.file(std::string("killed/") + name, "old").empty());
+  const std::map<std::string, std::string> before = contents(folder / "killed");
+  const Arguments resume = {"--resume", "--quiet"};
+  for (const double share : moments) {
+    INFO(share << " of " << seconds << " s");
+    run_and_kill(folder.into("killed", resume), share * seconds);
+    check_whole(contents(folder / "killed"), whole, before);
+  }
+  // A writer that was killed between two instructions leaves this.
+  CHECK(!folder.file("killed/solution_3.obj.99999999.tmp", "half").empty());
+  CHECK(run_program(folder.into("killed", resume)).status == status);
+  CHECK(contents(folder / "killed") == whole);
+}
+
+}  // namespace
+
+TEST_CASE("a refined improvement that is killed at any moment goes on to the same files") {
+  check_resumed(SearchFolder({"--target", "0.9", "--solutions", "2", "--expansions", "6"}), 0);
+}
+
+TEST_CASE("a search that is killed at any moment goes on to the same files") {
+  check_resumed(SearchFolder({"--target", "0.97", "--preset", "paper", "--expansions", "60"}), 1);
+}
+
+TEST_CASE("improvements are the same bytes for any number of threads") {
+  const SearchFolder folder({"--target", "0.9", "--solutions", "2", "--expansions", "6"});
+  CHECK(run_program(folder.into("one", {"--threads", "1"})).status == 0);
+  CHECK(run_program(folder.into("four", {"--threads", "4"})).status == 0);
+  CHECK(contents(folder / "one") == contents(folder / "four"));
+}
+
+TEST_CASE("a step of a session that is killed leaves the project as it was or as it is to be") {
+  const TemporaryFolder folder;
+  const std::string table = folder.model("table.obj", solids::table({})), project = folder / "table.json";
+  REQUIRE(run_program({"structure", table, "--save", project}).status == 0);
+  const std::string before = bytes_of(project);
+  const Arguments step = {"suggest", project, "--apply", "1"};
+  const double seconds = seconds_of(step, 0);
+  const std::string after = bytes_of(project);
+  REQUIRE(after != before);
+  for (const double share : {0.2, 0.5, 0.8, 0.9, 0.95, 1.0, 1.05}) {
+    CHECK(folder.file("table.json", before) == project);
+    run_and_kill(step, share * seconds);
+    const std::string left = bytes_of(project);
+    CHECK((left == before || left == after));
+  }
+  CHECK(folder.file("table.json", before) == project);
+  CHECK(run_program(step).status == 0);
+  CHECK(bytes_of(project) == after);
+  CHECK(folder.names() == std::vector<std::string>{"table.json", "table.obj"});
+}
