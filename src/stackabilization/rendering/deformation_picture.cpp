@@ -12,8 +12,6 @@
 namespace stackabilization {
 namespace {
 
-using detail::LegendMark;
-
 struct Side {
   const Shape& shape;
   const std::vector<Primitive>& primitives;
@@ -67,7 +65,7 @@ Drawing deformation_picture(const StructuredShape& rest, const DeformationResult
     const Rectangle place{margin + static_cast<double>(k) * (column + margin), top, column, height};
     drawing.add(PlacedImage{place, render(scenes[k], view)});
     drawing.add(detail::handle_marks(lines_of(edited, sides[k]), view, place));
-    std::vector<detail::LegendEntry> entries{{LegendMark::swatch, sides[k].colour, sides[k].caption}};
+    std::vector<LegendEntry> entries{{LegendMark::swatch, sides[k].colour, sides[k].caption}};
     if (!handles.empty()) entries.push_back({LegendMark::line, palette::contact, "what was edited"});
     drawing.add(detail::legend(entries, {place.x, place.bottom() + 0.3 * size, column, 2 * size}, size));
   }

@@ -1,6 +1,6 @@
 #include "stackabilization/rendering/foot.h"
 
-namespace stackabilization::detail {
+namespace stackabilization {
 
 Eigen::Vector3d foot_of(const Shape& shape, const Direction& direction) {
   const Frame frame = frame_of(direction);
@@ -8,4 +8,8 @@ Eigen::Vector3d foot_of(const Shape& shape, const Direction& direction) {
   return frame.to_world({(u.low + u.high) / 2, (v.low + v.high) / 2, range_along(shape, frame.w).low});
 }
 
-}  // namespace stackabilization::detail
+Shape on_ground(const Shape& shape, const Direction& direction) {
+  return transformed(shape, Eigen::Matrix3d::Identity(), -foot_of(shape, direction));
+}
+
+}  // namespace stackabilization

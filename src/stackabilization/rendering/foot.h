@@ -5,10 +5,12 @@
 #include "stackabilization/shape/direction.h"
 #include "stackabilization/shape/shape.h"
 
-namespace stackabilization::detail {
+namespace stackabilization {
 
-/// The point on the ground below the middle of the box of a shape in the frame of r: what is moved by minus
-/// this stands at the origin. Private to rendering/.
+/// The point on the ground below the middle of the box of a shape in the frame of r.
 Eigen::Vector3d foot_of(const Shape& shape, const Direction& direction);
 
-}  // namespace stackabilization::detail
+/// The shape moved so that its foot is the origin.
+Shape on_ground(const Shape& shape, const Direction& direction);
+
+}  // namespace stackabilization

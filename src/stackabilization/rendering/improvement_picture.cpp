@@ -6,12 +6,11 @@
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/scene.h"
+#include "stackabilization/rendering/stacking_scene.h"
 #include "stackabilization/shape/errors.h"
 
 namespace stackabilization {
 namespace {
-
-using detail::LegendMark;
 
 struct Side {
   const MeasuredShape& what;
@@ -29,25 +28,18 @@ std::vector<ContactRegion> moved(std::vector<ContactRegion> regions, const Eigen
   return regions;
 }
 
-/// The shape on its foot at the origin, wherever it is in its file. Marks stand off the surface by enough to
-/// be seen and too little to be noticed.
+/// The shape on its foot at the origin, wherever it is in its file.
 Scene scene_of(const Side& side, const Direction& up) {
-  constexpr double lift = 0.004;
-  const Eigen::Vector3d to_origin = -detail::foot_of(side.what.shape, up);
-  const std::vector<ContactRegion> contacts = moved(side.what.contacts, to_origin);
-  Scene scene;
-  scene.add({transformed(side.what.shape, Eigen::Matrix3d::Identity(), to_origin), {side.colour}});
-  const Eigen::Vector3d shift = lift * side.what.measured.extent * up.unit();
-  scene.add(contact_marks(contacts, EnvelopeSide::upper, shift));
-  scene.add(contact_marks(contacts, EnvelopeSide::lower, -shift));
-  return scene;
+  const Eigen::Vector3d to_origin = -foot_of(side.what.shape, up);
+  return touching_scene({transformed(side.what.shape, Eigen::Matrix3d::Identity(), to_origin), {side.colour}},
+                        moved(side.what.contacts, to_origin), up);
 }
 
 /// What side it is, and its numbers, below the picture of it.
 detail::Elements caption(const Side& side, const Rectangle& place, double size) {
   const Stackability& measured = side.what.measured;
   const Unit unit = side.what.shape.unit;
-  std::vector<detail::LegendEntry> entries{{LegendMark::swatch, side.colour, side.name}};
+  std::vector<LegendEntry> entries{{LegendMark::swatch, side.colour, side.name}};
   if (!side.what.contacts.empty())
     entries.push_back({LegendMark::swatch, palette::contact, "where copies touch"});
   detail::Elements elements = detail::legend(entries, {place.x, place.y, place.width, 2 * size}, size);

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
-#include <limits>
-#include <utility>
 
-#include "stackabilization/rendering/envelope_sheet.h"
+#include "stackabilization/rendering/foot.h"
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/scene.h"
+#include "stackabilization/rendering/scene_overlay.h"
+#include "stackabilization/rendering/stacking_scene.h"
 
 namespace stackabilization {
 namespace {
@@ -16,7 +16,6 @@ using detail::length_text;
 using detail::number_text;
 
 constexpr int gap_samples = 400;
-const Colour upper_copy = mix(palette::input, palette::white, 0.45);
 
 /// What all panels of the sheet share.
 struct Subject {
@@ -25,19 +24,8 @@ struct Subject {
   const std::vector<ContactRegion>& contacts;
   Direction direction;
   HeightField field;
-  Eigen::Vector3d up;  ///< unit vector along r
   double text_size;
-
-  /// Far enough off the surface to be seen, too little to be noticed.
-  Eigen::Vector3d mark_lift() const { return std::max(0.004 * measured.extent, 0.001 * breadth()) * up; }
-  double breadth() const {
-    return std::max(field.window.columns, field.window.rows) * field.window.pixel_size;
-  }
 };
-
-Shape moved(const Shape& shape, const Eigen::Vector3d& shift) {
-  return transformed(shape, Eigen::Matrix3d::Identity(), shift);
-}
 
 Elements picture_of(const Scene& scene, const View& view, const Rectangle& place) {
   return {PlacedImage{place, render(scene, view), Sampling::smooth}};
@@ -48,48 +36,6 @@ ViewOptions view_of(const Rectangle& place) {
   options.width = static_cast<int>(place.width);
   options.height = static_cast<int>(place.height);
   return options;
-}
-
-Scene contact_scene(const Subject& s) {
-  Scene scene;
-  scene.add({s.shape, {palette::input}});
-  scene.add(contact_marks(s.contacts, EnvelopeSide::upper, s.mark_lift()));
-  scene.add(contact_marks(s.contacts, EnvelopeSide::lower, -s.mark_lift()));
-  return scene;
-}
-
-/// The lower envelope belongs to the copy above, so it floats over the upper envelope of the copy below; thin
-/// lines join the places that will touch. Empty when there is no envelope to see.
-Scene envelope_scene(const Subject& s) {
-  double top = -std::numeric_limits<double>::infinity(), bottom = -top;
-  const HeightField& field = s.field;
-  for (Eigen::Index i = 0; i < field.upper.rows(); ++i)
-    for (Eigen::Index j = 0; j < field.upper.cols(); ++j)
-      if (field.covered(static_cast<int>(i), static_cast<int>(j))) {
-        top = std::max(top, field.upper(i, j));
-        bottom = std::min(bottom, field.lower(i, j));
-      }
-  // Wide shapes need more distance, because the view from above lays them over each other.
-  const Eigen::Vector3d lift = (top - bottom + 0.1 * s.measured.extent + 0.25 * s.breadth()) * s.up;
-  const Shape upper = envelope_sheet(s.shape, field, EnvelopeSide::upper);
-  const Shape lower = envelope_sheet(s.shape, field, EnvelopeSide::lower);
-  Scene scene;
-  if (upper.triangle_count() == 0 || lower.triangle_count() == 0) return scene;
-  scene.add({upper, {palette::upper}, 1, Finish::smooth});
-  scene.add({moved(lower, lift), {palette::lower}, 1, Finish::smooth});
-  scene.add(contact_marks(s.contacts, EnvelopeSide::upper, s.mark_lift()));
-  scene.add(contact_marks(s.contacts, EnvelopeSide::lower, lift + s.mark_lift()));
-  SceneLines links{{}, palette::faint, 1};
-  constexpr std::size_t most_links = 8;
-  for (std::size_t k = 0; k < std::min(most_links, s.contacts.size()); ++k) {
-    if (s.contacts[k].type == ContactType::ring) continue;  // the centre of a ring is not on the surface
-    Points link(2, 3);
-    link.row(0) = s.contacts[k].upper_centre.transpose();
-    link.row(1) = (s.contacts[k].lower_centre + lift).transpose();
-    links.polylines.push_back(std::move(link));
-  }
-  if (!links.polylines.empty()) scene.add(std::move(links));
-  return scene;
 }
 
 /// Says in the middle of a panel why it is empty.
@@ -104,45 +50,18 @@ Elements no_envelope(const Rectangle& place, double text_size) {
 
 /// Two copies from the side, with h at the left of the lower one and f_max at the right, from rim to rim.
 Elements stacked_panel(const Subject& s, const Rectangle& place) {
-  Scene scene;
-  scene.add({s.shape, {palette::input}});
-  scene.add({moved(s.shape, s.measured.f_max * s.up), {upper_copy}});
-  const double side_room = 3.2 * s.text_size;
-  const Rectangle inner{place.x + side_room, place.y, place.width - 2 * side_room, place.height};
-  ViewOptions options = view_of(inner);
-  options.elevation_degrees = 8;
-  const View view = fit_view(scene, s.direction, options);
-  Elements elements = picture_of(scene, view, inner);
-
-  double left = inner.width, right = 0, low = std::numeric_limits<double>::infinity(), high = -low;
-  Eigen::Vector2d axis_low, axis_high;
-  Eigen::Vector3d corner_low = s.field.frame.to_local(s.shape.corner(0, 0)), corner_high = corner_low;
-  for (Eigen::Index t = 0; t < s.shape.triangle_count(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d corner = s.shape.corner(t, k), local = s.field.frame.to_local(corner);
-      corner_low = corner_low.cwiseMin(local);
-      corner_high = corner_high.cwiseMax(local);
-      left = std::min(left, view.project(corner).x());
-      right = std::max(right, view.project(corner).x());
-    }
-  low = corner_low.z();
-  high = corner_high.z();
-  Eigen::Vector3d foot = (corner_low + corner_high) / 2;
-  const auto level = [&](double height) {
-    foot.z() = height;
-    return inner.y + view.project(s.field.frame.to_world(foot)).y();
-  };
+  const Frame& frame = s.field.frame;
+  const Range along = range_along(s.shape, frame.w);
+  ScenePanel panel;
+  panel.up = s.direction;
+  panel.elevation_degrees = 8;
+  panel.scene = stack_scene(copies_of(s.shape, s.measured.f_max * frame.w, 2), palette::input);
+  const Eigen::Vector3d foot = foot_of(s.shape, s.direction), rim = foot + along.length() * frame.w;
   const Unit unit = s.shape.unit;
-  for (const Elements& dimension :
-       {detail::vertical_dimension({inner.x + left - 0.8 * s.text_size, level(low), level(high),
-                                    "h = " + length_text(s.measured.extent, unit), Anchor::left},
-                                   s.text_size),
-        detail::vertical_dimension(
-            {inner.x + right + 0.8 * s.text_size, level(high), level(high + s.measured.f_max),
-             "f_max = " + length_text(s.measured.f_max, unit), Anchor::right},
-            s.text_size)})
-    elements.insert(elements.end(), dimension.begin(), dimension.end());
-  return elements;
+  panel.over.dimensions = {{foot, rim, "h = " + length_text(s.measured.extent, unit), Anchor::left},
+                           {rim, rim + s.measured.f_max * frame.w,
+                            "f_max = " + length_text(s.measured.f_max, unit), Anchor::right}};
+  return detail::scene_elements(panel, place, {s.text_size, {}});
 }
 
 struct Caption {
@@ -226,7 +145,6 @@ Drawing measure_picture(const Shape& shape, const Stackability& measured,
       contacts,
       direction,
       height_field_by_scanline(shape, direction, window_around(shape, direction, gap_samples)),
-      direction.unit(),
       size};
   Drawing drawing{options.width, options.height, {}};
   const detail::Heading heading = detail::heading(
@@ -242,7 +160,8 @@ Drawing measure_picture(const Shape& shape, const Stackability& measured,
   const auto below = [&](const Rectangle& place) {
     return Rectangle{place.x, place.bottom() + 0.4 * size, place.width, words};
   };
-  const Scene touching = contact_scene(subject), apart = envelope_scene(subject);
+  const Scene touching = touching_scene({shape, {palette::input}}, contacts, direction);
+  const Scene apart = envelope_scene(shape, contacts, subject.field);
   drawing.add(picture_of(touching, fit_view(touching, direction, view_of(panel(0))), panel(0)));
   drawing.add(caption({"1  The shape", "Red: where two stacked copies touch or nearly touch."},
                       below(panel(0)), size));

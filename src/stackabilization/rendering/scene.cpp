@@ -91,7 +91,9 @@ View fit_view(const Scene& scene, const Direction& up, const ViewOptions& option
   const Eigen::Array3d extent = bounds.high - bounds.low;
   const double border = 2 * options.margin * std::min(options.width, options.height);
   const double scale = std::min((options.width - border) / extent[0], (options.height - border) / extent[1]);
-  view.pixels_per_unit = std::isfinite(scale) ? scale : 1;
+  view.pixels_per_unit = options.pixels_per_unit.value_or(std::isfinite(scale) ? scale : 1);
+  if (options.pixels_per_unit)
+    view.centre += ((options.height - border) / view.pixels_per_unit - extent[1]) / 2 * view.up;
   return view;
 }
 

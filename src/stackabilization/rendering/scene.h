@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,9 @@ struct ViewOptions {
   double elevation_degrees = 25;  ///< above the plane orthogonal to r; 0 is a side view
   double margin = 0.04;           ///< free border, fraction of the smaller side
   int width = 800, height = 600;  ///< pixels
+  /// Scale to be used instead of the largest that fits; the content then stands on the lower border, so that
+  /// pictures side by side have one ground.
+  std::optional<double> pixels_per_unit = {};
 };
 
 /// The view that shows the whole scene as large as fits. Deterministic. Throws UsageError when the scene is

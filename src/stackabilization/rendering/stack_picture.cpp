@@ -4,18 +4,11 @@
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/scene.h"
+#include "stackabilization/rendering/stacking_scene.h"
 #include "stackabilization/shape/errors.h"
 
 namespace stackabilization {
 namespace {
-
-/// Neighbours differ in shade so that each copy can be told from the next.
-Scene stack_scene(const std::vector<Shape>& copies) {
-  Scene scene;
-  for (std::size_t k = 0; k < copies.size(); ++k)
-    scene.add({copies[k], {k % 2 == 0 ? palette::input : mix(palette::input, palette::white, 0.5)}});
-  return scene;
-}
 
 struct HeightRange {
   double low = std::numeric_limits<double>::infinity(), high = -low;
@@ -45,7 +38,7 @@ Drawing stack_picture(const std::vector<Shape>& copies, const Direction& directi
   drawing.add(heading.elements);
   const double top = heading.bottom + size;
 
-  const Scene scene = stack_scene(copies);
+  const Scene scene = stack_scene(copies, palette::input);
   const double height = options.height - top - margin, dimension_room = 3 * size;
   const double width = (options.width - 2 * margin) / (options.side_view ? 2 : 1);
   ViewOptions view_options;

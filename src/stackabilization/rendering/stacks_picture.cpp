@@ -5,6 +5,7 @@
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/scene.h"
+#include "stackabilization/rendering/stacking_scene.h"
 #include "stackabilization/shape/errors.h"
 
 namespace stackabilization {
@@ -26,8 +27,7 @@ struct Stack {
 Stack stack_of(const MeasuredShape& measured, const Colour& colour, const Eigen::Vector3d& right) {
   const Direction up(measured.measured.direction);
   Stack stack;
-  stack.lowest =
-      transformed(measured.shape, Eigen::Matrix3d::Identity(), -detail::foot_of(measured.shape, up));
+  stack.lowest = transformed(measured.shape, Eigen::Matrix3d::Identity(), -foot_of(measured.shape, up));
   stack.step = measured.measured.f_max;
   stack.colour = colour;
   stack.across = range_along(stack.lowest, right);
@@ -46,13 +46,6 @@ std::array<Stack, 2> stacks_of(const ImprovedShape& shapes, int copies, const Ei
   const double gap = std::max(gap_of_width * width, gap_of_height * height);
   stacks[1].shift = (stacks[0].across.high + gap - stacks[1].across.low) * right;
   return stacks;
-}
-
-/// Neighbours differ in shade so that each copy can be told from the next.
-void add_copies(Scene& scene, const Stack& stack, const Eigen::Vector3d& up, int copies) {
-  for (int k = 0; k < copies; ++k)
-    scene.add({transformed(stack.lowest, Eigen::Matrix3d::Identity(), stack.shift + k * stack.step * up),
-               {k % 2 == 0 ? stack.colour : mix(stack.colour, palette::white, 0.5)}});
 }
 
 /// Where things are in the picture.
@@ -107,7 +100,10 @@ Drawing stacks_picture(const ImprovedShape& shapes, const StacksPictureOptions& 
   const std::array<Stack, 2> stacks =
       stacks_of(shapes, options.copies, turned_view(direction, view_options).right);
   Scene scene;
-  for (const Stack& stack : stacks) add_copies(scene, stack, up, options.copies);
+  for (const Stack& stack : stacks)
+    scene.add(stack_scene(copies_of(transformed(stack.lowest, Eigen::Matrix3d::Identity(), stack.shift),
+                                    stack.step * up, options.copies),
+                          stack.colour));
   const View view = fit_view(scene, direction, view_options);
   drawing.add(PlacedImage{place, render(scene, view)});
   const Stage stage{view, place, up, size};

@@ -6,19 +6,12 @@
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/structure_scene.h"
+#include "stackabilization/rendering/structure_views.h"
 
 namespace stackabilization {
 namespace {
 
 using detail::Elements;
-using detail::LegendEntry;
-using detail::LegendMark;
-
-const Colour point_colour{0.10, 0.66, 0.22};
-const Colour line_colour = palette::contact;
-const Colour plane_colour{0.45, 0.62, 0.88};
-const Colour ghost{0.90, 0.90, 0.88};
-constexpr std::size_t most_symmetries = 4;  ///< frames drawn: more of them would hide the shape
 
 struct Tally {
   int cuboids = 0, cylinders = 0, pairs = 0, self_symmetries = 0, points = 0, lines = 0;
@@ -58,68 +51,6 @@ std::string summary(const Structure& structure) {
          ", " + counted(count.lines, "line joint") + ".";
 }
 
-/// Frames of the planes and axes of the global symmetries, a little larger than the shape.
-SceneLines symmetry_frames(const StructuredShape& structured) {
-  OrientedBox box = axis_aligned_box(structured.shape.vertices);
-  box.half_extents += Eigen::Vector3d::Constant(0.03 * structured.structure.diagonal);
-  SceneLines frames{{}, plane_colour, 2};
-  const std::vector<Symmetry>& symmetries = structured.structure.symmetries;
-  for (std::size_t k = 0; k < std::min(most_symmetries, symmetries.size()); ++k) {
-    const Symmetry& symmetry = symmetries[k];
-    if (symmetry.kind == SymmetryKind::reflection) {
-      Points border = detail::plane_in_box(symmetry.point, symmetry.axis, box);
-      if (border.rows() > 0) frames.polylines.push_back(std::move(border));
-      continue;
-    }
-    const Eigen::Vector3d axis = symmetry.axis.normalized();
-    const double middle = axis.dot(box.centre - symmetry.point);
-    const double reach = axis.cwiseAbs().dot(box.half_extents);
-    Points line(2, 3);
-    line.row(0) = (symmetry.point + (middle - reach) * axis).transpose();
-    line.row(1) = (symmetry.point + (middle + reach) * axis).transpose();
-    frames.polylines.push_back(std::move(line));
-  }
-  return frames;
-}
-
-Scene parts_scene(const StructuredShape& structured) {
-  Scene scene;
-  scene.add({structured.shape, detail::part_colours(structured.structure)});
-  SceneLines frames = symmetry_frames(structured);
-  if (!frames.polylines.empty()) scene.add(std::move(frames));
-  return scene;
-}
-
-/// Green balls and red bars, larger than the surface they sit on is thick.
-void add_joints(Scene& scene, const Structure& structure) {
-  const double size = 0.011 * structure.diagonal;
-  for (const Relation& relation : structure.relations) {
-    if (relation.type == RelationType::point_joint)
-      scene.add({detail::ball(relation.points.row(0).transpose(), size), {point_colour}, 1, Finish::smooth});
-    if (relation.type == RelationType::line_joint)
-      scene.add(
-          {detail::bar(relation.points.row(0).transpose(), relation.points.row(1).transpose(), 0.6 * size),
-           {line_colour},
-           1,
-           Finish::smooth});
-  }
-}
-
-Scene primitives_scene(const StructuredShape& structured) {
-  const Structure& structure = structured.structure;
-  const std::vector<Colour> colours = detail::part_colours(structure);
-  Scene scene;
-  scene.add({structured.shape, {ghost}, 0.22, Finish::smooth});
-  for (std::size_t part = 0; part < structure.parts.size(); ++part) {
-    const Primitive& primitive = structure.parts[part].primitive;
-    const Shape sides = detail::faces(primitive);
-    if (sides.triangle_count() > 0) scene.add({sides, {colours[part]}, 0.14, Finish::smooth});
-    scene.add({detail::outline(primitive), mix(colours[part], palette::ink, 0.25), 1.6});
-  }
-  add_joints(scene, structure);
-  return scene;
-}
-
 std::vector<LegendEntry> part_entries(const StructuredShape& structured) {
   const std::vector<Part>& parts = structured.structure.parts;
   const std::vector<Colour> colours = detail::part_colours(structured.structure);
@@ -131,18 +62,19 @@ std::vector<LegendEntry> part_entries(const StructuredShape& structured) {
     entries.push_back({LegendMark::swatch, colours[static_cast<std::size_t>(orbit[0])], text});
   }
   if (!structured.structure.symmetries.empty())
-    entries.push_back({LegendMark::line, plane_colour, "symmetry of the whole"});
+    entries.push_back({LegendMark::line, structure_colour::symmetry, "symmetry of the whole"});
   return entries;
 }
 
 std::vector<LegendEntry> relation_entries(const Structure& structure) {
   const Tally count = tally(structure);
   std::vector<LegendEntry> entries;
-  if (count.cuboids > 0) entries.push_back({LegendMark::swatch, mix(ghost, palette::upper, 0.4), "cuboid"});
+  if (count.cuboids > 0)
+    entries.push_back({LegendMark::swatch, mix(structure_colour::ghost, palette::upper, 0.4), "cuboid"});
   if (count.cylinders > 0)
     entries.push_back({LegendMark::ring, palette::faint, "cross-section of a generalized cylinder"});
-  if (count.points > 0) entries.push_back({LegendMark::dot, point_colour, "point joint"});
-  if (count.lines > 0) entries.push_back({LegendMark::bar, line_colour, "line joint"});
+  if (count.points > 0) entries.push_back({LegendMark::dot, structure_colour::point_joint, "point joint"});
+  if (count.lines > 0) entries.push_back({LegendMark::bar, structure_colour::line_joint, "line joint"});
   return entries;
 }
 

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "stackabilization/rendering/drawing.h"
+#include "stackabilization/shape/shape.h"
+
+namespace stackabilization {
+
+/// How data are marked. Marks differ in shape so that series can be told apart without colours.
+enum class PlotMark { none, circle, square, diamond, triangle };
+
+/// How a series is joined up.
+enum class PlotLine {
+  none,       ///< marks only
+  thin,       ///< a reference beside the data
+  solid,      ///< the data
+  over_area,  ///< with the area between it and the lower end of the y axis tinted
+};
+
+/// Data of one kind, in their order.
+struct PlotSeries {
+  std::string name;  ///< in the legend; may be empty
+  Colour colour = palette::ink;
+  std::vector<Eigen::Vector2d> points;  ///< a point that is not finite, or off the axes, breaks the line
+  PlotLine line = PlotLine::solid;
+  PlotMark mark = PlotMark::none;
+};
+
+enum class AxisScale { linear, logarithmic };
+
+struct PlotAxis {
+  std::string title;           ///< what is measured, and its unit
+  std::optional<Range> range;  ///< low < high, data units; default: round values around the data
+  AxisScale scale = AxisScale::linear;
+};
+
+/// Words at a place of the data.
+struct PlotNote {
+  Eigen::Vector2d at;  ///< data units
+  std::string text;
+  Colour colour = palette::ink;
+  Anchor anchor = Anchor::left;
+};
+
+/// Curves over two axes.
+struct CurvePlot {
+  PlotAxis x, y;
+  std::vector<PlotSeries> series;
+  std::vector<PlotNote> notes;
+};
+
+/// Where data are in a drawing.
+class PlotArea {
+ public:
+  /// The axes of `plot` drawn into `place`, text of `text_size` pixels beside them. Throws UsageError when a
+  /// range is empty or not finite, there are no data to find one, or a logarithmic axis meets what is not
+  /// positive.
+  PlotArea(const CurvePlot& plot, const Rectangle& place, double text_size);
+
+  const Rectangle& rectangle() const { return rectangle_; }  ///< between the axes, pixels
+  const Range& x() const { return x_; }                      ///< data units
+  const Range& y() const { return y_; }                      ///< data units
+
+  /// Pixels of a point of the data.
+  Eigen::Vector2d at(const Eigen::Vector2d& point) const;
+  /// Does the point lie on the axes?
+  bool holds(const Eigen::Vector2d& point) const;
+
+ private:
+  Rectangle rectangle_;
+  Range x_, y_;
+  AxisScale x_scale_, y_scale_;
+};
+
+/// Axes with round ticks and a faint grid, the series over them, the notes over these, a legend above where
+/// series have names. Throws as PlotArea does.
+std::vector<DrawingElement> plot_elements(const CurvePlot& plot, const Rectangle& place, double text_size);
+
+struct CurvePlotOptions {
+  int width = 1000, height = 640;  ///< pixels
+  std::string title;               ///< heading; may be empty
+};
+
+/// A plot as a picture of its own. Needs no OpenGL.
+Drawing curve_plot(const CurvePlot& plot, const CurvePlotOptions& options = {});
+
+}  // namespace stackabilization
