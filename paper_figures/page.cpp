@@ -91,8 +91,8 @@ std::string numbers_table(const Json& numbers) {
   for (const Json& number : numbers) {
     text.append("| ").append(number.at("name").get<std::string>()).append(" | ");
     text += value_text(number.at("value"));
-    if (number.contains("unit")) text += " " + number.at("unit").get<std::string>();
-    if (compared) text += " | " + (number.contains("paper") ? value_text(number.at("paper")) : "");
+    if (number.contains("unit")) text.append(" ").append(number.at("unit").get<std::string>());
+    if (compared) text.append(" | ").append(number.contains("paper") ? value_text(number.at("paper")) : "");
     text += " |\n";
   }
   return text;
