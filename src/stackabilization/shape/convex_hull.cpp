@@ -6,52 +6,100 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <vector>
+
+#include "stackabilization/shape/disjoint_sets.h"
 
 namespace stackabilization {
 
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Point = Kernel::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+using Vertex = Mesh::Vertex_index;
 
-/// Vertices of the mesh in lexicographic order of their coordinates.
-std::vector<Mesh::Vertex_index> sorted_vertices(const Mesh& mesh) {
-  std::vector<Mesh::Vertex_index> vertices(mesh.vertices().begin(), mesh.vertices().end());
-  std::sort(vertices.begin(), vertices.end(), [&](auto a, auto b) { return mesh.point(a) < mesh.point(b); });
-  return vertices;
-}
-
-}  // namespace
-
-TriangulatedHull triangulated_hull(const Points& points) {
-  std::vector<Kernel::Point_3> input;
+Mesh quickhull(const Points& points) {
+  std::vector<Point> input;
   input.reserve(static_cast<std::size_t>(points.rows()));
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     input.emplace_back(points(i, 0), points(i, 1), points(i, 2));
   Mesh mesh;
   CGAL::convex_hull_3(input.begin(), input.end(), mesh);
+  return mesh;
+}
+
+/// Triangles in one plane with their neighbours, as one set: a facet.
+DisjointSets facets_of(const Mesh& mesh) {
+  DisjointSets facets(mesh.number_of_faces());
+  for (const Mesh::Edge_index edge : mesh.edges()) {
+    const Mesh::Halfedge_index one = mesh.halfedge(edge), other = mesh.opposite(one);
+    if (CGAL::coplanar(mesh.point(mesh.source(one)), mesh.point(mesh.target(one)),
+                       mesh.point(mesh.target(mesh.next(one))), mesh.point(mesh.target(mesh.next(other)))))
+      facets.join(mesh.face(one), mesh.face(other));
+  }
+  return facets;
+}
+
+/// The corner after each on the boundary of a facet, points between corners among them.
+using Border = std::map<Vertex, Vertex>;
+
+std::vector<Border> borders_of(const Mesh& mesh) {
+  DisjointSets facets = facets_of(mesh);
+  std::map<std::size_t, Border> borders;
+  for (const Mesh::Halfedge_index side : mesh.halfedges()) {
+    const std::size_t facet = facets.root(mesh.face(side));
+    if (facet != facets.root(mesh.face(mesh.opposite(side))))
+      borders[facet][mesh.source(side)] = mesh.target(side);
+  }
+  std::vector<Border> result;
+  for (auto& [facet, border] : borders) result.push_back(std::move(border));
+  return result;
+}
+
+/// The corners of a facet, the lexicographically least first.
+std::vector<Point> polygon(const Mesh& mesh, const Border& border) {
+  std::vector<Point> corners;
+  Vertex before = border.begin()->first;
+  for (std::size_t k = 0; k < border.size(); ++k) {
+    const Vertex here = border.at(before), after = border.at(here);
+    if (!CGAL::collinear(mesh.point(before), mesh.point(here), mesh.point(after)))
+      corners.push_back(mesh.point(here));
+    before = here;
+  }
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  return corners;
+}
+
+}  // namespace
+
+TriangulatedHull triangulated_hull(const Points& points) {
+  // Quickhull visits facets in the order of their addresses. How it cuts what is flat, and which points it
+  // leaves there that are no corners, is not the same in every run.
+  const Mesh mesh = quickhull(points);
+  std::vector<std::vector<Point>> polygons;
+  std::vector<Point> corners;
+  for (const Border& border : borders_of(mesh)) {
+    polygons.push_back(polygon(mesh, border));
+    corners.insert(corners.end(), polygons.back().begin(), polygons.back().end());
+  }
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  const auto row = [&](const Point& p) {
+    return static_cast<std::int32_t>(std::lower_bound(corners.begin(), corners.end(), p) - corners.begin());
+  };
+
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (const std::vector<Point>& polygon : polygons)
+    for (std::size_t k = 2; k < polygon.size(); ++k)
+      triangles.push_back({row(polygon[0]), row(polygon[k - 1]), row(polygon[k])});
+  std::sort(triangles.begin(), triangles.end());
 
   TriangulatedHull hull;
-  const std::vector<Mesh::Vertex_index> vertices = sorted_vertices(mesh);
-  std::vector<std::int32_t> row(mesh.number_of_vertices());
-  hull.points.resize(static_cast<Eigen::Index>(vertices.size()), 3);
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Kernel::Point_3& p = mesh.point(vertices[i]);
-    hull.points.row(static_cast<Eigen::Index>(i)) << p.x(), p.y(), p.z();
-    row[vertices[i]] = static_cast<std::int32_t>(i);
-  }
-  // Quickhull keeps its facets in the order of their addresses, which is not the same in every run.
-  std::vector<std::array<std::int32_t, 3>> triangles;
-  for (const Mesh::Face_index face : mesh.faces()) {
-    std::array<std::int32_t, 3> triangle;
-    int corner = 0;
-    for (const Mesh::Vertex_index v : CGAL::vertices_around_face(mesh.halfedge(face), mesh))
-      triangle[static_cast<std::size_t>(corner++)] = row[v];
-    std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
-    triangles.push_back(triangle);
-  }
-  std::sort(triangles.begin(), triangles.end());
+  hull.points.resize(static_cast<Eigen::Index>(corners.size()), 3);
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    hull.points.row(static_cast<Eigen::Index>(i)) << corners[i].x(), corners[i].y(), corners[i].z();
   hull.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t t = 0; t < triangles.size(); ++t)
     hull.triangles.row(static_cast<Eigen::Index>(t)) << triangles[t][0], triangles[t][1], triangles[t][2];

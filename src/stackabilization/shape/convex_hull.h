@@ -11,8 +11,8 @@ struct TriangulatedHull {
 };
 
 /// Convex hull with exact predicates (CGAL, quickhull). Precondition: the points are finite and do not lie in
-/// a plane. Where more than three points lie in the plane of a face, how it is cut into triangles is
-/// arbitrary, and may differ from run to run.
+/// a plane. Its points are the corners of the hull, none between them; a facet with more than three is a fan
+/// from the first of them. Depends on the points alone, not on their order.
 TriangulatedHull triangulated_hull(const Points& points);
 
 }  // namespace stackabilization
