@@ -1,12 +1,14 @@
 // Question: by how much does continuous refinement beat the paper's search, on distortion at equal S?
 //
 //     refined_against_paper [--boxes oriented|frame] [--seconds T] [--expansions N] [--threads N]
-//                           [-o FILE.csv] MODEL=S[,S...]...
+//                           [-o FILE.csv] MODEL[=S[,S...]]...
 //
 // MODEL is a mesh, whose structure is found first, or a project file; S are its targets along z, with the
-// height kept. Each target is given to both presets of improve(); where the paper's steps overshoot it, the
-// refined preset gets the S that they reached as a target of its own, so that the last row of a target
-// compares D at equal S with the first. One row per run: its best solution, or what came nearest to one.
+// height kept. Without one, the target lies half of the way from S at rest to the largest S that the paper's
+// preset meets within the limits when it may go on forever. Each target is given to the paper's preset, and
+// the S that this reached, which is more, to the refined one: two rows that compare D at equal S. Where the
+// paper's preset does not reach a target, both rows are for that target. Every row is the best solution of
+// its run, or what came nearest to one.
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -25,6 +27,7 @@
 #include "stackabilization/improvement/shape_change.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/read.h"
+#include "stackabilization/shape/tolerances.h"
 #include "stackabilization/shape/write_file.h"
 #include "stackabilization/structure/analysis.h"
 #include "stackabilization/structure/project_file.h"
@@ -39,10 +42,11 @@ struct Task {
   std::vector<double> targets;
 };
 
-/// MODEL=S[,S...].
+/// MODEL[=S[,S...]].
 Task task_of(const std::string& text) {
   const std::size_t equals = text.rfind('=');
-  if (equals == std::string::npos || equals == 0)
+  if (equals == std::string::npos) return {text, {}};
+  if (equals == 0)
     throw UsageError("'" + text + "': expected a model and its targets, as in table.obj=0.5,0.8");
   Task task{text.substr(0, equals), {}};
   for (std::size_t from = equals; from != std::string::npos;) {
@@ -108,17 +112,26 @@ std::string row(const DesignSpace& space, const Run& run) {
   return text;
 }
 
+/// Half of the way to the best that the paper's preset meets.
+double target_in_reach(const DesignSpace& space, const Settings& settings) {
+  constexpr double out_of_reach = 0.99;
+  const Run paper = run(space, ImprovementPreset::paper, out_of_reach, settings);
+  return (paper.improvement.before.measured.value + paper.best().measured.value) / 2;
+}
+
 std::string rows(const Task& task, const Settings& settings) {
   const std::unique_ptr<DesignSpace> space = design_space(structured(task.model));
   const std::string place = task.model.substr(task.model.rfind('/') + 1) + "," + file_hash(task.model) + ",";
+  std::vector<double> targets = task.targets;
+  if (targets.empty()) targets = {target_in_reach(*space, settings)};
   std::string text;
-  for (const double target : task.targets) {
+  for (const double target : targets) {
     const Run paper = run(*space, ImprovementPreset::paper, target, settings);
+    // What one measurement says is S another may miss by a rounding.
+    const double reached = paper.best().measured.value - tolerance::stackability;
     text += place + row(*space, paper);
-    text += place + row(*space, run(*space, ImprovementPreset::refined, target, settings));
-    const double overshot = paper.best().measured.value;
-    if (paper.reached() && overshot > target)
-      text += place + row(*space, run(*space, ImprovementPreset::refined, overshot, settings));
+    text += place + row(*space, run(*space, ImprovementPreset::refined, paper.reached() ? reached : target,
+                                    settings));
   }
   return text;
 }
@@ -138,7 +151,7 @@ int main(int argc, char** argv) {
   app.add_option("--expansions", settings.expansions, "limit of each search")->check(CLI::PositiveNumber);
   app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 1024));
   app.add_option("-o", output, "CSV file; - is standard output");
-  app.add_option("tasks", texts, "MODEL=S[,S...]: meshes or project files with their targets")->required();
+  app.add_option("tasks", texts, "MODEL[=S[,S...]]: meshes or project files with their targets")->required();
   CLI11_PARSE(app, argc, argv);
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                   static_cast<std::size_t>(threads));

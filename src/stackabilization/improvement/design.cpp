@@ -34,6 +34,24 @@ class ControllerDesigns : public DesignSpace {
     return {std::nullopt, {with(now.edits, edit), std::move(outcome.primitives), std::move(shape)}};
   }
 
+  /// The mesh follows from the primitives alone, so it is made once.
+  DesignOutcome replayed(const std::vector<Edit>& edits,
+                         const DeformationConstraints& constraints) const override {
+    DesignOutcome result{std::nullopt, {{}, model_.rest_primitives(), {}}};
+    for (const Edit& edit : edits) {
+      EditOutcome outcome = model_.edited(result.design.primitives, edit, constraints);
+      if (outcome.refusal) {
+        result.refusal = std::move(outcome.refusal);
+        break;
+      }
+      result.design.primitives = std::move(outcome.primitives);
+      result.design.edits.push_back(edit);
+    }
+    result.design.shape =
+        result.design.edits.empty() ? model_.rest().shape : model_.shape_of(result.design.primitives);
+    return result;
+  }
+
  private:
   ControllerModel model_;
 };

@@ -55,7 +55,8 @@ class DesignSpace {
                                const DeformationConstraints& constraints) const = 0;
   /// All edits from rest: the same, to the bit, as one after the other. When one is refused, `design` is what
   /// the edits before it made.
-  DesignOutcome replayed(const std::vector<Edit>& edits, const DeformationConstraints& constraints) const;
+  virtual DesignOutcome replayed(const std::vector<Edit>& edits,
+                                 const DeformationConstraints& constraints) const;
 };
 
 struct DesignSpaceOptions {

@@ -13,9 +13,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Shares of the time that pursuits may take, and that these and the search may take where their results are
-/// refined afterwards.
-constexpr double pursuit_share = 0.4;
+/// Shares of the time by which the search in the paper's steps, the pursuits, and the search end where their
+/// results are refined afterwards.
+constexpr double paper_share = 0.3;
+constexpr double pursuit_share = 0.55;
 constexpr double search_share = 0.7;
 /// The search gets this share at least.
 constexpr double least_search = 0.05;
@@ -46,7 +47,7 @@ class Refiner {
     };
   }
 
-  /// `starts`: what the pursuits found.
+  /// `starts`: what else was found.
   std::vector<Candidate> refined(const std::vector<Candidate>& starts, const BestFirstResult& found) {
     for (const Candidate& start : starts) add(start);
     for (const Candidate& solution : found.solutions) add(solution);
@@ -98,6 +99,15 @@ Candidate at_rest(const RequirementChecker& checker, const Eigen::Vector3d& dire
   return rest;
 }
 
+BestFirstOptions in_the_papers_steps(BestFirstOptions search) {
+  search.edits.family = EditFamily::paper;
+  return search;
+}
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 /// One pursuit per starting direction.
 std::vector<Candidate> pursuits(const RequirementChecker& checker, const BestFirstOptions& search,
                                 Clock::time_point end) {
@@ -129,11 +139,15 @@ Improvement improve(const RequirementChecker& checker, const ImprovementOptions&
   BestFirstOptions search = options.search;
   std::vector<Candidate> starts;
   if (refine) {
-    starts = pursuits(checker, search, after(start, pursuit_share * seconds));
-    const std::chrono::duration<double> used = Clock::now() - start;
-    search.seconds = std::max(search_share * seconds - used.count(), least_search * seconds);
+    BestFirstOptions paper = in_the_papers_steps(search);
+    paper.seconds = paper_share * seconds;
+    paper.save = {};
+    starts = best_first(checker, paper).solutions;
+    for (Candidate& pursued : pursuits(checker, search, after(start, pursuit_share * seconds)))
+      starts.push_back(std::move(pursued));
+    search.seconds = std::max(search_share * seconds - seconds_since(start), least_search * seconds);
   } else {
-    search.edits.family = EditFamily::paper;
+    search = in_the_papers_steps(search);
   }
   BestFirstResult found = state ? best_first_resumed(checker, search, *state) : best_first(checker, search);
 

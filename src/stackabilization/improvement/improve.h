@@ -13,7 +13,8 @@ namespace stackabilization {
 
 enum class ImprovementPreset {
   paper,    ///< search only, with the paper's edits and steps
-  refined,  ///< pursuit and search with further edits, then continuous magnitudes
+  refined,  ///< that, a pursuit, and a search with further edits, then continuous magnitudes of what they
+            ///< find
 };
 
 struct ImprovementOptions {
@@ -34,10 +35,12 @@ struct Improvement {
   SearchEnd end = SearchEnd::exhausted;
 };
 
-/// From a wish to designs that stack: a pursuit along every starting direction, best-first search, refinement
-/// of what they find (and, where there are too few solutions, of what came nearest), checks, and a reason
-/// when it cannot be done. See pursuit.h, best_first.h and refinement.h for guarantees. `state`: what an
-/// interrupted run of the same task saved.
+/// From a wish to designs that stack: the paper's search, a pursuit along every starting direction,
+/// best-first search with further edits, refinement of what they find (and, where there are too few
+/// solutions, of what came nearest), checks, and a reason when it cannot be done. Where no limit of time ends
+/// the paper's search, D of the refined preset is at most that of the paper's for the same target. See
+/// pursuit.h, best_first.h and refinement.h for guarantees. `state`: what an interrupted run of the same task
+/// saved, of the last search.
 Improvement improve(const RequirementChecker& checker, const ImprovementOptions& options,
                     const std::optional<std::string>& state = std::nullopt);
 

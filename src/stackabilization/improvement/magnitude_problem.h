@@ -73,6 +73,8 @@ class MagnitudeProblem {
   double best_distortion() const { return best_distortion_; }
   double nearest_stackability() const { return nearest_stackability_; }
   int evaluations() const { return evaluations_; }
+  /// So many evaluations, in all, are the limit from now on.
+  void allow(int evaluations) { limits_.evaluations = evaluations; }
   /// The limit of evaluations is used up, or it was cancelled.
   bool stopped() const;
 

@@ -32,14 +32,24 @@ constexpr double least_radius = 0.01;
 /// Longer lists of edits get no counterparts: every variable costs a sample per slope.
 constexpr std::size_t most_with_counterparts = 6;
 
+/// The optimiser may use the evaluations up to this share of all: the rest is for what comes after.
+constexpr double share_of_descent = 0.8;
+
+/// Refinements of what another one found with fewer edits, and what one of them needs at least.
+constexpr int most_restarts = 3;
+constexpr int least_evaluations = 10;
+
 /// Rounds of pulling back one magnitude after the other.
 constexpr int most_sweeps = 3;
 
-/// Steps of a search along a segment.
+/// Steps of a search along a segment, and how far S must stay from what is aimed at, in multiples of the
+/// bracket, where the bracket is narrow, for a jump.
 constexpr std::uintmax_t most_steps = 40;
+constexpr double steep = 1000;
 
 /// Multiples less 1 of the other magnitudes that are tried when an edit is left out.
-constexpr double make_up[] = {0, 1. / (1 << 20), 1. / (1 << 16), 1. / (1 << 12), 1. / (1 << 8)};
+constexpr double make_up[] = {
+    0, 1. / (1 << 20), 1. / (1 << 16), 1. / (1 << 12), 1. / (1 << 8), 1. / (1 << 6)};
 
 Magnitudes scaled(Magnitudes x, double factor) {
   for (double& magnitude : x) magnitude *= factor;
@@ -72,10 +82,7 @@ class Refiner {
       search();
       for (const Magnitudes& x : finalists()) {
         Verdict verdict = judged(x);
-        const bool better = verdict.reached != best.reached ? verdict.reached
-                            : best.reached                  ? distortion(verdict) < distortion(best)
-                                                            : stackability(verdict) > stackability(best);
-        if (better) best = std::move(verdict);
+        if (better(verdict, best)) best = std::move(verdict);
         if (best.reached) break;
       }
     }
@@ -110,14 +117,27 @@ class Refiner {
     for (const MagnitudeEdit& one : edits_) x.push_back(one.source ? 1 : 0);
     return x;
   }
+  Magnitudes at_rest() const { return Magnitudes(edits_.size(), 0); }
+  static std::size_t made(const Magnitudes& x) {
+    return x.size() - static_cast<std::size_t>(std::count(x.begin(), x.end(), 0.0));
+  }
   static double distortion(const Verdict& verdict) { return verdict.candidate.energy.distortion.total(); }
   static double stackability(const Verdict& verdict) { return verdict.candidate.measured.value; }
+  /// Fewer edits are better where the change is the same.
+  static bool better(const Verdict& a, const Verdict& b) {
+    if (a.reached != b.reached) return a.reached;
+    if (!a.reached) return stackability(a) > stackability(b);
+    return std::pair(distortion(a), a.candidate.design.edits.size()) <
+           std::pair(distortion(b), b.candidate.design.edits.size());
+  }
 
   void search() {
     if (!problem_.at(found()).feasible) reach();
     if (!problem_.best()) return;
+    const std::size_t given = edits_.size();
     do_without();
     pull_back();
+    if (given > most_with_counterparts && 2 * made(*problem_.best()) <= given) return;
     descend();
     pull_back_singly();
     leave_out();
@@ -141,24 +161,48 @@ class Refiner {
     }
   }
 
-  /// Takes away edits that the target does not need, for as long as that lessens D: each time the one whose
-  /// loss does so most.
+  /// Takes away edits that the target does not need, those whose loss lessens D most first, as many together
+  /// as go together.
   void do_without() {
-    for (std::size_t round = 0; round < edits_.size() && !problem_.stopped(); ++round) {
+    while (!problem_.stopped()) {
       const Magnitudes best = *problem_.best();
+      const double before = problem_.best_distortion();
+      std::vector<std::pair<double, std::size_t>> spare;
+      for (const auto& [k, sample] : each_left_out(best))
+        if (sample.feasible && sample.distortion <= before) spare.emplace_back(sample.distortion, k);
+      if (spare.empty()) return;
+      std::sort(spare.begin(), spare.end());
       std::vector<Magnitudes> fewer;
-      for (std::size_t k = 0; k < best.size(); ++k) {
-        if (best[k] == 0) continue;
-        fewer.push_back(best);
-        fewer.back()[k] = 0;
+      Magnitudes without = best;
+      for (const auto& [distortion, k] : spare) {
+        without[k] = 0;
+        fewer.push_back(without);
       }
       problem_.prepare(fewer);
-      if (*problem_.best() == best) return;
+      // Those that change D by nothing are no better than what was there, but fewer.
+      if (*problem_.best() == best) problem_.prefer(fewer.front());
     }
+  }
+
+  /// What becomes of `x` without one of its edits, by the row of that edit.
+  std::vector<std::pair<std::size_t, MagnitudeSample>> each_left_out(const Magnitudes& x) {
+    std::vector<std::size_t> rows;
+    std::vector<Magnitudes> fewer;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      if (x[k] == 0) continue;
+      rows.push_back(k);
+      fewer.push_back(x);
+      fewer.back()[k] = 0;
+    }
+    problem_.prepare(fewer);
+    std::vector<std::pair<std::size_t, MagnitudeSample>> result;
+    for (std::size_t i = 0; i < rows.size(); ++i) result.emplace_back(rows[i], problem_.at(fewer[i]));
+    return result;
   }
 
   /// Phase 2.
   void descend() {
+    problem_.allow(static_cast<int>(share_of_descent * options_.evaluations));
     double radius = problem_.highest() - problem_.lowest();
     for (int run = 0; run < most_runs && radius >= least_radius && !problem_.stopped(); ++run) {
       const Magnitudes from = *problem_.best();
@@ -168,9 +212,10 @@ class Refiner {
       const bool blocked = end.refused || problem_.at(end.end).stackability < problem_.aim() - least_progress;
       approach(end.end);
       if (problem_.best_distortion() < before * (1 - least_progress)) continue;
-      if (!blocked) return;
+      if (!blocked) break;
       radius *= less_far;
     }
+    problem_.allow(options_.evaluations);
   }
 
   /// Looks for the last feasible point on the way from the best one to `to`, if that promises less D.
@@ -192,7 +237,9 @@ class Refiner {
       return sample.feasible ? above : std::min(above, -tolerance::target);
     };
     const auto close_enough = [&](double a, double b) {
-      return excess <= tolerance::target / 2 || std::abs(b - a) <= tolerance::rounding || problem_.stopped();
+      const double width = std::abs(b - a);
+      const bool jump = width <= tolerance::magnitude && excess > steep * width;
+      return excess <= tolerance::target / 2 || jump || problem_.stopped();
     };
     const double at_start = margin(0), at_end = margin(1);
     if (!(at_start > 0) || !(at_end < 0)) return;
@@ -201,7 +248,7 @@ class Refiner {
   }
 
   /// Towards the shape at rest as far as the target allows.
-  void pull_back() { approach(Magnitudes(edits_.size(), 0)); }
+  void pull_back() { approach(at_rest()); }
 
   /// The same with one magnitude after the other, for as long as that helps: what is left to do where S
   /// jumps, which slopes do not tell.
@@ -218,11 +265,19 @@ class Refiner {
     }
   }
 
-  /// Leaves out edits that do next to nothing, one by one, and makes up for it with the others.
+  /// Leaves out edits that hardly matter, those that S needs least first, and makes up for each with the
+  /// others.
   void leave_out() {
-    for (std::size_t k = 0; k < edits_.size() && !problem_.stopped(); ++k) {
+    const double gained = problem_.aim() - problem_.at(at_rest()).stackability;
+    std::vector<std::pair<double, std::size_t>> little;
+    for (const auto& [k, sample] : each_left_out(*problem_.best()))
+      if (sample.passes && sample.distortion <= problem_.best_distortion() * (1 + least_progress) &&
+          problem_.aim() - sample.stackability <= options_.negligible * gained)
+        little.emplace_back(-sample.stackability, k);
+    std::sort(little.begin(), little.end());
+    for (const auto& [stackability, k] : little) {
+      if (problem_.stopped()) return;
       Magnitudes without = *problem_.best();
-      if (without[k] == 0 || std::abs(without[k]) >= options_.negligible) continue;
       without[k] = 0;
       for (const double more : make_up) {
         const Magnitudes x = scaled(without, 1 + more);
@@ -279,11 +334,24 @@ class Refiner {
 
 RefinementResult refined_candidate(const RequirementChecker& checker, const Candidate& start,
                                    const RefinementOptions& options) {
-  if (options.evaluations < 10) throw UsageError("a refinement needs at least 10 evaluations");
+  if (options.evaluations < least_evaluations)
+    throw UsageError("a refinement needs at least " + std::to_string(least_evaluations) + " evaluations");
   if (!(options.reach > 0) || !std::isfinite(options.reach))
     throw UsageError("the reach of a refinement must be a positive number");
   if (!(options.negligible >= 0)) throw UsageError("the negligible magnitude must not be negative");
-  return Refiner(checker, start, options).result();
+  RefinementResult result = Refiner(checker, start, options).result();
+  std::size_t edits = start.design.edits.size();
+  for (int restart = 0; restart < most_restarts && result.reached; ++restart) {
+    if (result.candidate.design.edits.size() >= edits) break;
+    edits = result.candidate.design.edits.size();
+    RefinementOptions left = options;
+    left.evaluations -= result.evaluations;
+    if (left.evaluations < least_evaluations || (options.cancelled && options.cancelled())) break;
+    RefinementResult next = Refiner(checker, result.candidate, left).result();
+    next.evaluations += result.evaluations;
+    result = std::move(next);
+  }
+  return result;
 }
 
 }  // namespace stackabilization
