@@ -161,26 +161,20 @@ class Refiner {
     }
   }
 
-  /// Takes away edits that the target does not need, those whose loss lessens D most first, as many together
-  /// as go together.
+  /// Takes away edits that the target does not need, one after the other, those whose loss lessens D most
+  /// first.
   void do_without() {
-    while (!problem_.stopped()) {
-      const Magnitudes best = *problem_.best();
-      const double before = problem_.best_distortion();
-      std::vector<std::pair<double, std::size_t>> spare;
-      for (const auto& [k, sample] : each_left_out(best))
-        if (sample.feasible && sample.distortion <= before) spare.emplace_back(sample.distortion, k);
-      if (spare.empty()) return;
-      std::sort(spare.begin(), spare.end());
-      std::vector<Magnitudes> fewer;
-      Magnitudes without = best;
-      for (const auto& [distortion, k] : spare) {
-        without[k] = 0;
-        fewer.push_back(without);
-      }
-      problem_.prepare(fewer);
-      // Those that change D by nothing are no better than what was there, but fewer.
-      if (*problem_.best() == best) problem_.prefer(fewer.front());
+    const double given = problem_.best_distortion();
+    std::vector<std::pair<double, std::size_t>> spare;
+    for (const auto& [k, sample] : each_left_out(*problem_.best()))
+      if (sample.feasible && sample.distortion <= given) spare.emplace_back(sample.distortion, k);
+    std::sort(spare.begin(), spare.end());
+    for (const auto& [distortion, k] : spare) {
+      if (problem_.stopped()) return;
+      Magnitudes without = *problem_.best();
+      without[k] = 0;
+      const MagnitudeSample& sample = problem_.at(without);
+      if (sample.feasible && sample.distortion <= problem_.best_distortion()) problem_.prefer(without);
     }
   }
 
