@@ -193,8 +193,8 @@ class EditSolution {
     const double factor = from.length() > 0 ? to.length() / from.length() : 1;
     const auto move = [&](auto& points) {
       const Eigen::VectorXd heights = points * normal;
-      points += (to.low + factor * (heights.array() - from.low) - heights.array()).matrix() *
-                normal.transpose();
+      points +=
+          (to.low + factor * (heights.array() - from.low) - heights.array()).matrix() * normal.transpose();
     };
     for (int c = 0; c < rig_.space.class_count(); ++c) {
       ControlState& state = state_.controls[at(c)];

@@ -26,9 +26,7 @@ struct ContactRegion {
   ContactType type = ContactType::dot;
   std::int32_t upper_part = -1;  ///< part of the copy below that is touched
   std::int32_t lower_part = -1;  ///< part of the copy above that touches it
-  /// Area of the union of the polygons seen along r, model units squared; of thousands of polygons to within
-  /// about a thousandth of the rectangle around them.
-  double area = 0;
+  double area = 0;               ///< area of the union of the polygons seen along r, model units squared
   Eigen::Vector3d
       upper_centre;  ///< area centroid on the upper envelope (mean of the points where the area is zero)
   Eigen::Vector3d lower_centre;

@@ -37,8 +37,8 @@ struct Diagnosis {
 
 /// What blocks the best candidate of a search that did not reach its target, and what would help: another
 /// direction, freeing a part that had to stay, removing one (removal.h). Precondition: `result.nearest` is
-/// not empty. What blocks is always found; what would help is looked for until `cancelled`, which is asked from
-/// the calling thread and by the search for directions.
+/// not empty. What blocks is always found; what would help is looked for until `cancelled`, which is asked
+/// from the calling thread and by the search for directions.
 Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& result,
                     const std::function<bool()>& cancelled = {});
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "stackabilization/structure/hull_spread.h"
+#include "stackabilization/structure/part_surface.h"
 
 namespace stackabilization::detail {
 
@@ -57,18 +57,24 @@ void sample(const Eigen::Vector3d* corners, double spacing, std::vector<Eigen::V
                           (corners[2] - corners[0]) * j / steps);
 }
 
-/// Samples of the wires, by cells as wide as `reach`.
+Cell cell_of(const Eigen::Vector3d& point, double width) {
+  Cell cell;
+  for (int k = 0; k < 3; ++k) cell[static_cast<std::size_t>(k)] = std::llround(point(k) / width);
+  return cell;
+}
+
+/// Samples of the wires, by cells as wide as `reach`; of those of a wire in an eighth of a cell one is
+/// enough.
 std::vector<Sample> samples_of(const Pieces& pieces, const std::vector<std::int32_t>& wires, double reach) {
   std::vector<Sample> samples;
   for (const std::int32_t wire : wires) {
     const std::vector<Eigen::Vector3d>& corners = pieces.corners[static_cast<std::size_t>(wire)];
     std::vector<Eigen::Vector3d> points;
     for (std::size_t t = 0; t < corners.size(); t += 3) sample(&corners[t], reach / 2, points);
-    for (const Eigen::Vector3d& point : points) {
-      Cell cell;
-      for (int k = 0; k < 3; ++k) cell[static_cast<std::size_t>(k)] = std::llround(point(k) / reach);
-      samples.push_back({cell, wire, point});
-    }
+    std::set<Cell> taken;
+    for (const Eigen::Vector3d& point : points)
+      if (taken.insert(cell_of(point, reach / 2)).second)
+        samples.push_back({cell_of(point, reach), wire, point});
   }
   std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) {
     return std::pair(a.cell, a.component) < std::pair(b.cell, b.component);

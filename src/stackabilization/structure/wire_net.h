@@ -15,7 +15,7 @@ struct WireNetRule {
   /// a straight rod a twentieth as thick as long has 0.157.
   double most_surface = 0.15;
   double least_crossings = 8;  ///< other wires that a wire meets, in the mean
-  double reach = 0.01;         ///< wires this near meet, fraction of the diameter of the ball around the shape
+  double reach = 0.01;  ///< wires this near meet, fraction of the diameter of the ball around the shape
 };
 
 /// Do the components (a number per triangle, from 0) form a net of wires, as of a basket: nearly all of them
