@@ -39,6 +39,15 @@ void check_wish(const ImproveCommandOptions& options) {
          "is given once with --copies and --within: the room is along it");
 }
 
+/// The gaps are measured once, along one direction.
+void check_gap_scaling(const ImproveCommandOptions& options) {
+  if (options.kind != DeformationKind::gap_scaling) return;
+  refuse(options.cone_degrees && *options.cone_degrees > 0, "--cone-degrees",
+         "does not go with --model gap-scaling, which keeps the direction that it scales along");
+  refuse(options.directions.size() > 1, "--direction",
+         "is given once with --model gap-scaling, which scales along it");
+}
+
 void check_numbers(const ImproveCommandOptions& options) {
   check_range("--cone-degrees", options.cone_degrees, 0, most_degrees);
   check_range("--alpha", options.alpha, 0, 1);
@@ -92,7 +101,8 @@ void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
   add_count(command, {"--expansions", "Candidates to expand at most (default: 100)", 1}, options.expansions);
   add_number(command, "--alpha", options.alpha, "Weight of the distortion in the energy (default: 0.2)");
   add_number(command, "--cone-degrees", options.cone_degrees,
-             "The direction may turn by this angle at each edit, 0: never (default: 10; with --copies: 0)");
+             "The direction may turn by this angle at each edit, 0: never (default: 10; with --copies, and "
+             "gap-scaling: 0)");
 }
 
 void add_requirement_options(CLI::App& command, ImproveCommandOptions& options) {
@@ -137,6 +147,7 @@ void add_improve_options(CLI::App& command, ImproveCommandOptions& options) {
 void check(const ImproveCommandOptions& options) {
   check_wish(options);
   check_numbers(options);
+  check_gap_scaling(options);
   check_parts(options);
   check_outputs(options.common, {}, analysis_inputs(options.analysis));
   check_folder(options);
@@ -171,7 +182,8 @@ ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) 
   search.solutions = options.solutions;
   search.expansions = options.expansions.value_or(search.expansions);
   search.seconds = options.seconds.value_or(search.seconds);
-  if (options.copies) search.cone_degrees = 0;  // the room is along the direction as given
+  // The room is along the direction as given; gap scaling knows no other than that it was made for.
+  if (options.copies || options.kind == DeformationKind::gap_scaling) search.cone_degrees = 0;
   search.cone_degrees = options.cone_degrees.value_or(search.cone_degrees);
   return improvement;
 }

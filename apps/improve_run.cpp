@@ -1,5 +1,6 @@
 #include "apps/improve_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -45,16 +46,24 @@ Eigen::Vector3d upward(const Structure& structure) {
   return Eigen::Vector3d::UnitZ();
 }
 
+/// Share of --time by which analysis and the look for directions should be done, and what is left for
+/// improvement in any case.
+constexpr double directions_end = 0.25;
+constexpr double least_improvement = 0.5;
+
 /// Those given, else up and, where another one is clearly better, the best one found.
-std::vector<Eigen::Vector3d> directions_of(const ImproveCommandOptions& options,
-                                           const StructuredShape& rest) {
+std::vector<Eigen::Vector3d> directions_of(const ImproveCommandOptions& options, const StructuredShape& rest,
+                                           const Stopwatch& watch) {
   if (!options.directions.empty()) return options.directions;
   std::vector<Eigen::Vector3d> directions = {upward(rest.structure)};
-  if (options.copies) return directions;
+  if (options.copies || options.kind == DeformationKind::gap_scaling) return directions;
   const StackabilitySolver solver(rest.shape, options.measure);
   ProgressBar bar("Looking for directions");
   SearchOptions search;
   search.progress = [&bar](double fraction) { bar.show(fraction); };
+  search.cancelled = [&watch, end = directions_end * improvement_options_of(options).search.seconds] {
+    return watch.seconds() > end;
+  };
   const Stackability best = best_direction(solver, search).best;
   const double up = solver.measure(Direction(directions.front())).value;
   if (best.value > up + clearly_better && !parallel(best.direction, directions.front()))
@@ -98,6 +107,7 @@ std::string status_text(const ImprovementProgress& progress) {
 }  // namespace
 
 ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& options) {
+  const Stopwatch watch;
   StructuredModel input = load_structured(command, options.common, options.analysis);
   ImproveTask task;
   task.model = std::move(input.model);
@@ -107,13 +117,14 @@ ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& o
       rest = without_parts(rest, parts_named("--remove", options.removed, rest.shape));
     Requirements requirements = requirements_of(options, rest);
     if (options.within) task.room = options.within->in(rest.shape.unit);
-    task.directions = directions_of(options, rest);
+    task.directions = directions_of(options, rest, watch);
     const Direction first(task.directions.front());
     if (task.room)
       requirements.target = target_of(options, *task.room, stackability(rest.shape, first, options.measure));
     task.space = design_space(std::move(rest), {options.kind, first});
     task.checker = std::make_unique<RequirementChecker>(*task.space, requirements);
   });
+  task.seconds = watch.seconds();
   return task;
 }
 
@@ -129,6 +140,7 @@ ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& 
   const DeferredInterrupts interrupts;
   StatusLine status;
   BestFirstOptions& search = run.options.search;
+  search.seconds = std::max(search.seconds - task.seconds, least_improvement * search.seconds);
   search.directions = task.directions;
   search.progress = [&status](const ImprovementProgress& progress) {
     if (status.due()) status.show(status_text(progress));

@@ -18,6 +18,7 @@ struct ImproveTask {
   std::unique_ptr<const RequirementChecker> checker;
   std::vector<Eigen::Vector3d> directions;
   std::optional<double> room;  ///< --within, model units
+  double seconds = 0;          ///< that it took: they count as those of --time
 
   const StructuredShape& rest() const { return space->rest(); }
   double target() const { return checker->requirements().target; }

@@ -50,6 +50,19 @@ TEST_CASE("a union does not care which way an outline runs, and gains nothing fr
   CHECK(union_area({point}) == 0);
 }
 
+TEST_CASE("a union of thousands of outlines, many deep, is measured to a thousandth of their rectangle") {
+  std::vector<Outline> many;
+  for (int k = 0; k < 1500; ++k)  // the bars of a frame, lying many deep
+    for (const Outline& bar : frame()) many.push_back(bar);
+  CHECK(many.size() > 4096);
+  CHECK(std::abs(union_area(many) - 48) <= 1e-3 * 64);
+  for (const double angle : {0.3, 1.0, 2.5})
+    CHECK(std::abs(union_area(turned(many, angle)) - 48) <= 1e-3 * 2 * 64);
+  const std::vector<Outline> segments(5000, Outline{{0, 0}, {3, 3}});
+  CHECK(union_area(segments) == 0);
+  CHECK(union_area(std::vector<Outline>(5000, Outline{{0, 1}, {3, 1}})) == 0);
+}
+
 TEST_CASE("the largest hole is the one inside a frame, to a cell of the bitmap") {
   CHECK(largest_hole(frame()) <= 16);
   CHECK(largest_hole(frame()) >= std::pow(4 - 2 * cell, 2));

@@ -20,6 +20,11 @@ namespace {
 /// Rounds in which vertices that a solve made outermost are held as well.
 constexpr int extent_rounds = 10;
 
+/// Rounds of stretching what a solve leaves of an extent, where that is at most this share of what relations
+/// may be off by.
+constexpr int remainder_rounds = 4;
+constexpr double remainder_share = 0.1;
+
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
@@ -57,6 +62,7 @@ class EditSolution {
     }
     keep_straight();
     solve();
+    take_up_remainder();
     primitives_ = current_primitives();
     if (auto refusal = broken()) return refused(std::move(*refusal));
     return {std::nullopt, std::move(primitives_)};
@@ -165,6 +171,41 @@ class EditSolution {
         state_ = solved(rig_, bases_, constraints, std::move(state_));
       else
         round = std::max(round, extent_rounds - 1);
+    }
+  }
+
+  /// What little a solve leaves of a kept extent, far below what relations may be off by, is taken away by
+  /// stretching all that moved along it.
+  void take_up_remainder() {
+    for (int round = 0; round < remainder_rounds; ++round) {
+      const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
+      if (!watch_.any_excess(vertices)) return;
+      for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
+        if (std::abs(watch_.excess(k, vertices)) > remainder_share * tolerance::relation * diagonal()) return;
+      for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
+        if (watch_.is_kept(k) && watch_.excess(k, vertices) != 0)
+          stretch(watch_.bounds()[k].normal, watch_.range(k, vertices), watch_.wanted(k, vertices));
+    }
+  }
+
+  /// The affine map along `normal` that takes the heights `from` to `to`, on all that moved.
+  void stretch(const Eigen::Vector3d& normal, const Range& from, const Range& to) {
+    const double factor = from.length() > 0 ? to.length() / from.length() : 1;
+    const auto move = [&](auto& points) {
+      const Eigen::VectorXd heights = points * normal;
+      points +=
+          (to.low + factor * (heights.array() - from.low) - heights.array()).matrix() * normal.transpose();
+    };
+    for (int c = 0; c < rig_.space.class_count(); ++c) {
+      ControlState& state = state_.controls[at(c)];
+      if (state.values == start_[at(c)].values) continue;
+      const int part = rig_.space.members(c).front();
+      Primitive now = rig_.space.primitive(part, state);
+      if (auto* cuboid = std::get_if<Cuboid>(&now))
+        move(cuboid->corners);
+      else
+        move(std::get<GeneralizedCylinder>(now).centres);
+      state = rig_.space.invariant(c, rig_.space.state_of(part, now));
     }
   }
 

@@ -53,6 +53,11 @@ Range ExtentWatch::range(std::size_t k, const Points& vertices) const {
   return range;
 }
 
+Range ExtentWatch::wanted(std::size_t k, const Points& vertices) const {
+  const double low = bounds_[k].level.value_or(range(k, vertices).low);
+  return {low, low + bounds_[k].high};
+}
+
 double ExtentWatch::excess(std::size_t k, const Points& vertices) const {
   const Range now = range(k, vertices);
   const double length = now.length(), slack = tolerance::relative / 2 * length;

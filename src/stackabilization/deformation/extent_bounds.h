@@ -40,6 +40,9 @@ class ExtentWatch {
   /// is off.
   double excess(std::size_t k, const Points& vertices) const;
   bool any_excess(const Points& vertices) const;
+  /// Heights of the mesh along the normal of bound `k`, and what they are to be where it leaves no choice.
+  Range range(std::size_t k, const Points& vertices) const;
+  Range wanted(std::size_t k, const Points& vertices) const;
   /// Whether bound `k` leaves no choice.
   bool is_kept(std::size_t k) const { return bounds_[k].low == bounds_[k].high; }
   /// Lowest heights along the normals of the bounds: levels to start a solve from.
@@ -52,7 +55,6 @@ class ExtentWatch {
   void release() { held_.clear(); }
 
  private:
-  Range range(std::size_t k, const Points& vertices) const;
   bool hold_side(std::size_t k, double sign, const Points& vertices, const MeshTransfer& transfer,
                  std::vector<Constraint>& constraints);
 

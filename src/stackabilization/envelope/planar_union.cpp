@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "stackabilization/shape/disjoint_sets.h"
@@ -82,6 +83,57 @@ class Grid {
   Eigen::Vector2d centre_;
   double scale_;
 };
+
+/// More outlines than these, which often lie many deep, are not united: that takes time quadratic in the
+/// depth.
+constexpr std::size_t most_united = 4096;
+
+/// What of the line at height y lies in the convex outline: from, to.
+std::optional<std::pair<double, double>> cut_at(const Outline& outline, double y) {
+  double left = std::numeric_limits<double>::infinity(), right = -left;
+  for (std::size_t c = 0; c < outline.size(); ++c) {
+    const Eigen::Vector2d &a = outline[c], &b = outline[(c + 1) % outline.size()];
+    if ((a.y() < y) == (b.y() < y)) continue;
+    const double x = a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    left = std::min(left, x);
+    right = std::max(right, x);
+  }
+  if (!(left < right)) return std::nullopt;
+  return std::pair(left, right);
+}
+
+/// Length of the union of the intervals.
+double covered_length(std::vector<std::pair<double, double>>& intervals) {
+  std::sort(intervals.begin(), intervals.end());
+  double length = 0, end = -std::numeric_limits<double>::infinity();
+  for (const auto& [from, to] : intervals) {
+    length += std::max(0.0, to - std::max(from, end));
+    end = std::max(end, to);
+  }
+  return length;
+}
+
+/// Area of the union by the midpoint rule: what of evenly spaced lines is covered.
+double area_by_lines(const std::vector<Outline>& outlines, const Bounds& bounds) {
+  constexpr int lines = 2048;
+  const double step = (bounds.high.y() - bounds.low.y()) / lines;
+  if (!(step > 0)) return 0;
+  const auto line_at = [&](double y) {
+    return std::clamp(static_cast<int>((y - bounds.low.y()) / step), 0, lines - 1);
+  };
+  std::vector<std::vector<std::pair<double, double>>> intervals(lines);
+  for (const Outline& outline : outlines) {
+    Bounds own;
+    own.add(outline);
+    const int last = line_at(own.high.y());
+    for (int line = line_at(own.low.y()); line <= last; ++line)
+      if (const auto cut = cut_at(outline, bounds.low.y() + (line + 0.5) * step))
+        intervals[static_cast<std::size_t>(line)].push_back(*cut);
+  }
+  double length = 0;
+  for (auto& line : intervals) length += covered_length(line);
+  return length * step;
+}
 
 /// Which cells of a coarse bitmap the outlines touch. Cells that are only touched count as covered: that
 /// closes cracks and small gaps between neighbouring outlines.
@@ -220,6 +272,7 @@ std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outli
 double union_area(const std::vector<Outline>& outlines) {
   Bounds bounds;
   for (const Outline& outline : outlines) bounds.add(outline);
+  if (outlines.size() > most_united) return area_by_lines(outlines, bounds);
   const Grid grid(bounds);
   bp::polygon_set_data<int> set;
   for (const Outline& outline : outlines) set.insert(grid.polygon(outline));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 
@@ -57,9 +58,11 @@ struct Trial {
 
 class Diagnostician {
  public:
-  Diagnostician(const RequirementChecker& checker, const BestFirstResult& result)
+  Diagnostician(const RequirementChecker& checker, const BestFirstResult& result,
+                const std::function<bool()>& cancelled)
       : checker_(checker),
         result_(result),
+        cancelled_(cancelled),
         best_(result.nearest.front()),
         rest_(checker.space().rest()),
         direction_(best_.direction),
@@ -75,10 +78,10 @@ class Diagnostician {
       diagnosis_.constraints.push_back(refusal.reason + " (" + std::to_string(refusal.count) +
                                        (refusal.count == 1 ? " edit)" : " edits)"));
     }
-    look_elsewhere();
-    free_parts();
-    relax();
-    remove_parts();
+    if (!stopped()) free_parts();
+    if (!stopped()) relax();
+    if (!stopped()) remove_parts();
+    if (!stopped()) look_elsewhere();
     std::stable_sort(diagnosis_.remedies.begin(), diagnosis_.remedies.end(),
                      [](const Remedy& a, const Remedy& b) { return a.stackability > b.stackability; });
     return std::move(diagnosis_);
@@ -86,6 +89,8 @@ class Diagnostician {
 
  private:
   const std::string& name(int part) const { return rest_.shape.part_names[static_cast<std::size_t>(part)]; }
+
+  bool stopped() const { return cancelled_ && cancelled_(); }
 
   bool helps(double stackability) const { return stackability > diagnosis_.reached + worth_saying; }
 
@@ -167,6 +172,7 @@ class Diagnostician {
   void look_elsewhere() {
     const StackabilitySolver rest(rest_.shape, checker_.requirements().measure);
     SearchOptions options;
+    options.cancelled = cancelled_;
     for (const Symmetry& symmetry : rest_.structure.symmetries) options.candidates.push_back(symmetry.axis);
     const Stackability best = best_direction(rest, options).best;
     if (!helps(best.value)) return;
@@ -244,6 +250,7 @@ class Diagnostician {
 
   const RequirementChecker& checker_;
   const BestFirstResult& result_;
+  const std::function<bool()>& cancelled_;
   const Candidate& best_;
   const StructuredShape& rest_;
   Direction direction_;
@@ -265,8 +272,9 @@ std::string sentence(const Blocker& blocker, const Shape& shape) {
 
 }  // namespace
 
-Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& result) {
-  return Diagnostician(checker, result).run();
+Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& result,
+                    const std::function<bool()>& cancelled) {
+  return Diagnostician(checker, result, cancelled).run();
 }
 
 std::string text(const Diagnosis& diagnosis, const StructuredShape& rest) {

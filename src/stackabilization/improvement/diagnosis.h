@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,8 +37,10 @@ struct Diagnosis {
 
 /// What blocks the best candidate of a search that did not reach its target, and what would help: another
 /// direction, freeing a part that had to stay, removing one (removal.h). Precondition: `result.nearest` is
-/// not empty.
-Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& result);
+/// not empty. What blocks is always found; what would help is looked for until `cancelled`, which is asked
+/// from the calling thread and by the search for directions.
+Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& result,
+                    const std::function<bool()>& cancelled = {});
 
 /// The diagnosis as text, a few lines for people.
 std::string text(const Diagnosis& diagnosis, const StructuredShape& rest);

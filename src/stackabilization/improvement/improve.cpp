@@ -20,6 +20,8 @@ constexpr double pursuit_share = 0.55;
 constexpr double search_share = 0.7;
 /// The search gets this share at least.
 constexpr double least_search = 0.05;
+/// Where nothing was found, what is left beyond this share is for the diagnosis.
+constexpr double diagnosis_begin = 0.85;
 
 Clock::time_point after(Clock::time_point start, double seconds) {
   return start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -36,23 +38,27 @@ bool less_distorted(const Candidate& a, const Candidate& b) {
 /// Refines what a search found until there are as many different solutions as wanted.
 class Refiner {
  public:
-  Refiner(const RequirementChecker& checker, const ImprovementOptions& options, Clock::time_point end)
+  /// Ends at `give_up` while there is no solution, else at `end`.
+  Refiner(const RequirementChecker& checker, const ImprovementOptions& options, Clock::time_point give_up,
+          Clock::time_point end)
       : checker_(checker),
         options_(options.refinement),
         wanted_(options.search.solutions),
         distinct_(checker.space().rest()) {
     options_.alpha = options.search.alpha;
-    options_.cancelled = [cancelled = options.search.cancelled, end] {
-      return Clock::now() > end || (cancelled && cancelled());
+    options_.cancelled = [this, cancelled = options.search.cancelled, give_up, end] {
+      return Clock::now() > (solutions_.empty() ? give_up : end) || (cancelled && cancelled());
     };
   }
+  Refiner(const Refiner&) = delete;
+  Refiner& operator=(const Refiner&) = delete;
 
   /// `starts`: what else was found.
   std::vector<Candidate> refined(const std::vector<Candidate>& starts, const BestFirstResult& found) {
     for (const Candidate& start : starts) add(start);
     for (const Candidate& solution : found.solutions) add(solution);
     for (const Candidate& near : found.nearest) {
-      if (static_cast<int>(solutions_.size()) >= wanted_) break;
+      if (static_cast<int>(solutions_.size()) >= wanted_ || options_.cancelled()) break;
       add(near);
     }
     std::stable_sort(solutions_.begin(), solutions_.end(), less_distorted);
@@ -155,7 +161,7 @@ Improvement improve(const RequirementChecker& checker, const ImprovementOptions&
   result.progress = found.progress;
   result.end = found.end;
   if (refine) {
-    Refiner refiner(checker, options, after(start, seconds));
+    Refiner refiner(checker, options, after(start, diagnosis_begin * seconds), after(start, seconds));
     result.solutions = refiner.refined(starts, found);
     if (refiner.nearest()) found.nearest.insert(found.nearest.begin(), *refiner.nearest());
     std::stable_sort(found.nearest.begin(), found.nearest.end(), more_stackable);
@@ -172,7 +178,9 @@ Improvement improve(const RequirementChecker& checker, const ImprovementOptions&
     direction = result.solutions.front().direction;
   } else if (!found.nearest.empty()) {
     direction = found.nearest.front().direction;
-    result.diagnosis = diagnosed(checker, found);
+    result.diagnosis = diagnosed(checker, found, [&options, end = after(start, seconds)] {
+      return Clock::now() > end || (options.search.cancelled && options.search.cancelled());
+    });
     result.nearest = found.nearest.front();
   }
   result.before = at_rest(checker, direction);

@@ -17,6 +17,10 @@ namespace {
 /// An edit must lower the sum by this fraction to be worth it.
 constexpr double least_progress = 0.01;
 
+/// Pairs of triangles in a band grow with its width and with the square of the number of triangles: beyond
+/// this number contacts are looked at in a narrower band.
+constexpr double many_triangles = 20000;
+
 class Pursuit {
  public:
   Pursuit(const RequirementChecker& checker, const Candidate& start, const PursuitOptions& options)
@@ -67,7 +71,8 @@ class Pursuit {
     const Candidate& from = now_.candidate;
     ContactOptions contacts = options_.edits.contacts;
     const double lack = (from.measured.f_max - allowed(from.measured)) / from.measured.extent;
-    contacts.band = std::clamp(lack, contacts.band, 1.0);
+    const double density = static_cast<double>(from.design.shape.triangle_count()) / many_triangles;
+    contacts.band = std::max(contacts.band, std::min({lack, 1.0, 1 / (density * density)}));
     const std::vector<ContactRegion> regions =
         detail::contacts_of(checker_, from.design.shape, direction_, contacts);
     return contact_edits({checker_.space().rest(), checker_.space().kind(), handles_, from.design, regions,

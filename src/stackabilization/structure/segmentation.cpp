@@ -13,6 +13,7 @@
 #include "stackabilization/structure/segment_boundaries.h"
 #include "stackabilization/structure/shape_diameter.h"
 #include "stackabilization/structure/surface_graph.h"
+#include "stackabilization/structure/wire_net.h"
 
 namespace stackabilization {
 
@@ -102,9 +103,12 @@ Shape segmented(const Shape& shape, const SegmentationOptions& options) {
   validate(shape);
   if (options.method == SegmentationMethod::given) return shape;
   if (options.method == SegmentationMethod::automatic && shape.part_count() > 1) return shape;
-  if (options.method == SegmentationMethod::whole)
-    return with_parts_by_area(shape, std::vector<std::int32_t>(shape.triangle_part.size(), 0));
+  const std::vector<std::int32_t> one_part(shape.triangle_part.size(), 0);
+  if (options.method == SegmentationMethod::whole) return with_parts_by_area(shape, one_part);
   const std::vector<std::int32_t> component = detail::merged_components(shape);
+  if (options.method == SegmentationMethod::automatic && options.parts == 0 &&
+      detail::is_wire_net(shape, component))
+    return with_parts_by_area(shape, one_part);
   const bool components_do =
       options.method == SegmentationMethod::automatic &&
       (count_of(component) > 1 || (options.parts == 0 && is_body_of_revolution(shape)));

@@ -14,8 +14,8 @@ enum class SegmentationMethod {
   components,      ///< connected components, those that touch over an area merged
   primitives,      ///< components, each cut by hierarchical fitting of primitives (Attene et al. 2006)
   shape_diameter,  ///< components, each cut by the shape-diameter function (Shapira et al. 2008, CGAL)
-  automatic,       ///< given when the shape has several parts; else components when there are several or the
-                   ///< whole is a body of revolution; else primitives
+  automatic,       ///< given when the shape has several parts; else whole for a net of wires; else components
+                   ///< when there are several or the whole is a body of revolution; else primitives
 };
 
 struct SegmentationOptions {
