@@ -127,7 +127,9 @@ Eigen::MatrixXd StraightCorrections::columns(const GeneralizedCylinder& now) con
     columns.block(3 * n + i, 6, 1, slides) =
         bending_length * slope_at(places(i)) / chord.norm() * slides_.row(i);
   }
-  columns.bottomRightCorner(n, 2) = radius_length * linear;
+  // As of cuboids, equal strains have equal prices: a slender leg is not to grow thick.
+  const double slenderness = std::min(1.0, 2 * now.radii.mean() / chord.norm());
+  columns.bottomRightCorner(n, 2) = slenderness * radius_length * linear;
   return columns;
 }
 
