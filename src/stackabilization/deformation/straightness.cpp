@@ -17,7 +17,7 @@ namespace {
 /// Largest distance from the chord of what is called straight, fraction of the chord.
 constexpr double straight_enough = 0.02;
 /// Fraction of the length at either end that hardly stretches, and how much it does compared with the rest.
-constexpr double end_zone = 0.1, end_stretch = 0.02;
+constexpr double end_zone = 0.06, end_stretch = 0.05;
 
 Eigen::Vector3d centre(const GeneralizedCylinder& cylinder, Eigen::Index i) {
   return cylinder.centres.row(i).transpose();
