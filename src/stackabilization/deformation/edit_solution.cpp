@@ -124,19 +124,44 @@ class EditSolution {
     for (const Constraint& fixed : fixed_point_constraints()) constraints.push_back(fixed);
     fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.distinct_joints.size()),
                      constraints.end()};
-    state_ = solved(rig_, corrections_, constraints, std::move(state_));
+    std::vector<Constraint> bounded = constraints;
+    if (hold_fixed_ends(bounded)) {
+      const SolverState prescribed = state_;
+      state_ = solved(rig_, corrections_, bounded, std::move(state_));
+      if (!(largest_gap(rig_, bounded, state_) <= tolerance::relation * diagonal())) {
+        bounded = constraints;
+        watch_.release();
+        state_ = prescribed;
+        corrections_.keep_straight(state_.controls);
+      }
+    }
+    if (bounded.size() == constraints.size())
+      state_ = solved(rig_, corrections_, constraints, std::move(state_));
     if (watch_.bounds().empty() || largest_gap(rig_, constraints, state_) > tolerance::relation * diagonal())
       return;
     const SolverState unbounded = state_;
-    bound_extents(constraints);
+    bound_extents(bounded, constraints);
     // Relations give way when bounds cannot be met: then the bounds are what is to be reported.
     if (!(largest_gap(rig_, constraints, state_) <= tolerance::relation * diagonal())) state_ = unbounded;
   }
 
+  /// What stands on the fixed ends of an extent is held from the start: else joints take everything along
+  /// first, and what passes the ends then is not what has to stay on them.
+  bool hold_fixed_ends(std::vector<Constraint>& constraints) {
+    const bool fixed = std::any_of(watch_.bounds().begin(), watch_.bounds().end(),
+                                   [](const ExtentBound& bound) { return bound.level.has_value(); });
+    if (!fixed) return false;
+    const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
+    state_.levels = watch_.levels(vertices);
+    bool held = false;
+    for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
+      if (watch_.bounds()[k].level) held |= watch_.hold(k, vertices, mesh_.transfer, constraints);
+    return held;
+  }
+
   /// Holds the outermost vertices. Those found one after the other are held together at first; where that
   /// contradicts itself, as on a face that the edit tilts by a hair, only those of the last round.
-  void bound_extents(std::vector<Constraint>& constraints) {
-    const std::vector<Constraint> unbounded = constraints;
+  void bound_extents(std::vector<Constraint>& constraints, const std::vector<Constraint>& unbounded) {
     for (int round = 0; round < 2 * extent_rounds; ++round) {
       const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
       if (state_.levels.size() == 0) state_.levels = watch_.levels(vertices);
