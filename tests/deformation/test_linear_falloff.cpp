@@ -95,6 +95,26 @@ TEST_CASE("from the middle a linear change goes to nothing at the last section")
     CHECK(after.radii(i) == Approx(0.5 + 0.1 * (4 - static_cast<double>(i)) / 2).epsilon(1e-14));
 }
 
+TEST_CASE("where sections have slid, a linear change is linear in where they are now") {
+  const StructuredShape rest = structures::tube_alone(uneven_leg(), 12);
+  const ControllerModel model(rest);
+  std::vector<Primitive> now = model.rest_primitives();
+  auto& leg = std::get<GeneralizedCylinder>(now[0]);
+  leg.centres.col(2) << 0, 0.7, 1.4, 2.5, 3.6, 4;
+  const GeneralizedCylinder slid = leg;
+  const Eigen::RowVector3d by(0.5, 0, 0);
+  const EditOutcome moved = model.edited(now, {section(0), Move{by.transpose()}, Falloff::linear}, {});
+  const EditOutcome scaled = model.edited(now, {section(5), Scale{2, {}}, Falloff::linear}, {});
+  REQUIRE_FALSE(moved.refusal);
+  REQUIRE_FALSE(scaled.refusal);
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    const double height = slid.centres(i, 2) / 4;
+    CHECK((cylinder(moved.primitives).centres.row(i) - slid.centres.row(i) - (1 - height) * by).norm() <
+          1e-14);
+    CHECK(cylinder(scaled.primitives).radii(i) == Approx(0.5 + 0.5 * height).epsilon(1e-14));
+  }
+}
+
 TEST_CASE("arc length counts, not distance") {
   const GeneralizedCylinder arc = structures::arc_cylinder(3, 0.4, 0, 2.5, 9);
   const StructuredShape rest = structures::tube_alone(arc, 10);

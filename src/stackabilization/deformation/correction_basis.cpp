@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "stackabilization/deformation/straightness.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
@@ -14,10 +15,6 @@ namespace {
 
 /// Standard deviation of the spread of an edit, fraction of the arc length.
 constexpr double spread_sigma = 0.2;
-/// Length of the columns relative to that of affine motions: a price of 1 over their square.
-constexpr double bending_length = 0.3;
-constexpr double corner_length = 0.1;
-constexpr double radius_length = 0.1;
 /// Smooth functions along the curve below this fraction of the strongest are left out.
 constexpr double weakest_mode = 0.001;
 
@@ -102,8 +99,8 @@ Eigen::MatrixXd gaussian_spread(const GeneralizedCylinder& rest) {
   return spread;
 }
 
-Eigen::VectorXd linear_weights(const GeneralizedCylinder& rest, int section) {
-  const Eigen::VectorXd s = section_arc_lengths(rest);
+Eigen::VectorXd linear_weights(const GeneralizedCylinder& now, int section) {
+  const Eigen::VectorXd s = is_straight(now) ? places_along_chord(now) : section_arc_lengths(now);
   const double whole = s(s.size() - 1), far = s(section) > whole - s(section) ? 0 : whole;
   return (s.array() - far) / (s(section) - far);
 }

@@ -6,14 +6,20 @@
 
 namespace stackabilization::detail {
 
+/// Length of columns of corrections relative to that of affine motions, whose price is 1: a price of 1 over
+/// their square.
+inline constexpr double bending_length = 0.3;
+inline constexpr double corner_length = 0.1;
+inline constexpr double radius_length = 0.1;
+
 /// n x n: exp(-(s_i - s_j)^2 / (2 sigma^2)) over the arc lengths s of the sections at rest, sigma = 0.2 of
 /// the whole (paper, section 4.1), around closed curves as well.
 Eigen::MatrixXd gaussian_spread(const GeneralizedCylinder& rest);
 
-/// n weights (s_i - s_far) / (s_section - s_far) over the arc lengths s of the sections at rest: 1 at
-/// `section`, 0 at the end that is farther from it along the curve (from the middle: at the last section).
-/// Precondition: the curve is open.
-Eigen::VectorXd linear_weights(const GeneralizedCylinder& rest, int section);
+/// n weights (s_i - s_far) / (s_section - s_far) over the arc lengths s of the sections, of a straight
+/// cylinder over their places along its chord: 1 at `section`, 0 at the end that is farther from it along the
+/// curve (from the middle: at the last section). Precondition: the curve is open.
+Eigen::VectorXd linear_weights(const GeneralizedCylinder& now, int section);
 
 /// Symmetric positive semi-definite matrix K over the control values of a primitive (ControlState::values):
 /// an edit that prescribes some of them makes the change of least norm x^T K^+ x. Corners of a cuboid move

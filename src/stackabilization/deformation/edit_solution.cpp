@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stackabilization/deformation/corrections.h"
 #include "stackabilization/deformation/prescription.h"
 #include "stackabilization/deformation/primitive_validity.h"
 #include "stackabilization/deformation/propagation.h"
 #include "stackabilization/deformation/refusal_words.h"
 #include "stackabilization/deformation/relation_residual.h"
-#include "stackabilization/deformation/straightness.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
 
@@ -42,7 +42,7 @@ class EditSolution {
         edit_(task.wanted.front()),
         class_(rig.space.class_of(edit_.part)),
         progress_(at(rig.space.class_count()), Progress::open),
-        bases_(rig.bases),
+        corrections_(rig),
         watch_(mesh.by_part, extent_bounds(task.shape, task.constraints)) {}
 
   EditOutcome run() {
@@ -60,7 +60,7 @@ class EditSolution {
       if (task_.constraints.extent_ends == ExtentEnds::free)
         state_.controls = propagated(rig_, std::move(state_.controls), progress_);
     }
-    keep_straight();
+    corrections_.keep_straight(state_.controls);
     solve();
     take_up_remainder();
     primitives_ = current_primitives();
@@ -81,11 +81,11 @@ class EditSolution {
         throw UsageError("there is no part " + std::to_string(part) + " to fix");
       const int c = rig_.space.class_of(part);
       progress_[at(c)] = Progress::settled;
-      bases_[at(c)].resize(bases_[at(c)].rows(), 0);
+      corrections_.fix(c);
     }
   }
 
-  /// Gives the edited class what the edit prescribes, within its symmetries, and leaves its basis what keeps
+  /// Gives the edited class what the edit prescribes, within its symmetries, and corrections what keeps
   /// that.
   std::optional<Refusal> prescribe() {
     if (progress_[at(class_)] == Progress::settled)
@@ -95,7 +95,10 @@ class EditSolution {
         prescription(rig_, {task_.now[at(edit_.part)], start_[at(class_)], edit_, task_.constraints});
     if (wanted.refusal) return std::move(wanted.refusal);
     state_.controls[at(class_)] = std::move(wanted.state);
-    bases_[at(class_)] = std::move(wanted.basis);
+    if (wanted.held)
+      corrections_.hold(edit_, std::move(*wanted.held));
+    else
+      corrections_.fix(class_);
     return std::nullopt;
   }
 
@@ -122,39 +125,49 @@ class EditSolution {
     return std::nullopt;
   }
 
-  /// What is straight stays so, unless the edit itself bends it.
-  void keep_straight() {
-    for (int c = 0; c < rig_.space.class_count(); ++c) {
-      const Primitive now = rig_.space.primitive(rig_.space.members(c).front(), state_.controls[at(c)]);
-      const auto* cylinder = std::get_if<GeneralizedCylinder>(&now);
-      if (cylinder == nullptr || bases_[at(c)].cols() == 0 || !is_straight(*cylinder)) continue;
-      const auto first_radius = static_cast<int>(3 * cylinder->centres.rows());
-      const bool prescribed = c == class_ && task_.wanted.size() == 1 &&
-                              std::any_of(edit_.values.begin(), edit_.values.end(),
-                                          [&](int value) { return value >= first_radius; });
-      bases_[at(c)] = straight_columns(*cylinder, bases_[at(c)],
-                                       prescribed ? SlidingRadii::kept : SlidingRadii::of_place);
-    }
-  }
-
   void solve() {
     std::vector<Constraint> constraints = joint_constraints(rig_);
     for (const Constraint& fixed : fixed_point_constraints()) constraints.push_back(fixed);
     fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.distinct_joints.size()),
                      constraints.end()};
-    state_ = solved(rig_, bases_, constraints, std::move(state_));
+    std::vector<Constraint> bounded = constraints;
+    if (hold_fixed_ends(bounded)) {
+      const SolverState prescribed = state_;
+      state_ = solved(rig_, corrections_, bounded, std::move(state_));
+      if (!(largest_gap(rig_, bounded, state_) <= tolerance::relation * diagonal())) {
+        bounded = constraints;
+        watch_.release();
+        state_ = prescribed;
+        corrections_.keep_straight(state_.controls);
+      }
+    }
+    if (bounded.size() == constraints.size())
+      state_ = solved(rig_, corrections_, constraints, std::move(state_));
     if (watch_.bounds().empty() || largest_gap(rig_, constraints, state_) > tolerance::relation * diagonal())
       return;
     const SolverState unbounded = state_;
-    bound_extents(constraints);
+    bound_extents(bounded, constraints);
     // Relations give way when bounds cannot be met: then the bounds are what is to be reported.
     if (!(largest_gap(rig_, constraints, state_) <= tolerance::relation * diagonal())) state_ = unbounded;
   }
 
+  /// What stands on the fixed ends of an extent is held from the start: else joints take everything along
+  /// first, and what passes the ends then is not what has to stay on them.
+  bool hold_fixed_ends(std::vector<Constraint>& constraints) {
+    const bool fixed = std::any_of(watch_.bounds().begin(), watch_.bounds().end(),
+                                   [](const ExtentBound& bound) { return bound.level.has_value(); });
+    if (!fixed) return false;
+    const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
+    state_.levels = watch_.levels(vertices);
+    bool held = false;
+    for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
+      if (watch_.bounds()[k].level) held |= watch_.hold(k, vertices, mesh_.transfer, constraints);
+    return held;
+  }
+
   /// Holds the outermost vertices. Those found one after the other are held together at first; where that
   /// contradicts itself, as on a face that the edit tilts by a hair, only those of the last round.
-  void bound_extents(std::vector<Constraint>& constraints) {
-    const std::vector<Constraint> unbounded = constraints;
+  void bound_extents(std::vector<Constraint>& constraints, const std::vector<Constraint>& unbounded) {
     for (int round = 0; round < 2 * extent_rounds; ++round) {
       const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
       if (state_.levels.size() == 0) state_.levels = watch_.levels(vertices);
@@ -168,7 +181,7 @@ class EditSolution {
         if (watch_.excess(k, vertices) != 0 || (round >= extent_rounds && watch_.is_kept(k)))
           held |= watch_.hold(k, vertices, mesh_.transfer, constraints);
       if (held)
-        state_ = solved(rig_, bases_, constraints, std::move(state_));
+        state_ = solved(rig_, corrections_, constraints, std::move(state_));
       else
         round = std::max(round, extent_rounds - 1);
     }
@@ -295,7 +308,7 @@ class EditSolution {
   const PartEdit& edit_;  ///< the one of a handle
   int class_;
   std::vector<Progress> progress_;  ///< per class
-  std::vector<Eigen::MatrixXd> bases_;
+  Corrections corrections_;
   ExtentWatch watch_;
   std::vector<ControlState> start_;
   SolverState state_;

@@ -12,10 +12,6 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// How much the part that carries the handle resists corrections of what the edit left open of it: length of
-/// its columns relative to those of other parts.
-constexpr double stiffness = 0.3;
-
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
 }
@@ -36,16 +32,15 @@ class Prescriber {
         edit_(task.edit),
         constraints_(task.constraints),
         class_(rig.space.class_of(edit_.part)),
-        state_(start_),
-        basis_(rig.bases[at(class_)]) {}
+        state_(start_) {}
 
   Prescription run() {
     if (auto refusal = whole() ? prescribe_whole() : prescribe_handle()) return {std::move(refusal), {}, {}};
-    return {std::nullopt, std::move(state_), std::move(basis_)};
+    return {std::nullopt, std::move(state_), std::move(held_)};
   }
 
  private:
-  bool whole() const { return static_cast<Eigen::Index>(edit_.values.size()) == basis_.rows(); }
+  bool whole() const { return static_cast<Eigen::Index>(edit_.values.size()) == state_.values.size(); }
 
   /// Rows of the prescribed values of the edited part, given columns of changes of its class.
   Eigen::MatrixXd handle_rows(const Eigen::MatrixXd& columns) const {
@@ -65,7 +60,6 @@ class Prescriber {
   std::optional<Refusal> prescribe_whole() {
     const ControlState wanted = rig_.space.state_of(edit_.part, changed(now_, edit_));
     state_ = rig_.space.invariant(class_, wanted);
-    basis_.resize(basis_.rows(), 0);
     const double miss = (wanted.values - state_.values).cwiseAbs().maxCoeff() / rig_.rest.diagonal;
     const double turn = wanted.rotation.angularDistance(state_.rotation);
     if (miss > tolerance::relative) return missed(miss, "of the diagonal");
@@ -80,16 +74,14 @@ class Prescriber {
     const double miss = (handle_rows(change) - edit_.changes).cwiseAbs().maxCoeff() / rig_.rest.diagonal;
     if (miss > tolerance::relative) return missed(miss, "of the diagonal");
     state_.values += change;
-    const Eigen::MatrixXd rows = held(handle_rows(basis_));
-    basis_ = stiffness * (basis_ - basis_ * (pseudo_inverse(rows) * rows));
+    held_ = held(handle_rows(Eigen::MatrixXd::Identity(state_.values.size(), state_.values.size())));
     return std::nullopt;
   }
 
   /// As the columns of an edit kernel that belong to the handle, of W W^T: W holds three moves and a change
   /// of radii, each in proportion to the linear weights, within what the self-symmetries leave free.
   Eigen::MatrixXd linear_spread(int section) const {
-    const auto& rest = std::get<GeneralizedCylinder>(rig_.space.rest(edit_.part));
-    const Eigen::VectorXd weights = linear_weights(rest, section);
+    const Eigen::VectorXd weights = linear_weights(std::get<GeneralizedCylinder>(now_), section);
     const auto n = static_cast<int>(weights.size());
     Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(4 * n, 4);
     for (int i = 0; i < n; ++i) {
@@ -157,7 +149,7 @@ class Prescriber {
   const DeformationConstraints& constraints_;
   int class_;
   ControlState state_;
-  Eigen::MatrixXd basis_;
+  std::optional<Eigen::MatrixXd> held_;
 };
 
 }  // namespace

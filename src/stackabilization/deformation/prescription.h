@@ -21,12 +21,14 @@ struct PrescriptionTask {
 struct Prescription {
   std::optional<Refusal> refusal;  ///< when set, a symmetry stands against the edit and the rest is not set
   ControlState state;
-  Eigen::MatrixXd basis;  ///< what may still be corrected (Rig::bases)
+  /// Rows of linear functions of its control values (ControlState::values) that corrections must not change;
+  /// nothing: no corrections at all.
+  std::optional<Eigen::MatrixXd> held;
 };
 
 /// Puts the handle exactly where the edit wants it and spreads the change over the part by its edit kernel,
-/// or linearly, within what its self-symmetries leave free. Corrections then leave the handle alone, but for
-/// what a move across a fixed extent leaves open.
+/// or linearly, within what its self-symmetries leave free. Corrections are to leave the handle alone, but
+/// for what a move across a fixed extent leaves open.
 Prescription prescription(const Rig& rig, const PrescriptionTask& task);
 
 }  // namespace stackabilization::detail

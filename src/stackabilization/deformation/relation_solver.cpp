@@ -70,11 +70,33 @@ Eigen::VectorXd semidefinite_solution(Eigen::MatrixXd a, const Eigen::VectorXd& 
   return x;
 }
 
+Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state,
+                     const std::vector<Primitive>& now) {
+  Eigen::VectorXd all(rows_of(constraints));
+  Eigen::Index row = 0;
+  for (const Constraint& constraint : constraints) {
+    Eigen::Vector3d sum = -constraint.target;
+    for (const Rider& rider : constraint.riders)
+      sum += rider.weight * rig.carriers[at(rider.part)].carried(rider.binding, now[at(rider.part)]);
+    if (constraint.normal)
+      all(row) = constraint.normal->dot(sum) - constraint.height -
+                 (constraint.level ? state.levels(*constraint.level) : 0);
+    else
+      all.segment<3>(row) = sum;
+    row += rows_of(constraint);
+  }
+  return all;
+}
+
 class Solver {
  public:
-  Solver(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases,
-         const std::vector<Constraint>& constraints, SolverState start)
-      : rig_(rig), bases_(bases), constraints_(constraints), state_(std::move(start)) {
+  Solver(const Rig& rig, Corrections& corrections, const std::vector<Constraint>& constraints,
+         SolverState start)
+      : rig_(rig),
+        corrections_(corrections),
+        bases_(corrections.bases()),
+        constraints_(constraints),
+        state_(std::move(start)) {
     for (const Eigen::MatrixXd& basis : bases_) {
       offsets_.push_back(columns_);
       columns_ += basis.cols();
@@ -86,7 +108,7 @@ class Solver {
     int idle = 0;
     for (int step = 0; step < most_steps; ++step) {
       now_ = rig_.space.primitives(state_.controls);
-      const Eigen::VectorXd gap = gaps();
+      const Eigen::VectorXd gap = gaps(rig_, constraints_, state_, now_);
       const double largest = gap.size() > 0 ? gap.cwiseAbs().maxCoeff() : 0;
       if (!(largest > tolerance::solve * rig_.rest.diagonal)) break;
       idle = largest > idle_ratio * before ? idle + 1 : 0;
@@ -100,29 +122,7 @@ class Solver {
     return std::move(state_);
   }
 
-  Eigen::VectorXd gaps_at_start() {
-    now_ = rig_.space.primitives(state_.controls);
-    return gaps();
-  }
-
  private:
-  Eigen::VectorXd gaps() const {
-    Eigen::VectorXd all(rows_of(constraints_));
-    Eigen::Index row = 0;
-    for (const Constraint& constraint : constraints_) {
-      Eigen::Vector3d sum = -constraint.target;
-      for (const Rider& rider : constraint.riders)
-        sum += rider.weight * rig_.carriers[at(rider.part)].carried(rider.binding, now_[at(rider.part)]);
-      if (constraint.normal)
-        all(row) = constraint.normal->dot(sum) - constraint.height -
-                   (constraint.level ? state_.levels(*constraint.level) : 0);
-      else
-        all.segment<3>(row) = sum;
-      row += rows_of(constraint);
-    }
-    return all;
-  }
-
   Eigen::MatrixXd slopes() const {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows_of(constraints_), columns_ + state_.levels.size());
     const std::vector<Eigen::MatrixXd> turns = turn_columns();
@@ -193,9 +193,11 @@ class Solver {
       state.values += scale * changes[c];
     }
     state_.levels += scale * step.tail(state_.levels.size());
+    corrections_.settle(state_.controls);
   }
 
   const Rig& rig_;
+  Corrections& corrections_;
   const std::vector<Eigen::MatrixXd>& bases_;
   const std::vector<Constraint>& constraints_;
   SolverState state_;
@@ -218,14 +220,13 @@ std::vector<Constraint> joint_constraints(const Rig& rig) {
 }
 
 double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state) {
-  const std::vector<Eigen::MatrixXd> none;
-  const Eigen::VectorXd gaps = Solver(rig, none, constraints, state).gaps_at_start();
-  return gaps.size() > 0 ? gaps.cwiseAbs().maxCoeff() : 0;
+  const Eigen::VectorXd all = gaps(rig, constraints, state, rig.space.primitives(state.controls));
+  return all.size() > 0 ? all.cwiseAbs().maxCoeff() : 0;
 }
 
-SolverState solved(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases,
-                   const std::vector<Constraint>& constraints, SolverState start) {
-  return Solver(rig, bases, constraints, std::move(start)).run();
+SolverState solved(const Rig& rig, Corrections& corrections, const std::vector<Constraint>& constraints,
+                   SolverState start) {
+  return Solver(rig, corrections, constraints, std::move(start)).run();
 }
 
 }  // namespace stackabilization::detail

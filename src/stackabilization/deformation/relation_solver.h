@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "stackabilization/deformation/corrections.h"
 #include "stackabilization/deformation/rig.h"
 
 namespace stackabilization::detail {
@@ -36,11 +37,11 @@ std::vector<Constraint> joint_constraints(const Rig& rig);
 /// Largest violation of the constraints, model units.
 double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state);
 
-/// Gauss-Newton on all constraints at once, each step the one of least norm in the columns of `bases` (per
-/// class; a class with no columns stays): the normal equations in their dual form, a small dense system, with
+/// Gauss-Newton on all constraints at once, each step the one of least norm in the columns of `corrections`,
+/// which settle it: the normal equations in their dual form, a small dense system, with
 /// constraints that repeat others left out by a pivoted Cholesky factorisation. Stops at tolerance::solve of
 /// the diagonal or where steps do not help any more: look at `largest_gap`.
-SolverState solved(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases,
-                   const std::vector<Constraint>& constraints, SolverState start);
+SolverState solved(const Rig& rig, Corrections& corrections, const std::vector<Constraint>& constraints,
+                   SolverState start);
 
 }  // namespace stackabilization::detail

@@ -4,6 +4,7 @@
 
 #include "stackabilization/deformation/correction_basis.h"
 #include "stackabilization/deformation/joint_copies.h"
+#include "stackabilization/deformation/straightness.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
@@ -46,6 +47,7 @@ Rig::Rig(const Structure& structure) : rest(structure), space(structure) {
     edit_kernels.push_back(space.invariant_columns(c, half.transpose()));
     bases.push_back(invariant_basis(space, c, correction_basis(first)));
     const auto* cylinder = std::get_if<GeneralizedCylinder>(&first);
+    slides.push_back(cylinder && !cylinder->closed ? slide_functions(*cylinder) : Eigen::MatrixXd());
     turnings.push_back(cylinder ? turning(*cylinder) : Eigen::MatrixXd());
   }
   distinct_joints = detail::distinct_joints(*this);
