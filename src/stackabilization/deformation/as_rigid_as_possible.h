@@ -8,6 +8,7 @@
 
 namespace stackabilization {
 
+/// Options of RigidSurface::deformed.
 struct RigidityOptions {
   int iterations = 10;  ///< of the alternation between rotations and points; >= 1
   /// Weight, in units of the surface's area, with which the rotations of neighbours are made alike (Levi and

@@ -32,6 +32,7 @@ class ControllerModel : public DeformationModel {
   ControllerModel& operator=(ControllerModel&&) noexcept;
   ~ControllerModel() override;
 
+  /// The shape at rest with its structure, as given.
   const StructuredShape& rest() const;
   /// The configuration at rest.
   const std::vector<Primitive>& rest_primitives() const;

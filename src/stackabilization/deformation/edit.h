@@ -21,23 +21,25 @@ enum class HandleKind {
   shape,    ///< everything
 };
 
+/// Which handle: HandleKind says what `part` and `index` mean.
 struct Handle {
-  HandleKind kind = HandleKind::part;
-  int part = 0;
-  int index = 0;
+  HandleKind kind = HandleKind::part;  ///< what it is
+  int part = 0;                        ///< row of Shape::part_names
+  int index = 0;                       ///< 0-based
 
+  /// Equal in all three, also in those that its kind does not use.
   bool operator==(const Handle&) const = default;
 };
 
 /// Translation, model units.
 struct Move {
-  Eigen::Vector3d by = Eigen::Vector3d::Zero();
+  Eigen::Vector3d by = Eigen::Vector3d::Zero();  ///< file axes, model units
 };
 
 /// Rotation about the handle's centre.
 struct Rotate {
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< not zero
-  double radians = 0;
+  double radians = 0;                               ///< right-handed about `axis`
 };
 
 /// Scaling about the handle's centre: of a cross-section its radius, of a face within its plane, of the rest
@@ -47,6 +49,7 @@ struct Scale {
   std::optional<Eigen::Vector3d> along;  ///< not zero; only for parts and shapes
 };
 
+/// What is done to a handle.
 using Operation = std::variant<Move, Rotate, Scale>;
 
 /// How a move or scaling of a cross-section dies out along its generalized cylinder.
@@ -61,9 +64,9 @@ enum class Falloff {
 /// One operation on one handle. `falloff` is looked at for moves and scalings of cross-sections of open
 /// generalized cylinders only.
 struct Edit {
-  Handle handle;
-  Operation operation;
-  Falloff falloff = Falloff::gaussian;
+  Handle handle;                        ///< what is taken hold of
+  Operation operation;                  ///< what is done to it
+  Falloff falloff = Falloff::gaussian;  ///< how it dies out from section to section
 };
 
 /// Throws UsageError unless factors are positive, axes are not zero and every number is finite.

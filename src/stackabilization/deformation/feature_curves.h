@@ -7,6 +7,7 @@
 
 namespace stackabilization {
 
+/// What `feature_curves` takes for a crease, an end and a crumb.
 struct FeatureCurveOptions {
   /// An edge of two triangles is a crease when their planes turn by more than this, degrees.
   double crease_angle = 40;

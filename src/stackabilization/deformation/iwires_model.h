@@ -7,6 +7,7 @@
 
 namespace stackabilization {
 
+/// What an IWiresModel takes for wires, and what it keeps between them.
 struct IWiresOptions {
   FeatureCurveOptions curves;     ///< what is a wire
   WireAnalysisOptions relations;  ///< what is kept; no symmetry unless given here

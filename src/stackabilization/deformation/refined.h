@@ -6,6 +6,7 @@
 
 namespace stackabilization {
 
+/// How finely `refined` cuts.
 struct RefineOptions {
   double longest_edge = 0.02;               ///< fraction of the bounding-box diagonal; > 0
   std::int64_t most_triangles = 1'000'000;  ///< more are refused

@@ -38,9 +38,10 @@ struct CurveBinding {
 /// A generalized cylinder at rest with what every binding needs.
 class CurveAtRest {
  public:
+  /// Precondition: `validate(cylinder, name)` passes.
   explicit CurveAtRest(GeneralizedCylinder cylinder);
 
-  const GeneralizedCylinder& cylinder() const { return cylinder_; }
+  const GeneralizedCylinder& cylinder() const { return cylinder_; }  ///< the one given
   /// Mean of the centres: motions are expressed relative to it, which keeps digits far from the origin.
   const Eigen::Vector3d& origin() const { return origin_; }
 
@@ -57,6 +58,7 @@ class CurveAtRest {
   /// Where the bound point goes, given the motions of its two sections.
   Eigen::Vector3d carried(const CurveBinding& binding, const GeneralizedCylinder& now,
                           const DualQuaternion& from, const DualQuaternion& to) const;
+  /// The same with the motions that `motion` gives.
   Eigen::Vector3d carried(const CurveBinding& binding, const GeneralizedCylinder& now) const {
     return carried(binding, now, motion(now, binding.from), motion(now, binding.to));
   }

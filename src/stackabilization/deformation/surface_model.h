@@ -9,6 +9,7 @@
 
 namespace stackabilization {
 
+/// What handles of a `surface_model` hold, and how far an edit reaches.
 struct SurfaceModelOptions {
   /// A point handle takes the surface within this distance of its vertex with it, fraction of the
   /// bounding-box diagonal; finite, >= 0.
@@ -24,7 +25,7 @@ struct SurfaceModelOptions {
   /// Main axis, not zero. Nothing: of the minimal oriented box the axis across two sides that are equal to a
   /// twentieth, as those of a body of revolution are; else the longest.
   std::optional<Eigen::Vector3d> axis;
-  RigidityOptions rigidity;
+  RigidityOptions rigidity;  ///< of the surface between the handles
 };
 
 /// As-rigid-as-possible deformation of the surface (as_rigid_as_possible.h), for shapes without useful parts.

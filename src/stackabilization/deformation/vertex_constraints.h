@@ -8,8 +8,8 @@
 
 namespace stackabilization {
 
-/// What models that move plain vertices need of DeformationConstraints. Vertices that no triangle uses count
-/// nowhere.
+// What models that move plain vertices need of DeformationConstraints. Vertices that no triangle uses count
+// nowhere.
 
 /// Ascending rows of the vertices of `rest` that `constraints` fix: those of the fixed parts; for each fixed
 /// point the corners of the triangle that its nearest point of the surface lies on (the two of the edge, the

@@ -19,9 +19,9 @@ enum class WireForm {
 
 /// A feature curve and its individual properties (Gal et al. 2009, section 5).
 struct Wire {
-  FeatureCurve curve;
-  WireForm form = WireForm::spatial;
-  double length = 0;  ///< of the polygon, model units
+  FeatureCurve curve;                 ///< its vertices
+  WireForm form = WireForm::spatial;  ///< what it stays
+  double length = 0;                  ///< of the polygon, model units
   Eigen::Vector3d centre =
       Eigen::Vector3d::Zero();  ///< middle of a segment, centre of a circle, else of the length
   /// Unit direction of a segment, unit normal of the plane of circular and planar ones; of spatial ones zero.
@@ -38,8 +38,8 @@ struct WirePlane {
 
 /// A symmetry takes wire `wire` onto wire `image`, which may be the same.
 struct WireSymmetry {
-  int symmetry = 0;  ///< row of WireStructure::symmetries
-  int wire = 0, image = 0;
+  int symmetry = 0;         ///< row of WireStructure::symmetries
+  int wire = 0, image = 0;  ///< rows of WireStructure::wires
 };
 
 /// A place where wires end or cross.
@@ -51,18 +51,19 @@ struct WireJunction {
 /// Wires and what holds between them. Wires are given by their rows in `wires`; every list is in ascending
 /// order.
 struct WireStructure {
-  std::vector<Wire> wires;
+  std::vector<Wire> wires;                 ///< in the order of the curves
   std::vector<std::vector<int>> parallel;  ///< classes of straight wires, every straight one in one class
   std::vector<std::pair<int, int>> orthogonal;  ///< pairs of rows of `parallel`
   /// Groups of two and more: straight and parallel of equal length, or circular of equal radius and length.
   std::vector<std::vector<int>> congruent;
   /// Planes with three or more wires, or with one that is circular or planar and one more.
   std::vector<WirePlane> planes;
-  std::vector<Symmetry> symmetries;  ///< as given
-  std::vector<WireSymmetry> symmetric;
-  std::vector<WireJunction> junctions;
+  std::vector<Symmetry> symmetries;     ///< as given
+  std::vector<WireSymmetry> symmetric;  ///< which wires the symmetries take onto which
+  std::vector<WireJunction> junctions;  ///< where wires meet
 };
 
+/// How nearly something must hold for `analysed_wires` to have it kept.
 struct WireAnalysisOptions {
   /// Largest distance of a curve's vertices from the segment, circle or plane that it is taken for, fraction
   /// of its length.

@@ -23,27 +23,28 @@ struct ContactPolygon {
 
 /// A connected set of contact polygons with one part on each side.
 struct ContactRegion {
-  ContactType type = ContactType::dot;
-  std::int32_t upper_part = -1;  ///< part of the copy below that is touched
-  std::int32_t lower_part = -1;  ///< part of the copy above that touches it
-  double area = 0;               ///< area of the union of the polygons seen along r, model units squared
+  ContactType type = ContactType::dot;  ///< its shape seen along r
+  std::int32_t upper_part = -1;         ///< part of the copy below that is touched
+  std::int32_t lower_part = -1;         ///< part of the copy above that touches it
+  double area = 0;  ///< area of the union of the polygons seen along r, model units squared
   Eigen::Vector3d
       upper_centre;  ///< area centroid on the upper envelope (mean of the points where the area is zero)
-  Eigen::Vector3d lower_centre;
-  Eigen::Vector3d long_axis;  ///< unit vector orthogonal to r: primary direction of a line region
-  std::vector<ContactPolygon> polygons;
+  Eigen::Vector3d lower_centre;          ///< the same on the lower envelope, before the lift
+  Eigen::Vector3d long_axis;             ///< unit vector orthogonal to r: primary direction of a line region
+  std::vector<ContactPolygon> polygons;  ///< convex, one per pair of triangles; they may overlap
 };
 
+/// What `contact_regions` counts as contact, and how it names the shapes of regions.
 struct ContactOptions {
-  Semantics semantics = Semantics::solid;
-  double band = tolerance::contact_band;  ///< eps as a fraction of the extent h(M, r); in [0, 1]
-  double line_aspect = 4;                 ///< a region at least this many times longer than wide is a line
+  Semantics semantics = Semantics::solid;  ///< that of the separation
+  double band = tolerance::contact_band;   ///< eps as a fraction of the extent h(M, r); in [0, 1]
+  double line_aspect = 4;                  ///< a region at least this many times longer than wide is a line
   double least_hole = 0.01;  ///< a ring's hole takes at least this share of the rectangle around the region
 };
 
 /// A shape stacked on itself.
 struct ContactQuery {
-  const Shape& shape;
+  const Shape& shape;            ///< M
   const SeparationTree& tree;    ///< of `shape`
   const Direction& direction;    ///< r, from the copy below to the copy above
   const Separation& separation;  ///< the answer for the three, in the semantics of the options

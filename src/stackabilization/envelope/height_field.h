@@ -11,9 +11,9 @@ namespace stackabilization {
 /// Sampling window in the plane orthogonal to r: pixel (i, j) has its sample at
 /// (x + (i + 1/2) pixel_size, y + (j + 1/2) pixel_size) in the frame's u, v coordinates.
 struct Window {
-  double x = 0, y = 0;    ///< lower left corner, model units, frame coordinates
-  double pixel_size = 0;  ///< model units, > 0
-  int columns = 0, rows = 0;
+  double x = 0, y = 0;        ///< lower left corner, model units, frame coordinates
+  double pixel_size = 0;      ///< model units, > 0
+  int columns = 0, rows = 0;  ///< pixels along u and along v
 
   /// Sample of pixel (i, j), frame coordinates.
   Eigen::Vector2d sample(int i, int j) const {
@@ -27,24 +27,25 @@ struct Window {
 /// lower bound of the exact closed f_max, up to rounding; a graphics card moves corners to a grid and gives
 /// none. (The solid f_max ignores walls along r, a sample that falls on one does not.)
 struct HeightField {
-  Frame frame;  ///< w along r
-  Window window;
-  Unit unit = Unit::unknown;
-  Eigen::MatrixXd upper;  ///< columns x rows, heights along w, model units; -inf where no surface
-  Eigen::MatrixXd lower;  ///< columns x rows; +inf where no surface
+  Frame frame;                ///< w along r
+  Window window;              ///< where the samples are
+  Unit unit = Unit::unknown;  ///< of the shape
+  Eigen::MatrixXd upper;      ///< columns x rows, heights along w, model units; -inf where no surface
+  Eigen::MatrixXd lower;      ///< columns x rows; +inf where no surface
 
+  /// Whether any surface was met at the sample of pixel (i, j).
   bool covered(int i, int j) const { return upper(i, j) >= lower(i, j); }
 };
 
 /// f = u - l (Eq. 1) per sample; NaN where nothing is covered. columns x rows, model units.
 Eigen::MatrixXd gap(const HeightField& field);
 
-/// Largest sampled gap with its pixel, the first one in row order among equals. Zero at (-1, -1) when nothing
-/// is covered.
+/// Largest sampled gap, and where.
 struct GapMaximum {
-  double value = 0;  ///< model units
-  int column = -1, row = -1;
+  double value = 0;           ///< model units
+  int column = -1, row = -1;  ///< of its pixel
 };
+/// The maximum of `gap`, the first one in row order among equals; zero at (-1, -1) when nothing is covered.
 GapMaximum maximum_gap(const HeightField& field);
 
 /// Largest number of samples along a side of a window.

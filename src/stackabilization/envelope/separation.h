@@ -28,8 +28,8 @@ enum class Semantics {
 struct Witness {
   std::int32_t upper_triangle = -1;  ///< triangle of the copy below, on its upper envelope
   std::int32_t lower_triangle = -1;  ///< triangle of the copy above, on its lower envelope
-  Eigen::Vector3d upper_point = Eigen::Vector3d::Zero();
-  Eigen::Vector3d lower_point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d upper_point = Eigen::Vector3d::Zero();  ///< on `upper_triangle`, file axes, model units
+  Eigen::Vector3d lower_point = Eigen::Vector3d::Zero();  ///< on `lower_triangle`, before the lift
 };
 
 /// Result of an exact separation query.
@@ -39,19 +39,20 @@ struct Separation {
   bool blocked = false;
   Rational value;     ///< in units of r: the translation is value * r
   double length = 0;  ///< value * |r|, model units, within 4 ulp
-  Witness witness;
+  Witness witness;    ///< where the value is attained
 };
 
 /// A certified enclosure of a separation, in units of r: lower <= sep <= upper. Empty (lower = upper = -inf)
 /// when not blocked.
 struct Enclosure {
-  double lower = -std::numeric_limits<double>::infinity();
-  double upper = -std::numeric_limits<double>::infinity();
+  double lower = -std::numeric_limits<double>::infinity();  ///< certainly at most sep, units of r
+  double upper = -std::numeric_limits<double>::infinity();  ///< certainly at least sep, units of r
   bool abandoned = false;  ///< stopped early: only `lower` > abandon_above is known, upper is +inf
 };
 
+/// Options of `separation` and `separation_enclosure`.
 struct SeparationOptions {
-  Semantics semantics = Semantics::solid;
+  Semantics semantics = Semantics::solid;  ///< what counts as a collision
   /// Stop as soon as the separation is certainly greater than this many units of r (enclosure queries only).
   std::optional<double> abandon_above;
 };
@@ -69,6 +70,7 @@ class SeparationTree {
   ~SeparationTree();
 
   struct Data;
+  /// For the algorithms of this library: see envelope/separation_tree.h.
   const Data& data() const { return *data_; }
 
  private:

@@ -10,23 +10,24 @@ namespace stackabilization {
 
 /// Corners of one triangle, relative to the origin of the tree, and where it came from.
 struct TreeTriangle {
-  std::array<std::array<double, 3>, 3> corners;
-  std::int32_t index;
+  std::array<std::array<double, 3>, 3> corners;  ///< by corner, then coordinate; model units
+  std::int32_t index;                            ///< row of Shape::triangles; several pieces may share one
 };
 
 /// Axis-aligned box plus one slab  slab_low <= normal . p <= slab_high  holding all points of the node.
 /// `normal` is zero where no slab is kept. Leaves have count > 0.
 struct TreeNode {
-  std::array<double, 3> low, high;
-  std::array<double, 3> normal;
-  double slab_low, slab_high;
-  std::int32_t first;  ///< leaf: first triangle; inner: left child, the right one follows it
-  std::int32_t count;  ///< leaf: number of triangles; inner: 0
+  std::array<double, 3> low, high;  ///< corners of the box, relative to the origin of the tree
+  std::array<double, 3> normal;     ///< of the slab; unit, or zero
+  double slab_low, slab_high;       ///< bounds of normal . p, rounded outwards
+  std::int32_t first;               ///< leaf: first triangle; inner: left child, the right one follows it
+  std::int32_t count;               ///< leaf: number of triangles; inner: 0
 };
 
 /// Most triangles in a leaf.
 inline constexpr int leaf_size = 2;
 
+/// What a SeparationTree keeps.
 struct SeparationTree::Data {
   /// Subtracted from all coordinates without rounding any: where a shape lies far from the file's origin, the
   /// error bounds of the filters, which grow with the coordinates, would drown its features.

@@ -15,17 +15,18 @@ namespace stackabilization {
 /// Where a search stands.
 struct ImprovementProgress {
   double best_stackability = 0;  ///< of all candidates seen
-  double best_energy = 0;
-  std::int64_t expanded = 0;   ///< candidates whose successors were made
-  std::int64_t evaluated = 0;  ///< candidates measured
-  std::int64_t queued = 0;
-  int solutions = 0;
-  double seconds_left = 0;  ///< of the time limit; infinite without one
+  double best_energy = 0;        ///< least E of all candidates seen
+  std::int64_t expanded = 0;     ///< candidates whose successors were made
+  std::int64_t evaluated = 0;    ///< candidates measured
+  std::int64_t queued = 0;       ///< candidates that wait, over all starting directions
+  int solutions = 0;             ///< found so far
+  double seconds_left = 0;       ///< of the time limit; infinite without one
 };
 
+/// Options of `best_first`.
 struct BestFirstOptions {
-  double alpha = 0.2;  ///< of Eq. 5
-  ContactEditOptions edits;
+  double alpha = 0.2;             ///< of Eq. 5
+  ContactEditOptions edits;       ///< what contacts suggest
   int solutions = 1;              ///< different ones wanted, >= 1
   std::int64_t expansions = 100;  ///< limit, >= 1
   double seconds = 40;            ///< limit, > 0, of one call; what it ends depends on the machine
@@ -40,29 +41,31 @@ struct BestFirstOptions {
 
 /// A candidate: what it is, how good, and why it was made.
 struct Candidate {
-  Design design;
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
-  Stackability measured;
-  Energy energy;
-  std::vector<std::string> reasons;  ///< per edit, see ContactEdit::why
+  Design design;                                         ///< edits from rest, primitives and mesh
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< r along which it is stacked
+  Stackability measured;                                 ///< along r, with the air asked for
+  Energy energy;                                         ///< against rest
+  std::vector<std::string> reasons;                      ///< per edit, see ContactEdit::why
 };
 
 /// How often successors were refused, or designs that reach the target failed a check, and why: what a
 /// diagnosis looks at.
 struct RefusalCount {
-  std::string reason;  ///< with "..." for amounts
-  std::int64_t count = 0;
+  std::string reason;      ///< with "..." for amounts
+  std::int64_t count = 0;  ///< how often
 };
 
+/// Why a search ended: enough solutions, nothing left to expand, a limit, or the caller.
 enum class SearchEnd { solved, exhausted, expansion_limit, time_limit, cancelled };
 
+/// What `best_first` found.
 struct BestFirstResult {
   std::vector<Candidate> solutions;  ///< reach the target and pass every check; different; least E first
   /// The most promising candidates that do not reach it, S descending, different from each other; at most 8.
   std::vector<Candidate> nearest;
-  std::vector<RefusalCount> refusals;  ///< most frequent first
-  ImprovementProgress progress;
-  SearchEnd end = SearchEnd::exhausted;
+  std::vector<RefusalCount> refusals;    ///< most frequent first
+  ImprovementProgress progress;          ///< counts at the end
+  SearchEnd end = SearchEnd::exhausted;  ///< why it ended
 };
 
 /// Algorithm 1 of the paper: of all candidates that of least E (ties: made first) is taken; one that reaches

@@ -15,34 +15,35 @@ enum class EditFamily {
   extended,  ///< also whole parts, changes that stay linear along a cylinder (Falloff), and larger steps
 };
 
+/// Which edits `contact_edits` makes of contacts, and how large.
 struct ContactEditOptions {
-  EditFamily family = EditFamily::extended;
-  double move_step = 0.06;  ///< fraction of the extent of the shape along the move; > 0
-  double scale_step = 0.1;  ///< of a ring's handle, up and down; in (0, 1)
+  EditFamily family = EditFamily::extended;  ///< what is taken hold of
+  double move_step = 0.06;                   ///< fraction of the extent of the shape along the move; > 0
+  double scale_step = 0.1;                   ///< of a ring's handle, up and down; in (0, 1)
   /// Sizes of the extended family, as multiples of both steps; not empty, > 0, below 1 / scale_step.
   std::vector<double> multiples = {1, 3};
   /// Regions that are looked at, largest first, symmetric ones counted once; at least 1.
   int most_regions = 12;
-  ContactOptions contacts;
+  ContactOptions contacts;  ///< of the regions
 };
 
 /// One suggestion, and where it comes from.
 struct ContactEdit {
-  Edit edit;
-  ContactType type = ContactType::dot;
-  int region = 0;             ///< row of the regions
-  bool of_lower_copy = true;  ///< the edited side of the pair: the copy below, or the one above
-  std::string why;            ///< one clause: "down, away from what stands on it"
+  Edit edit;                            ///< to be made to the design
+  ContactType type = ContactType::dot;  ///< of its region
+  int region = 0;                       ///< row of the regions
+  bool of_lower_copy = true;            ///< the edited side of the pair: the copy below, or the one above
+  std::string why;                      ///< one clause: "down, away from what stands on it"
 };
 
 /// A design stacked on itself.
 struct ContactSituation {
-  const StructuredShape& rest;
-  DeformationKind kind;
-  const std::vector<Handle>& handles;  ///< of the design space
-  const Design& design;
+  const StructuredShape& rest;                ///< of the design space
+  DeformationKind kind;                       ///< of the design space
+  const std::vector<Handle>& handles;         ///< of the design space
+  const Design& design;                       ///< the one that is stacked
   const std::vector<ContactRegion>& regions;  ///< of the design along the direction
-  const Direction& direction;
+  const Direction& direction;                 ///< r, from the copy below to the copy above
   /// DesignSpace::centres, for models without primitives; empty: only points are found, no wires or slices.
   std::vector<Eigen::Vector3d> centres = {};
 };

@@ -21,7 +21,7 @@ struct Design {
 /// A design after one more edit, or the reason why not.
 struct DesignOutcome {
   std::optional<Refusal> refusal;  ///< when set, `design` is what it was before
-  Design design;
+  Design design;                   ///< with the edit, if there is no refusal
 };
 
 /// What moves the mesh.
@@ -40,7 +40,9 @@ class DesignSpace {
  public:
   virtual ~DesignSpace() = default;
 
+  /// The shape without edits, with its structure.
   virtual const StructuredShape& rest() const = 0;
+  /// Which model moves the mesh.
   virtual DeformationKind kind() const = 0;
   /// Everything that can be edited.
   virtual std::vector<Handle> handles() const = 0;
@@ -59,8 +61,9 @@ class DesignSpace {
                                  const DeformationConstraints& constraints) const;
 };
 
+/// Which deformation model `design_space` prepares.
 struct DesignSpaceOptions {
-  DeformationKind kind = DeformationKind::controllers;
+  DeformationKind kind = DeformationKind::controllers;  ///< the model
   /// Along which gap scaling squashes, and the main axis of the surface model's slices.
   Direction direction{0, 0, 1};
 };

@@ -12,24 +12,26 @@ namespace stackabilization {
 /// A pair of contact regions that is in the way.
 struct Blocker {
   int upper_part = -1, lower_part = -1;  ///< of the copy below, and of the copy above
-  ContactType type = ContactType::dot;
-  double f = 0;             ///< what this pair alone asks for, model units
-  double stackability = 0;  ///< S if it were the only one
-  std::string reason;       ///< why the edits that would separate it were refused, or did not help
+  ContactType type = ContactType::dot;   ///< of the region
+  double f = 0;                          ///< what this pair alone asks for, model units
+  double stackability = 0;               ///< S if it were the only one
+  std::string reason;  ///< why the edits that would separate it were refused, or did not help
 };
 
 /// Something that would help, with the S that it gives without further edits or, for a constraint, allows.
 struct Remedy {
-  enum class Kind { other_direction, free_part, remove_part, relax } kind = Kind::relax;
-  std::string what;  ///< one sentence
-  std::vector<int> parts;
-  Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  double stackability = 0;
+  /// What is to be done.
+  enum class Kind { other_direction, free_part, remove_part, relax };
+  Kind kind = Kind::relax;                              ///< says which of the fields below count
+  std::string what;                                     ///< one sentence
+  std::vector<int> parts;                               ///< to be freed or removed; rows of Structure::parts
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< to stack along instead; zero for other kinds
+  double stackability = 0;                              ///< S(M, r) that it gives or allows
 };
 
 /// Why a target was not reached.
 struct Diagnosis {
-  double target = 0, reached = 0;
+  double target = 0, reached = 0;        ///< S asked for; largest S met
   std::vector<Blocker> blockers;         ///< largest f first
   std::vector<std::string> constraints;  ///< requirements and relations that refused edits, most often first
   std::vector<Remedy> remedies;          ///< largest S first

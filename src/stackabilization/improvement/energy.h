@@ -21,9 +21,9 @@ struct Distortion {
 
 /// E(M), Eq. 5.
 struct Energy {
-  Distortion distortion;
-  double gain = 0;   ///< Delta S = S(M) - S(M0)
-  double value = 0;  ///< alpha D - (1 - alpha) Delta S
+  Distortion distortion;  ///< D and its terms
+  double gain = 0;        ///< Delta S = S(M) - S(M0)
+  double value = 0;       ///< alpha D - (1 - alpha) Delta S
 };
 
 /// Distance d of Eq. 8 between two primitives: the least distance between their axes, model units. The axis
@@ -51,8 +51,9 @@ class EnergyMeter {
 
   /// Throws UsageError when `design` does not have the vertices and primitives of the rest.
   Distortion distortion(const Design& design) const;
+  /// E for a gain Delta S that was measured elsewhere. Throws as `distortion`.
   Energy energy(const Design& design, double gain) const;
-  double alpha() const { return alpha_; }
+  double alpha() const { return alpha_; }  ///< weight of D in Eq. 5
 
  private:
   struct Rest;

@@ -23,8 +23,8 @@ struct HistoryNode {
 /// The tree of all designs that were tried; the first node is the shape at rest. Nodes are never changed or
 /// removed: rolling back makes another one current.
 struct History {
-  std::vector<HistoryNode> nodes;
-  int current = 0;
+  std::vector<HistoryNode> nodes;  ///< parents before children
+  int current = 0;                 ///< row of `nodes`
 };
 
 /// All edits from rest to a node. Throws UsageError when there is none, or a parent is not above its child.
@@ -44,7 +44,7 @@ Design design_at(const DesignSpace& space, const History& history, int node);
 
 /// A structured shape with the history of its designs: what `suggest` and an interactive editor work on.
 struct Project {
-  StructuredShape rest;
+  StructuredShape rest;      ///< without edits
   History history;           ///< no nodes: nothing was tried yet
   DesignSpaceOptions space;  ///< what makes its designs
 };

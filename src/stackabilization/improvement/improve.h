@@ -11,28 +11,31 @@
 
 namespace stackabilization {
 
+/// How much of `improve` goes beyond the paper.
 enum class ImprovementPreset {
   paper,    ///< search only, with the paper's edits and steps
   refined,  ///< that, a pursuit, and a search with further edits, then continuous magnitudes of what they
             ///< find
 };
 
+/// Options of `improve`.
 struct ImprovementOptions {
-  ImprovementPreset preset = ImprovementPreset::refined;
-  BestFirstOptions search;
-  RefinementOptions refinement;
+  ImprovementPreset preset = ImprovementPreset::refined;  ///< which steps are taken
+  BestFirstOptions search;  ///< its alpha, edits, directions, seconds and callbacks hold for the whole run
+  RefinementOptions refinement;  ///< of the continuous magnitudes
 };
 
+/// What `improve` came to: solutions, or why there are none.
 struct Improvement {
   Candidate before;  ///< the shape at rest, along the direction of the best solution
   /// Best first: of the paper's preset those of least E. Refined ones all meet the target, so that more S is
   /// no merit: those of least D.
   std::vector<Candidate> solutions;
-  std::vector<Assessment> assessments;  ///< of the solutions
-  std::optional<Candidate> nearest;     ///< the best S reached, when there is no solution
-  std::optional<Diagnosis> diagnosis;   ///< why there is none
-  ImprovementProgress progress;
-  SearchEnd end = SearchEnd::exhausted;
+  std::vector<Assessment> assessments;   ///< of the solutions
+  std::optional<Candidate> nearest;      ///< the best S reached, when there is no solution
+  std::optional<Diagnosis> diagnosis;    ///< why there is none
+  ImprovementProgress progress;          ///< of the search
+  SearchEnd end = SearchEnd::exhausted;  ///< why the search ended
 };
 
 /// From a wish to designs that stack: the paper's search, a pursuit along every starting direction,

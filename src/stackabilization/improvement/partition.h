@@ -9,8 +9,8 @@ namespace stackabilization {
 
 /// One piece of an object that was taken apart.
 struct Piece {
-  std::vector<int> parts;  ///< rows of the whole structure, ascending
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
+  std::vector<int> parts;                                ///< rows of the whole structure, ascending
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< along which it stacks best, of those tried
   double stackability = 0;  ///< S of the piece alone along it; 0 for a piece without volume
 };
 

@@ -6,9 +6,10 @@
 
 namespace stackabilization {
 
+/// Options of `pursued`.
 struct PursuitOptions {
-  double alpha = 0.2;  ///< of the energies reported
-  ContactEditOptions edits;
+  double alpha = 0.2;                    ///< of the energies reported
+  ContactEditOptions edits;              ///< what contacts suggest
   int steps = 24;                        ///< edits added at most, >= 1
   std::function<bool()> cancelled = {};  ///< asked from the calling thread
 };

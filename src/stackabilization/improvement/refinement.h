@@ -15,13 +15,14 @@ enum class Companions {
              ///< back
 };
 
+/// Options of `refined_candidate`.
 struct RefinementOptions {
-  Companions companions = Companions::opposite;
-  int evaluations = 300;     ///< designs measured at most, >= 10
-  double alpha = 0.2;        ///< of the energies reported
+  Companions companions = Companions::opposite;  ///< of the edits given
+  int evaluations = 300;                         ///< designs measured at most, >= 10
+  double alpha = 0.2;                            ///< of the energies reported
   double reach = 3;          ///< magnitudes are sought in [-reach, reach] times those given, > 0
   double negligible = 0.02;  ///< edits that give less than this fraction of what S gains are tried without
-  std::function<bool()> cancelled = {};
+  std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends with the best so far
 };
 
 /// The edit with its magnitude multiplied: x moves by x times as much, turns by x times the angle, scales by
@@ -32,10 +33,11 @@ Edit with_magnitude(Edit edit, double x);
 /// nothing left out.
 std::vector<Edit> merged(const std::vector<Edit>& edits);
 
+/// What `refined_candidate` came to.
 struct RefinementResult {
   Candidate candidate;   ///< the best design found, with the edits it takes
   bool reached = false;  ///< it reaches the target and passes every check
-  int evaluations = 0;
+  int evaluations = 0;   ///< designs measured
 };
 
 /// Beyond the paper: the search takes coarse steps; from its edits, the magnitudes that reach the target with

@@ -26,11 +26,12 @@ std::vector<std::vector<int>> symmetric_classes(const Structure& structure);
 
 /// A removal, and how the rest stacks.
 struct Removal {
-  std::vector<int> parts;  ///< a class of symmetric parts
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
-  double stackability = 0;  ///< S of the rest along it
+  std::vector<int> parts;                                ///< a class of symmetric parts
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< along which the rest stacks best, of those tried
+  double stackability = 0;                               ///< S of the rest along it
 };
 
+/// How what is left is measured.
 struct RemovalOptions {
   StackabilityOptions measure;  ///< `flat_shapes` is not looked at: a rest without volume has no S
   /// That are tried, at least one; the best one counts, among equals the first.

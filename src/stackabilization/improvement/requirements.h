@@ -12,8 +12,8 @@ namespace stackabilization {
 
 /// What a designer asks of a solution. A design that breaks one of these is none.
 struct Requirements {
-  double target = 0;  ///< S(M, r) to be reached, < 1
-  StackabilityOptions measure;
+  double target = 0;                ///< S(M, r) to be reached, < 1
+  StackabilityOptions measure;      ///< what S means; boxes and semantics of all measurements
   bool keep_height = true;          ///< h(M, r) = h(M0, r), to tolerance::relative of it
   std::vector<int> kept_parts;      ///< stay as they are
   std::vector<int> editable_parts;  ///< only these may change; empty: all
@@ -22,9 +22,9 @@ struct Requirements {
   double least_proportion = 0.4;
   std::optional<double> box_tolerance;    ///< sides of the file's box change by this fraction at most
   std::optional<double> least_thickness;  ///< model units; what is thinner at rest may stay as thin as it is
-  /// Air between copies: `clearance` along r and `play` sideways, model units. The f_max of the target is
-  /// then that of a stack with this air (separation_with_play plus clearance).
-  double clearance = 0, play = 0;
+  /// Air between copies. The f_max of the target is then that of a stack with this air (separation_with_play
+  /// plus clearance).
+  double clearance = 0, play = 0;             ///< along r, and sideways; model units, >= 0
   std::optional<double> least_draft_degrees;  ///< between r and every surface that copies touch with
   std::optional<int> standing_copies;         ///< a stack of so many must stand
   double least_tilt_degrees = 0;              ///< and topple only beyond this tilt
@@ -46,9 +46,9 @@ struct Check {
   double value = 0;  ///< what was measured: S, change of h, worst residual, largest change of a side,
                      ///< farthest displacement, least thickness, least draft, tilt at which a stack topples
   double demanded = 0;  ///< what was asked for, or the tolerance to which it is held
-  bool passed = false;
-  std::string unit;  ///< "", "model units", "degrees", "of the diagonal", "of the height", "of a side"
-  std::string note;  ///< where and why; may be empty
+  bool passed = false;  ///< `value` is on the right side of `demanded`
+  std::string unit;     ///< "", "model units", "degrees", "of the diagonal", "of the height", "of a side"
+  std::string note;     ///< where and why; may be empty
 };
 
 /// A design measured along one direction.
@@ -56,6 +56,7 @@ struct Assessment {
   Stackability measured;      ///< from the exact separation, f_max with the air asked for
   Separation separation;      ///< exact, without air; only from `RequirementChecker::checked`
   std::vector<Check> checks;  ///< only from `checked`
+  /// Whether every check passed; also true where none was made.
   bool passed() const;
 };
 
@@ -66,8 +67,8 @@ class RequirementChecker {
   /// Throws as `validate`.
   RequirementChecker(const DesignSpace& space, Requirements requirements);
 
-  const Requirements& requirements() const;
-  const DesignSpace& space() const;
+  const Requirements& requirements() const;  ///< as given
+  const DesignSpace& space() const;          ///< as given; must still be alive
   /// S(M, r), with the air that is asked for: the one number that a search needs for every candidate. Within
   /// 1e-12 of what `checked` holds against the target. Throws InputError for a shape without volume.
   Stackability measured(const Shape& shape, const Direction& direction) const;

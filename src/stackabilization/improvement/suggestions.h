@@ -12,18 +12,19 @@ namespace stackabilization {
 
 /// One edit that the contacts of a design suggest, and what it would do.
 struct Suggestion {
-  ContactEdit edit;
+  ContactEdit edit;  ///< what to do, and why
   /// Why it cannot be made: the refusal of the model, or the first requirement, other than the target, that
   /// the design would break. When set, `measured` and `energy` say nothing.
   std::optional<std::string> refusal;
-  Stackability measured;  ///< S(M, r) after the edit, exact, with the air asked for
-  Energy energy;          ///< against rest
-  bool reaches_target = false;
+  Stackability measured;        ///< S(M, r) after the edit, exact, with the air asked for
+  Energy energy;                ///< against rest
+  bool reaches_target = false;  ///< `measured` is at least the target of the requirements
 };
 
+/// Options of `suggestions` and `situation`.
 struct SuggestionOptions {
-  double alpha = 0.2;  ///< of Eq. 5
-  ContactEditOptions edits;
+  double alpha = 0.2;        ///< of Eq. 5
+  ContactEditOptions edits;  ///< what contacts suggest
 };
 
 /// A design stacked on itself, looked at: what the next step starts from.

@@ -11,11 +11,12 @@ namespace stackabilization {
 /// A place where material is measured: from a point on a triangle straight through the material to the
 /// surface on its other side.
 struct ThicknessProbe {
-  std::int32_t near_triangle = -1, far_triangle = -1;
-  Eigen::Vector3d near_weights, far_weights;  ///< barycentric, of the two points
-  double at_rest = 0;                         ///< distance of the two points, model units
+  std::int32_t near_triangle = -1, far_triangle = -1;  ///< rows of Shape::triangles
+  Eigen::Vector3d near_weights, far_weights;           ///< barycentric, of the two points
+  double at_rest = 0;                                  ///< distance of the two points, model units
 };
 
+/// How many probes `thickness_probes` tries.
 struct ThicknessOptions {
   int probes = 2000;  ///< tried, spread over the surface by area; >= 1. Parts that get none are tried apart
 };

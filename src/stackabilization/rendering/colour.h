@@ -4,7 +4,7 @@ namespace stackabilization {
 
 /// sRGB components in [0, 1].
 struct Colour {
-  double red = 0, green = 0, blue = 0;
+  double red = 0, green = 0, blue = 0;  ///< gamma-encoded, in [0, 1]
 };
 
 /// The palette of the paper's figures.
@@ -16,7 +16,7 @@ inline constexpr Colour lower{0.95, 0.56, 0.18};    ///< lower envelope, contact
 inline constexpr Colour contact{0.84, 0.10, 0.12};  ///< contact regions, active handles
 inline constexpr Colour ink{0.13, 0.14, 0.16};      ///< text and lines
 inline constexpr Colour faint{0.38, 0.40, 0.43};    ///< secondary text and lines
-inline constexpr Colour white{1, 1, 1};
+inline constexpr Colour white{1, 1, 1};             ///< ground
 }  // namespace palette
 
 /// (1 - t) a + t b, component by component, t in [0, 1].

@@ -23,34 +23,36 @@ enum class PlotLine {
 
 /// Data of one kind, in their order.
 struct PlotSeries {
-  std::string name;  ///< in the legend; may be empty
-  Colour colour = palette::ink;
+  std::string name;                     ///< in the legend; may be empty
+  Colour colour = palette::ink;         ///< of line and marks
   std::vector<Eigen::Vector2d> points;  ///< a point that is not finite, or off the axes, breaks the line
-  PlotLine line = PlotLine::solid;
-  PlotMark mark = PlotMark::none;
+  PlotLine line = PlotLine::solid;      ///< between neighbours
+  PlotMark mark = PlotMark::none;       ///< at every point
 };
 
+/// How values are spread along an axis.
 enum class AxisScale { linear, logarithmic };
 
+/// One axis of a plot.
 struct PlotAxis {
-  std::string title;           ///< what is measured, and its unit
-  std::optional<Range> range;  ///< low < high, data units; default: round values around the data
-  AxisScale scale = AxisScale::linear;
+  std::string title;                    ///< what is measured, and its unit
+  std::optional<Range> range;           ///< low < high, data units; default: round values around the data
+  AxisScale scale = AxisScale::linear;  ///< logarithmic: positive data only
 };
 
 /// Words at a place of the data.
 struct PlotNote {
-  Eigen::Vector2d at;  ///< data units
-  std::string text;
-  Colour colour = palette::ink;
-  Anchor anchor = Anchor::left;
+  Eigen::Vector2d at;            ///< data units
+  std::string text;              ///< one line, UTF-8
+  Colour colour = palette::ink;  ///< of the letters
+  Anchor anchor = Anchor::left;  ///< which end of the text is at the place
 };
 
 /// Curves over two axes.
 struct CurvePlot {
-  PlotAxis x, y;
-  std::vector<PlotSeries> series;
-  std::vector<PlotNote> notes;
+  PlotAxis x, y;                   ///< to the right, and upwards
+  std::vector<PlotSeries> series;  ///< later ones over earlier ones
+  std::vector<PlotNote> notes;     ///< over all series
 };
 
 /// Where data are in a drawing.
@@ -80,6 +82,7 @@ class PlotArea {
 /// series have names. Throws as PlotArea does.
 std::vector<DrawingElement> plot_elements(const CurvePlot& plot, const Rectangle& place, double text_size);
 
+/// Size and heading of a `curve_plot`.
 struct CurvePlotOptions {
   int width = 1000, height = 640;  ///< pixels
   std::string title;               ///< heading; may be empty

@@ -8,6 +8,7 @@
 
 namespace stackabilization {
 
+/// How windows are cut for the graphics card.
 struct DepthRasterOptions {
   /// Largest side rendered at once, pixels; the driver's own limit applies too. Larger windows are drawn in
   /// tiles.
@@ -30,11 +31,13 @@ HeightField height_field_by_depth_buffer(const Shape& shape, const Direction& di
 /// time.
 class DepthRasterizer {
  public:
+  /// Throws as `height_field_by_depth_buffer`.
   explicit DepthRasterizer(const Shape& shape, const DepthRasterOptions& options = {});
   DepthRasterizer(DepthRasterizer&&) noexcept;
   DepthRasterizer& operator=(DepthRasterizer&&) noexcept;
   ~DepthRasterizer();
 
+  /// As `height_field_by_depth_buffer`.
   HeightField height_field(const Direction& direction, const Window& window);
 
  private:

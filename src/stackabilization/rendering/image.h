@@ -18,7 +18,9 @@ struct Image {
   /// One colour everywhere. Throws UsageError unless 1 <= width, height <= 16384.
   Image(int columns, int rows, const Colour& background);
 
+  /// Red, green, blue at column x and row y. Precondition: inside the image.
   std::array<std::uint8_t, 3> pixel(int x, int y) const;
+  /// Rounds to 8 bits. Precondition: inside the image.
   void set_pixel(int x, int y, const Colour& colour);
 };
 

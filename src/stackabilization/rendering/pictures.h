@@ -29,6 +29,7 @@ struct PictureOptions {
 Drawing measure_picture(const Shape& shape, const Stackability& measured,
                         const std::vector<ContactRegion>& contacts, const PictureOptions& options = {});
 
+/// Options of `stack_picture`.
 struct StackPictureOptions {
   int width = 1200, height = 900;  ///< pixels
   std::string title;               ///< heading; may be empty
@@ -42,6 +43,7 @@ struct StackPictureOptions {
 Drawing stack_picture(const std::vector<Shape>& copies, const Direction& direction,
                       const StackPictureOptions& options = {});
 
+/// Options of `map_picture`.
 struct MapPictureOptions {
   int width = 1000, height = 860;  ///< pixels
   std::string title;               ///< heading; may be empty
@@ -53,6 +55,7 @@ struct MapPictureOptions {
 /// UsageError when there is no sample, a direction is zero or a value is not finite.
 Drawing map_picture(const StackabilityMap& map, const MapPictureOptions& options = {});
 
+/// Options of `structure_picture`.
 struct StructurePictureOptions {
   int width = 1600, height = 1040;  ///< pixels
   std::string title;                ///< heading; may be empty
@@ -64,6 +67,7 @@ struct StructurePictureOptions {
 /// InputError when `validate(structured)` fails, RenderError when there is no OpenGL context.
 Drawing structure_picture(const StructuredShape& structured, const StructurePictureOptions& options = {});
 
+/// Options of `deformation_picture`.
 struct DeformationPictureOptions {
   int width = 1200, height = 760;  ///< pixels
   std::string title;               ///< heading; may be empty
@@ -81,13 +85,14 @@ Drawing deformation_picture(const StructuredShape& rest, const DeformationResult
 
 /// One of several designs of a shape.
 struct DesignTile {
-  Shape shape;
+  Shape shape;                          ///< the design, in its own coordinates
   std::vector<Primitive> primitives;    ///< of its parts, for handles on them; may be empty
   std::vector<Handle> handles;          ///< that were edited: red
   std::vector<ContactRegion> contacts;  ///< along the direction of the sheet: red
   std::vector<std::string> captions;    ///< lines below it, the first one bold
 };
 
+/// Options of `design_sheet`.
 struct DesignSheetOptions {
   int width = 1600;                ///< pixels; the height follows
   int columns = 4;                 ///< >= 1
@@ -103,16 +108,17 @@ Drawing design_sheet(const std::vector<DesignTile>& tiles, const Direction& dire
 
 /// A shape measured along a direction, and where copies of it touch.
 struct MeasuredShape {
-  Shape shape;
+  Shape shape;            ///< in its own coordinates
   Stackability measured;  ///< `measured.f_max` is the lift from copy to copy, air between copies included
   std::vector<ContactRegion> contacts;  ///< may be empty
 };
 
 /// The same design before and after it was made stackable, measured along one direction.
 struct ImprovedShape {
-  MeasuredShape before, after;
+  MeasuredShape before, after;  ///< along one direction
 };
 
+/// Options of `improvement_picture`.
 struct ImprovementPictureOptions {
   int width = 1200, height = 820;  ///< pixels
   std::string title;               ///< heading; may be empty
@@ -125,6 +131,7 @@ struct ImprovementPictureOptions {
 /// directions differ, RenderError when there is no OpenGL context.
 Drawing improvement_picture(const ImprovedShape& shapes, const ImprovementPictureOptions& options = {});
 
+/// Options of `stacks_picture`.
 struct StacksPictureOptions {
   int width = 1200, height = 900;  ///< pixels
   int copies = 5;                  ///< in each stack, in [1, 200]

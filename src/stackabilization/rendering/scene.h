@@ -22,26 +22,29 @@ enum class Finish {
 
 /// A shape in a scene, in its own model coordinates.
 struct SceneMesh {
-  Shape shape;
-  std::vector<Colour> colours;  ///< one for all, or one per part
-  double opacity = 1;           ///< in (0, 1]
-  Finish finish = Finish::shaded;
+  Shape shape;                     ///< model units
+  std::vector<Colour> colours;     ///< one for all, or one per part
+  double opacity = 1;              ///< in (0, 1]
+  Finish finish = Finish::shaded;  ///< lit or flat, with or without lines
 };
 
 /// Polylines of one colour and width. A polyline of one point is a dot.
 struct SceneLines {
-  std::vector<Points> polylines;
-  Colour colour = palette::ink;
-  double width = 1.5;  ///< pixels of the final picture
+  std::vector<Points> polylines;  ///< each k x 3, model units
+  Colour colour = palette::ink;   ///< of all of them
+  double width = 1.5;             ///< pixels of the final picture
 };
 
 /// What a 3D picture shows. Light, ground and framing are fixed; content and colours are the caller's.
 struct Scene {
-  std::vector<SceneMesh> meshes;
-  std::vector<SceneLines> lines;
+  std::vector<SceneMesh> meshes;  ///< hidden by each other as in space
+  std::vector<SceneLines> lines;  ///< hidden by meshes
 
+  /// A further mesh.
   void add(SceneMesh mesh) { meshes.push_back(std::move(mesh)); }
+  /// Further lines.
   void add(SceneLines item) { lines.push_back(std::move(item)); }
+  /// All of another scene.
   void add(const Scene& other);
 };
 
@@ -49,8 +52,8 @@ struct Scene {
 struct View {
   Eigen::Vector3d right, up, towards;  ///< orthonormal; `towards` points at the viewer
   Eigen::Vector3d centre;              ///< shown in the middle of the picture
-  double pixels_per_unit = 1;
-  int width = 0, height = 0;  ///< pixels
+  double pixels_per_unit = 1;          ///< scale: pixels per model unit
+  int width = 0, height = 0;           ///< pixels
 
   /// Where a point appears, pixels, y down.
   Eigen::Vector2d project(const Eigen::Vector3d& point) const;

@@ -9,7 +9,7 @@
 #include "stackabilization/shape/direction.h"
 #include "stackabilization/shape/shape.h"
 
-/// Scenes that show how a shape stacks: what pictures of measurements are put together from.
+// Scenes that show how a shape stacks: what pictures of measurements are put together from.
 namespace stackabilization {
 
 /// A shape with the contact regions along `direction` as red marks on both envelopes.

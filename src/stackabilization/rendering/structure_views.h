@@ -3,7 +3,7 @@
 #include "stackabilization/rendering/scene.h"
 #include "stackabilization/structure/structure.h"
 
-/// Scenes that show the structure of a shape.
+// Scenes that show the structure of a shape.
 namespace stackabilization {
 
 namespace structure_colour {

@@ -10,11 +10,11 @@ namespace stackabilization {
 
 /// A box: centre, right-handed orthonormal axes (columns), half extents along them, model units.
 struct OrientedBox {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d half_extents = Eigen::Vector3d::Zero();
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();        ///< model units
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();      ///< columns are unit vectors
+  Eigen::Vector3d half_extents = Eigen::Vector3d::Zero();  ///< along the columns of `axes`, model units, >= 0
 
-  double volume() const { return 8 * half_extents.prod(); }
+  double volume() const { return 8 * half_extents.prod(); }  ///< model units cubed
 };
 
 /// Convex hull prepared for box and extent queries in many directions; one per shape, safe to share between
@@ -35,10 +35,10 @@ class HullSupport {
   const Points& face_normals() const { return face_normals_; }
   /// f areas of those faces, model units squared.
   const Eigen::VectorXd& face_areas() const { return face_areas_; }
-  /// e x 2 rows of `points()`: hull edges between faces that are not coplanar, with e x 2 adjacent faces. For
-  /// a flat set the sides of its convex polygon, between its two normals; empty for straight and single-point
-  /// sets.
+  /// e x 2 rows of `points()`: hull edges between faces that are not coplanar. For a flat set the sides of
+  /// its convex polygon, between its two normals; empty for straight and single-point sets.
   const Eigen::Matrix<int, Eigen::Dynamic, 2>& edges() const { return edges_; }
+  /// Per row of `edges()` the two faces beside it, rows of `face_normals()`; e x 2.
   const Eigen::Matrix<int, Eigen::Dynamic, 2>& edge_faces() const { return edge_faces_; }
 
   /// h(M, r): extent along r / |r|, model units.

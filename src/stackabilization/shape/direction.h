@@ -12,11 +12,12 @@ class Direction {
   /// Throws UsageError when a component is not finite, all are zero, or the squared length overflows or
   /// underflows.
   explicit Direction(const Eigen::Vector3d& vector);
+  /// The same by components.
   Direction(double x, double y, double z) : Direction(Eigen::Vector3d(x, y, z)) {}
 
-  const Eigen::Vector3d& vector() const { return vector_; }
-  double length() const;
-  Eigen::Vector3d unit() const;
+  const Eigen::Vector3d& vector() const { return vector_; }  ///< r, as given
+  double length() const;                                     ///< |r|: model units per unit of r
+  Eigen::Vector3d unit() const;                              ///< r / |r|, rounded
 
  private:
   Eigen::Vector3d vector_;
@@ -28,6 +29,7 @@ struct Frame {
 
   /// Coordinates of p in this frame: (u.p, v.p, w.p).
   Eigen::Vector3d to_local(const Eigen::Vector3d& p) const { return {u.dot(p), v.dot(p), w.dot(p)}; }
+  /// The point with coordinates q in this frame: the inverse of `to_local`.
   Eigen::Vector3d to_world(const Eigen::Vector3d& q) const { return u * q.x() + v * q.y() + w * q.z(); }
 };
 

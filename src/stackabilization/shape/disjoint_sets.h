@@ -11,19 +11,23 @@ namespace stackabilization {
 /// a set is its least member.
 class DisjointSets {
  public:
+  /// `count` sets of one member each.
   explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
 
+  /// Least member of the set that holds `member`.
   std::size_t root(std::size_t member) {
     while (parent_[member] != member) member = parent_[member] = parent_[parent_[member]];
     return member;
   }
 
+  /// Makes the sets of `a` and `b` one.
   void join(std::size_t a, std::size_t b) {
     a = root(a);
     b = root(b);
     parent_[std::max(a, b)] = std::min(a, b);
   }
 
+  /// Number of sets; O(members).
   std::size_t count() const {
     std::size_t roots = 0;
     for (std::size_t i = 0; i < parent_.size(); ++i) roots += parent_[i] == i;

@@ -20,6 +20,7 @@ std::optional<Format> sniff_format(std::string_view bytes);
 
 /// ".obj, .off, .ply, .stl, .3mf, .gltf, .glb" and so on, for messages and help texts.
 std::string_view readable_extensions();
+/// The same for formats that can be written, ".vtp" among them.
 std::string_view writable_extensions();
 
 }  // namespace stackabilization

@@ -8,9 +8,9 @@ namespace stackabilization {
 
 /// Boundary of a convex hull as flat faces and straight edges; see HullSupport for the meaning of each field.
 struct HullFaces {
-  Points points, normals;
-  Eigen::VectorXd areas;
-  Eigen::Matrix<int, Eigen::Dynamic, 2> edges, edge_faces;
+  Points points, normals;  ///< as HullSupport::points(), HullSupport::face_normals()
+  Eigen::VectorXd areas;   ///< as HullSupport::face_areas()
+  Eigen::Matrix<int, Eigen::Dynamic, 2> edges, edge_faces;  ///< as HullSupport::edges(), edge_faces()
 };
 
 /// Hull of any non-empty set of finite points. Sets within `resolution` (model units) of a plane, line or

@@ -11,18 +11,20 @@
 
 namespace stackabilization {
 
+/// What `inspect` looks for besides what is cheap.
 struct InspectOptions {
-  /// Count the pairs of triangles that intersect elsewhere than in what they share. Costs seconds on large
-  /// meshes.
-  enum class SelfIntersections { skip, count } self_intersections = SelfIntersections::skip;
+  /// Whether pairs of triangles are counted that intersect elsewhere than in what they share.
+  enum class SelfIntersections { skip, count };
+  /// Counting costs seconds on large meshes.
+  SelfIntersections self_intersections = SelfIntersections::skip;
 };
 
 /// What `inspect` finds. Vertices with equal coordinates count as one wherever neighbourhood matters, because
 /// many formats repeat them. All counts are exact.
 struct Findings {
-  std::int64_t vertices = 0;  ///< Rows of the vertex matrix.
-  std::int64_t triangles = 0;
-  std::int64_t parts = 0;
+  std::int64_t vertices = 0;               ///< Rows of the vertex matrix.
+  std::int64_t triangles = 0;              ///< Rows of the triangle matrix.
+  std::int64_t parts = 0;                  ///< Named parts.
   std::int64_t components = 0;             ///< Sets of triangles connected through common points.
   std::int64_t distinct_points = 0;        ///< Different coordinates among the vertices that triangles use.
   std::int64_t unreferenced_vertices = 0;  ///< Vertices that no triangle uses.
@@ -40,8 +42,8 @@ struct Findings {
   bool oriented_outward = false;  ///< There is a volume and it is positive.
 
   Eigen::Vector3d lower = Eigen::Vector3d::Zero();  ///< Box of the vertices that triangles use, model units.
-  Eigen::Vector3d upper = Eigen::Vector3d::Zero();
-  Unit unit = Unit::unknown;
+  Eigen::Vector3d upper = Eigen::Vector3d::Zero();  ///< Opposite corner of that box.
+  Unit unit = Unit::unknown;                        ///< As stated by the file or the user.
 
   std::optional<Axis> likely_up;  ///< Empty when several axes fit equally well.
   std::string up_reason;          ///< One clause that says why.

@@ -17,11 +17,11 @@ std::vector<int> convex_polygon(const Eigen::Matrix2Xd& points, double resolutio
 
 /// A rectangle in the plane: `size.x()` along the unit vector `axis`, `size.y()` across it.
 struct PlanarRectangle {
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
-  Eigen::Vector2d axis = Eigen::Vector2d::UnitX();
-  Eigen::Vector2d size = Eigen::Vector2d::Zero();
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  ///< units of the points
+  Eigen::Vector2d axis = Eigen::Vector2d::UnitX();   ///< unit
+  Eigen::Vector2d size = Eigen::Vector2d::Zero();    ///< full lengths of the sides
 
-  double area() const { return size.prod(); }
+  double area() const { return size.prod(); }  ///< units of the points, squared
 };
 
 /// PlanarRectangle of minimal area around a convex polygon (2 x m, counter-clockwise, m >= 1, distinct

@@ -12,6 +12,7 @@ class PointIndex {
  public:
   /// Number of `point`, new or not. Precondition: finite coordinates.
   std::int32_t insert(const Eigen::Vector3d& point);
+  /// The different points, by their numbers.
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
  private:

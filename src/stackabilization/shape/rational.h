@@ -28,15 +28,22 @@ class Rational {
 
   /// The number behind it, for code that computes with GMP: see shape/rational_number.h.
   struct Number;
+  /// Takes over a GMP rational.
   explicit Rational(Number number);
+  /// For sources that include shape/rational_number.h.
   const Number& number() const { return *number_; }
 
+  /// Exact, as all arithmetic and comparisons here.
   friend Rational operator+(const Rational& a, const Rational& b);
+  /// Exact.
   friend Rational operator-(const Rational& a, const Rational& b);
+  /// Exact.
   friend Rational operator*(const Rational& a, const Rational& b);
   /// Throws UsageError when b is zero.
   friend Rational operator/(const Rational& a, const Rational& b);
+  /// By value; exact.
   friend std::strong_ordering operator<=>(const Rational& a, const Rational& b);
+  /// Equal values; exact.
   friend bool operator==(const Rational& a, const Rational& b);
 
  private:

@@ -13,6 +13,7 @@ namespace stackabilization {
 /// A coordinate axis of a file.
 enum class Axis { x, y, z };
 
+/// What `read_shape` takes instead of what the file says about itself.
 struct ReadOptions {
   /// Default: by extension; for standard input by content.
   std::optional<Format> format;

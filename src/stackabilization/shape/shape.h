@@ -31,9 +31,10 @@ struct Shape {
   std::vector<std::int32_t> triangle_part;  ///< m entries in [0, k).
   Unit unit = Unit::unknown;                ///< Unit of `vertices`.
 
+  /// n: rows of `vertices`, those that no triangle uses included.
   Eigen::Index vertex_count() const { return vertices.rows(); }
-  Eigen::Index triangle_count() const { return triangles.rows(); }
-  Eigen::Index part_count() const { return static_cast<Eigen::Index>(part_names.size()); }
+  Eigen::Index triangle_count() const { return triangles.rows(); }  ///< m, triangles without area included
+  Eigen::Index part_count() const { return static_cast<Eigen::Index>(part_names.size()); }  ///< k
 
   /// Corner `corner` (0, 1, 2) of triangle `triangle`, model units.
   Eigen::Vector3d corner(Eigen::Index triangle, int corner) const {
@@ -50,9 +51,9 @@ void validate(const Shape& shape);
 
 /// Two numbers, low <= high.
 struct Range {
-  double low, high;
+  double low, high;  ///< low <= high
 
-  double length() const { return high - low; }
+  double length() const { return high - low; }  ///< high - low, >= 0
 };
 
 /// Range of axis . p over the corners p of all triangles. Precondition: at least one triangle.

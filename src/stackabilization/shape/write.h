@@ -12,6 +12,7 @@ namespace stackabilization {
 /// Where a format offers both (PLY, STL, VTP); the others ignore it.
 enum class Encoding { binary, ascii };
 
+/// How `write_shape` writes a mesh.
 struct WriteOptions {
   std::optional<Format> format;          ///< Default: by extension. Standard output needs it.
   Encoding encoding = Encoding::binary;  ///< Binary or ascii text, where the format has both.

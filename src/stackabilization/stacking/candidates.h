@@ -18,6 +18,7 @@ struct CandidateDirections {
   std::vector<Eigen::Vector3d> others;
 };
 
+/// Candidates for the shape of `solver`; the same bits for the same shape.
 CandidateDirections candidate_directions(const StackabilitySolver& solver);
 
 }  // namespace stackabilization

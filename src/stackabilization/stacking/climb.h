@@ -11,14 +11,14 @@ namespace stackabilization {
 
 /// How a local search moves: steps on the unit sphere, radians.
 struct ClimbOptions {
-  double first_step = 0;
-  double last_step = 0;
+  double first_step = 0;                 ///< radius of the first trust region, radians, > 0
+  double last_step = 0;                  ///< ends below this radius, radians, > 0
   std::function<bool()> cancelled = {};  ///< asked before each step; true ends the climb where it is
 };
 
 /// A direction with its S, and what it took to find it.
 struct Climb {
-  Stackability at;
+  Stackability at;             ///< the best direction met, and S there
   std::int64_t evaluated = 0;  ///< directions tried
 };
 

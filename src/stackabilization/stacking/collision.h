@@ -28,8 +28,8 @@ class CollisionTester {
   CollisionTester& operator=(CollisionTester&&) noexcept;
   ~CollisionTester();
 
-  const Shape& below() const;
-  const Shape& above() const;
+  const Shape& below() const;  ///< the fixed shape
+  const Shape& above() const;  ///< the shape that is lifted
 
   /// Are both shapes closed surfaces: is every edge run through once in each direction? (Edges by the shape's
   /// indices, else by equal coordinates, else by equal coordinates within each part.)
@@ -56,6 +56,7 @@ bool closed_contact(const Shape& below, const Shape& above, const Direction& dir
 bool interiors_overlap(const Shape& below, const Shape& above, const Direction& direction,
                        const Rational& lift);
 
+/// How `translation_by_bisection` walks down.
 struct BisectionOptions {
   Semantics semantics =
       Semantics::solid;  ///< `solid` tests interiors (closed shapes only), `closed` any contact
@@ -66,9 +67,9 @@ struct BisectionOptions {
 
 /// A free lift and a colliding one below it, in units of r: every lift tried above `free` was free as well.
 struct CollisionBracket {
-  double free = 0;
-  double colliding = 0;
-  int tests = 0;  ///< collision tests made
+  double free = 0;       ///< lift without a collision, units of r
+  double colliding = 0;  ///< lift with one, units of r, less than `free`
+  int tests = 0;         ///< collision tests made
 };
 
 /// Looks for sep(below, above, r) with collision tests only, in the direction that a copy comes from: starts

@@ -8,8 +8,8 @@ namespace stackabilization {
 
 /// Exact span of a shape along r, in units of r, with nearest doubles.
 struct Span {
-  Rational bottom, top;
-  double approximate_bottom = 0, approximate_top = 0;
+  Rational bottom, top;                                ///< exact, units of r
+  double approximate_bottom = 0, approximate_top = 0;  ///< nearest doubles, units of r
 };
 
 /// Least and largest p . r / r . r over the points of the triangles. Precondition: `validate(shape)` passes.

@@ -8,6 +8,7 @@
 
 namespace stackabilization {
 
+/// Density of `stackability_map`, and what watches it.
 struct MapOptions {
   double step_degrees = 1;  ///< between rings of latitude and along each ring, in [0.1, 90]
   /// Called with the fraction done, in [0, 1], from the calling thread.
@@ -17,16 +18,16 @@ struct MapOptions {
 
 /// S in one direction: (sin theta cos phi, sin theta sin phi, cos theta).
 struct MapSample {
-  Eigen::Vector3d direction;  ///< unit
-  double theta = 0;           ///< angle from the file's +z, degrees, in [0, 90]
-  double phi = 0;             ///< angle from +x towards +y, degrees, in [0, 360)
-  double f_max_over_height = 0;
-  double stackability = 0;
+  Eigen::Vector3d direction;     ///< unit
+  double theta = 0;              ///< angle from the file's +z, degrees, in [0, 90]
+  double phi = 0;                ///< angle from +x towards +y, degrees, in [0, 360)
+  double f_max_over_height = 0;  ///< f_max / h(M, r), in [0, 1]
+  double stackability = 0;       ///< S(M, r), Eq. 3
 };
 
 /// S over the hemisphere z >= 0 of the file's frame; S(-r) = S(r) gives the rest.
 struct StackabilityMap {
-  double step_degrees = 0;
+  double step_degrees = 0;         ///< as asked for
   std::vector<MapSample> samples;  ///< ring by ring from +z down, each ring by phi
   bool cancelled = false;          ///< ended early: the first samples only
 };

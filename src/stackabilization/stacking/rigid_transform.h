@@ -10,14 +10,14 @@ namespace stackabilization {
 
 /// p -> rotation * p + translation, model units. `rotation` is a proper rotation (determinant +1).
 struct RigidTransform {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< orthogonal, determinant +1
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();   ///< model units
 };
 
 /// A line in space: every point `point + t axis`, model units.
 struct Line {
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  Direction axis{0, 0, 1};
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< model units
+  Direction axis{0, 0, 1};                          ///< any length
 };
 
 /// Throws UsageError unless all entries are finite and `rotation` is a rotation within tolerance::relative.

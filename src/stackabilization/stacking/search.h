@@ -11,6 +11,7 @@
 
 namespace stackabilization {
 
+/// Where `best_direction` looks, how closely, and what watches it.
 struct SearchOptions {
   /// Only look within this cone; default: the whole sphere.
   std::optional<DirectionCone> cone = {};
@@ -31,12 +32,13 @@ struct SearchOptions {
 /// A direction at which S has a local maximum: of unit length unless it is a candidate of the options, signed
 /// as in DirectionRegion.
 struct DirectionOptimum {
-  Eigen::Vector3d direction;
-  double stackability;
+  Eigen::Vector3d direction;  ///< r
+  double stackability;        ///< S(M, r)
 };
 
+/// What `best_direction` found.
 struct SearchResult {
-  Stackability best;
+  Stackability best;      ///< S with its terms at the best direction
   Separation separation;  ///< exact f_max with witness at the best direction
   /// Distinct local maxima, best first; the first is the best direction. Only those within
   /// about 0.05 of it are looked for.

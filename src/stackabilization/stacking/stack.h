@@ -14,10 +14,10 @@ namespace stackabilization {
 /// T_k = turn(k twist_degrees) o poses[k mod K], with the turn about the line along r through `axis_point`,
 /// and then lifted along r.
 struct StackOptions {
-  int copies = 2;  ///< n, in [1, 10000]
-  Semantics semantics = Semantics::solid;
-  BoxModel boxes = BoxModel::oriented;
-  double twist_degrees = 0;  ///< turn about r from each copy to the next, right-handed
+  int copies = 2;                          ///< n, in [1, 10000]
+  Semantics semantics = Semantics::solid;  ///< what counts as a collision
+  BoxModel boxes = BoxModel::oriented;     ///< of V(M) and V_stack
+  double twist_degrees = 0;                ///< turn about r from each copy to the next, right-handed
   /// A point of the twist axis, model units; default: the centre of the box, see box_axis.
   std::optional<Eigen::Vector3d> axis_point;
   /// Poses repeated with period K, or as many as copies for a free choice; empty means K = 1, the shape as it
@@ -28,6 +28,7 @@ struct StackOptions {
   int play_corners = 16;  ///< see DilationOptions
 };
 
+/// Where a copy of a stack ends up: p -> transform(p) + offset * r.
 struct StackedCopy {
   RigidTransform transform;  ///< T_k, without the lift
   Rational offset;           ///< lift z_k in units of r; 0 for the first copy
@@ -39,14 +40,15 @@ struct StackedCopy {
 /// overlap by `overlap` along r (model units) when every copy rests on the one just below it. Overlaps up to
 /// tolerance::relative of the copy's extent are none: that is how well poses are known.
 struct StackConflict {
-  int below = 0;
-  int above = 0;
-  double overlap = 0;
+  int below = 0;       ///< number of the lower copy, from 0
+  int above = 0;       ///< number of the upper one
+  double overlap = 0;  ///< depth along r, model units, > 0
 };
 
+/// A stack made by `stack_copies`, and what it measures.
 struct StackResult {
-  std::vector<StackedCopy> copies;
-  double height = 0;        ///< extent of the stack along r, model units
+  std::vector<StackedCopy> copies;  ///< from below upwards
+  double height = 0;                ///< extent of the stack along r, model units
   double increment = 0;     ///< nesting increment: height per further copy in the long run, model units
   double box_volume = 0;    ///< V(M)
   double stack_volume = 0;  ///< V_stack, the box of the union of all copies

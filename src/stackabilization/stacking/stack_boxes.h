@@ -11,9 +11,9 @@ class StackBoxes {
   /// Throws InputError when V(M) = 0.
   StackBoxes(const Shape& shape, const Direction& direction, BoxModel model);
 
-  const HullSupport& hull() const { return hull_; }
-  const Direction& direction() const { return direction_; }
-  double shape_volume() const { return shape_volume_; }  ///< V(M)
+  const HullSupport& hull() const { return hull_; }          ///< of the shape, not of a stack
+  const Direction& direction() const { return direction_; }  ///< r
+  double shape_volume() const { return shape_volume_; }      ///< V(M)
   /// V_stack of Eq. 4 for a stack with the hull of `points`. Throws UsageError when it drowns in rounding.
   double stack_volume(const Points& points) const;
   /// The box with one axis along r: its volume is at least V_stack, cheaper, and equal to it for `frame`.

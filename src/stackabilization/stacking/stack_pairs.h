@@ -15,7 +15,7 @@ namespace stackabilization {
 /// What one copy asks of a later one: a lift of at least `lift` between them, in units of r, if they can meet
 /// at all.
 struct Demand {
-  bool blocked = false;
+  bool blocked = false;    ///< else they pass each other at any height
   Rational lift;           ///< sep plus clearance, exact
   double approximate = 0;  ///< nearest double of it
 };
@@ -33,7 +33,9 @@ class StackPairs {
 
   /// Index of the pose of copies 0 ... K - 1; equal poses have equal indices.
   const std::vector<int>& sequence() const { return sequence_; }
+  /// Span along r of a copy with this pose, not twisted.
   const Span& span(int pose) const { return (*poses_)[static_cast<std::size_t>(pose)].span; }
+  /// Whether each copy is turned against the one below.
   bool twisted() const { return twist_degrees_ != 0; }
   /// Turn of copy k about the axis, in (-180, 180].
   double turn_degrees(int copy) const { return reduced_degrees(copy * twist_degrees_); }
@@ -41,8 +43,8 @@ class StackPairs {
   RigidTransform transform(int pose, int copy) const;
   /// Demand of copy j with pose `below` on copy j + lag with pose `above`.
   const Demand& demand(int below, int above, int lag);
-  const Direction& direction() const { return direction_; }
-  double clearance() const { return clearance_; }  ///< in units of r
+  const Direction& direction() const { return direction_; }  ///< r
+  double clearance() const { return clearance_; }            ///< in units of r
 
  private:
   struct Pose {

@@ -13,6 +13,7 @@ namespace stackabilization {
 /// Which earlier copies a copy looks at.
 enum class Reach { neighbour, all };
 
+/// Lifts of the copies of a stack, from below upwards.
 struct Placement {
   std::vector<Rational> lifts;      ///< z_k in units of r
   std::vector<double> approximate;  ///< nearest doubles of `lifts`

@@ -7,18 +7,21 @@
 
 namespace stackabilization {
 
+/// What `best_twist` makes best.
 enum class TwistGoal {
   stackability,  ///< largest S(M, n)
   height,        ///< least height of the n copies
 };
 
+/// The stack that `best_twist` turns, its goal and its steps.
 struct TwistOptions {
-  StackOptions stack;  ///< everything but the twist, which is searched
-  TwistGoal goal = TwistGoal::stackability;
-  double step_degrees = 5;       ///< distance of the samples, in [0.1, 180]
+  StackOptions stack;                        ///< everything but the twist, which is searched
+  TwistGoal goal = TwistGoal::stackability;  ///< what is compared
+  double step_degrees = 5;                   ///< distance of the samples, in [0.1, 180]
   double finest_degrees = 0.01;  ///< the best samples are refined down to this step, in (0, step_degrees]
 };
 
+/// What `best_twist` found, and what it is better than.
 struct TwistResult {
   double twist_degrees = 0;           ///< in (-180, 180]
   StackResult stack;                  ///< the stack with that twist
@@ -36,16 +39,18 @@ struct TwistResult {
 /// can be missed. Throws like stack_copies, and UsageError on steps outside their ranges.
 TwistResult best_twist(const Shape& shape, const Direction& direction, const TwistOptions& options);
 
+/// The stack for which `best_period_stack` looks for poses.
 struct PeriodOptions {
   StackOptions stack;  ///< `poses` is searched and must be empty; twist, clearance and the rest are kept
   int period = 2;      ///< K, in [1, 5]
 };
 
+/// What `best_period_stack` found.
 struct PeriodResult {
   /// Per copy of one period: "upright" or "flipped", with " turned 90", " turned 180" or " turned 270" where
   /// turned.
   std::vector<std::string> poses;
-  StackResult stack;
+  StackResult stack;  ///< the stack with these poses
 };
 
 /// The best stack of period K: copy 0 as it is, each other copy of the period in one of eight poses about the

@@ -22,10 +22,11 @@ enum class FlatShapes {
   measure,  ///< all but S, which is undefined
 };
 
+/// What a stackability means: every number depends on these.
 struct StackabilityOptions {
-  Semantics semantics = Semantics::solid;
-  BoxModel boxes = BoxModel::oriented;
-  FlatShapes flat_shapes = FlatShapes::refuse;
+  Semantics semantics = Semantics::solid;       ///< of f_max
+  BoxModel boxes = BoxModel::oriented;          ///< of V(M) and V(M, r)
+  FlatShapes flat_shapes = FlatShapes::refuse;  ///< what to do where V(M) = 0
 };
 
 /// Everything that Eq. 2 and 3 need, for one direction.
@@ -50,11 +51,11 @@ class StackabilitySolver {
   StackabilitySolver& operator=(StackabilitySolver&&) noexcept;
   ~StackabilitySolver();
 
-  const Shape& shape() const;
-  const SeparationTree& tree() const;
-  const HullSupport& hull() const;
-  const StackabilityOptions& options() const;
-  double box_volume() const;  ///< V(M); 0 only if the options allow it
+  const Shape& shape() const;                  ///< a copy of the one given
+  const SeparationTree& tree() const;          ///< of the shape
+  const HullSupport& hull() const;             ///< of the shape
+  const StackabilityOptions& options() const;  ///< as given
+  double box_volume() const;                   ///< V(M); 0 only if the options allow it
 
   /// Exact f_max with witness.
   Separation separation(const Direction& direction) const;

@@ -8,9 +8,10 @@
 
 namespace stackabilization {
 
+/// The stack whose standing is judged.
 struct StandingOptions {
-  int copies = 2;  ///< n >= 1
-  Semantics semantics = Semantics::solid;
+  int copies = 2;                          ///< n >= 1
+  Semantics semantics = Semantics::solid;  ///< of the f_max between copies
   /// Points within this of the contact, fraction of the extent h, carry; in (0, 1).
   double band = 0.002;
 };

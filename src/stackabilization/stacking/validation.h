@@ -16,12 +16,14 @@ namespace stackabilization {
 /// A way to sample the envelopes that is handed in from outside, e.g. a graphics card's depth buffer.
 struct HeightFieldMaker {
   std::string name;  ///< how rows of the report call it
+  /// Samples the window given; may throw.
   std::function<HeightField(const Shape&, const Direction&, const Window&)> make;
   double precision = tolerance::relative;  ///< of its heights, as a fraction of the extent h
   /// Why it may exceed the exact value beyond its precision, as a note for such rows. Empty: it may not.
   std::string excess = {};
 };
 
+/// Which checks `validate_translation` makes, and how finely.
 struct ValidationOptions {
   std::vector<int> resolutions = {64, 128, 256, 512};  ///< samples along the longer side, ascending
   std::vector<HeightFieldMaker> further_rasters;       ///< run after the rays and the scan conversion
@@ -31,6 +33,7 @@ struct ValidationOptions {
   Eigen::Index max_collision_triangles = 50000;  ///< above this, collision tests are skipped
 };
 
+/// What a check says about the exact value.
 enum class Verdict {
   agrees,           ///< equal to the exact value, or the answer that the exact value demands
   within_sampling,  ///< off the exact value as this sampling may be: below it, or above with a note why
@@ -40,20 +43,21 @@ enum class Verdict {
 
 /// One check of f_max.
 struct ValidationRow {
-  std::string name;
-  std::optional<double> value;  ///< the check's own f_max, or the lift that it tested, model units
-  std::optional<double> error;  ///< (value - exact) / h, for checks that have a value of their own
-  double seconds = 0;           ///< wall time of the check
-  Verdict verdict = Verdict::skipped;
-  std::string note;  ///< reason, explanation; may be empty
+  std::string name;                    ///< method and resolution
+  std::optional<double> value;         ///< the check's own f_max, or the lift that it tested, model units
+  std::optional<double> error;         ///< (value - exact) / h, for checks that have a value of their own
+  double seconds = 0;                  ///< wall time of the check
+  Verdict verdict = Verdict::skipped;  ///< what it says about the exact value
+  std::string note;                    ///< reason, explanation; may be empty
 };
 
+/// All checks of one shape along one direction.
 struct ValidationReport {
-  Eigen::Vector3d direction;  ///< r as given
-  double extent = 0;          ///< h(M, r), model units
-  Separation solid, closed;   ///< the exact answers that the rows are held against
-  std::vector<ValidationRow> rows;
-  bool passed = false;  ///< no row disagrees
+  Eigen::Vector3d direction;        ///< r as given
+  double extent = 0;                ///< h(M, r), model units
+  Separation solid, closed;         ///< the exact answers that the rows are held against
+  std::vector<ValidationRow> rows;  ///< in the order in which they were made
+  bool passed = false;              ///< no row disagrees
 };
 
 /// Holds the exact f_max against methods that share no code with it:

@@ -11,12 +11,13 @@
 
 namespace stackabilization {
 
+/// Options of the steps of `analyse_structure`, in their order.
 struct AnalysisOptions {
-  SegmentationOptions segmentation;
-  FitOptions fit;
+  SegmentationOptions segmentation;            ///< how parts are found
+  FitOptions fit;                              ///< of the parts that are not in `kinds`
   std::map<std::string, PrimitiveKind> kinds;  ///< forced per part, by name
-  SymmetryOptions symmetry;
-  JointOptions joints;
+  SymmetryOptions symmetry;                    ///< which symmetries count
+  JointOptions joints;                         ///< where parts meet
 };
 
 /// From a mesh to its structure (paper, section 4.1): parts, a primitive for each, global symmetries by

@@ -18,8 +18,8 @@ struct AuthorsFiles {
 
 /// A text and what messages call it.
 struct NamedText {
-  std::string_view text;
-  std::string name;
+  std::string_view text;  ///< all of it; empty: no file
+  std::string name;       ///< such as the path of its file
 };
 
 /// Structure of `shape` from those files, in the frame of `shape`; their own numbers are in the frame in

@@ -6,13 +6,20 @@
 
 namespace stackabilization {
 
+/// The two kinds of Primitive: Cuboid and GeneralizedCylinder.
 enum class PrimitiveKind { cuboid, cylinder };
 
+/// Options of `fit_primitive`.
 struct FitOptions {
   std::optional<PrimitiveKind> kind;  ///< forced; nothing: the better fit wins
   int sections = 24;                  ///< cross-sections of a generalized cylinder, >= 4
 };
 
+/// What `fit_primitive` found.
+struct FittedPrimitive {
+  Primitive primitive;  ///< of the kind that won or was forced, model units
+  PrimitiveFit fit;     ///< errors of both kinds
+};
 /// The primitive that holds a part, with the errors of both kinds. An error is the two-sided distance of the
 /// surfaces of part and primitive, the end discs of a cylinder included: root mean square over both by area,
 /// as a fraction of the diagonal of the part's oriented box. The inner wall of a hollow body (a cup) and its
@@ -37,10 +44,6 @@ struct FitOptions {
 ///
 /// Throws InputError when the part has no triangle of positive area, and UsageError for fewer than 4 sections
 /// and when a cylinder is demanded of a flat part: one without extent across some plane.
-struct FittedPrimitive {
-  Primitive primitive;
-  PrimitiveFit fit;
-};
 FittedPrimitive fit_primitive(const Shape& part, const FitOptions& options = {});
 
 }  // namespace stackabilization

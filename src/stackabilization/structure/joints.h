@@ -6,6 +6,7 @@
 
 namespace stackabilization {
 
+/// What `find_joints` takes for contact of two parts, and for a line.
 struct JointOptions {
   /// Parts whose surfaces come nearer than this meet, fraction of the diameter of the smallest ball around
   /// the shape.

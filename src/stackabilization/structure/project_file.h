@@ -61,8 +61,8 @@ StructuredShape read_project(const std::filesystem::path& path);
 
 /// A project with the entries that this room does not look into.
 struct ProjectContents {
-  StructuredShape structured;
-  ProjectSections sections;
+  StructuredShape structured;  ///< what `project_of_text` gives
+  ProjectSections sections;    ///< as texts
 };
 
 /// As `project_of_text`; the sections are JSON, and whoever knows them checks the rest.

@@ -8,6 +8,7 @@
 
 namespace stackabilization {
 
+/// How `segmented` finds parts.
 enum class SegmentationMethod {
   given,           ///< the parts of the shape as they are
   whole,           ///< one part, for what follows as a whole: a basket of many wires
@@ -18,8 +19,9 @@ enum class SegmentationMethod {
                    ///< when there are several or the whole is a body of revolution; else primitives
 };
 
+/// Options of `segmented`.
 struct SegmentationOptions {
-  SegmentationMethod method = SegmentationMethod::automatic;
+  SegmentationMethod method = SegmentationMethod::automatic;  ///< how parts are found
   int parts = 0;  ///< parts to end with per component; 0: as many as the shape has by the method's measure
   /// Crumbs below this share of the component's area join a neighbour; in [0, 1).
   double smallest_part = 0.005;

@@ -19,16 +19,17 @@ struct PrimitiveFit {
 
 /// A part of a shape and what stands for it.
 struct Part {
-  std::string name;  ///< as in Shape::part_names
-  Primitive primitive;
-  PrimitiveFit fit;
+  std::string name;     ///< as in Shape::part_names
+  Primitive primitive;  ///< model units
+  PrimitiveFit fit;     ///< how well either kind holds the part
 };
 
+/// Kinds of relations between parts (paper, section 4.1).
 enum class RelationType { symmetry, self_symmetry, point_joint, line_joint };
 
 /// What an edit has to keep.
 struct Relation {
-  RelationType type = RelationType::symmetry;
+  RelationType type = RelationType::symmetry;  ///< which of the fields below count
   std::vector<int> parts;  ///< rows of Structure::parts: one for self_symmetry, two different ones otherwise
   Symmetry symmetry;       ///< of symmetry (takes the first part onto the second) and self_symmetry
   Points points;           ///< of joints, where the parts meet at rest: 1 x 3, or the 2 x 3 ends of a line
@@ -48,8 +49,8 @@ struct Structure {
 
 /// A shape with its structure: what edits start from and what a project file holds.
 struct StructuredShape {
-  Shape shape;
-  Structure structure;
+  Shape shape;          ///< the mesh at rest
+  Structure structure;  ///< one part per part of `shape`
 };
 
 /// "symmetry", "self_symmetry", "point_joint", "line_joint".

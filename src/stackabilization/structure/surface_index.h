@@ -9,10 +9,11 @@
 
 namespace stackabilization {
 
+/// A point of a surface, as SurfaceIndex::nearest finds it.
 struct SurfacePoint {
-  std::int32_t triangle = -1;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  double distance = 0;  ///< from the point asked about, model units
+  std::int32_t triangle = -1;                       ///< that holds it, row of Shape::triangles
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< model units
+  double distance = 0;                              ///< from the point asked about, model units
 };
 
 /// Nearest points of a surface; double precision. Built once per shape, safe to share between threads.
@@ -24,6 +25,7 @@ class SurfaceIndex {
   SurfaceIndex& operator=(SurfaceIndex&&) noexcept;
   ~SurfaceIndex();
 
+  /// The point of the surface that is nearest to `point` (model units).
   SurfacePoint nearest(const Eigen::Vector3d& point) const;
 
  private:

@@ -5,6 +5,7 @@
 
 namespace stackabilization {
 
+/// Kinds of isometries that shapes are tested for.
 enum class SymmetryKind {
   reflection,  ///< in the plane through `point` with normal `axis`
   rotation,    ///< by 2 pi / `order` about the line through `point` along `axis`
@@ -13,8 +14,8 @@ enum class SymmetryKind {
 
 /// A symmetry of a shape or of a part, model units.
 struct Symmetry {
-  SymmetryKind kind = SymmetryKind::reflection;
-  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  SymmetryKind kind = SymmetryKind::reflection;     ///< what it does
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< of the plane or line
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit
   int order = 2;                                    ///< of a rotation; not used otherwise
 };

@@ -6,6 +6,7 @@
 
 namespace stackabilization {
 
+/// Which symmetries `find_symmetries` looks for.
 struct SymmetryOptions {
   /// Largest root mean square distance between the surface and its image, in (0, 1), as a fraction of the
   /// diagonal of the minimal oriented box; for slender shapes, of three times the middle extent of that box.
@@ -16,8 +17,9 @@ struct SymmetryOptions {
   double support = 0.9;
 };
 
+/// A symmetry of a shape, and how well the shape has it.
 struct FoundSymmetry {
-  Symmetry symmetry;
+  Symmetry symmetry;  ///< model units, file axes
   /// Root mean square distance of the best `SymmetryOptions::support` of the area to its image, fraction of
   /// the diagonal of the minimal box.
   double residual = 0;
