@@ -35,6 +35,7 @@ Project rich_project() {
   node.stackability = -0.1;
   node.energy = std::nextafter(0.3, 1);
   node.constraints.keep_extent = Direction(0.3, 1.0 / 7, -1);
+  node.constraints.extent_ends = ExtentEnds::fixed;
   node.constraints.box_tolerance = 0.1 + 0.2;
   node.constraints.fixed_parts = {4, 0};
   node.constraints.fixed_points = {{1e-5, 2, 3}, {0, -0.0, 1.0 / 3}};

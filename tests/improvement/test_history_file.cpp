@@ -51,6 +51,7 @@ TEST_CASE("a history comes back from its file with every number, and is written 
     CHECK(is.stackability == was.stackability);
     CHECK(is.energy == was.energy);
     CHECK(is.constraints.keep_extent.has_value() == was.constraints.keep_extent.has_value());
+    CHECK(is.constraints.extent_ends == was.constraints.extent_ends);
     CHECK(is.constraints.box_tolerance == was.constraints.box_tolerance);
     CHECK(is.constraints.fixed_parts == was.constraints.fixed_parts);
     CHECK(is.constraints.fixed_points == was.constraints.fixed_points);
@@ -128,6 +129,8 @@ TEST_CASE("a broken history is refused at its place, in words") {
       {"\"scale\":", "\"move\":[0,0,0],\"scale\":", "expected one of the keys 'move', 'rotate' and 'scale'"},
       {"\"scale\":", "\"shove\":", "there is no key 'shove' here"},
       {"\"keep_extent\":[0.0,0.0,1.0]", "\"keep_extent\":[0,0,0]", "expected a direction that is not zero"},
+      {"\"keep_extent\":", "\"extent_ends\":\"loose\",\"keep_extent\":",
+       "/constraints/extent_ends: expected 'free' or 'fixed', found 'loose'"},
       {"\"energy\":0.0", "\"energy\":null", "/history/nodes/3/energy: expected a number, found null"},
       {"\"energy\":0.0", "\"energy\":0.0,\"energy\":1", "the key 'energy' occurs twice"},
       {"\"energy\":0.0,", "", "the key 'energy' is missing"},

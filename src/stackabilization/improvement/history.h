@@ -57,13 +57,13 @@ struct Project {
 ///       {"parent": 0, "name": "", "direction": [0, 0, 1], "stackability": 0.52, "energy": -0.08,
 ///        "edits": [{"handle": {"kind": "section", "part": "leg", "index": 3}, "move": [0.1, 0, 0],
 ///                   "falloff": "linear"}],
-///        "constraints": {"keep_extent": [0, 0, 1], "box_tolerance": 0.1, "fixed_parts": ["top"],
-///                        "fixed_points": [[0, 0, 1]]}}]}
+///        "constraints": {"keep_extent": [0, 0, 1], "extent_ends": "fixed", "box_tolerance": 0.1,
+///                        "fixed_parts": ["top"], "fixed_points": [[0, 0, 1]]}}]}
 ///
 /// A handle of kind "part" has a part, "face", "corner" and "section" have part and index, "point" and "wire"
 /// an index, "shape" nothing. An operation is "move": [x, y, z], "rotate": {"axis": [x, y, z], "radians": a}
-/// or "scale": {"factor": f, "along": [x, y, z]}; `along`, `falloff` ("gaussian") and every constraint may be
-/// left out. Numbers read back as the same doubles.
+/// or "scale": {"factor": f, "along": [x, y, z]}; `along`, `falloff` ("gaussian"), `extent_ends` ("free") and
+/// every constraint may be left out. Numbers read back as the same doubles.
 ///
 /// Throws InputError when the shape is invalid, or the history is none that could be read again.
 std::string project_text(const Project& project);

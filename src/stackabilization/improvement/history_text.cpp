@@ -18,6 +18,7 @@ using Json = nlohmann::ordered_json;
 
 const std::vector<std::string> handle_kinds = {"part", "face", "corner", "section", "point", "wire", "shape"};
 const std::vector<std::string> falloffs = {"gaussian", "linear"};
+const std::vector<std::string> extent_ends = {"free", "fixed"};
 constexpr std::array model_kinds = {DeformationKind::controllers, DeformationKind::surface,
                                     DeformationKind::iwires, DeformationKind::gap_scaling};
 
@@ -92,6 +93,8 @@ class HistoryWriter {
   Json json(const DeformationConstraints& constraints) const {
     Json json = Json::object();
     if (constraints.keep_extent) json["keep_extent"] = list(constraints.keep_extent->vector());
+    if (constraints.extent_ends != ExtentEnds::free)
+      json["extent_ends"] = extent_ends.at(static_cast<std::size_t>(constraints.extent_ends));
     if (constraints.box_tolerance) json["box_tolerance"] = *constraints.box_tolerance;
     for (const int part : constraints.fixed_parts) json["fixed_parts"].push_back(part_name(part));
     for (const Eigen::Vector3d& point : constraints.fixed_points) json["fixed_points"].push_back(list(point));
@@ -216,9 +219,12 @@ class HistoryReader {
   }
 
   DeformationConstraints constraints(const JsonNode& node) const {
-    node.expect_keys({"keep_extent", "box_tolerance", "fixed_parts", "fixed_points"}, 4);
+    node.expect_keys({"keep_extent", "extent_ends", "box_tolerance", "fixed_parts", "fixed_points"}, 5);
     DeformationConstraints result;
     if (node.has("keep_extent")) result.keep_extent = Direction(direction(node["keep_extent"]));
+    if (node.has("extent_ends"))
+      result.extent_ends =
+          std::array{ExtentEnds::free, ExtentEnds::fixed}[node["extent_ends"].one_of(extent_ends)];
     if (node.has("box_tolerance")) {
       result.box_tolerance = node["box_tolerance"].number();
       if (*result.box_tolerance < 0) node["box_tolerance"].fail_expected("a number that is not negative");
