@@ -186,6 +186,20 @@ TEST_CASE("a wall stays straight through a list of edits") {
   CHECK(after.high == Approx(before.high).margin(1e-9 * before.length()));
 }
 
+TEST_CASE("walls are straight as cylinders and cones are") {
+  GeneralizedCylinder wall = cone();
+  CHECK(detail::has_straight_wall(wall));
+  wall.radii(5) += 0.1;
+  CHECK(detail::has_straight_wall(wall));
+  wall.radii(5) += 0.2;
+  CHECK_FALSE(detail::has_straight_wall(wall));
+  GeneralizedCylinder bow = structures::arc_cylinder(3, 0.4, 0, 2, 9);
+  CHECK_FALSE(detail::has_straight_wall(bow));
+  bow = cone();
+  bow.centres.row(5) += Eigen::RowVector3d(0.3, 0, 0);
+  CHECK_FALSE(detail::has_straight_wall(bow));
+}
+
 TEST_CASE("an edit of a single section still bends") {
   const ControllerModel model(structures::mug());
   const DeformationResult result = model.deformed({{{HandleKind::section, 0, 5}, Move{{0.3, 0, 0}}}});

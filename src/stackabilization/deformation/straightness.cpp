@@ -14,7 +14,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Largest distance from the chord of what is called straight, fraction of the chord.
+/// Largest distance from the chord of what is called straight, of curves and of profiles, fraction of the
+/// chord.
 constexpr double straight_enough = 0.02;
 /// Fraction of the length at either end that hardly stretches, and how much it does compared with the rest.
 constexpr double end_zone = 0.06, end_stretch = 0.05;
@@ -56,6 +57,14 @@ bool is_straight(const GeneralizedCylinder& cylinder) {
     if (!(offset.cross(chord).norm() <= straight_enough * chord.squaredNorm())) return false;
   }
   return true;
+}
+
+bool has_straight_wall(const GeneralizedCylinder& cylinder) {
+  if (!is_straight(cylinder)) return false;
+  const Eigen::VectorXd& radii = cylinder.radii;
+  const double first = radii(0), last = radii(radii.size() - 1);
+  const Eigen::VectorXd straight = first + (last - first) * shares_of_chord(cylinder).array();
+  return (radii - straight).cwiseAbs().maxCoeff() <= straight_enough * chord_of(cylinder).norm();
 }
 
 Eigen::VectorXd places_along_chord(const GeneralizedCylinder& cylinder) {

@@ -10,14 +10,17 @@ namespace stackabilization::detail {
 /// Whether the curve of an open generalized cylinder stays near to its chord.
 bool is_straight(const GeneralizedCylinder& cylinder);
 
+/// Whether, besides, its radii stay near to those of a cylinder or cone through its first and last section.
+bool has_straight_wall(const GeneralizedCylinder& cylinder);
+
 /// n places of the sections along the chord, model units, 0 at the first section.
 Eigen::VectorXd places_along_chord(const GeneralizedCylinder& cylinder);
 
 /// n x m: what sections of an open cylinder may slide by, as functions of the section, of size 1 in the
-/// middle. Their products sum to the covariance of a Brownian bridge over the arc length at rest [Wahba,
-/// Spline models for observational data, 1990, section 1]: the ends stay, and of all slides that take some
-/// sections to given places the one of least norm is linear between them, so that nothing crowds. Near the
-/// ends, where rims, floors and roundings are, hardly anything is stretched.
+/// middle. Their products sum to the covariance of a Brownian bridge over the arc length at rest [Wahba]: the
+/// ends stay, and of all slides that take some sections to given places the one of least norm is linear
+/// between them, so that nothing crowds. Near the ends, where rims, floors and roundings are, hardly anything
+/// is stretched.
 Eigen::MatrixXd slide_functions(const GeneralizedCylinder& rest);
 
 /// What an edit prescribes for a straight cylinder.

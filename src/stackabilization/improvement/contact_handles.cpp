@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "stackabilization/deformation/straightness.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
@@ -15,8 +16,6 @@ namespace {
 constexpr double near_corner = 0.5;
 /// A cuboid thinner than this fraction of its other sides is a plate.
 constexpr double plate_thickness = 0.25;
-/// A curve is straight when it stays this near to its chord, fraction of the chord.
-constexpr double straight_enough = 0.02;
 
 Eigen::Vector3d mean(const Points& points) {
   return points.colwise().mean().transpose();
@@ -124,18 +123,7 @@ void add_cuboid_handles(std::vector<ContactHandle>& handles, const Cuboid& cuboi
   }
 }
 
-bool is_straight(const GeneralizedCylinder& cylinder) {
-  const Eigen::Index last = cylinder.centres.rows() - 1;
-  const Eigen::Vector3d start = cylinder.centres.row(0).transpose();
-  const Eigen::Vector3d chord = cylinder.centres.row(last).transpose() - start;
-  for (Eigen::Index i = 1; i < last; ++i) {
-    const Eigen::Vector3d offset = cylinder.centres.row(i).transpose() - start;
-    if (offset.cross(chord).norm() > straight_enough * chord.squaredNorm()) return false;
-  }
-  return true;
-}
-
-/// Bending what is straight is left to the paper's family; scaling a section of it is not.
+/// Bending what is straight, and bulging a wall that is a cylinder or a cone, is left to the paper's family.
 void add_cylinder_handles(std::vector<ContactHandle>& handles, const GeneralizedCylinder& cylinder,
                           const ContactSide& side, EditFamily family) {
   const int nearest = nearest_row(cylinder.centres, side.centre);
@@ -145,7 +133,8 @@ void add_cylinder_handles(std::vector<ContactHandle>& handles, const Generalized
   }
   const int last = static_cast<int>(cylinder.centres.rows()) - 1;
   const bool at_end = nearest == 0 || nearest == last;
-  if (side.region.type == ContactType::ring || (!at_end && !is_straight(cylinder)))
+  const bool ring = side.region.type == ContactType::ring;
+  if (ring ? !has_straight_wall(cylinder) : !at_end && !is_straight(cylinder))
     handles.push_back(section_of(cylinder, side.part, nearest));
   for (const int end : {0, last}) {
     handles.push_back(section_of(cylinder, side.part, end));
