@@ -100,6 +100,8 @@ void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
   add_number(command, "--time", options.seconds, "Seconds to search at most (default: 40)");
   add_count(command, {"--expansions", "Candidates to expand at most (default: 100)", 1}, options.expansions);
   add_number(command, "--alpha", options.alpha, "Weight of the distortion in the energy (default: 0.2)");
+  command.add_flag("--bend", options.bends,
+                   "Let straight parts bend and walls bulge, as in the paper (default: they stay straight)");
   add_number(command, "--cone-degrees", options.cone_degrees,
              "The direction may turn by this angle at each edit, 0: never (default: 10; with --copies, and "
              "gap-scaling: 0)");
@@ -178,6 +180,7 @@ ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) 
   search.alpha = options.alpha.value_or(search.alpha);
   improvement.refinement.alpha = search.alpha;
   if (options.preset == ImprovementPreset::paper) search.edits.family = EditFamily::paper;
+  search.edits.bends = options.bends;
   search.edits.contacts.semantics = options.measure.semantics;
   search.solutions = options.solutions;
   search.expansions = options.expansions.value_or(search.expansions);

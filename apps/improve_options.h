@@ -24,6 +24,7 @@ struct ImproveCommandOptions {
   DeformationKind kind = DeformationKind::controllers;
   ImprovementPreset preset = ImprovementPreset::refined;
   std::vector<Eigen::Vector3d> directions;
+  bool bends = false;
   std::optional<double> cone_degrees, alpha, seconds;
   std::optional<std::int64_t> expansions;
   std::vector<std::string> kept, editable, removed;  ///< names of parts

@@ -67,6 +67,8 @@ void add_wishes(CLI::App& command, SuggestCommandOptions& options) {
   const Choices<EditFamily> families = {{"paper", EditFamily::paper}, {"extended", EditFamily::extended}};
   add_choice(command, "--edits", options.family, families,
              "Which edits contacts suggest: those of the paper, or further ones too (default: extended)");
+  command.add_flag("--bend", options.bends,
+                   "Let straight parts bend and walls bulge, as in the paper (default: they stay straight)");
   add_number(command, "--alpha", options.alpha, "Weight of distortion in the energy (default: 0.2)");
   add_number(command, "--target", options.target, "Say which suggestions reach this stackability");
   add_part_option(command, "--keep", options.kept, "Part that stays as it is; repeatable");

@@ -97,6 +97,7 @@ SuggestRun run_suggest(const SuggestCommandOptions& options, const StructuredMod
   SuggestionOptions suggesting;
   suggesting.alpha = options.alpha.value_or(suggesting.alpha);
   suggesting.edits.family = options.family;
+  suggesting.edits.bends = options.bends;
   if (history.nodes.empty()) {
     run.design = run.space->at_rest();
     run.now = situation(checker, run.design, run.direction, suggesting);

@@ -20,6 +20,7 @@ struct SuggestCommandOptions {
   std::optional<DeformationKind> kind;
   std::optional<Eigen::Vector3d> direction;
   EditFamily family = EditFamily::extended;
+  bool bends = false;
   std::optional<double> alpha, target, box_tolerance;
   std::vector<std::string> kept, editable;  ///< names of parts
   bool change_height = false;

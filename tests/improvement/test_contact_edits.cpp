@@ -39,6 +39,7 @@ DeformationConstraints keep_height() {
 ContactEditOptions paper() {
   ContactEditOptions options;
   options.family = EditFamily::paper;
+  options.bends = true;
   return options;
 }
 
@@ -352,6 +353,12 @@ TEST_CASE("contacts amid a leg lean it by its ends") {
   const auto as_published = edits_of(tube, regions, up, paper());
   CHECK(offers(as_published, {{HandleKind::section, 0, 6}, Move{{step, 0, 0}}}));
   for (const ContactEdit& one : as_published) CHECK(one.edit.falloff == Falloff::gaussian);
+
+  ContactEditOptions straight = paper();
+  straight.bends = false;
+  const auto leaning = edits_of(tube, regions, up, straight);
+  CHECK(offers(leaning, {{HandleKind::section, 0, 10}, Move{{step, 0, 0}}, Falloff::linear}));
+  for (const ContactEdit& one : leaning) CHECK(one.edit.falloff == Falloff::linear);
 }
 
 TEST_CASE("suggestions are ordered, different, and the same every time") {

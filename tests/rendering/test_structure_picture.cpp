@@ -157,8 +157,7 @@ TEST_CASE("a plane cuts a box in a rectangle, a hexagon, or not at all") {
 TEST_CASE("a legend stays in its place and counts what it leaves out") {
   std::vector<LegendEntry> entries;
   for (int k = 0; k < 40; ++k)
-    entries.push_back(
-        {LegendMark::swatch, palette::input, "a part with a long name " + std::to_string(k)});
+    entries.push_back({LegendMark::swatch, palette::input, "a part with a long name " + std::to_string(k)});
   entries[1].text = std::string(300, 'W');
   for (const double height : {25.0, 60.0, 200.0, 2000.0}) {
     Drawing drawing{600, 2020, detail::legend(entries, {10, 10, 580, height}, 14)};

@@ -18,7 +18,8 @@ namespace {
 /// chord.
 constexpr double straight_enough = 0.02;
 /// Fraction of the length at either end that hardly stretches, and how much it does compared with the rest.
-constexpr double end_zone = 0.06, end_stretch = 0.05;
+constexpr double end_zone = 0.06;
+constexpr double end_stretch = 0.05;
 
 Eigen::Vector3d centre(const GeneralizedCylinder& cylinder, Eigen::Index i) {
   return cylinder.centres.row(i).transpose();

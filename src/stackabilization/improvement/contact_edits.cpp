@@ -68,7 +68,7 @@ class ContactEditor {
   }
 
   void look_at(const ContactSide& side) {
-    for (const ContactHandle& handle : contact_handles(situation_, side, frame_, options_.family)) {
+    for (const ContactHandle& handle : contact_handles(situation_, side, frame_, options_)) {
       move_along(side, handle);
       if (handle.of_plate) {
         if (handle.role == Role::end) move_edge(side, handle);

@@ -18,8 +18,11 @@ enum class EditFamily {
 /// Which edits `contact_edits` makes of contacts, and how large.
 struct ContactEditOptions {
   EditFamily family = EditFamily::extended;  ///< what is taken hold of
-  double move_step = 0.06;                   ///< fraction of the extent of the shape along the move; > 0
-  double scale_step = 0.1;                   ///< of a ring's handle, up and down; in (0, 1)
+  /// Cylinders whose axis is straight may bend, and walls that are cylinders or cones may bulge, as in the
+  /// paper; otherwise their ends lean and widen with Falloff::linear, in either family.
+  bool bends = false;
+  double move_step = 0.06;  ///< fraction of the extent of the shape along the move; > 0
+  double scale_step = 0.1;  ///< of a ring's handle, up and down; in (0, 1)
   /// Sizes of the extended family, as multiples of both steps; not empty, > 0, below 1 / scale_step.
   std::vector<double> multiples = {1, 3};
   /// Regions that are looked at, largest first, symmetric ones counted once; at least 1.
@@ -57,10 +60,11 @@ struct ContactSituation {
 ///
 /// The handle of a region is what lies nearest to its centre on the primitive of its part: face, and where
 /// the region is near one corner, of a cuboid, cross-section of a cylinder; for models without primitives the
-/// nearest point, wire and slice. Gap scaling has one edit, of the shape along r.
+/// nearest point, wire and slice. Of cylinders that have to stay straight it is the nearest end. Gap scaling
+/// has one edit, of the shape along r.
 ///
-/// The extended family also takes hold of the ends of the part (faces of a cuboid across r; for cylinders
-/// with Falloff::linear, instead of bending what is straight) and of the part as a whole, and scales
+/// The extended family also takes hold of the ends of the part (faces of a cuboid across r; of cylinders with
+/// Falloff::linear) and of the part as a whole, and scales
 /// cross-sections, faces and wholes at dots and lines too, where the contact is off their centre. Sideways it
 /// goes the shorter way past the other part and no farther than that takes; the longer way is tried with the
 /// nearest handle and the least multiple only. Along r, where most stands in the way, half of the least

@@ -123,22 +123,29 @@ void add_cuboid_handles(std::vector<ContactHandle>& handles, const Cuboid& cuboi
   }
 }
 
-/// Bending what is straight, and bulging a wall that is a cylinder or a cone, is left to the paper's family.
+/// An end that leans, or widens, and leaves what is straight straight.
+ContactHandle end_of(const GeneralizedCylinder& cylinder, int part, int section) {
+  ContactHandle end = section_of(cylinder, part, section);
+  end.falloff = Falloff::linear;
+  return end;
+}
+
 void add_cylinder_handles(std::vector<ContactHandle>& handles, const GeneralizedCylinder& cylinder,
-                          const ContactSide& side, EditFamily family) {
+                          const ContactSide& side, const ContactEditOptions& options) {
   const int nearest = nearest_row(cylinder.centres, side.centre);
-  if (family == EditFamily::paper || cylinder.closed) {
-    handles.push_back(section_of(cylinder, side.part, nearest));
+  const int last = static_cast<int>(cylinder.centres.rows()) - 1;
+  const bool ring = side.region.type == ContactType::ring;
+  const bool straight = ring ? has_straight_wall(cylinder) : is_straight(cylinder);
+  const bool free = options.bends || cylinder.closed || !straight;
+  if (options.family == EditFamily::paper || cylinder.closed) {
+    handles.push_back(free ? section_of(cylinder, side.part, nearest)
+                           : end_of(cylinder, side.part, 2 * nearest <= last ? 0 : last));
     return;
   }
-  const int last = static_cast<int>(cylinder.centres.rows()) - 1;
   const bool at_end = nearest == 0 || nearest == last;
-  const bool ring = side.region.type == ContactType::ring;
-  if (ring ? !has_straight_wall(cylinder) : !at_end && !is_straight(cylinder))
-    handles.push_back(section_of(cylinder, side.part, nearest));
+  if (free && (ring || options.bends || !at_end)) handles.push_back(section_of(cylinder, side.part, nearest));
   for (const int end : {0, last}) {
-    handles.push_back(section_of(cylinder, side.part, end));
-    handles.back().falloff = Falloff::linear;
+    handles.push_back(end_of(cylinder, side.part, end));
     handles.back().role = end == nearest ? ContactHandle::Role::nearest : ContactHandle::Role::end;
   }
   std::stable_sort(handles.begin(), handles.end(),
@@ -204,15 +211,15 @@ Range ContactHandle::range(const Eigen::Vector3d& axis) const {
 }
 
 std::vector<ContactHandle> contact_handles(const ContactSituation& situation, const ContactSide& side,
-                                           const ContactFrame& frame, EditFamily family) {
+                                           const ContactFrame& frame, const ContactEditOptions& options) {
   if (situation.kind != DeformationKind::controllers) return surface_handles(situation, side);
   std::vector<ContactHandle> handles;
   const Primitive& primitive = situation.design.primitives[static_cast<std::size_t>(side.part)];
   if (const auto* cuboid = std::get_if<Cuboid>(&primitive))
-    add_cuboid_handles(handles, *cuboid, side, frame, family);
+    add_cuboid_handles(handles, *cuboid, side, frame, options.family);
   else
-    add_cylinder_handles(handles, std::get<GeneralizedCylinder>(primitive), side, family);
-  if (family == EditFamily::paper) return handles;
+    add_cylinder_handles(handles, std::get<GeneralizedCylinder>(primitive), side, options);
+  if (options.family == EditFamily::paper) return handles;
   ContactHandle whole;
   whole.handle = {HandleKind::part, side.part, 0};
   whole.role = ContactHandle::Role::whole;

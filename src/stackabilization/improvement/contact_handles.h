@@ -35,6 +35,6 @@ Points part_points(const Shape& shape, int part);
 
 /// Handles for a side, nearest first; ends and the whole only in the extended family.
 std::vector<ContactHandle> contact_handles(const ContactSituation& situation, const ContactSide& side,
-                                           const ContactFrame& frame, EditFamily family);
+                                           const ContactFrame& frame, const ContactEditOptions& options);
 
 }  // namespace stackabilization::detail

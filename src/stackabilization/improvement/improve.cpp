@@ -13,12 +13,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Shares of the time by which the search in the paper's steps, the pursuits, and the search end where their
+/// Shares of the time by which the pursuits, the search in the paper's steps, and the search end where their
 /// results are refined afterwards.
-constexpr double paper_share = 0.3;
-constexpr double pursuit_share = 0.55;
-constexpr double search_share = 0.7;
-/// The search gets this share at least.
+constexpr double pursuit_share = 0.35;
+constexpr double paper_share = 0.5;
+constexpr double search_share = 0.65;
+/// Each search gets this share at least.
 constexpr double least_search = 0.05;
 /// Where nothing was found, what is left beyond this share is for the diagnosis.
 constexpr double diagnosis_begin = 0.85;
@@ -53,10 +53,16 @@ class Refiner {
   Refiner(const Refiner&) = delete;
   Refiner& operator=(const Refiner&) = delete;
 
-  /// `starts`: what else was found.
-  std::vector<Candidate> refined(const std::vector<Candidate>& starts, const BestFirstResult& found) {
+  /// `starts`: what else was found. Begins with what reaches the target with the least change: time may end.
+  std::vector<Candidate> refined(std::vector<Candidate> starts, const BestFirstResult& found) {
+    starts.insert(starts.end(), found.solutions.begin(), found.solutions.end());
+    const double target = checker_.requirements().target;
+    std::stable_sort(starts.begin(), starts.end(), [target](const Candidate& a, const Candidate& b) {
+      const bool reached = a.measured.value >= target;
+      if (reached != (b.measured.value >= target)) return reached;
+      return reached ? less_distorted(a, b) : more_stackable(a, b);
+    });
     for (const Candidate& start : starts) add(start);
-    for (const Candidate& solution : found.solutions) add(solution);
     for (const Candidate& near : found.nearest) {
       if (static_cast<int>(solutions_.size()) >= wanted_ || options_.cancelled()) break;
       add(near);
@@ -145,13 +151,15 @@ Improvement improve(const RequirementChecker& checker, const ImprovementOptions&
   BestFirstOptions search = options.search;
   std::vector<Candidate> starts;
   if (refine) {
+    const auto until = [&](double share) {
+      return std::max(share * seconds - seconds_since(start), least_search * seconds);
+    };
+    starts = pursuits(checker, search, after(start, pursuit_share * seconds));
     BestFirstOptions paper = in_the_papers_steps(search);
-    paper.seconds = paper_share * seconds;
+    paper.seconds = until(paper_share);
     paper.save = {};
-    starts = best_first(checker, paper).solutions;
-    for (Candidate& pursued : pursuits(checker, search, after(start, pursuit_share * seconds)))
-      starts.push_back(std::move(pursued));
-    search.seconds = std::max(search_share * seconds - seconds_since(start), least_search * seconds);
+    for (Candidate& solution : best_first(checker, paper).solutions) starts.push_back(std::move(solution));
+    search.seconds = until(search_share);
   } else {
     search = in_the_papers_steps(search);
   }
@@ -162,7 +170,7 @@ Improvement improve(const RequirementChecker& checker, const ImprovementOptions&
   result.end = found.end;
   if (refine) {
     Refiner refiner(checker, options, after(start, diagnosis_begin * seconds), after(start, seconds));
-    result.solutions = refiner.refined(starts, found);
+    result.solutions = refiner.refined(std::move(starts), found);
     if (refiner.nearest()) found.nearest.insert(found.nearest.begin(), *refiner.nearest());
     std::stable_sort(found.nearest.begin(), found.nearest.end(), more_stackable);
     if (!result.solutions.empty() && found.solutions.empty() && result.end == SearchEnd::exhausted)

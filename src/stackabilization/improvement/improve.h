@@ -14,7 +14,7 @@ namespace stackabilization {
 /// How much of `improve` goes beyond the paper.
 enum class ImprovementPreset {
   paper,    ///< search only, with the paper's edits and steps
-  refined,  ///< that, a pursuit, and a search with further edits, then continuous magnitudes of what they
+  refined,  ///< a pursuit, that, and a search with further edits, then continuous magnitudes of what they
             ///< find
 };
 
@@ -38,7 +38,7 @@ struct Improvement {
   SearchEnd end = SearchEnd::exhausted;  ///< why the search ended
 };
 
-/// From a wish to designs that stack: the paper's search, a pursuit along every starting direction,
+/// From a wish to designs that stack: a pursuit along every starting direction, the paper's search,
 /// best-first search with further edits, refinement of what they find (and, where there are too few
 /// solutions, of what came nearest), checks, and a reason when it cannot be done. Where no limit of time ends
 /// the paper's search, D of the refined preset is at most that of the paper's for the same target. See

@@ -78,6 +78,7 @@ void add(Fingerprint& print, const Requirements& requirements) {
 
 void add(Fingerprint& print, const ContactEditOptions& options) {
   add_integer(print, static_cast<int>(options.family));
+  add_integer(print, options.bends ? 1 : 0);
   print.add(options.move_step);
   print.add(options.scale_step);
   add_count(print, options.multiples.size());
