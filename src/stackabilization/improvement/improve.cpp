@@ -15,8 +15,8 @@ using Clock = std::chrono::steady_clock;
 
 /// Shares of the time by which the pursuits, the search in the paper's steps, and the search end where their
 /// results are refined afterwards.
-constexpr double pursuit_share = 0.35;
-constexpr double paper_share = 0.5;
+constexpr double pursuit_share = 0.5;
+constexpr double paper_share = 0.6;
 constexpr double search_share = 0.65;
 /// Each search gets this share at least.
 constexpr double least_search = 0.05;
