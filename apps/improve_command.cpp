@@ -7,6 +7,7 @@
 #include "apps/command.h"
 #include "apps/improve_files.h"
 #include "apps/improve_page.h"
+#include "apps/improve_project.h"
 #include "apps/improve_report.h"
 #include "apps/interrupt.h"
 #include "apps/rendering.h"
@@ -42,6 +43,7 @@ class Writer {
 
   void write_summaries(const Json& document) {
     remove_other_files(folder_, written_);
+    write(project_name, project_text(improvement_project(report_)));
     write("result.json", json_text(document));
     write("index.html", improvement_page(report_));
     std::error_code error;

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* state_name = "search-state.json";
 /// Those that speak of all solutions.
-constexpr std::array<const char*, 2> summaries = {"index.html", "result.json"};
+constexpr std::array<const char*, 3> summaries = {"index.html", "result.json", project_name};
 constexpr std::array<const char*, 6> endings = {
     ".obj", ".3mf", ".stackabilize.json", ".json", "_before_after.png", "_stack.png"};
 

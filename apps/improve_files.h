@@ -19,8 +19,11 @@ void make_folder(const std::filesystem::path& folder);
 /// Where the state of a search is kept.
 std::filesystem::path state_file(const std::filesystem::path& folder);
 
-/// Removes index.html and result.json, which are written last: where they are, all that they speak of is
-/// there too, and of one run.
+/// The project file of all solutions.
+inline constexpr const char* project_name = "solutions.stackabilize.json";
+
+/// Removes index.html, result.json and the project of all solutions, which are written last: where they are,
+/// all that they speak of is there too, and of one run.
 void remove_summaries(const std::filesystem::path& folder);
 
 /// Removes what earlier runs left under names that this command gives, but for `kept` and the state, and what

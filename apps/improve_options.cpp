@@ -18,13 +18,6 @@ void refuse(bool given, const char* option, const char* reason) {
   if (given) throw UsageError(std::string(option) + " " + reason);
 }
 
-/// A number that was given, in [least, most].
-void check_range(const char* option, const std::optional<double>& value, double least, double most) {
-  if (value && !(*value >= least && *value <= most))
-    throw UsageError(std::string(option) + " expects a number from " + exact_digits(least) + " to " +
-                     exact_digits(most) + ", found " + exact_digits(*value));
-}
-
 void check_wish(const ImproveCommandOptions& options) {
   if (options.target && (options.copies || options.within))
     throw UsageError("--target and --copies with --within are two ways to say the same: give one of them");
@@ -51,24 +44,7 @@ void check_gap_scaling(const ImproveCommandOptions& options) {
 void check_numbers(const ImproveCommandOptions& options) {
   check_range("--cone-degrees", options.cone_degrees, 0, most_degrees);
   check_range("--alpha", options.alpha, 0, 1);
-  check_range("--draft-degrees", options.draft_degrees, 0, most_degrees);
-  check_range("--tilt-degrees", options.tilt_degrees, 0, most_degrees);
   refuse(options.seconds && !(*options.seconds > 0), "--time", "expects a number of seconds above 0");
-  refuse(options.tilt_degrees && !options.standing, "--tilt-degrees",
-         "is the tilt at which the stack of --standing still stands: give that too");
-}
-
-void check_parts(const ImproveCommandOptions& options) {
-  for (const std::string& name : options.kept)
-    if (std::find(options.editable.begin(), options.editable.end(), name) != options.editable.end())
-      throw UsageError("--keep and --only contradict each other: both name '" + name + "'");
-}
-
-double length_in(const char* option, const std::optional<Length>& length, Unit unit) {
-  if (!length) return 0;
-  if (length->value < 0)
-    throw UsageError(std::string(option) + " expects a length that is not negative, found " + length->text);
-  return length->in(unit);
 }
 
 void add_wish_options(CLI::App& command, ImproveCommandOptions& options) {
@@ -107,35 +83,14 @@ void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
              "gap-scaling: 0)");
 }
 
-void add_requirement_options(CLI::App& command, ImproveCommandOptions& options) {
-  add_parts(command, "--keep", options.kept, "Part that stays as it is; repeatable");
-  add_parts(command, "--only", options.editable, "Part that may change, and no other; repeatable");
-  add_parts(command, "--remove", options.removed, "Part to leave out of the design first; repeatable");
-  command.add_flag("--change-height", options.change_height,
-                   "The height along the direction need not stay what it is");
-  add_fraction(command, "--box-tolerance", options.box_tolerance,
-               "Fraction by which the sides of the box along x, y and z may change, as 0.05 or 5%");
-  add_length(command, "--thickness", options.thickness,
-             "Walls get no thinner than this; what is thinner already may stay so");
-  add_length(command, "--clearance", options.clearance,
-             "Air between copies along the direction, as 0.5 or 2mm");
-  add_length(command, "--lateral-clearance", options.lateral_clearance,
-             "Sideways play that every contact allows");
-  add_number(command, "--draft-degrees", options.draft_degrees,
-             "Least angle between the direction and surfaces that copies touch with");
-  add_count(command, {"--standing", "A stack of so many copies stands by itself", 1, most_copies},
-            options.standing);
-  add_number(command, "--tilt-degrees", options.tilt_degrees,
-             "... also on ground that is tilted by this angle (default: 0)");
-}
-
 }  // namespace
 
 void add_improve_options(CLI::App& command, ImproveCommandOptions& options) {
   add_common_options(command, options.common);
   add_wish_options(command, options);
   add_search_options(command, options);
-  add_requirement_options(command, options);
+  add_requirement_options(command, options.requirements);
+  add_parts(command, "--remove", options.removed, "Part to leave out of the design first; repeatable");
   add_analysis_options(command, options.analysis);
   command.add_flag("--twist", options.twist,
                    "Report too how well copies stack that are turned against each other");
@@ -150,27 +105,9 @@ void check(const ImproveCommandOptions& options) {
   check_wish(options);
   check_numbers(options);
   check_gap_scaling(options);
-  check_parts(options);
+  check(options.requirements);
   check_outputs(options.common, {}, analysis_inputs(options.analysis));
   check_folder(options);
-}
-
-Requirements requirements_of(const ImproveCommandOptions& options, const StructuredShape& rest) {
-  const Unit unit = rest.shape.unit;
-  Requirements requirements;
-  requirements.target = options.target.value_or(0);
-  requirements.measure = options.measure;
-  requirements.keep_height = !options.change_height;
-  requirements.kept_parts = parts_named("--keep", options.kept, rest.shape);
-  requirements.editable_parts = parts_named("--only", options.editable, rest.shape);
-  requirements.box_tolerance = options.box_tolerance;
-  if (options.thickness) requirements.least_thickness = length_in("--thickness", options.thickness, unit);
-  requirements.clearance = length_in("--clearance", options.clearance, unit);
-  requirements.play = length_in("--lateral-clearance", options.lateral_clearance, unit);
-  requirements.least_draft_degrees = options.draft_degrees;
-  requirements.standing_copies = options.standing;
-  requirements.least_tilt_degrees = options.tilt_degrees.value_or(0);
-  return requirements;
 }
 
 ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/requirement_options.h"
 #include "apps/structured_model.h"
-#include "apps/values.h"
 #include "stackabilization/improvement/improve.h"
 
 namespace stackabilization::apps {
@@ -27,12 +27,8 @@ struct ImproveCommandOptions {
   bool bends = false;
   std::optional<double> cone_degrees, alpha, seconds;
   std::optional<std::int64_t> expansions;
-  std::vector<std::string> kept, editable, removed;  ///< names of parts
-  bool change_height = false;
-  std::optional<double> box_tolerance;  ///< fraction
-  std::optional<Length> thickness, clearance, lateral_clearance;
-  std::optional<double> draft_degrees, tilt_degrees;
-  std::optional<int> standing;
+  RequirementArguments requirements;
+  std::vector<std::string> removed;  ///< names of parts
   bool twist = false, resume = false, no_pictures = false;
   std::string folder;
 
@@ -45,10 +41,6 @@ void add_improve_options(CLI::App& command, ImproveCommandOptions& options);
 /// Throws UsageError when options contradict each other or the folder holds what would be replaced,
 /// OutputError when it cannot be written.
 void check(const ImproveCommandOptions& options);
-
-/// What is asked of solutions; the target is left at 0 where it follows from --copies and --within. Throws
-/// UsageError for parts that do not exist and values out of range.
-Requirements requirements_of(const ImproveCommandOptions& options, const StructuredShape& rest);
 
 /// How the search goes; without directions, limits of interruption and callbacks.
 ImprovementOptions improvement_options_of(const ImproveCommandOptions& options);

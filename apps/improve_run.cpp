@@ -115,12 +115,16 @@ ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& o
     StructuredShape rest = std::move(input.structured);
     if (!options.removed.empty())
       rest = without_parts(rest, parts_named("--remove", options.removed, rest.shape));
-    Requirements requirements = requirements_of(options, rest);
+    Requirements requirements = requirements_of(options.requirements, rest.shape);
+    requirements.measure = options.measure;
+    requirements.target = options.target.value_or(0);
     if (options.within) task.room = options.within->in(rest.shape.unit);
     task.directions = directions_of(options, rest, watch);
     const Direction first(task.directions.front());
-    if (task.room)
+    if (task.room) {
+      requirements.room = StackRoom{*options.copies, *task.room};
       requirements.target = target_of(options, *task.room, stackability(rest.shape, first, options.measure));
+    }
     task.space = design_space(std::move(rest), {options.kind, first});
     task.checker = std::make_unique<RequirementChecker>(*task.space, requirements);
   });

@@ -13,13 +13,6 @@ void refuse(bool given, const char* option, const char* reason) {
   if (given) throw UsageError(std::string(option) + " " + reason);
 }
 
-double length_in(const char* option, const std::optional<Length>& length, Unit unit) {
-  if (!length) return 0;
-  if (length->value < 0)
-    throw UsageError(std::string(option) + " expects a length that is not negative, found " + length->text);
-  return length->in(unit);
-}
-
 }  // namespace
 
 void check(const StackCommandOptions& options) {

@@ -11,6 +11,7 @@ namespace stackabilization::apps {
 namespace {
 
 void check(const SuggestCommandOptions& options) {
+  check(options.requirements);
   check_outputs(options.common, {{"--save", options.save, OutputKind::project}},
                 analysis_inputs(options.analysis));
   options.destination();
@@ -48,11 +49,6 @@ int run(const CLI::App& command, const SuggestCommandOptions& options) {
   return asked && result.possible() == 0 ? status_no : status_done;
 }
 
-void add_part_option(CLI::App& command, const std::string& name, std::vector<std::string>& target,
-                     const std::string& description) {
-  command.add_option(name, target, description)->type_size(1)->allow_extra_args(false)->type_name("PART");
-}
-
 void add_wishes(CLI::App& command, SuggestCommandOptions& options) {
   add_direction(command, "--direction", options.direction,
                 "Direction along which copies are stacked (default: that of the current node, else 0 0 1)");
@@ -71,12 +67,7 @@ void add_wishes(CLI::App& command, SuggestCommandOptions& options) {
                    "Let straight parts bend and walls bulge, as in the paper (default: they stay straight)");
   add_number(command, "--alpha", options.alpha, "Weight of distortion in the energy (default: 0.2)");
   add_number(command, "--target", options.target, "Say which suggestions reach this stackability");
-  add_part_option(command, "--keep", options.kept, "Part that stays as it is; repeatable");
-  add_part_option(command, "--only", options.editable, "Only these parts may change; repeatable");
-  add_number(command, "--box-tolerance", options.box_tolerance,
-             "Fraction by which the sides of the box along x, y and z may change");
-  command.add_flag("--change-height", options.change_height,
-                   "Let the extent along the direction change (default: it is kept exactly)");
+  add_requirement_options(command, options.requirements);
 }
 
 void add_session(CLI::App& command, SuggestCommandOptions& options) {

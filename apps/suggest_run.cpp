@@ -1,5 +1,7 @@
 #include "apps/suggest_run.h"
 
+#include <algorithm>
+
 #include "apps/text.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/structure/project_file.h"
@@ -7,17 +9,6 @@
 namespace stackabilization::apps {
 
 namespace {
-
-Requirements requirements_of(const SuggestCommandOptions& options, const Shape& shape) {
-  Requirements requirements;
-  requirements.target = options.target.value_or(0);
-  requirements.measure = options.measure;
-  requirements.keep_height = !options.change_height;
-  requirements.kept_parts = parts_named("--keep", options.kept, shape);
-  requirements.editable_parts = parts_named("--only", options.editable, shape);
-  requirements.box_tolerance = options.box_tolerance;
-  return requirements;
-}
 
 /// The project of MODEL, current where the session goes on. A mesh gives what its project file would hold,
 /// so that the file makes the same designs again.
@@ -91,7 +82,9 @@ SuggestRun run_suggest(const SuggestCommandOptions& options, const StructuredMod
   choose_model(options, run);
   const StructuredShape& rest = run.project.rest;
   run.space = named(input.model, [&] { return design_space(rest, run.project.space); });
-  const Requirements requirements = requirements_of(options, rest.shape);
+  Requirements requirements = requirements_of(options.requirements, rest.shape);
+  requirements.target = options.target.value_or(0);
+  requirements.measure = options.measure;
   const RequirementChecker checker(*run.space, requirements);
   run.constraints = deformation_constraints(requirements, rest, run.direction);
   SuggestionOptions suggesting;

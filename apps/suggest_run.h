@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/json.h"
+#include "apps/requirement_options.h"
 #include "apps/structured_model.h"
 #include "stackabilization/improvement/suggestions.h"
 
@@ -21,9 +22,8 @@ struct SuggestCommandOptions {
   std::optional<Eigen::Vector3d> direction;
   EditFamily family = EditFamily::extended;
   bool bends = false;
-  std::optional<double> alpha, target, box_tolerance;
-  std::vector<std::string> kept, editable;  ///< names of parts
-  bool change_height = false;
+  std::optional<double> alpha, target;
+  RequirementArguments requirements;
   int top = 12;      ///< suggestions that are shown
   bool all = false;  ///< the refused ones too, with their reasons
   std::optional<int> apply, roll_back;

@@ -82,6 +82,13 @@ std::optional<Unit> unit_of_symbol(const std::string& symbol) {
   return std::nullopt;
 }
 
+double length_in(const std::string& option, const std::optional<Length>& length, Unit model_unit) {
+  if (!length) return 0;
+  if (length->value < 0)
+    throw UsageError(option + " expects a length that is not negative, found " + length->text);
+  return length->in(model_unit);
+}
+
 Length parse_length(const std::string& option, const std::string& text) {
   const Leading leading = leading_number(text);
   const std::optional<Unit> unit = leading.rest.empty() ? Unit::unknown : unit_of_symbol(leading.rest);

@@ -33,6 +33,8 @@ struct Length {
   double in(Unit model_unit) const;
 };
 Length parse_length(const std::string& option, const std::string& text);
+/// In units of a model, 0 where none was given. Throws UsageError as `in`, and for a negative one.
+double length_in(const std::string& option, const std::optional<Length>& length, Unit model_unit);
 
 /// Names of the units on the command line: um, mm, cm, m, in, ft.
 std::optional<Unit> unit_of_symbol(const std::string& symbol);

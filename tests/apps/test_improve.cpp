@@ -136,6 +136,27 @@ TEST_CASE("a cup is made to stack: solutions, best first, that are what they say
   CHECK(!names_in(folder.out).contains("search-state.json"));
 }
 
+TEST_CASE("suggest goes on from the solutions, and back to the shape at rest") {
+  const CupFolder folder;
+  REQUIRE(run_program(folder.more(2)).status == 0);
+  const json solutions = folder.document("result.json")["solutions"];
+  const std::string project = folder.out + "/solutions.stackabilize.json";
+  const auto suggested = [&](const Arguments& further) {
+    const Outcome outcome = run_program(joined({"suggest", project, "--json", "-", "--top", "1"}, further));
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 0);
+    return outcome.json();
+  };
+  const json now = suggested({});
+  CHECK(now["node"] == 1);
+  CHECK(now["now"]["stackability"].get<double>() ==
+        Approx(solutions[0]["stackability"].get<double>()).margin(1e-9));
+  CHECK(now["history"]["nodes"].size() == 1 + solutions.size());
+  const json rest = suggested({"--roll-back", "0", "--apply", "1", "--save", folder / "other.json"});
+  CHECK(rest["node"] == 0);
+  CHECK(rest["now"]["stackability"].get<double>() == Approx(folder.stackability_now()).margin(1e-9));
+}
+
 TEST_CASE("edits of a solution make the same shape with deform") {
   const CupFolder folder;
   REQUIRE(run_program(folder.more()).status == 0);
@@ -177,7 +198,9 @@ TEST_CASE("so many copies within a length become a target, and the stack fits") 
   CHECK(result["target"]["directions"] == json::parse("[[0.0, 0.0, 1.0]]"));
   const json& stack = result["solutions"][0]["stack"];
   CHECK(stack["copies"] == 10);
-  CHECK(stack["height"].get<double>() <= room * (1 + 1e-9));
+  CHECK(stack["height"].get<double>() <= room);
+  CHECK(stack["height"].get<double>() == Approx(room).epsilon(1e-6));
+  CHECK(result["solutions"][0]["requirements"][0]["name"] == "room");
   CHECK(stack["height_before"].get<double>() == Approx(now.extent + 9 * now.f_max));
   CHECK(stack["fits"] == true);
 }

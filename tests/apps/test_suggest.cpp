@@ -144,6 +144,20 @@ TEST_CASE("wishes hold: parts stay, targets are told, nothing possible ends with
     CHECK(one["edit"].get<std::string>().find("top") != 0);
 }
 
+TEST_CASE("what improve asks of designs can be asked of suggestions") {
+  const TableFolder folder;
+  const json free = suggested({folder.project, "--top", "1000"});
+  const json airy = suggested({folder.project, "--top", "1000", "--clearance", "0.1"});
+  CHECK(airy["now"]["f_max"].get<double>() == Approx(free["now"]["f_max"].get<double>() + 0.1));
+  const json toppling = suggested({folder.project, "--standing", "3", "--tilt-degrees", "89", "--all"});
+  CHECK(free["possible"] > 0);
+  CHECK(toppling["possible"] == 0);
+  CHECK(toppling["suggestions"][0]["refusal"].get<std::string>().find("standing") != std::string::npos);
+  for (const Arguments& wrong : {Arguments{"--tilt-degrees", "5"}, Arguments{"--draft-degrees", "91"},
+                                 Arguments{"--thickness", "-1"}, Arguments{"--keep", "top", "--only", "top"}})
+    CHECK(run_program(joined({"suggest", folder.project}, wrong)).status == 2);
+}
+
 TEST_CASE("suggestions, and project files, do not depend on the number of threads") {
   const TableFolder folder;
   const std::string a = folder / "a.json", b = folder / "b.json";

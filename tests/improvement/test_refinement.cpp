@@ -1,9 +1,10 @@
 #include <tbb/global_control.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "stackabilization/improvement/block_separations.h"
-#include "stackabilization/improvement/distortion_terms.h"
+#include "stackabilization/improvement/energy.h"
 #include "stackabilization/improvement/refinement.h"
 #include "stackabilization/shape/errors.h"
 #include "support/catch.h"
@@ -191,13 +192,17 @@ TEST_CASE("the signed changes add up to the distortion") {
   const Cups cups;
   for (const BoxModel boxes : {BoxModel::frame, BoxModel::oriented}) {
     const EnergyMeter meter(cups.rest(), boxes);
-    const detail::DistortionTerms terms(cups.rest(), boxes);
     for (const double factor : {0.6, 1.0, 1.4}) {
       const Design design = cups.replayed({scale(0, 0.8), scale(1, factor)}, {}).design;
-      const Distortion distortion = meter.distortion(design);
-      const Eigen::VectorXd changes = terms.changes(design, distortion);
-      CHECK(changes.cwiseAbs().sum() == Approx(distortion.total()).epsilon(1e-12));
-      CHECK(changes[0] == Approx(volume_change(0.8, factor) / 4).epsilon(1e-12));
+      const DistortionChanges changes = meter.changes(design);
+      CHECK(changes.distortion().total() == meter.distortion(design).total());
+      CHECK(changes.volume[0] == Approx(volume_change(0.8, factor)).epsilon(1e-12));
+      CHECK(meter.distortion(design).volume == Approx(std::abs(volume_change(0.8, factor))).epsilon(1e-12));
+      // The box is as wide as the larger end: its sign says whether it grew. The least box of eight corners
+      // lies along their edges.
+      const double width = boxes == BoxModel::frame ? 2 : 2 * std::cos(std::numbers::pi / 8);
+      const double wider = 2 * width * (std::max(0.8, factor) - 1);
+      CHECK(changes.box.sum() == Approx(wider / (2 * width + height)).margin(1e-12));
     }
   }
 }
@@ -250,6 +255,28 @@ TEST_CASE("what one end takes away the other may give back") {
   REQUIRE(result.candidate.reasons.size() == 2);
   CHECK(result.candidate.reasons[0] == "edit 0");
   CHECK(result.candidate.reasons[1] == "makes up for the change opposite");
+}
+
+TEST_CASE("a room is filled to the end, though boxes change with the design") {
+  const Cups space;
+  const Direction aslant(0.2, 0, 1);
+  Requirements asked = stacks(0);
+  asked.keep_height = false;
+  const Stackability rest = stackability(space.rest().shape, aslant, asked.measure);
+  asked.room = StackRoom{6, rest.extent + 5 * 0.6 * rest.f_max};
+  const RequirementChecker checker(space, asked);
+  Candidate start = space.candidate(checker, {scale(1, 1.5)});
+  start.direction = aslant.vector();
+  start.measured = checker.measured(start.design.shape, aslant);
+  const RefinementResult result = refined_candidate(checker, start, alone());
+  REQUIRE(result.reached);
+  const Stackability measured = checker.checked(result.candidate.design, aslant).measured;
+  const double length = measured.extent + 5 * measured.f_max;
+  CHECK(length <= asked.room->length);
+  CHECK(length == Approx(asked.room->length).epsilon(1e-5));
+  // S alone would have said something else.
+  const double share = measured.stack_box_volume / measured.box_volume;
+  CHECK(std::abs(share - rest.stack_box_volume / rest.box_volume) > 0.01);
 }
 
 TEST_CASE("an edit that is of no use is left out, its counterpart merged") {

@@ -53,6 +53,42 @@ TEST_CASE("The target is compared without slack", "[requirements]") {
   CHECK_FALSE(RequirementChecker(space, above).checked(space.at_rest(), up).passed());
 }
 
+TEST_CASE("A room is compared by the length of the stack, whatever the boxes are", "[requirements]") {
+  const Still space(cup());
+  Requirements requirements = frame_requirements(0.9);  // not what is asked for
+  requirements.keep_height = false;
+  const double length = 8 + 4 * 4;
+  requirements.room = StackRoom{5, length * (1 + 1e-12)};
+  const Check fits = check_of(space, requirements, space.at_rest(), "room");
+  CHECK(fits.passed);
+  CHECK(fits.value == Approx(length));
+  CHECK(fits.demanded == requirements.room->length);
+  CHECK(RequirementChecker(space, requirements).checked(space.at_rest(), up).passed());
+  requirements.room->length = length * (1 - 1e-12);
+  CHECK_FALSE(check_of(space, requirements, space.at_rest(), "room").passed);
+  // As wide as it may be, and S with it; a fifth higher, and the stack is too.
+  CHECK(check_of(space, requirements, scaled(space.at_rest(), {3, 3, 0.99}), "room").passed);
+  CHECK_FALSE(check_of(space, requirements, scaled(space.at_rest(), {3, 3, 1.2}), "room").passed);
+}
+
+TEST_CASE("What S a design needs for a room follows from its extent and its boxes", "[requirements]") {
+  const Still space(cup());
+  Requirements requirements = frame_requirements(0.6);
+  CHECK(RequirementChecker(space, requirements).needed({}) == 0.6);
+  for (const double length : {9.0, 12.0, 30.0})
+    for (const double extent : {5.0, 8.0})
+      for (const double slenderness : {0.5, 1.0, 1.7})
+        for (const double f_max : {0.0, 0.4, 1.5, 8.0}) {
+          requirements.room = StackRoom{6, length};
+          const RequirementChecker checker(space, requirements);
+          Stackability measured{{0, 0, 1}, f_max, extent, 10, 10 * slenderness, 0};
+          measured.value = 1 - f_max / extent * slenderness;
+          INFO(length << ' ' << extent << ' ' << slenderness << ' ' << f_max);
+          CHECK(checker.reaches(measured) == (extent + 5 * f_max <= length));
+          CHECK(checker.reaches(measured) == (measured.value >= checker.needed(measured)));
+        }
+}
+
 TEST_CASE("The height is kept to a billionth, unless it need not be", "[requirements]") {
   const Still space(cup());
   const Design higher = scaled(space.at_rest(), {1, 1, 1 + 1.1e-9});

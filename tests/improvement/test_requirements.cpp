@@ -130,6 +130,9 @@ TEST_CASE("Requirements that make no sense are refused", "[requirements]") {
     });
   }
   for (const double bad : {-0.1, 1.1, nan}) refused([&](Requirements& r) { r.least_proportion = bad; });
+  for (const double bad : {0.0, -1.0, nan, infinity})
+    refused([&](Requirements& r) { r.room = StackRoom{2, bad}; });
+  refused([](Requirements& r) { r.room = StackRoom{1, 10}; });
   refused([](Requirements& r) { r.least_draft_degrees = 90.5; });
   refused([](Requirements& r) { r.standing_copies = 0; });
   refused([](Requirements& r) { r.least_tilt_degrees = 5; });

@@ -79,7 +79,7 @@ void BestFirstSearch::step(int id) {
   const SearchNode node = state_.tree.node(id);
   const std::shared_ptr<const Design> design = designs_.of(id);
   Stackability measured = node.measured;
-  if (measured.value < checker().requirements().target)
+  if (!checker().reaches(measured))
     if (const auto better = cone_.better(design->shape, measured)) measured = *better;
 
   const Verdict verdict = this->verdict(*design, measured);
@@ -98,7 +98,7 @@ void BestFirstSearch::step(int id) {
 }
 
 BestFirstSearch::Verdict BestFirstSearch::verdict(const Design& design, const Stackability& measured) const {
-  if (measured.value < checker().requirements().target) return {};
+  if (!checker().reaches(measured)) return {};
   for (const auto& solution : solutions_)
     if (!distinct_.differ(design, *solution.second)) return {NodeState::repeated, {}};
   const Assessment assessment = checker().checked(design, Direction(measured.direction));

@@ -70,7 +70,7 @@ class Diagnostician {
         solver_(best_.design.shape, checker.requirements().measure) {}
 
   Diagnosis run() {
-    diagnosis_.target = checker_.requirements().target;
+    diagnosis_.target = checker_.needed(best_.measured);
     diagnosis_.reached = best_.measured.value;
     find_blockers();
     for (const RefusalCount& refusal : result_.refusals) {

@@ -109,26 +109,28 @@ struct EnergyMeter::Rest {
     if (!(distance_sum > tolerance::relative * diagonal)) distance_sum = diagonal;
   }
 
-  double volume_change(const std::vector<Primitive>& now) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < now.size(); ++i) sum += std::abs(volume(now[i]) - volumes[i]);
-    return sum / volume_sum;
+  Eigen::VectorXd volume_changes(const std::vector<Primitive>& now) const {
+    Eigen::VectorXd changes(static_cast<Eigen::Index>(now.size()));
+    for (std::size_t i = 0; i < now.size(); ++i)
+      changes[static_cast<Eigen::Index>(i)] = (volume(now[i]) - volumes[i]) / volume_sum;
+    return changes;
   }
 
-  double proximity_change(const std::vector<Primitive>& now) const {
+  Eigen::VectorXd proximity_changes(const std::vector<Primitive>& now) const {
     std::vector<Points> moved;
     for (std::size_t i = 0; i < now.size(); ++i) moved.push_back(detail::axis_curve(now[i], long_axes[i]));
-    double sum = 0;
+    Eigen::VectorXd changes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(distances.size()));
     std::size_t pair = 0;
     for (std::size_t j = 0; j < now.size(); ++j)
       for (std::size_t i = 0; i < j; ++i, ++pair)
         if (moved[i] != curves[i] || moved[j] != curves[j])
-          sum += std::abs(detail::curve_distance(moved[i], moved[j]) - distances[pair]);
-    return sum / distance_sum;
+          changes[static_cast<Eigen::Index>(pair)] =
+              (detail::curve_distance(moved[i], moved[j]) - distances[pair]) / distance_sum;
+    return changes;
   }
 
-  double box_change(const Points& vertices) const {
-    return (extents(vertices, rows, axes) - sides).cwiseAbs().sum() / sides.sum();
+  Eigen::VectorXd box_changes(const Points& vertices) const {
+    return (extents(vertices, rows, axes) - sides) / sides.sum();
   }
 
   double symmetry_change(const std::vector<Primitive>& now) const {
@@ -151,6 +153,10 @@ struct EnergyMeter::Rest {
   double volume_sum = 0, distance_sum = 0;
 };
 
+Distortion DistortionChanges::distortion() const {
+  return {volume.cwiseAbs().sum(), proximity.cwiseAbs().sum(), box.cwiseAbs().sum(), symmetry};
+}
+
 double axis_distance(const Primitive& a, const Primitive& b) {
   return detail::curve_distance(detail::axis_curve(a, detail::axis_of(a)),
                                 detail::axis_curve(b, detail::axis_of(b)));
@@ -165,9 +171,13 @@ EnergyMeter::EnergyMeter(const StructuredShape& rest, BoxModel boxes, double alp
 }
 
 Distortion EnergyMeter::distortion(const Design& design) const {
+  return changes(design).distortion();
+}
+
+DistortionChanges EnergyMeter::changes(const Design& design) const {
   detail::require_match(design, rest_->primitives, rest_->vertex_count);
-  return {rest_->volume_change(design.primitives), rest_->proximity_change(design.primitives),
-          rest_->box_change(design.shape.vertices), rest_->symmetry_change(design.primitives)};
+  return {rest_->volume_changes(design.primitives), rest_->proximity_changes(design.primitives),
+          rest_->box_changes(design.shape.vertices), rest_->symmetry_change(design.primitives)};
 }
 
 Energy EnergyMeter::energy(const Design& design, double gain) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 
 #include "stackabilization/improvement/design.h"
@@ -17,6 +18,17 @@ struct Distortion {
 
   /// Their mean, Eq. 6.
   double total() const { return (volume + proximity + box + symmetry) / 4; }
+};
+
+/// What the terms of D add up, with signs: each term is the sum of the magnitudes, which has a kink wherever
+/// one of them vanishes. They themselves are smooth, and an optimiser can be told so.
+struct DistortionChanges {
+  Eigen::VectorXd volume;     ///< per part
+  Eigen::VectorXd proximity;  ///< per pair of parts i < j, by j, then i
+  Eigen::VectorXd box;        ///< per main axis
+  double symmetry = 0;        ///< D_symm
+
+  Distortion distortion() const;
 };
 
 /// E(M), Eq. 5.
@@ -51,6 +63,8 @@ class EnergyMeter {
 
   /// Throws UsageError when `design` does not have the vertices and primitives of the rest.
   Distortion distortion(const Design& design) const;
+  /// What `distortion` adds up. Throws as that.
+  DistortionChanges changes(const Design& design) const;
   /// E for a gain Delta S that was measured elsewhere. Throws as `distortion`.
   Energy energy(const Design& design, double gain) const;
   double alpha() const { return alpha_; }  ///< weight of D in Eq. 5

@@ -77,7 +77,7 @@ class Refiner {
  private:
   /// Out of time, it still looks whether the candidate is a solution as it is.
   void add(const Candidate& start) {
-    if (start.design.edits.empty() && start.measured.value < checker_.requirements().target) return;
+    if (start.design.edits.empty() && !checker_.reaches(start.measured)) return;
     RefinementResult result = refined_candidate(checker_, start, options_);
     if (result.reached)
       keep(std::move(result.candidate));

@@ -37,6 +37,13 @@ double shortfall(const Check& check) {
   return check.demanded > 0 ? lack / check.demanded : lack;
 }
 
+/// Changes whose magnitudes add up to D.
+Eigen::VectorXd in_a_row(const DistortionChanges& changes) {
+  Eigen::VectorXd row(changes.volume.size() + changes.proximity.size() + changes.box.size() + 1);
+  row << changes.volume, changes.proximity, changes.box, changes.symmetry;
+  return row / 4;
+}
+
 /// S lost per unit of f_max.
 double loss_per_length(const Stackability& measured) {
   return measured.stack_box_volume / (measured.extent * measured.box_volume);
@@ -52,10 +59,13 @@ MagnitudeProblem::MagnitudeProblem(const RequirementChecker& checker, std::vecto
       limits_(std::move(limits)),
       constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction)),
       meter_(checker.space().rest(), checker.requirements().measure.boxes),
-      terms_(checker.space().rest(), checker.requirements().measure.boxes),
       blocks_(checker.space().rest().shape, direction, checker.requirements().measure.semantics) {
   const Requirements& asked = checker.requirements();
   checks_ = asked.least_thickness || asked.least_draft_degrees || asked.standing_copies;
+}
+
+double MagnitudeProblem::handicap(const Stackability& measured) const {
+  return checker_.needed(measured) - checker_.requirements().target;
 }
 
 double MagnitudeProblem::aim() const {
@@ -83,7 +93,7 @@ void MagnitudeProblem::constrain_pairs(const Magnitudes& x) {
   if (checker_.requirements().play > 0) return;
   const Design design = this->design(x).design;
   const Stackability whole = checker_.measured(design.shape, direction_);
-  const double allowed = (1 - aim()) / loss_per_length(whole);
+  const double allowed = (1 - aim() - handicap(whole)) / loss_per_length(whole);
   const double clearance = checker_.requirements().clearance;
   pairs_ = blocks_.pairs_above(design.shape,
                                std::min(whole.f_max, allowed) - clearance - near_band * whole.extent);
@@ -96,13 +106,13 @@ void MagnitudeProblem::measure_blocks(const Design& design, const Stackability& 
   const std::vector<BlockSeparation> separations = blocks_.separations(design.shape, pairs_);
   double largest = 0;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const double f = separations[p].f + clearance, lack = aim() - (1 - f * loss);
+    const double f = separations[p].f + clearance, lack = aim() + handicap(whole) - (1 - f * loss);
     sample.shortfalls[static_cast<Eigen::Index>(p) + 1] =
         separations[p].blocked ? lack : std::min(lack, -passing_surplus);
     if (separations[p].blocked) largest = std::max(largest, f);
   }
   const bool covered = !pairs_.empty() && largest >= whole.f_max - tolerance::relative * whole.extent;
-  sample.shortfalls[0] = covered ? no_shortfall : aim() - whole.value;
+  sample.shortfalls[0] = covered ? no_shortfall : aim() - sample.stackability;
 }
 
 MagnitudeSample MagnitudeProblem::measured(const Magnitudes& x) const {
@@ -110,9 +120,9 @@ MagnitudeSample MagnitudeProblem::measured(const Magnitudes& x) const {
   const DesignOutcome outcome = design(x);
   if (outcome.refusal) return sample;
   sample.made = true;
-  const Distortion distortion = meter_.distortion(outcome.design);
-  sample.distortion = distortion.total();
-  sample.changes = terms_.changes(outcome.design, distortion);
+  const DistortionChanges changes = meter_.changes(outcome.design);
+  sample.distortion = changes.distortion().total();
+  sample.changes = in_a_row(changes);
   Assessment assessment;
   if (checks_) {
     assessment = checker_.checked(outcome.design, direction_);
@@ -120,7 +130,7 @@ MagnitudeSample MagnitudeProblem::measured(const Magnitudes& x) const {
     assessment.measured = checker_.measured(outcome.design.shape, direction_);
   }
   std::erase_if(assessment.checks, [](const Check& check) { return !is_open(check); });
-  sample.stackability = assessment.measured.value;
+  sample.stackability = assessment.measured.value - handicap(assessment.measured);
   const Requirements& asked = checker_.requirements();
   const double proportion = least_proportion(checker_.space().rest(), outcome.design).ratio;
   sample.passes =

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "stackabilization/improvement/block_separations.h"
-#include "stackabilization/improvement/distortion_terms.h"
+#include "stackabilization/improvement/energy.h"
 #include "stackabilization/improvement/requirements.h"
 
 namespace stackabilization::detail {
@@ -21,8 +21,8 @@ struct MagnitudeSample {
   bool passes = false;         ///< every check, but perhaps for the target
   bool feasible = false;       ///< and reaches the target
   double distortion = 0;       ///< D
-  double stackability = 0;     ///< S, with the air asked for
-  Eigen::VectorXd changes;     ///< DistortionTerms::changes
+  double stackability = 0;     ///< S, with the air asked for, less the handicap
+  Eigen::VectorXd changes;     ///< whose magnitudes add up to D
   Eigen::VectorXd shortfalls;  ///< what each constraint lacks: positive where it is broken
 };
 
@@ -80,6 +80,9 @@ class MagnitudeProblem {
 
  private:
   MagnitudeSample measured(const Magnitudes& x) const;
+  /// How much more than the target a design of such boxes needs: 0 but for a room, for which S is to grow
+  /// with the boxes.
+  double handicap(const Stackability& measured) const;
   void measure_blocks(const Design& design, const Stackability& whole, MagnitudeSample& sample) const;
   void remember(const Magnitudes& x, MagnitudeSample sample);
 
@@ -89,7 +92,6 @@ class MagnitudeProblem {
   Limits limits_;
   DeformationConstraints constraints_;
   EnergyMeter meter_;
-  DistortionTerms terms_;
   BlockSeparations blocks_;
   std::vector<BlockPair> pairs_;
   bool checks_ = false;  ///< there are more of them than S and what the deformation keeps anyway

@@ -50,7 +50,7 @@ class Pursuit {
 
   double allowed(const Stackability& measured) const {
     const double per_length = measured.stack_box_volume / (measured.extent * measured.box_volume);
-    return (1 - checker_.requirements().target) / per_length - checker_.requirements().clearance;
+    return (1 - checker_.needed(measured)) / per_length - checker_.requirements().clearance;
   }
 
   double excess(const Candidate& candidate) const {

@@ -71,9 +71,7 @@ RequirementChecks::RequirementChecks(const DesignSpace& space, const Requirement
 }
 
 std::vector<Check> RequirementChecks::of(const CheckedDesign& checked) const {
-  const double reached = checked.assessment.measured.value;
-  std::vector<Check> checks = {
-      {"target", reached, requirements_.target, reached >= requirements_.target, "", ""}};
+  std::vector<Check> checks = {reached(checked.assessment.measured)};
   if (requirements_.keep_height) checks.push_back(height(checked));
   if (space_.kind() == DeformationKind::controllers) checks.push_back(relations(checked));
   if (requirements_.least_proportion > 0) checks.push_back(proportions(checked));
@@ -83,6 +81,13 @@ std::vector<Check> RequirementChecks::of(const CheckedDesign& checked) const {
   if (requirements_.least_draft_degrees) checks.push_back(draft(checked));
   if (requirements_.standing_copies) checks.push_back(standing(checked));
   return checks;
+}
+
+Check RequirementChecks::reached(const Stackability& measured) const {
+  if (!requirements_.room)
+    return {"target", measured.value, requirements_.target, measured.value >= requirements_.target, "", ""};
+  const double length = stack_length(*requirements_.room, measured), room = requirements_.room->length;
+  return {"room", length, room, length <= room, "model units", ""};
 }
 
 Check RequirementChecks::height(const CheckedDesign& checked) const {

@@ -15,6 +15,11 @@ struct CheckedDesign {
   const Assessment& assessment;  ///< without its checks
 };
 
+/// Of a stack of so many copies, model units.
+inline double stack_length(const StackRoom& room, const Stackability& measured) {
+  return measured.extent + (room.copies - 1) * measured.f_max;
+}
+
 /// The checks of a RequirementChecker, with all that depends on the rest alone.
 class RequirementChecks {
  public:
@@ -32,6 +37,7 @@ class RequirementChecks {
     bool by_primitive = false;           ///< its primitive has to stay as well
   };
 
+  Check reached(const Stackability& measured) const;
   Check height(const CheckedDesign& checked) const;
   Check relations(const CheckedDesign& checked) const;
   Check proportions(const CheckedDesign& checked) const;

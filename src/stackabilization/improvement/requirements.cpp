@@ -32,6 +32,12 @@ void require_parts(const std::vector<int>& parts, const Structure& structure) {
                        std::to_string(structure.parts.size()));
 }
 
+void require_room(const StackRoom& room) {
+  if (room.copies < 2) throw UsageError("a room is for two copies at least");
+  if (!std::isfinite(room.length) || room.length <= 0)
+    throw UsageError("the room for a stack must be a finite positive length");
+}
+
 std::vector<int> parts_that_stay(const Requirements& requirements, const Structure& structure) {
   std::set<int> stay(requirements.kept_parts.begin(), requirements.kept_parts.end());
   if (!requirements.editable_parts.empty()) {
@@ -54,6 +60,7 @@ void validate(const Requirements& requirements, const StructuredShape& rest) {
     throw UsageError("the target must be a stackability below 1");
   if (requirements.measure.flat_shapes != FlatShapes::refuse)
     throw UsageError("a target needs shapes whose box has a volume");
+  if (requirements.room) require_room(*requirements.room);
   require_parts(requirements.kept_parts, rest.structure);
   require_parts(requirements.editable_parts, rest.structure);
   if (!(requirements.least_proportion >= 0 && requirements.least_proportion <= 1))
@@ -144,6 +151,19 @@ std::optional<Stackability> RequirementChecker::measured_above(const Shape& shap
   const Stackability measured = data_->with_air(shape, direction, *touching);
   if (measured.value < threshold) return std::nullopt;
   return measured;
+}
+
+bool RequirementChecker::reaches(const Stackability& measured) const {
+  const Requirements& asked = data_->requirements;
+  return asked.room ? detail::stack_length(*asked.room, measured) <= asked.room->length
+                    : measured.value >= asked.target;
+}
+
+double RequirementChecker::needed(const Stackability& measured) const {
+  const std::optional<StackRoom>& room = data_->requirements.room;
+  if (!room) return data_->requirements.target;
+  const double translation = (room->length - measured.extent) / (room->copies - 1);
+  return 1 - translation * measured.stack_box_volume / (measured.extent * measured.box_volume);
 }
 
 std::optional<std::string> RequirementChecker::out_of_proportion(const Design& design) const {

@@ -10,9 +10,18 @@
 
 namespace stackabilization {
 
+/// So many copies that fit into a length along r: h + (copies - 1) f_max <= length.
+struct StackRoom {
+  int copies = 2;     ///< >= 2
+  double length = 0;  ///< model units, > 0
+};
+
 /// What a designer asks of a solution. A design that breaks one of these is none.
 struct Requirements {
-  double target = 0;                ///< S(M, r) to be reached, < 1
+  double target = 0;  ///< S(M, r) to be reached, < 1
+  /// Asked for instead of the target, which is then for reports only: how S and the length go together
+  /// depends on boxes, which change with the design.
+  std::optional<StackRoom> room;
   StackabilityOptions measure;      ///< what S means; boxes and semantics of all measurements
   bool keep_height = true;          ///< h(M, r) = h(M0, r), to tolerance::relative of it
   std::vector<int> kept_parts;      ///< stay as they are
@@ -30,8 +39,9 @@ struct Requirements {
   double least_tilt_degrees = 0;              ///< and topple only beyond this tilt
 };
 
-/// Throws UsageError for a target >= 1, negative lengths, fractions or angles, angles above 90 degrees, fewer
-/// than one standing copy, a tilt without such copies, parts that do not exist, anything not finite.
+/// Throws UsageError for a target >= 1, a room out of range, negative lengths, fractions or angles, angles
+/// above 90 degrees, fewer than one standing copy, a tilt without such copies, parts that do not exist,
+/// anything not finite.
 void validate(const Requirements& requirements, const StructuredShape& rest);
 
 /// What they forbid a deformation model, for stacking along `direction`: extent, box, parts that stay (those
@@ -41,10 +51,12 @@ DeformationConstraints deformation_constraints(const Requirements& requirements,
 
 /// One requirement held against one design.
 struct Check {
-  /// "target", "height", "relations", "proportions", "box", "parts", "thickness", "draft", "standing"
+  /// "target" or "room", "height", "relations", "proportions", "box", "parts", "thickness", "draft",
+  /// "standing"
   std::string name;
-  double value = 0;  ///< what was measured: S, change of h, worst residual, largest change of a side,
-                     ///< farthest displacement, least thickness, least draft, tilt at which a stack topples
+  double value =
+      0;  ///< what was measured: S or the length of the stack, change of h, worst residual, largest change of
+          ///< a side, farthest displacement, least thickness, least draft, tilt at which a stack topples
   double demanded = 0;  ///< what was asked for, or the tolerance to which it is held
   bool passed = false;  ///< `value` is on the right side of `demanded`
   std::string unit;     ///< "", "model units", "degrees", "of the diagonal", "of the height", "of a side"
@@ -75,6 +87,10 @@ class RequirementChecker {
   /// The same unless S is certainly below `threshold`.
   std::optional<Stackability> measured_above(const Shape& shape, const Direction& direction,
                                              double threshold) const;
+  /// Does a design so measured reach the target or, where one is asked for, fit into the room? Without slack.
+  bool reaches(const Stackability& measured) const;
+  /// S from which on `reaches` holds, up to rounding, for a design of such an extent and such boxes.
+  double needed(const Stackability& measured) const;
   /// Why a design is out of proportion, if it is: one clause. Cheap.
   std::optional<std::string> out_of_proportion(const Design& design) const;
   /// Everything: each requirement that was made, in the order of Check::name. The target is compared without

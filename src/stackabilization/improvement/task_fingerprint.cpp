@@ -61,6 +61,8 @@ void add(Fingerprint& print, const StructuredShape& rest) {
 
 void add(Fingerprint& print, const Requirements& requirements) {
   print.add(requirements.target);
+  add_integer(print, requirements.room ? requirements.room->copies : 0);
+  if (requirements.room) print.add(requirements.room->length);
   add_integer(print, static_cast<int>(requirements.measure.semantics));
   add_integer(print, static_cast<int>(requirements.measure.boxes));
   add_integer(print, requirements.keep_height ? 1 : 0);

@@ -1,0 +1,71 @@
+#include "apps/requirement_options.h"
+
+#include <algorithm>
+
+#include "apps/structured_model.h"
+#include "apps/text.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+constexpr double most_degrees = 90;
+constexpr int most_copies = 10000;
+
+}  // namespace
+
+void check_range(const char* option, const std::optional<double>& value, double least, double most) {
+  if (value && !(*value >= least && *value <= most))
+    throw UsageError(std::string(option) + " expects a number from " + exact_digits(least) + " to " +
+                     exact_digits(most) + ", found " + exact_digits(*value));
+}
+
+void add_requirement_options(CLI::App& command, RequirementArguments& arguments) {
+  add_parts(command, "--keep", arguments.kept, "Part that stays as it is; repeatable");
+  add_parts(command, "--only", arguments.editable, "Part that may change, and no other; repeatable");
+  command.add_flag("--change-height", arguments.change_height,
+                   "The height along the direction need not stay what it is");
+  add_fraction(command, "--box-tolerance", arguments.box_tolerance,
+               "Fraction by which the sides of the box along x, y and z may change, as 0.05 or 5%");
+  add_length(command, "--thickness", arguments.thickness,
+             "Walls get no thinner than this; what is thinner already may stay so");
+  add_length(command, "--clearance", arguments.clearance,
+             "Air between copies along the direction, as 0.5 or 2mm");
+  add_length(command, "--lateral-clearance", arguments.lateral_clearance,
+             "Sideways play that every contact allows");
+  add_number(command, "--draft-degrees", arguments.draft_degrees,
+             "Least angle between the direction and surfaces that copies touch with");
+  add_count(command, {"--standing", "A stack of so many copies stands by itself", 1, most_copies},
+            arguments.standing);
+  add_number(command, "--tilt-degrees", arguments.tilt_degrees,
+             "... also on ground that is tilted by this angle (default: 0)");
+}
+
+void check(const RequirementArguments& arguments) {
+  check_range("--draft-degrees", arguments.draft_degrees, 0, most_degrees);
+  check_range("--tilt-degrees", arguments.tilt_degrees, 0, most_degrees);
+  if (arguments.tilt_degrees && !arguments.standing)
+    throw UsageError(
+        "--tilt-degrees is the tilt at which the stack of --standing still stands: give that too");
+  for (const std::string& name : arguments.kept)
+    if (std::find(arguments.editable.begin(), arguments.editable.end(), name) != arguments.editable.end())
+      throw UsageError("--keep and --only contradict each other: both name '" + name + "'");
+}
+
+Requirements requirements_of(const RequirementArguments& arguments, const Shape& rest) {
+  const Unit unit = rest.unit;
+  Requirements requirements;
+  requirements.keep_height = !arguments.change_height;
+  requirements.kept_parts = parts_named("--keep", arguments.kept, rest);
+  requirements.editable_parts = parts_named("--only", arguments.editable, rest);
+  requirements.box_tolerance = arguments.box_tolerance;
+  if (arguments.thickness) requirements.least_thickness = length_in("--thickness", arguments.thickness, unit);
+  requirements.clearance = length_in("--clearance", arguments.clearance, unit);
+  requirements.play = length_in("--lateral-clearance", arguments.lateral_clearance, unit);
+  requirements.least_draft_degrees = arguments.draft_degrees;
+  requirements.standing_copies = arguments.standing;
+  requirements.least_tilt_degrees = arguments.tilt_degrees.value_or(0);
+  return requirements;
+}
+
+}  // namespace stackabilization::apps
