@@ -61,7 +61,11 @@ Figure figure(int number, std::string title, Options (*read)(const Fields&),
 }
 
 Figure figure_02();
+Figure figure_03();
+Figure figure_04();
+Figure figure_05();
 Figure figure_07();
+Figure figure_13();
 
 /// All of them, by number.
 std::vector<Figure> all_figures();

@@ -52,6 +52,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
   const Stackability& measured = shape.measured;
   PanelRow row;
   row.height = 0.62;
+  row.scale = PanelScale::common;
   row.panels = {
       {shape_panel(shape, options.camera), "(a) shape", {}, 1},
       {scene_panel(envelope_scene(shape.shape, shape.contacts, field), options.direction, options.camera),

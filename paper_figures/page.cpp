@@ -1,13 +1,11 @@
 #include "paper_figures/page.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <system_error>
 #include <vector>
 
 #include "paper_figures/run.h"
+#include "paper_figures/shown.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/read_file.h"
 
@@ -27,10 +25,7 @@ struct Entry {
 std::string value_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_number_float()) return value.dump();
-  std::array<char, 64> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value.get<double>() + 0.0,
-                                 std::chars_format::general, 5);
-  return {buffer.data(), end.ptr};
+  return number_text(value.get<double>());
 }
 
 Json read_json(const std::filesystem::path& path) {
@@ -101,8 +96,8 @@ std::string numbers_table(const Json& numbers) {
 std::string section(const Entry& entry) {
   const std::string number = std::to_string(entry.figure.number);
   const bool own = entry.numbers.at("models") == "own";
-  std::string text = "## Figure " + number + "\n\n**" + entry.figure.title + "**\n\n![Figure " + number +
-                     "](" + entry.picture + ")\n\n";
+  std::string text = "## Figure " + number;
+  text += "\n\n**" + entry.figure.title + "**\n\n![Figure " + number + "](" + entry.picture + ")\n\n";
   text += "*The paper shows:* " + entry.prose.paper + "\n\n";
   text += "*Made by* `paper_figures --figure " + number + " -o out/figures" +
           (own ? "" : " --paper-data FOLDER") + "` in " + entry.seconds + " s.\n\n";
@@ -128,7 +123,7 @@ std::string figures_page(const PageOptions& options) {
       "and handles that were moved.\n\n";
   try {
     text += summary_table(entries);
-    for (const Entry& entry : entries) text += "\n" + section(entry);
+    for (const Entry& entry : entries) text.append("\n").append(section(entry));
   } catch (const Json::exception&) {
     throw InputError("the folder " + options.figures.string() +
                      " holds a damaged .numbers.json: make the figures again");

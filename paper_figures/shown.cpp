@@ -39,6 +39,13 @@ Scene stack_of(const MeasuredShape& shape, int copies, const Colour& colour) {
   return stack_scene(copies_of(shape.shape, step, copies), colour);
 }
 
+std::string number_text(double value, int digits) {
+  std::array<char, 64> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0,
+                                 std::chars_format::general, digits);
+  return {buffer.data(), end.ptr};
+}
+
 std::string ratio_text(double value) {
   return decimals(value, 3);
 }

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "rendering/picture_checks.h"
 #include "stackabilization/rendering/curve_plot.h"
@@ -107,6 +109,23 @@ TEST_CASE("a plot stays inside its picture and names its series") {
   for (const char* const words : {"f", "a reference", "position", "gap", "here", "a plot"})
     CHECK(says(drawing, words));
   CHECK(svg_text(drawing) == svg_text(curve_plot(plot, {800, 500, "a plot"})));
+}
+
+TEST_CASE("labels of a narrow plot stay apart") {
+  for (const double width : {160.0, 200.0, 300.0, 500.0}) {
+    CurvePlot plot = plot_of({{-0.41, 0}, {0.41, 1}});
+    plot.x.range = Range{-0.41, 0.41};
+    const Rectangle narrow{0, 0, width, 300};
+    const PlotArea area(plot, narrow, text_size);
+    std::vector<std::pair<double, double>> labels;  // left and right ends
+    for (const DrawingElement& element : plot_elements(plot, narrow, text_size))
+      if (const auto* text = std::get_if<Text>(&element);
+          text != nullptr && text->at.y() == Approx(area.rectangle().bottom() + 1.25 * text_size))
+        labels.emplace_back(text->at.x() - text_width(*text) / 2, text->at.x() + text_width(*text) / 2);
+    REQUIRE(!labels.empty());
+    std::sort(labels.begin(), labels.end());
+    for (std::size_t k = 1; k < labels.size(); ++k) CHECK(labels[k].first > labels[k - 1].second);
+  }
 }
 
 TEST_CASE("plots without data or with impossible axes are refused") {

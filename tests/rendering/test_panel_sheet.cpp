@@ -62,6 +62,21 @@ TEST_CASE("scenes of a common scale keep their proportions and stand on one grou
   CHECK(wide.right - wide.left > 1.5 * (low.right - low.left));
 }
 
+TEST_CASE("a row of scenes takes no more height than they use, with a plot in it all of it") {
+  PanelRow row;
+  row.height = 2;
+  row.panels = {{box_panel({4, 1, 1}, palette::input), "", {}, 1}};
+  const Drawing low = panel_sheet({row});
+  CHECK(low.height < low.width / 2);  // a box four times as wide as high
+  const Extent box = extent_of(rasterize(low), palette::input);
+  CHECK(box.right - box.left > 0.85 * low.width);  // and no narrower for it
+  CHECK(box.right - box.left == Approx(4.0 * (box.bottom - box.top)).epsilon(0.03));
+  CurvePlot plot;
+  plot.series = {{"", palette::upper, {{0, 1}, {1, 2}}}};
+  row.panels.push_back({plot, "", {}, 1});
+  CHECK(panel_sheet({row}).height >= 2 * low.width);
+}
+
 TEST_CASE("arrows, rings, lines and labels are where the scene has their points") {
   PanelRow row;
   ScenePanel panel =

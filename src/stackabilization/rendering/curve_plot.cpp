@@ -59,8 +59,8 @@ Range range_of(const CurvePlot& plot, int coordinate) {
   return range;
 }
 
-std::vector<double> ticks_of(const Range& range, AxisScale scale) {
-  if (scale == AxisScale::linear) return detail::ticks(range.low, range.high, tick_count);
+std::vector<double> ticks_of(const Range& range, AxisScale scale, int count = tick_count) {
+  if (scale == AxisScale::linear) return detail::ticks(range.low, range.high, count);
   std::vector<double> powers;
   const int last = static_cast<int>(std::floor(std::log10(range.high)));
   for (int e = static_cast<int>(std::ceil(std::log10(range.low))); e <= last; ++e)
@@ -91,6 +91,19 @@ double label_width(const Range& range, AxisScale scale, double text_size) {
   return width;
 }
 
+/// Ticks of the x axis, few enough that their labels stay apart.
+std::vector<double> spaced_ticks(const Range& range, AxisScale scale, double width, double text_size) {
+  constexpr double air = 0.8;  // em
+  for (int count = tick_count; count > 1; --count) {
+    const std::vector<double> values = ticks_of(range, scale, count);
+    const double room = values.size() < 2
+                            ? width
+                            : width * (fraction(values[1], range, scale) - fraction(values[0], range, scale));
+    if (label_width(range, scale, text_size) + air * text_size <= room) return values;
+  }
+  return ticks_of(range, scale, 1);
+}
+
 class Plotter {
  public:
   Plotter(const CurvePlot& plot, const Rectangle& place, double text_size)
@@ -115,7 +128,7 @@ class Plotter {
 void Plotter::add_grid() {
   const Colour faint = mix(palette::white, palette::faint, 0.25);
   const Rectangle& area = area_.rectangle();
-  for (const double value : ticks_of(area_.x(), plot_.x.scale)) {
+  for (const double value : spaced_ticks(area_.x(), plot_.x.scale, area.width, size_)) {
     const double x = area_.at({value, area_.y().low}).x();
     elements_.emplace_back(Polyline{detail::segment(x, area.y, x, area.bottom()), faint, 1});
     elements_.emplace_back(Text{
@@ -137,7 +150,7 @@ void Plotter::add_grid() {
 
 void Plotter::add_titles() {
   const Rectangle& area = area_.rectangle();
-  elements_.emplace_back(detail::fitted({{area.x + area.width / 2, area.bottom() + 2.4 * size_},
+  elements_.emplace_back(detail::fitted({{area.x + area.width / 2, area.bottom() + 2.5 * size_},
                                          plot_.x.title,
                                          size_,
                                          palette::ink,

@@ -53,6 +53,7 @@ std::string png_bytes(const Image& image) {
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(data);
   writer->WriteToMemoryOn();
+  writer->SetCompressionLevel(9);
   writer->Write();
   vtkUnsignedCharArray* encoded = writer->GetResult();
   if (encoded == nullptr || writer->GetErrorCode() != 0)

@@ -94,6 +94,17 @@ std::optional<double> common_scale(const PanelRow& row, const RowLayout& layout,
   return scale;
 }
 
+/// What the row takes of its height: scenes that are as wide as fits may be lower.
+double used_height(const PanelRow& row, const RowLayout& layout, const detail::SceneStyle& style) {
+  double used = 0;
+  for (std::size_t k = 0; k < row.panels.size(); ++k) {
+    const Rectangle& place = layout.places[k];
+    const auto* panel = std::get_if<ScenePanel>(&row.panels[k].content);
+    used = std::max(used, panel == nullptr ? place.height : detail::height_at(*panel, place, style));
+  }
+  return std::min(std::ceil(used), layout.places.front().height);
+}
+
 }  // namespace
 
 Drawing panel_sheet(const std::vector<PanelRow>& rows, const PanelSheetOptions& options) {
@@ -105,8 +116,10 @@ Drawing panel_sheet(const std::vector<PanelRow>& rows, const PanelSheetOptions& 
   Drawing drawing{options.width, 0, {}};
   drawing.add(heading.elements);
   for (const PanelRow& row : rows) {
-    const RowLayout layout = layout_of(row, top, options);
+    RowLayout layout = layout_of(row, top, options);
     const std::optional<double> scale = common_scale(row, layout, size);
+    const double height = used_height(row, layout, {size, scale});
+    for (Rectangle& place : layout.places) place.height = height;
     for (std::size_t k = 0; k < row.panels.size(); ++k) {
       const Panel& panel = row.panels[k];
       const Rectangle& place = layout.places[k];
@@ -120,7 +133,7 @@ Drawing panel_sheet(const std::vector<PanelRow>& rows, const PanelSheetOptions& 
         drawing.add(detail::map_panel(place, std::get<StackabilityMap>(panel.content).samples, size));
       drawing.add(captions_of(panel, place, size));
     }
-    top += row.height * options.width + layout.captions + 0.5 * size;
+    top += height + layout.captions + 0.5 * size;
   }
   const Rectangle foot{size, top, options.width - 2 * size, most_legend_rows * legend_row * size};
   const Elements legend = detail::legend(options.legend, foot, size);

@@ -78,15 +78,16 @@ enum class PanelScale {
 
 /// Panels beside each other.
 struct PanelRow {
-  std::vector<Panel> panels;           ///< from left to right, at least one
-  double height = 0.5;                 ///< of the pictures, fraction of the width of the sheet, in (0, 10]
+  std::vector<Panel> panels;  ///< from left to right, at least one
+  /// Of the pictures, fraction of the width of the sheet, in (0, 10]; rows of scenes only may turn out lower.
+  double height = 0.5;
   PanelScale scale = PanelScale::own;  ///< of its scenes
 };
 
 /// Size, heading and legend of a `panel_sheet`.
 struct PanelSheetOptions {
-  int width = 900;                  ///< pixels; the height follows
-  double text_size = 22;            ///< pixels per em: about 6 points where the sheet is 8.5 cm wide
+  int width = 820;                  ///< pixels; the height follows
+  double text_size = 20;            ///< pixels per em: about 6 points where the sheet is 8.5 cm wide
   std::string title;                ///< heading; may be empty
   std::vector<std::string> notes;   ///< lines under the heading
   std::vector<LegendEntry> legend;  ///< below everything

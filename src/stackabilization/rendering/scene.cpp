@@ -66,6 +66,15 @@ Eigen::Vector2d View::project(const Eigen::Vector3d& point) const {
   return {width / 2.0 + pixels_per_unit * right.dot(offset), height / 2.0 - pixels_per_unit * up.dot(offset)};
 }
 
+Range scene_extent(const Scene& scene, const Eigen::Vector3d& axis) {
+  Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for_each_point(scene, [&](const Eigen::Vector3d& p) {
+    range.low = std::min(range.low, axis.dot(p));
+    range.high = std::max(range.high, axis.dot(p));
+  });
+  return range;
+}
+
 View turned_view(const Direction& up, const ViewOptions& options) {
   const Frame frame = frame_of(up);
   const double azimuth = options.azimuth_degrees * std::numbers::pi / 180;

@@ -74,6 +74,9 @@ struct ViewOptions {
 /// empty.
 View fit_view(const Scene& scene, const Direction& up, const ViewOptions& options = {});
 
+/// Range of axis . p over all points of a scene; low > high when there is none.
+Range scene_extent(const Scene& scene, const Eigen::Vector3d& axis);
+
 /// The same eye for any content: rotation only, so that pictures side by side can share one scale.
 View turned_view(const Direction& up, const ViewOptions& options = {});
 

@@ -43,20 +43,25 @@ Rectangle inner_place(const SceneOverlay& over, const Rectangle& place, double s
   return {place.x + left, place.y, std::max(1.0, place.width - left - right), place.height};
 }
 
-/// A panel's scene with everything that has to fit, and the view of it.
+/// The scene with everything that has to be in the picture.
+Scene framed_scene(const ScenePanel& panel, const View& turned) {
+  Scene framed = panel.scene;
+  Points reach = reach_of(panel.over, {turned.right, turned.up, turned.towards});
+  if (reach.rows() > 0) framed.add(SceneLines{{std::move(reach)}});
+  return framed;
+}
+
+constexpr double margin = 0.02;  ///< of the smaller side
+
 View view_of(const ScenePanel& panel, const Rectangle& inner, std::optional<double> pixels_per_unit) {
   ViewOptions options;
   options.azimuth_degrees = panel.azimuth_degrees;
   options.elevation_degrees = panel.elevation_degrees;
   options.width = std::max(1, static_cast<int>(inner.width));
   options.height = std::max(1, static_cast<int>(inner.height));
-  options.margin = 0.02;
+  options.margin = margin;
   options.pixels_per_unit = pixels_per_unit;
-  const View turned = turned_view(panel.up, options);
-  Scene framed = panel.scene;
-  Points reach = reach_of(panel.over, {turned.right, turned.up, turned.towards});
-  if (reach.rows() > 0) framed.add(SceneLines{{std::move(reach)}});
-  return fit_view(framed, panel.up, options);
+  return fit_view(framed_scene(panel, turned_view(panel.up, options)), panel.up, options);
 }
 
 /// Draws an overlay in the picture of a view.
@@ -154,6 +159,16 @@ Elements OverlayDrawer::elements() {
 
 double scale_of(const ScenePanel& panel, const Rectangle& place, double text_size) {
   return view_of(panel, inner_place(panel.over, place, text_size), std::nullopt).pixels_per_unit;
+}
+
+double height_at(const ScenePanel& panel, const Rectangle& place, const SceneStyle& style) {
+  const double scale = style.pixels_per_unit.value_or(scale_of(panel, place, style.text_size));
+  ViewOptions options;
+  options.azimuth_degrees = panel.azimuth_degrees;
+  options.elevation_degrees = panel.elevation_degrees;
+  const View view = turned_view(panel.up, options);
+  const Range along = scene_extent(framed_scene(panel, view), view.up);
+  return scale * along.length() + 2 * margin * std::min(place.width, place.height) + 1;
 }
 
 Elements scene_elements(const ScenePanel& panel, const Rectangle& place, const SceneStyle& style) {

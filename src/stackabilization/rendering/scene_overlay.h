@@ -18,6 +18,9 @@ struct SceneStyle {
 /// UsageError when the scene is empty.
 double scale_of(const ScenePanel& panel, const Rectangle& place, double text_size);
 
+/// Height that the panel takes at `pixels_per_unit` in a place of that width, pixels.
+double height_at(const ScenePanel& panel, const Rectangle& place, const SceneStyle& style);
+
 /// The picture and over it the overlay. Throws as `render` does.
 Elements scene_elements(const ScenePanel& panel, const Rectangle& place, const SceneStyle& style);
 
