@@ -1,0 +1,92 @@
+#include <utility>
+
+#include "paper_figures/before_after.h"
+#include "paper_figures/shown.h"
+#include "stackabilization/improvement/shape_change.h"
+#include "stackabilization/shape/tolerances.h"
+
+namespace stackabilization::figures {
+namespace {
+
+/// The same object, with some primitives.
+struct Variant {
+  std::string name;
+  DesignTask task;
+};
+
+struct Options {
+  std::vector<Variant> variants;
+  Camera camera;
+  int copies = 1;
+};
+
+Options read(const Fields& fields) {
+  constexpr int most_copies = 20;
+  Options options{{}, read_camera(fields), fields.whole("copies", 1, most_copies)};
+  for (const Fields& variant : fields.objects("variants"))
+    options.variants.push_back({variant.text("name"), read_design_task(variant)});
+  return options;
+}
+
+double stackability_by(BoxModel boxes, const MeasuredShape& shape) {
+  return stackability(shape.shape, Direction(shape.measured.direction), {Semantics::solid, boxes}).value;
+}
+
+/// A design alone, then its stack.
+ScenePanel panel_of(const MeasuredShape& shape, const Options& options, const Colour& colour) {
+  const Direction up(shape.measured.direction);
+  return scene_panel(
+      side_by_side({grounded_stack(shape, 1, colour), grounded_stack(shape, options.copies, colour)}, up,
+                   options.camera),
+      up, options.camera);
+}
+
+std::vector<std::string> captions(const MeasuredShape& shape) {
+  return {"S frame " + ratio_text(stackability_by(BoxModel::frame, shape)),
+          "S oriented " + ratio_text(stackability_by(BoxModel::oriented, shape))};
+}
+
+/// How much the designs of two runs differ, fraction of the diagonal.
+double difference(const DesignRun& a, const DesignRun& b) {
+  return shape_change(a.best().design.shape, b.best().design.shape).root_mean_square;
+}
+
+FigureResult make(const Options& options, const ModelFolder& models) {
+  FigureResult result;
+  PanelRow row{{}, 0.62, PanelScale::common};
+  std::vector<DesignRun> runs;
+  bool reached = true, kept = true;
+  for (const Variant& variant : options.variants) {
+    runs.push_back(design_run(variant.task, models));
+    const DesignRun& run = runs.back();
+    const ImprovedShape shapes = improved_shape(run);
+    if (runs.size() == 1)
+      row.panels.push_back(
+          {panel_of(shapes.before, options, palette::input), "original", captions(shapes.before), 1});
+    std::vector<std::string> lines = captions(shapes.after);
+    lines.push_back("D " + ratio_text(run.best().energy.distortion.total()));
+    row.panels.push_back({panel_of(shapes.after, options, palette::output), variant.name, lines, 1});
+    for (const auto& [when, shape] : {std::pair{" before", &shapes.before}, {" after", &shapes.after}})
+      for (const auto& [model, name] :
+           {std::pair{BoxModel::frame, ": S (frame)"}, {BoxModel::oriented, ": S (oriented)"}})
+        result.numbers.push_back({variant.name + name + when, stackability_by(model, *shape)});
+    result.numbers.push_back({variant.name + ": D", run.best().energy.distortion.total()});
+    reached = reached && run.reached();
+    kept = kept && keeps_height(shapes);
+  }
+  const double apart = difference(runs.front(), runs.back());
+  result.numbers.push_back({"difference of the solutions, RMS over the diagonal", apart});
+  result.drawing = panel_sheet({row});
+  result.claims = {{"both kinds of primitives reach the same stackability", reached},
+                   {"both keep the height of the table", kept},
+                   {"the two solutions differ", apart > tolerance::relative}};
+  return result;
+}
+
+}  // namespace
+
+Figure figure_11() {
+  return figure(11, "Cuboids against generalized cylinders on one table", read, make);
+}
+
+}  // namespace stackabilization::figures
