@@ -34,6 +34,13 @@ Scene moved(Scene scene, const Eigen::Vector3d& by) {
 
 }  // namespace
 
+double read_row_height(const Fields& fields) {
+  constexpr double highest = 10;
+  const double height = fields.number("height");
+  if (!(height > 0 && height <= highest)) fields.refuse("height", "a number above 0 and up to 10");
+  return height;
+}
+
 Scene side_by_side(const std::vector<Scene>& scenes, const Direction& up, const Camera& camera) {
   ViewOptions eye;
   eye.azimuth_degrees = camera.azimuth;

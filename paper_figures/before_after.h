@@ -10,6 +10,9 @@
 /// Designs before (yellow) and after (green), for figures.
 namespace stackabilization::figures {
 
+/// Entry "height": of a row of panels, fraction of the width of the sheet.
+double read_row_height(const Fields& fields);
+
 /// Scenes next to each other, from left to right as `camera` sees them, each on the ground.
 Scene side_by_side(const std::vector<Scene>& scenes, const Direction& up, const Camera& camera);
 

@@ -41,6 +41,7 @@ DesignTask read_design_task(const Fields& fields) {
   DesignTask task;
   task.model = read_model_source(fields.object("model"));
   task.removed = optional_texts(fields, "remove");
+  task.kept = optional_texts(fields, "keep");
   task.cuboids = optional_texts(fields, "cuboids");
   task.cylinders = optional_texts(fields, "cylinders");
   task.segmentation = choice<SegmentationMethod>(fields, "segmentation",
@@ -93,7 +94,9 @@ DesignRun design_run(const DesignTask& task, const ModelFolder& models) {
 DesignRun design_run(StructuredShape rest, const DesignTask& task) {
   DesignRun run;
   run.space = design_space(std::move(rest), task.space);
-  run.checker = std::make_unique<RequirementChecker>(*run.space, task.requirements);
+  Requirements requirements = task.requirements;
+  requirements.kept_parts = parts_named(run.rest().shape, task.kept);
+  run.checker = std::make_unique<RequirementChecker>(*run.space, requirements);
   run.result = improve(*run.checker, task.options);
   return run;
 }

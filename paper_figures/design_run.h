@@ -17,6 +17,7 @@ namespace stackabilization::figures {
 struct DesignTask {
   ModelSource model;
   std::vector<std::string> removed;    ///< names of parts that are left out first
+  std::vector<std::string> kept;       ///< names of parts that stay as they are
   std::vector<std::string> cuboids;    ///< names of parts that become cuboids; others: the better fit
   std::vector<std::string> cylinders;  ///< names of parts that become generalized cylinders
   SegmentationMethod segmentation = SegmentationMethod::automatic;
@@ -27,7 +28,8 @@ struct DesignTask {
 
 /// {"model": {...}, "direction": [0, 0, 1], "target": 0.5, "expansions": 2} and, where they are not the
 /// defaults, "boxes" (oriented or frame), "deformation" (controllers, surface or iwires), "preset" (refined
-/// or paper), "segmentation" (whole or components), and lists of parts "remove", "cuboids" and "cylinders".
+/// or paper), "segmentation" (whole or components), and lists of parts "remove", "keep", "cuboids" and
+/// "cylinders".
 DesignTask read_design_task(const Fields& fields);
 
 /// What became of a task.

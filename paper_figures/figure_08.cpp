@@ -13,6 +13,7 @@ struct Object {
   std::string name;
   DesignTask task;
   Camera camera;
+  double height = 1;  ///< of its row, fraction of the width of the sheet
 };
 
 struct Options {
@@ -25,7 +26,8 @@ Options read(const Fields& fields) {
   Options options;
   options.states = fields.whole("states", 2, most_states);
   for (const Fields& object : fields.objects("objects"))
-    options.objects.push_back({object.text("name"), read_design_task(object), read_camera(object)});
+    options.objects.push_back(
+        {object.text("name"), read_design_task(object), read_camera(object), read_row_height(object)});
   return options;
 }
 
@@ -102,7 +104,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
     const DesignRun run = design_run(object.task, models);
     const std::vector<State> states = path(run, options.states);
     const std::size_t edits = run.best().design.edits.size();
-    rows.push_back({{}, 1.05 / options.states, PanelScale::common});
+    rows.push_back({{}, object.height, PanelScale::common});
     for (const State& state : states) {
       const std::string how = caption(state, edits);
       const double s = state.measured.measured.value;

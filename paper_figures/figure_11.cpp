@@ -32,13 +32,9 @@ double stackability_by(BoxModel boxes, const MeasuredShape& shape) {
   return stackability(shape.shape, Direction(shape.measured.direction), {Semantics::solid, boxes}).value;
 }
 
-/// A design alone, then its stack.
-ScenePanel panel_of(const MeasuredShape& shape, const Options& options, const Colour& colour) {
+ScenePanel stack_panel(const MeasuredShape& shape, int copies, const Colour& colour, const Camera& camera) {
   const Direction up(shape.measured.direction);
-  return scene_panel(
-      side_by_side({grounded_stack(shape, 1, colour), grounded_stack(shape, options.copies, colour)}, up,
-                   options.camera),
-      up, options.camera);
+  return scene_panel(grounded_stack(shape, copies, colour), up, camera);
 }
 
 std::vector<std::string> captions(const MeasuredShape& shape) {
@@ -53,19 +49,22 @@ double difference(const DesignRun& a, const DesignRun& b) {
 
 FigureResult make(const Options& options, const ModelFolder& models) {
   FigureResult result;
-  PanelRow row{{}, 0.62, PanelScale::common};
+  PanelRow alone{{}, 0.24, PanelScale::common}, stacks{{}, 0.36, PanelScale::common};
+  const auto show = [&](const std::string& name, const MeasuredShape& shape, const Colour& colour,
+                        const std::vector<std::string>& lines) {
+    alone.panels.push_back({stack_panel(shape, 1, colour, options.camera), name, {}, 1});
+    stacks.panels.push_back({stack_panel(shape, options.copies, colour, options.camera), "", lines, 1});
+  };
   std::vector<DesignRun> runs;
   bool reached = true, kept = true;
   for (const Variant& variant : options.variants) {
     runs.push_back(design_run(variant.task, models));
     const DesignRun& run = runs.back();
     const ImprovedShape shapes = improved_shape(run);
-    if (runs.size() == 1)
-      row.panels.push_back(
-          {panel_of(shapes.before, options, palette::input), "original", captions(shapes.before), 1});
+    if (runs.size() == 1) show("original", shapes.before, palette::input, captions(shapes.before));
     std::vector<std::string> lines = captions(shapes.after);
     lines.push_back("D " + ratio_text(run.best().energy.distortion.total()));
-    row.panels.push_back({panel_of(shapes.after, options, palette::output), variant.name, lines, 1});
+    show(variant.name, shapes.after, palette::output, lines);
     for (const auto& [when, shape] : {std::pair{" before", &shapes.before}, {" after", &shapes.after}})
       for (const auto& [model, name] :
            {std::pair{BoxModel::frame, ": S (frame)"}, {BoxModel::oriented, ": S (oriented)"}})
@@ -76,7 +75,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
   }
   const double apart = difference(runs.front(), runs.back());
   result.numbers.push_back({"difference of the solutions, RMS over the diagonal", apart});
-  result.drawing = panel_sheet({row});
+  result.drawing = panel_sheet({alone, stacks});
   result.claims = {{"both kinds of primitives reach the same stackability", reached},
                    {"both keep the height of the table", kept},
                    {"the two solutions differ", apart > tolerance::relative}};

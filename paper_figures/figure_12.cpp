@@ -1,10 +1,9 @@
-#include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "paper_figures/before_after.h"
 #include "paper_figures/shown.h"
 #include "stackabilization/improvement/removal.h"
-#include "stackabilization/rendering/stacking_scene.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/stacking/search.h"
 
@@ -37,17 +36,6 @@ Scene blocked_scene(const MeasuredShape& shape, const Blocker& blocker) {
   return scene;
 }
 
-/// Only the two parts, one of each copy, with the region where they touch.
-Scene pair_scene(const MeasuredShape& shape, const Blocker& blocker) {
-  const Direction direction(shape.measured.direction);
-  const Eigen::Vector3d lift = shape.measured.f_max * direction.unit();
-  const Shape above = extract_part(shape.shape, blocker.lower_part);
-  Scene scene = touching_scene({extract_part(shape.shape, blocker.upper_part), {palette::input}},
-                               shape.contacts, direction);
-  scene.add({transformed(above, Eigen::Matrix3d::Identity(), lift), {palette::lower}, 0.6});
-  return scene;
-}
-
 /// Where the two copies touch, drawn over everything.
 SceneOverlay contact_rings(const MeasuredShape& shape) {
   constexpr double of_extent = 0.09;
@@ -65,13 +53,14 @@ std::string sentence_about_the_first_blocker(const Diagnosis& diagnosis, const S
   return line;
 }
 
-const Remedy& removal_of(const Diagnosis& diagnosis) {
-  const auto found =
-      std::find_if(diagnosis.remedies.begin(), diagnosis.remedies.end(),
-                   [](const Remedy& remedy) { return remedy.kind == Remedy::Kind::remove_part; });
-  if (found == diagnosis.remedies.end())
-    throw InputError("the diagnosis names no part whose removal would help");
-  return *found;
+/// The class of symmetric parts without which the object at rest stacks best.
+Removal best_removal(const DesignRun& run) {
+  RemovalOptions options;
+  options.measure = run.checker->requirements().measure;
+  options.directions = {run.best().direction};
+  const std::vector<Removal> all = removals(run.rest(), options);
+  if (all.empty()) throw InputError("the model has no part that could be left out");
+  return all.front();
 }
 
 /// Along its best direction.
@@ -82,85 +71,92 @@ MeasuredShape best_stacked(const Shape& shape, const StackabilityOptions& measur
 
 /// What the figure is about.
 struct Story {
-  MeasuredShape lying;  ///< along the best direction
-  DesignRun refused;    ///< by the search of the paper
-  DesignRun further;    ///< what further edits make of it
+  MeasuredShape lying;    ///< along the best direction
+  DesignRun run;          ///< that did not reach its target
+  ImprovedShape upright;  ///< at rest, and what came nearest
+  Removal removal;
+  MeasuredShape rest;  ///< what stays of the object at rest
+
+  const Diagnosis& diagnosis() const { return *run.result.diagnosis; }
 };
 
-DesignTask beyond_the_paper(DesignTask task) {
-  task.options.preset = ImprovementPreset::refined;
-  task.options.search.expansions = 1;
-  return task;
+Story story_of(const Options& options, const ModelFolder& models) {
+  DesignRun run = design_run(options.task, models);
+  if (!run.result.diagnosis || run.result.diagnosis->blockers.empty())
+    throw InputError("the target " + ratio_text(options.task.requirements.target) +
+                     " was reached: nothing to explain");
+  const StackabilityOptions measure = run.checker->requirements().measure;
+  Removal removal = best_removal(run);
+  MeasuredShape rest =
+      measured_shape(without_parts(run.rest(), removal.parts).shape, Direction(removal.direction), measure);
+  MeasuredShape lying = best_stacked(run.rest().shape, measure);
+  ImprovedShape upright = improved_shape(run);
+  return {std::move(lying), std::move(run), std::move(upright), std::move(removal), std::move(rest)};
 }
 
-std::vector<Panel> panels(const Options& options, const Story& story, const Remedy& remedy) {
-  const DesignRun& run = story.refused;
-  const MeasuredShape& lying = story.lying;
-  const ImprovedShape shapes = improved_shape(run);
-  const Direction up(shapes.after.measured.direction);
-  const MeasuredShape rest =
-      measured_shape(without_parts(run.rest(), remedy.parts).shape, up, run.checker->requirements().measure);
-  ScenePanel blocked =
-      scene_panel(blocked_scene(shapes.after, run.result.diagnosis->blockers.front()), up, options.camera);
-  blocked.over = contact_rings(shapes.after);
-  const auto stack = [&](const MeasuredShape& shape, const Colour& colour) {
-    return scene_panel(grounded_stack(shape, options.copies, colour), Direction(shape.measured.direction),
-                       options.camera);
+std::string without_text(const Removal& removal, const Shape& shape) {
+  std::string text = "without ";
+  for (const int part : removal.parts)
+    text += (part == removal.parts.front() ? "" : ", ") + shape.part_names[static_cast<std::size_t>(part)];
+  return text;
+}
+
+PanelRow stacks(const Options& options, const Story& story) {
+  PanelRow row{{}, 0.5};
+  const auto add = [&](const std::string& title, const MeasuredShape& shape, const Colour& colour) {
+    row.panels.push_back({scene_panel(grounded_stack(shape, options.copies, colour),
+                                      Direction(shape.measured.direction), options.camera),
+                          title,
+                          {"S " + ratio_text(shape.measured.value)},
+                          1});
   };
-  const auto s_of = [](const MeasuredShape& shape) {
-    return std::vector<std::string>{"S " + ratio_text(shape.measured.value)};
-  };
-  const MeasuredShape further = improved_shape(story.further).after;
-  return {{stack(lying, palette::input), "best direction", s_of(lying), 1},
-          {std::move(blocked), "upright: refused", s_of(shapes.after), 1},
-          {stack(rest, palette::output), remedy.what, s_of(rest), 1},
-          {stack(further, palette::output), "further edits", s_of(further), 1}};
+  add("best direction", story.lying, palette::input);
+  add("upright", story.upright.before, palette::input);
+  add("nearest", story.upright.after, palette::output);
+  add(without_text(story.removal, story.run.rest().shape), story.rest, palette::output);
+  return row;
+}
+
+/// The nearest design stacked on itself, what blocks it in colour.
+PanelRow blocked(const Options& options, const Story& story, const std::string& why) {
+  const MeasuredShape& shape = story.upright.after;
+  const Direction up(shape.measured.direction);
+  const Blocker& blocker = story.diagnosis().blockers.front();
+  ScenePanel both = scene_panel(blocked_scene(shape, blocker), up, options.camera);
+  both.over = contact_rings(shape);
+  return {{{std::move(both), "", {why}, 1}}, 0.5};
 }
 
 FigureResult make(const Options& options, const ModelFolder& models) {
-  const DesignTask& task = options.task;
-  const StructuredShape rest = structured_shape(task, models);
-  const Story story{best_stacked(rest.shape, task.requirements.measure), design_run(rest, task),
-                    design_run(rest, beyond_the_paper(task))};
-  const DesignRun& run = story.refused;
-  if (!run.result.diagnosis || run.result.diagnosis->blockers.empty())
-    throw InputError("the target " + ratio_text(task.requirements.target) +
-                     " was reached: nothing to explain");
-  const Diagnosis& diagnosis = *run.result.diagnosis;
-  const Remedy& remedy = removal_of(diagnosis);
-  const std::string why = sentence_about_the_first_blocker(diagnosis, rest);
-  const MeasuredShape after = improved_shape(run).after;
-  const Panel pair{scene_panel(pair_scene(after, diagnosis.blockers.front()),
-                               Direction(after.measured.direction), options.camera),
-                   "",
-                   {why},
-                   1};
+  const Story story = story_of(options, models);
+  const DesignRun& run = story.run;
+  const std::string why = sentence_about_the_first_blocker(story.diagnosis(), run.rest());
   PanelSheetOptions sheet;
   sheet.legend = {{LegendMark::swatch, palette::lower, "parts that block each other"},
-                  {LegendMark::ring, palette::contact, "where they touch"}};
+                  {LegendMark::ring, palette::contact, "where copies touch"}};
   FigureResult result;
-  result.drawing = panel_sheet({{panels(options, story, remedy), 0.55}, {{pair}, 0.3}}, sheet);
-  result.numbers = {{"S asked for", task.requirements.target},
-                    {"S along the best direction", story.lying.measured.value},
+  result.drawing = panel_sheet({stacks(options, story), blocked(options, story, why)}, sheet);
+  const double target = options.task.requirements.target, reached = story.diagnosis().reached;
+  result.numbers = {{"S along the best direction", story.lying.measured.value},
                     {"S upright", run.result.before.measured.value},
-                    {"S reached by the search of the paper", diagnosis.reached},
+                    {"S asked for", target},
+                    {"S reached", reached},
+                    {"D of what came nearest", run.best().energy.distortion.total()},
                     {"why not more", why},
-                    {"remedy", remedy.what},
-                    {"S with the remedy", remedy.stackability},
-                    {"S reached by further edits", story.further.best().measured.value},
-                    {"D of these", story.further.best().energy.distortion.total()}};
+                    {"remedy", without_text(story.removal, run.rest().shape)},
+                    {"S with the remedy, nothing else changed", story.removal.stackability}};
   result.claims = {
-      {"the search of the paper does not reach the target, and the pair of parts that blocks it is named",
-       !run.reached()},
-      {"leaving parts out would help", remedy.stackability > diagnosis.reached},
-      {"edits beyond the paper's reach the target", story.further.reached()}};
+      {"another direction stacks better than upright",
+       story.lying.measured.value > run.result.before.measured.value},
+      {"the target is refused, and the pair of parts that blocks it is named", !run.reached()},
+      {"leaving a part out helps", story.removal.stackability > run.result.before.measured.value}};
   return result;
 }
 
 }  // namespace
 
 Figure figure_12() {
-  return figure(12, "A swivel chair that the search of the paper cannot make stack, and why", read, make);
+  return figure(12, "A swivel chair that is refused its target, and why", read, make);
 }
 
 }  // namespace stackabilization::figures

@@ -27,8 +27,7 @@ Options read(const Fields& fields) {
   constexpr int most_columns = 8, most_copies = 20;
   options.columns = static_cast<std::size_t>(fields.whole("columns", 1, most_columns));
   options.copies = fields.whole("copies", 1, most_copies);
-  options.height = fields.number("height");
-  if (!(options.height > 0 && options.height <= 10)) fields.refuse("height", "a number above 0 and up to 10");
+  options.height = read_row_height(fields);
   for (const Fields& object : fields.objects("objects"))
     options.objects.push_back({object.text("name"), read_design_task(object), read_camera(object)});
   return options;
