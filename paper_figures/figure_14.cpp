@@ -40,7 +40,7 @@ double together(const std::vector<Stackability>& pieces, double box_volume) {
 FigureResult make(const Options& options, const ModelFolder& models) {
   const MeasuredShape whole = measured_shape(models.read(options.whole), options.direction);
   FigureResult result;
-  PanelRow row{{}, 0.6};
+  PanelRow row{{}, 0.6, PanelScale::common};
   row.panels.push_back(
       {scene_panel(grounded_stack(whole, options.copies, palette::input), options.direction, options.camera),
        "whole",
@@ -67,6 +67,8 @@ FigureResult make(const Options& options, const ModelFolder& models) {
   result.numbers.push_back({"all pieces, improved: S", improved});
   PanelSheetOptions sheet;
   sheet.legend = before_after_entries();
+  sheet.notes = {"All pieces together: S " + ratio_text(cut) + " as they are cut, " + ratio_text(improved) +
+                 " improved"};
   result.drawing = panel_sheet({row}, sheet);
   result.claims = {{"the pieces hold every part of the object once", parts == whole.shape.part_names.size()},
                    {"every piece reaches the stackability asked for", reached},

@@ -16,10 +16,13 @@ Options read(const Fields& fields) {
           fields.whole("copies", 1, most_copies)};
 }
 
+/// Alone, and a stack that can be seen through.
 Panel panel_of(const MeasuredShape& shape, const Options& options, const Colour& colour) {
+  constexpr double see_through = 0.45;
   const Direction up(shape.measured.direction);
-  const Scene scene = side_by_side(
-      {grounded_stack(shape, 1, colour), grounded_stack(shape, options.copies, colour)}, up, options.camera);
+  Scene stack = grounded_stack(shape, options.copies, colour);
+  for (SceneMesh& mesh : stack.meshes) mesh.opacity = see_through;
+  const Scene scene = side_by_side({grounded_stack(shape, 1, colour), stack}, up, options.camera);
   return {scene_panel(scene, up, options.camera), "S " + ratio_text(shape.measured.value), {}, 1};
 }
 

