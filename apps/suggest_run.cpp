@@ -1,7 +1,5 @@
 #include "apps/suggest_run.h"
 
-#include <algorithm>
-
 #include "apps/text.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/structure/project_file.h"

@@ -64,8 +64,16 @@ Figure figure_02();
 Figure figure_03();
 Figure figure_04();
 Figure figure_05();
+Figure figure_06();
 Figure figure_07();
+Figure figure_08();
+Figure figure_09();
+Figure figure_10();
+Figure figure_11();
+Figure figure_12();
 Figure figure_13();
+Figure figure_14();
+Figure figure_15();
 
 /// All of them, by number.
 std::vector<Figure> all_figures();

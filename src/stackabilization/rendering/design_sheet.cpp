@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "stackabilization/rendering/handle_lines.h"
 #include "stackabilization/rendering/handle_marks.h"
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/rendering/plot_parts.h"
@@ -24,7 +25,7 @@ Scene tile_scene(const DesignTile& tile, const Colour& colour, const Direction& 
 std::vector<Points> lines_of(const DesignTile& tile) {
   std::vector<Points> lines;
   for (const Handle& handle : tile.handles)
-    for (Points& line : detail::handle_lines(handle, tile.shape, tile.primitives))
+    for (Points& line : handle_lines(handle, tile.shape, tile.primitives))
       lines.push_back(std::move(line));
   return lines;
 }

@@ -1,0 +1,116 @@
+#include "paper_figures/design_run.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "paper_figures/shown.h"
+#include "stackabilization/improvement/removal.h"
+#include "stackabilization/shape/errors.h"
+
+namespace stackabilization::figures {
+namespace {
+
+constexpr int most_expansions = 10000;
+/// Beyond any search: what ends one is its number of expansions.
+constexpr double no_limit = 1e9;
+
+std::vector<std::string> optional_texts(const Fields& fields, const std::string& key) {
+  return fields.has(key) ? fields.texts(key) : std::vector<std::string>{};
+}
+
+/// The value of the word at `key`, the first one where there is none.
+template <class Value>
+Value choice(const Fields& fields, const std::string& key,
+             const std::vector<std::pair<std::string, Value>>& values) {
+  if (!fields.has(key)) return values.front().second;
+  std::string words;
+  for (const auto& [word, value] : values) {
+    if (fields.text(key) == word) return value;
+    words += (words.empty() ? "" : " or ") + word;
+  }
+  fields.refuse(key, words);
+}
+
+void force(AnalysisOptions& analysis, const std::vector<std::string>& parts, PrimitiveKind kind) {
+  for (const std::string& part : parts) analysis.kinds[part] = kind;
+}
+
+}  // namespace
+
+DesignTask read_design_task(const Fields& fields) {
+  DesignTask task;
+  task.model = read_model_source(fields.object("model"));
+  task.removed = optional_texts(fields, "remove");
+  task.kept = optional_texts(fields, "keep");
+  task.cuboids = optional_texts(fields, "cuboids");
+  task.cylinders = optional_texts(fields, "cylinders");
+  task.segmentation = choice<SegmentationMethod>(fields, "segmentation",
+                                                 {{"automatic", SegmentationMethod::automatic},
+                                                  {"whole", SegmentationMethod::whole},
+                                                  {"components", SegmentationMethod::components}});
+  task.space.kind = choice<DeformationKind>(fields, "deformation",
+                                            {{"controllers", DeformationKind::controllers},
+                                             {"surface", DeformationKind::surface},
+                                             {"iwires", DeformationKind::iwires}});
+  const Eigen::Vector3d direction = fields.vector("direction");
+  task.space.direction = Direction(direction);
+  task.requirements.measure.boxes =
+      choice<BoxModel>(fields, "boxes", {{"oriented", BoxModel::oriented}, {"frame", BoxModel::frame}});
+  task.requirements.target = fields.number("target");
+  if (task.requirements.target >= 1) fields.refuse("target", "a stackability below 1");
+  task.options.preset = choice<ImprovementPreset>(
+      fields, "preset", {{"refined", ImprovementPreset::refined}, {"paper", ImprovementPreset::paper}});
+  task.options.search.expansions = fields.whole("expansions", 1, most_expansions);
+  task.options.search.seconds = no_limit;
+  task.options.search.cone_degrees = 0;
+  task.options.search.directions = {direction};
+  return task;
+}
+
+std::vector<int> parts_named(const Shape& shape, const std::vector<std::string>& names) {
+  std::vector<int> parts;
+  for (const std::string& name : names) {
+    const auto found = std::find(shape.part_names.begin(), shape.part_names.end(), name);
+    if (found == shape.part_names.end()) throw InputError("the model has no part '" + name + "'");
+    parts.push_back(static_cast<int>(found - shape.part_names.begin()));
+  }
+  return parts;
+}
+
+StructuredShape structured_shape(const DesignTask& task, const ModelFolder& models) {
+  AnalysisOptions analysis;
+  analysis.segmentation.method = task.segmentation;
+  force(analysis, task.cuboids, PrimitiveKind::cuboid);
+  force(analysis, task.cylinders, PrimitiveKind::cylinder);
+  StructuredShape structured = analyse_structure(models.read(task.model), analysis);
+  if (task.removed.empty()) return structured;
+  return without_parts(structured, parts_named(structured.shape, task.removed));
+}
+
+DesignRun design_run(const DesignTask& task, const ModelFolder& models) {
+  return design_run(structured_shape(task, models), task);
+}
+
+DesignRun design_run(StructuredShape rest, const DesignTask& task) {
+  DesignRun run;
+  run.space = design_space(std::move(rest), task.space);
+  Requirements requirements = task.requirements;
+  requirements.kept_parts = parts_named(run.rest().shape, task.kept);
+  run.checker = std::make_unique<RequirementChecker>(*run.space, requirements);
+  run.result = improve(*run.checker, task.options);
+  return run;
+}
+
+const Candidate& DesignRun::best() const {
+  if (reached()) return result.solutions.front();
+  return result.nearest ? *result.nearest : result.before;
+}
+
+ImprovedShape improved_shape(const DesignRun& run) {
+  const Direction direction(run.best().direction);
+  const StackabilityOptions& measure = run.checker->requirements().measure;
+  return {measured_shape(run.rest().shape, direction, measure),
+          measured_shape(run.best().design.shape, direction, measure)};
+}
+
+}  // namespace stackabilization::figures
