@@ -1,7 +1,7 @@
 // Question: by how much does continuous refinement beat the paper's search, on distortion at equal S?
 //
 //     refined_against_paper [--boxes oriented|frame] [--seconds T] [--expansions N] [--threads N]
-//                           [-o FILE.csv] MODEL[=S[,S...]]...
+//                           [-o FOLDER] MODEL[=S[,S...]]...
 //
 // MODEL is a mesh, whose structure is found first, or a project file; S are its targets along z, with the
 // height kept. Without one, the target lies half of the way from S at rest to the largest S that the paper's
@@ -10,25 +10,19 @@
 // paper's preset does not reach a target, both rows are for that target. Every row is the best solution of
 // its run, or what came nearest to one.
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-
-#include <CLI/CLI.hpp>
 #include <charconv>
-#include <cstdio>
-#include <iostream>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "common/provenance.h"
+#include "common/clock.h"
+#include "common/experiment.h"
 #include "stackabilization/improvement/improve.h"
 #include "stackabilization/improvement/shape_change.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/read.h"
 #include "stackabilization/shape/tolerances.h"
-#include "stackabilization/shape/write_file.h"
 #include "stackabilization/structure/analysis.h"
 #include "stackabilization/structure/project_file.h"
 
@@ -99,18 +93,41 @@ Run run(const DesignSpace& space, ImprovementPreset preset, double target, const
   return result;
 }
 
-std::string row(const DesignSpace& space, const Run& run) {
-  const Candidate& best = run.best();
-  const Distortion& d = best.energy.distortion;
-  const double change = shape_change(space.rest().shape, best.design.shape).root_mean_square;
-  char text[512];
-  std::snprintf(
-      text, sizeof text, "%.17g,%s,%d,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%.17g,%zu,%lld,%.3f\n",
-      run.target, run.preset == ImprovementPreset::paper ? "paper" : "refined", run.reached(),
-      best.measured.value, d.total(), d.volume, d.proximity, d.box, d.symmetry, best.energy.value, change,
-      best.design.edits.size(), static_cast<long long>(run.improvement.progress.evaluated), run.seconds);
-  return text;
+Table& table_of(Report& report) {
+  std::vector<Column> all = columns({"model", "input_hash", "target", "preset"}, ColumnKind::key);
+  for (const Column& column : columns({"reached", "S", "D", "D_vol", "D_prox", "D_BB", "D_symm", "E",
+                                       "change_rms", "edits", "evaluated"}))
+    all.push_back(column);
+  all.push_back({"seconds", ColumnKind::clock});
+  return report.table("", all);
 }
+
+/// Runs of one model, each a row.
+class Rows {
+ public:
+  Rows(const std::string& model, Table& table)
+      : space_(design_space(structured(model))),
+        name_(model.substr(model.rfind('/') + 1)),
+        hash_(file_hash(model)),
+        table_(table) {}
+
+  const DesignSpace& space() const { return *space_; }
+
+  void add(const Run& run) {
+    const Candidate& best = run.best();
+    const Distortion& d = best.energy.distortion;
+    const double change = shape_change(space_->rest().shape, best.design.shape).root_mean_square;
+    table_.add({name_, hash_, run.target, run.preset == ImprovementPreset::paper ? "paper" : "refined",
+                run.reached(), best.measured.value, d.total(), d.volume, d.proximity, d.box, d.symmetry,
+                best.energy.value, change, static_cast<std::int64_t>(best.design.edits.size()),
+                std::int64_t{run.improvement.progress.evaluated}, run.seconds});
+  }
+
+ private:
+  std::unique_ptr<DesignSpace> space_;
+  std::string name_, hash_;
+  Table& table_;
+};
 
 /// Half of the way to the best that the paper's preset meets.
 double target_in_reach(const DesignSpace& space, const Settings& settings) {
@@ -119,58 +136,43 @@ double target_in_reach(const DesignSpace& space, const Settings& settings) {
   return (paper.improvement.before.measured.value + paper.best().measured.value) / 2;
 }
 
-std::string rows(const Task& task, const Settings& settings) {
-  const std::unique_ptr<DesignSpace> space = design_space(structured(task.model));
-  const std::string place = task.model.substr(task.model.rfind('/') + 1) + "," + file_hash(task.model) + ",";
+void compare(const Task& task, const Settings& settings, Table& table) {
+  Rows rows(task.model, table);
   std::vector<double> targets = task.targets;
-  if (targets.empty()) targets = {target_in_reach(*space, settings)};
-  std::string text;
+  if (targets.empty()) targets = {target_in_reach(rows.space(), settings)};
   for (const double target : targets) {
-    const Run paper = run(*space, ImprovementPreset::paper, target, settings);
+    const Run paper = run(rows.space(), ImprovementPreset::paper, target, settings);
     // What one measurement says is S another may miss by a rounding.
     const double reached = paper.best().measured.value - tolerance::stackability;
-    text += place + row(*space, paper);
-    text += place + row(*space, run(*space, ImprovementPreset::refined, paper.reached() ? reached : target,
-                                    settings));
+    rows.add(paper);
+    rows.add(run(rows.space(), ImprovementPreset::refined, paper.reached() ? reached : target, settings));
   }
-  return text;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"By how much does continuous refinement beat the paper's search, on distortion at equal S?"};
-  int threads = tbb::info::default_concurrency();
+  Experiment experiment(
+      "refined_against_paper",
+      "By how much does continuous refinement beat the paper's search, on distortion at equal S?",
+      Inputs::none);
   Settings settings;
-  std::string output = "-";
   std::vector<std::string> texts;
+  CLI::App& app = experiment.app();
   app.add_option("--boxes", settings.boxes, "how boxes are measured: oriented or frame")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, BoxModel>{{"oriented", BoxModel::oriented}, {"frame", BoxModel::frame}}));
   app.add_option("--seconds", settings.seconds, "limit of each search")->check(CLI::PositiveNumber);
   app.add_option("--expansions", settings.expansions, "limit of each search")->check(CLI::PositiveNumber);
-  app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 1024));
-  app.add_option("-o", output, "CSV file; - is standard output");
   app.add_option("tasks", texts, "MODEL[=S[,S...]]: meshes or project files with their targets")->required();
-  CLI11_PARSE(app, argc, argv);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
-  try {
+  return experiment.run(argc, argv, [&](Report& report) {
     std::vector<Task> tasks;
     for (const std::string& text : texts) tasks.push_back(task_of(text));
-    std::string csv =
-        provenance_lines(
-            {"refined_against_paper", std::vector<std::string>(argv + 1, argv + argc), threads}) +
-        "model,input_hash,target,preset,reached,S,D,D_vol,D_prox,D_BB,D_symm,E,change_rms,edits,evaluated,"
-        "seconds\n";
-    for (const Task& task : tasks) csv += rows(task, settings);
-    write_file_atomically(output, csv);
-    return 0;
-  } catch (const InputError& error) {
-    std::cerr << "refined_against_paper: " << error.what() << "\n";
-    return 3;
-  } catch (const Error& error) {
-    std::cerr << "refined_against_paper: " << error.what() << "\n";
-    return 2;
-  }
+    Table& table = table_of(report);
+    for (const Task& task : tasks) try {
+        compare(task, settings, table);
+      } catch (const InputError& error) {
+        report.failed(error.what());
+      }
+  });
 }

@@ -1,7 +1,7 @@
 // Question: does the analysis of a shape find the relations that people, or other programs, have listed for
 // it?
 //
-//     relations_against_lists [--paper-data FOLDER] [--ikea FOLDER] [--threads N] [-o FILE.csv]
+//     relations_against_lists [--paper-data FOLDER] [--ikea FOLDER] [--threads N] [-o FOLDER]
 //
 // --paper-data: every `.grp` file of the authors' data is compared with what analyse_structure finds on the
 // OBJ file of the same name beside it (dashes and underscores being one). --ikea: every JSON file with a list
@@ -11,12 +11,7 @@
 // missing and what is not listed. A self-symmetry counts once per part, joints as often as a pair of parts
 // has them. The last rows are the sums. Exit status 3 when a folder holds nothing to compare.
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -25,11 +20,10 @@
 #include <string>
 #include <vector>
 
-#include "common/provenance.h"
+#include "common/experiment.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/labels.h"
 #include "stackabilization/shape/read.h"
-#include "stackabilization/shape/write_file.h"
 #include "stackabilization/structure/analysis.h"
 #include "stackabilization/structure/authors_files.h"
 
@@ -93,10 +87,11 @@ double share(int part, int whole) {
 }
 
 /// Rows of the table and their sums.
-class Table {
+class Comparison {
  public:
+  explicit Comparison(Table& table) : table_(table) {}
+
   void add(const fs::path& model, const std::string& list, const Relations& listed, const Relations& found) {
-    const std::string place = model.filename().string() + "," + file_hash(model) + "," + list + ",";
     std::map<std::string, int> kinds;
     for (const auto& [kind, relations] : listed) kinds[kind];
     for (const auto& [kind, relations] : found) kinds[kind];
@@ -106,42 +101,26 @@ class Table {
         return entry == relations.end() ? std::map<std::string, int>() : entry->second;
       };
       const Counts counts = compare(of_kind(listed), of_kind(found));
-      rows_ += place + kind + row(counts);
+      add_row(model.filename().string(), file_hash(model), list, kind, counts);
       sums_[kind] += counts;
     }
   }
 
-  bool empty() const { return rows_.empty(); }
-
-  std::string text() const {
-    std::string all =
-        "model,input_hash,list,kind,listed,found,both,recall,precision,missing,not_listed\n" + rows_;
-    for (const auto& [kind, counts] : sums_) all += "all,,," + kind + row(counts);
-    return all;
+  void add_sums() {
+    for (const auto& [kind, counts] : sums_) add_row("all", "", "", kind, counts);
   }
 
  private:
-  static std::string row(const Counts& counts) {
-    char numbers[96];
-    std::snprintf(numbers, sizeof numbers, ",%d,%d,%d,%.4f,%.4f,", counts.listed, counts.found, counts.both,
-                  share(counts.both, counts.listed), share(counts.both, counts.found));
-    return numbers + counts.missing + "," + counts.unlisted + "\n";
+  void add_row(const std::string& model, const std::string& hash, const std::string& list,
+               const std::string& kind, const Counts& counts) {
+    table_.add({model, hash, list, kind, std::int64_t{counts.listed}, std::int64_t{counts.found},
+                std::int64_t{counts.both}, share(counts.both, counts.listed),
+                share(counts.both, counts.found), counts.missing, counts.unlisted});
   }
 
-  std::string rows_;
+  Table& table_;
   std::map<std::string, Counts> sums_;
 };
-
-/// Files below a folder with one extension, sorted by path.
-std::vector<fs::path> files_below(const fs::path& folder, const std::string& extension) {
-  std::error_code error;
-  std::vector<fs::path> files;
-  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-    if (it->path().extension() == extension) files.push_back(it->path());
-  if (error) throw InputError(folder.string() + ": " + error.message());
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 /// The file of the same name with another extension, dashes and underscores being one; empty when there is
 /// none.
@@ -167,7 +146,7 @@ Shape labelled(const fs::path& model, const fs::path& labels) {
   }
 }
 
-void compare_groups(const fs::path& folder, Table& table) {
+void compare_groups(const fs::path& folder, Comparison& comparison) {
   for (const fs::path& groups : files_below(folder, ".grp")) {
     const fs::path model = sibling(groups, ".obj");
     if (model.empty()) continue;
@@ -176,12 +155,12 @@ void compare_groups(const fs::path& folder, Table& table) {
     if (const fs::path controls = sibling(groups, ".ctrl"); !controls.empty()) files.controls = controls;
     AnalysisOptions given;
     given.segmentation.method = SegmentationMethod::given;
-    table.add(model, groups.filename().string(), relations_of(read_authors_structure(shape, files)),
-              relations_of(analyse_structure(shape, given).structure));
+    comparison.add(model, groups.filename().string(), relations_of(read_authors_structure(shape, files)),
+                   relations_of(analyse_structure(shape, given).structure));
   }
 }
 
-void compare_joined_parts(const fs::path& folder, Table& table) {
+void compare_joined_parts(const fs::path& folder, Comparison& comparison) {
   for (const fs::path& list : files_below(folder, ".json")) {
     const fs::path model = sibling(list, ".obj");
     if (model.empty()) continue;
@@ -198,40 +177,28 @@ void compare_joined_parts(const fs::path& folder, Table& table) {
     for (const auto& [kind, relations] : relations_of(analyse_structure(read_shape(model)).structure))
       if (kind == "point_joint" || kind == "line_joint")
         for (const auto& [parts, count] : relations) found["joined parts"][parts] = 1;
-    table.add(model, list.filename().string(), listed, found);
+    comparison.add(model, list.filename().string(), listed, found);
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
-      "Does the analysis of a shape find the relations that people, or other programs, have listed?"};
-  int threads = tbb::info::default_concurrency();
-  std::string output = "-", paper_data, ikea;
-  app.add_option("--paper-data", paper_data, "folder of the authors' data, with .grp files");
-  app.add_option("--ikea", ikea, "folder of furniture with lists of joined parts");
-  app.add_option("--threads", threads, "threads of the analysis")->check(CLI::Range(1, 1024));
-  app.add_option("-o", output, "CSV file; - is standard output");
-  CLI11_PARSE(app, argc, argv);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
-  try {
-    Table table;
-    if (!paper_data.empty()) compare_groups(paper_data, table);
-    if (!ikea.empty()) compare_joined_parts(ikea, table);
-    if (table.empty())
+  Experiment experiment(
+      "relations_against_lists",
+      "Does the analysis of a shape find the relations that people, or other programs, have listed?",
+      Inputs::none);
+  fs::path paper_data, ikea;
+  experiment.app().add_option("--paper-data", paper_data, "folder of the authors' data, with .grp files");
+  experiment.app().add_option("--ikea", ikea, "folder of furniture with lists of joined parts");
+  return experiment.run(argc, argv, [&](Report& report) {
+    Table& table = report.table("", columns({"model", "input_hash", "list", "kind", "listed", "found", "both",
+                                             "recall", "precision", "missing", "not_listed"}));
+    Comparison comparison(table);
+    if (!paper_data.empty()) compare_groups(paper_data, comparison);
+    if (!ikea.empty()) compare_joined_parts(ikea, comparison);
+    if (table.rows().empty())
       throw InputError("nothing to compare: no folder given, or no list beside a mesh in it");
-    write_file_atomically(
-        output, provenance_lines(
-                    {"relations_against_lists", std::vector<std::string>(argv + 1, argv + argc), threads}) +
-                    table.text());
-    return 0;
-  } catch (const InputError& error) {
-    std::cerr << "relations_against_lists: " << error.what() << "\n";
-    return 3;
-  } catch (const std::exception& error) {
-    std::cerr << "relations_against_lists: " << error.what() << "\n";
-    return 2;
-  }
+    comparison.add_sums();
+  });
 }

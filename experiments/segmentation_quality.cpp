@@ -1,6 +1,6 @@
 // Question: how near does the segmentation come to people's, beside the shape-diameter method?
 //
-//     segmentation_quality [--threads N] [-o FILE.csv] FOLDER
+//     segmentation_quality [--threads N] [-o FOLDER] FOLDER
 //
 // FOLDER is laid out as the benchmark of Chen, Golovinskiy and Funkhouser (2009): models data/off/N.off,
 // people's segmentations data/seg/Benchmark/N/N_*.seg, one integer per face and line. One row per model,
@@ -9,26 +9,20 @@
 // agreement. The rows of `people` compare each person with the others. Last come the averages over the
 // models.
 
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
-#include <iostream>
-#include <map>
 #include <set>
 #include <string>
 #include <vector>
 
-#include "common/provenance.h"
+#include "common/clock.h"
+#include "common/experiment.h"
 #include "common/rand_index.h"
+#include "common/statistics.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/read.h"
-#include "stackabilization/shape/write_file.h"
 #include "stackabilization/structure/segmentation.h"
 
 using namespace stackabilization;
@@ -71,9 +65,7 @@ struct Model {
 
 /// The models that people have cut, by number and then by name.
 std::vector<Model> read_models(const fs::path& folder) {
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder / "data" / "off"))
-    if (entry.path().extension() == ".off") files.push_back(entry.path());
+  std::vector<fs::path> files = files_below(folder / "data" / "off", ".off");
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     const std::string x = a.stem().string(), y = b.stem().string();
     return std::make_pair(x.size(), x) < std::make_pair(y.size(), y);
@@ -101,13 +93,11 @@ struct Row {
   double parts, error, seconds;
 };
 
-std::string text(const Model* model, const Row& row) {
-  char numbers[160];
-  std::snprintf(numbers, sizeof numbers, "%.17g,%.6f,%.3f", row.parts, row.error, row.seconds);
-  const std::string which =
-      model ? model->name + "," + model->hash + "," + std::to_string(model->shape.triangle_count())
-            : "average,,";
-  return which + "," + row.method + "," + row.number + "," + numbers + "\n";
+/// A row of a model, or of the average when there is none.
+void add(const Model* model, const Row& row, Table& table) {
+  table.add({model ? model->name : "average", model ? Cell(model->hash) : Cell(),
+             model ? Cell(std::int64_t{model->shape.triangle_count()}) : Cell(), row.method, row.number,
+             row.parts, row.error, row.seconds});
 }
 
 /// Each person against the others; a lone one agrees with himself.
@@ -145,8 +135,15 @@ Row method_row(const Model& model, SegmentationMethod method, bool same_number) 
   return row;
 }
 
-std::string table(const std::vector<Model>& models) {
-  std::string csv = "model,input_hash,triangles,method,number_of_parts,parts,rand_error,seconds\n";
+void compare(const std::vector<Model>& models, Report& report) {
+  Table& table = report.table("", {{"model", ColumnKind::key},
+                                   {"input_hash", ColumnKind::key},
+                                   {"triangles"},
+                                   {"method", ColumnKind::key},
+                                   {"number_of_parts", ColumnKind::key},
+                                   {"parts"},
+                                   {"rand_error"},
+                                   {"seconds", ColumnKind::clock}});
   std::vector<Row> averages;
   for (const Model& model : models) {
     std::vector<Row> rows{people_row(model)};
@@ -155,41 +152,22 @@ std::string table(const std::vector<Model>& models) {
     if (averages.empty())
       for (const Row& row : rows) averages.push_back({row.method, row.number, 0, 0, 0});
     for (std::size_t r = 0; r < rows.size(); ++r) {
-      csv += text(&model, rows[r]);
+      add(&model, rows[r], table);
       averages[r].parts += rows[r].parts / static_cast<double>(models.size());
       averages[r].error += rows[r].error / static_cast<double>(models.size());
       averages[r].seconds += rows[r].seconds / static_cast<double>(models.size());
     }
   }
-  for (const Row& row : averages) csv += text(nullptr, row);
-  return csv;
+  for (const Row& row : averages) add(nullptr, row, table);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"How near does the segmentation come to people's, beside the shape-diameter method?"};
-  int threads = tbb::info::default_concurrency();
-  std::string output = "-", folder;
-  app.add_option("--threads", threads, "threads")->check(CLI::Range(1, 1024));
-  app.add_option("-o", output, "CSV file; - is standard output");
-  app.add_option("folder", folder, "folder of the benchmark")->required()->check(CLI::ExistingDirectory);
-  CLI11_PARSE(app, argc, argv);
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
-  try {
-    const std::string lines =
-        provenance_lines({"segmentation_quality", std::vector<std::string>(argv + 1, argv + argc), threads});
-    write_file_atomically(output, lines + table(read_models(folder)));
-    return 0;
-  } catch (const InputError& error) {
-    std::cerr << "segmentation_quality: " << error.what() << "\n";
-    return 3;
-  } catch (const fs::filesystem_error& error) {
-    std::cerr << "segmentation_quality: " << error.what() << "\n";
-    return 3;
-  } catch (const Error& error) {
-    std::cerr << "segmentation_quality: " << error.what() << "\n";
-    return 2;
-  }
+  Experiment experiment("segmentation_quality",
+                        "How near does the segmentation come to people's, beside the shape-diameter method?",
+                        Inputs::none);
+  fs::path folder;
+  experiment.app().add_option("folder", folder, "folder of the benchmark")->required();
+  return experiment.run(argc, argv, [&](Report& report) { compare(read_models(folder), report); });
 }

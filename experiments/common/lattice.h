@@ -10,4 +10,8 @@ namespace stackabilization::experiments {
 /// sqrt(2 pi / count) radians apart.
 std::vector<Direction> hemisphere_lattice(int count);
 
+/// `count` independent directions, uniform over that hemisphere; fewer directions of the same seed are the
+/// first of more.
+std::vector<Direction> random_directions(int count, unsigned seed);
+
 }  // namespace stackabilization::experiments

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace stackabilization::experiments {
@@ -9,21 +9,11 @@ namespace stackabilization::experiments {
 /// Where numbers come from: every output of an experiment begins with it.
 struct Provenance {
   std::string program;
-  std::vector<std::string> arguments;
+  std::string options;  ///< all options that bear on the numbers, defaults included, seeds too
   int threads = 1;
 };
 
-/// Comment lines "# key: value" with program, arguments, threads, processor, compiler, library version and
-/// revision.
-std::string provenance_lines(const Provenance& provenance);
-
-/// FNV-1a 64-bit hash of a file's bytes, 16 hexadecimal digits. Throws InputError when it cannot be read.
-std::string file_hash(const std::filesystem::path& path);
-
-/// Seconds on a steady clock.
-double now();
-
-/// Middle value; the lower one of two. Precondition: not empty.
-double median(std::vector<double> values);
+/// Pairs of key and value: program, options, threads, processor, compiler, library version and revision.
+std::vector<std::pair<std::string, std::string>> entries(const Provenance& provenance);
 
 }  // namespace stackabilization::experiments

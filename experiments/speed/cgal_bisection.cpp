@@ -1,25 +1,27 @@
 #include <memory>
 
-#include "common/provenance.h"
+#include "common/clock.h"
 #include "speed/competitor.h"
 #include "stackabilization/stacking/collision.h"
 
 namespace stackabilization::experiments {
 
-Competitor cgal_bisection(const Shape& shape) {
-  Competitor result;
-  result.name = "CGAL collision bisection";
-  const double start = now();
+std::vector<Competitor> cgal_bisections(const Shape& shape) {
+  const Stopwatch watch;
   const auto tester = std::make_shared<CollisionTester>(shape, shape);
-  result.build_seconds = now() - start;
-  result.measure = [tester](const Direction& direction) {
-    BisectionOptions options;
-    options.semantics = Semantics::closed;
-    options.relative_width = 1e-6;
-    const auto bracket = translation_by_bisection(*tester, direction, options);
-    return bracket ? bracket->free * direction.length() : 0.0;
+  const double build_seconds = watch.processor_seconds();
+  const auto bisection = [&](const std::string& name, Semantics semantics) {
+    return Competitor{name, semantics, build_seconds, [tester, semantics](const Direction& direction) {
+                        BisectionOptions options;
+                        options.semantics = semantics;
+                        options.relative_width = 1e-6;
+                        const auto bracket = translation_by_bisection(*tester, direction, options);
+                        return bracket ? bracket->free * direction.length() : 0.0;
+                      }};
   };
-  return result;
+  std::vector<Competitor> list{bisection("CGAL contact bisection", Semantics::closed)};
+  if (tester->solids()) list.push_back(bisection("CGAL interior bisection", Semantics::solid));
+  return list;
 }
 
 }  // namespace stackabilization::experiments

@@ -4,16 +4,18 @@
 #include <string>
 #include <vector>
 
+#include "stackabilization/envelope/separation.h"
 #include "stackabilization/shape/direction.h"
 #include "stackabilization/shape/shape.h"
 
 namespace stackabilization::experiments {
 
 /// One way to find f_max of a shape in a direction, prepared once per shape: `measure` returns f_max in model
-/// units.
+/// units. A maker gives nothing when its way does not apply to the shape.
 struct Competitor {
   std::string name;
-  double build_seconds = 0;
+  Semantics semantics = Semantics::solid;  ///< whose f_max it looks for
+  double build_seconds = 0;                ///< of the processor
   std::function<double(const Direction&)> measure;
 };
 
@@ -25,7 +27,8 @@ Competitor fcl_bisection(const Shape& shape);
 /// the projection, one ray from above and one from below each.
 Competitor embree_rays(const Shape& shape, int resolution);
 
-/// CGAL collision tests (exact predicates), searched from the top and bisected to 1e-6 of the extent.
-Competitor cgal_bisection(const Shape& shape);
+/// CGAL collision tests (exact predicates), searched from the top and bisected to 1e-6 of the extent: any
+/// contact, or for closed surfaces also common interiors.
+std::vector<Competitor> cgal_bisections(const Shape& shape);
 
 }  // namespace stackabilization::experiments

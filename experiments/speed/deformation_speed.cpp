@@ -1,7 +1,7 @@
 // Question: how long does the analysis of a shape take, and how long an edit of its controllers with
 // everything that follows from it?
 //
-//     deformation_speed MODEL... [--triangles N] [--edits N] [--seed N] [-o FILE.csv]
+//     deformation_speed MODEL... [--triangles N] [--edits N] [--seed N] [-o FOLDER]
 //
 // One row per model, on one core: milliseconds of the analysis (segmentation, primitives with skeletons,
 // symmetries, joints) of the model as given; then, on its mesh subdivided to at least N triangles (default
@@ -10,22 +10,16 @@
 // and solve, and the transfer to the mesh. edit_ms and transfer_ms are medians of each, total_ms and
 // slowest_ms median and largest of their sum.
 
-#include <tbb/global_control.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <iostream>
 #include <map>
-#include <random>
 
-#include "common/provenance.h"
+#include "common/clock.h"
+#include "common/experiment.h"
+#include "common/random.h"
+#include "common/statistics.h"
 #include "stackabilization/deformation/controller_model.h"
 #include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/read.h"
-#include "stackabilization/shape/write_file.h"
 #include "stackabilization/structure/analysis.h"
 
 using namespace stackabilization;
@@ -64,29 +58,21 @@ Shape refined(const Shape& shape) {
   return fine;
 }
 
-/// Numbers in [0, 1) that are the same on every machine, unlike the distributions of <random>.
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double uniform() { return engine_() / 4294967296.0; }
-  Eigen::Vector3d axis() {
-    return (uniform() < 0.5 ? 1 : -1) * Eigen::Vector3d::Unit(static_cast<Eigen::Index>(3 * uniform()));
-  }
-
- private:
-  std::mt19937 engine_;
-};
+Eigen::Vector3d random_axis(Random& random) {
+  return (random.uniform() < 0.5 ? 1 : -1) *
+         Eigen::Vector3d::Unit(static_cast<Eigen::Index>(3 * random.uniform()));
+}
 
 Edit random_edit(const std::vector<Handle>& handles, double diagonal, Random& random) {
   Edit edit;
   edit.handle = handles[static_cast<std::size_t>(random.uniform() * static_cast<double>(handles.size()))];
   const double choice = random.uniform();
   if (choice < 0.2 && (edit.handle.kind == HandleKind::part || edit.handle.kind == HandleKind::face))
-    edit.operation = Rotate{random.axis(), 0.1 * (2 * random.uniform() - 1)};
+    edit.operation = Rotate{random_axis(random), 0.1 * (2 * random.uniform() - 1)};
   else if (choice < 0.5 && edit.handle.kind != HandleKind::corner)
     edit.operation = Scale{0.9 + 0.2 * random.uniform(), std::nullopt};
   else
-    edit.operation = Move{0.03 * diagonal * random.uniform() * random.axis()};
+    edit.operation = Move{0.03 * diagonal * random.uniform() * random_axis(random)};
   return edit;
 }
 
@@ -113,54 +99,57 @@ EditTimes time_edits(const ControllerModel& model, const Options& options) {
   return times;
 }
 
-std::string row_of(const std::string& path, const Options& options) {
-  const Shape shape = read_shape(path);
+void add_row(const ModelFile& file, const Shape& shape, const std::string& hash, const Options& options,
+             Table& table) {
   double start = now();
   StructuredShape structured = analyse_structure(shape);
   const double analysis_ms = 1e3 * (now() - start);
   while (structured.shape.triangle_count() < options.triangles) structured.shape = refined(structured.shape);
-  const auto triangles = static_cast<long>(structured.shape.triangle_count());
-  const std::size_t parts = structured.structure.parts.size(),
-                    relations = structured.structure.relations.size();
+  const std::int64_t triangles = structured.shape.triangle_count();
+  const auto parts = static_cast<std::int64_t>(structured.structure.parts.size());
+  const auto relations = static_cast<std::int64_t>(structured.structure.relations.size());
   start = now();
   const ControllerModel model(std::move(structured));
   const double prepare_ms = 1e3 * (now() - start);
   const EditTimes times = time_edits(model, options);
-  if (times.total.empty()) throw InputError(path + ": none of the edits was accepted");
-  char numbers[256];
-  std::snprintf(numbers, sizeof numbers, ",%ld,%zu,%zu,%.1f,%ld,%.1f,%d,%zu,%.4f,%.4f,%.4f,%.4f\n",
-                static_cast<long>(shape.triangle_count()), parts, relations, analysis_ms, triangles,
-                prepare_ms, options.edits, times.total.size(), median(times.edit), median(times.transfer),
-                median(times.total), *std::max_element(times.total.begin(), times.total.end()));
-  return std::filesystem::path(path).stem().string() + "," + file_hash(path) + numbers;
+  if (times.total.empty()) throw InputError(file.path.string() + ": none of the edits was accepted");
+  table.add({file.name, hash, std::int64_t{shape.triangle_count()}, parts, relations, triangles,
+             std::int64_t{options.edits}, static_cast<std::int64_t>(times.total.size()), analysis_ms,
+             prepare_ms, median(times.edit), median(times.transfer), median(times.total),
+             quantile(times.total, 1)});
+}
+
+Table& table_of(Report& report) {
+  std::vector<Column> all = columns({"model", "input_hash"}, ColumnKind::key);
+  for (const Column& column :
+       columns({"triangles", "parts", "relations", "fine_triangles", "edits", "accepted"}))
+    all.push_back(column);
+  for (const Column& column :
+       columns({"analysis_ms", "prepare_ms", "edit_ms", "transfer_ms", "total_ms", "slowest_ms"},
+               ColumnKind::clock))
+    all.push_back(column);
+  return report.table("", all);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{
-      "Time of structure analysis, and of edits of controllers with propagation, solve and mesh transfer."};
+  Experiment experiment("deformation_speed",
+                        "How long do the analysis of a structure and an edit of its controllers take?",
+                        Inputs::models, Threads::one);
   Options options;
-  std::vector<std::string> models;
-  std::string output = "-";
-  app.add_option("models", models, "mesh files")->required()->check(CLI::ExistingFile);
-  app.add_option("--triangles", options.triangles, "subdivide until a mesh has this many")
+  experiment.app()
+      .add_option("--triangles", options.triangles, "subdivide until a mesh has this many")
       ->check(CLI::Range(1, 1 << 24));
-  app.add_option("--edits", options.edits, "random edits per model")->check(CLI::Range(1, 1000000));
-  app.add_option("--seed", options.seed, "of the random edits");
-  app.add_option("-o", output, "CSV file; - is standard output");
-  CLI11_PARSE(app, argc, argv);
-  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  try {
-    std::string csv =
-        provenance_lines({"deformation_speed", std::vector<std::string>(argv + 1, argv + argc), 1}) +
-        "model,input_hash,triangles,parts,relations,analysis_ms,fine_triangles,prepare_ms,edits,accepted,"
-        "edit_ms,transfer_ms,total_ms,slowest_ms\n";
-    for (const std::string& model : models) csv += row_of(model, options);
-    write_file_atomically(output, csv);
-  } catch (const Error& error) {
-    std::cerr << "deformation_speed: " << error.what() << "\n";
-    return 2;
-  }
-  return 0;
+  experiment.app()
+      .add_option("--edits", options.edits, "random edits per model")
+      ->check(CLI::Range(1, 1000000));
+  experiment.app().add_option("--seed", options.seed, "of the random edits");
+  return experiment.run(argc, argv, [&](Report& report) {
+    Table& table = table_of(report);
+    for_each_model(experiment.models(), report,
+                   [&](const ModelFile& file, const Shape& shape, const std::string& hash) {
+                     add_row(file, shape, hash, options, table);
+                   });
+  });
 }

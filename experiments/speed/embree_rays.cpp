@@ -8,7 +8,7 @@
 #include <limits>
 #include <memory>
 
-#include "common/provenance.h"
+#include "common/clock.h"
 #include "speed/competitor.h"
 #include "stackabilization/envelope/height_field.h"
 
@@ -76,9 +76,9 @@ class Scene {
 Competitor embree_rays(const Shape& shape, int resolution) {
   Competitor result;
   result.name = "Embree rays " + std::to_string(resolution);
-  const double start = now();
+  const double start = processor_now();
   const auto scene = std::make_shared<Scene>(shape);
-  result.build_seconds = now() - start;
+  result.build_seconds = processor_now() - start;
   result.measure = [scene, &shape, resolution](const Direction& direction) {
     const Window window = window_around(shape, direction, resolution);
     const Frame frame = frame_of(direction);

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "common/provenance.h"
+#include "common/clock.h"
 #include "speed/competitor.h"
 
 namespace stackabilization::experiments {
@@ -38,9 +38,10 @@ double extent(const Shape& shape, const Eigen::Vector3d& unit) {
 Competitor fcl_bisection(const Shape& shape) {
   Competitor result;
   result.name = "FCL bisection";
-  const double start = now();
+  result.semantics = Semantics::closed;
+  const double start = processor_now();
   const std::shared_ptr<Model> model = build(shape);
-  result.build_seconds = now() - start;
+  result.build_seconds = processor_now() - start;
   result.measure = [model, &shape](const Direction& direction) {
     const Eigen::Vector3d unit = direction.unit();
     const double height = extent(shape, unit);

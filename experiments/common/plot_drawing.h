@@ -1,0 +1,14 @@
+#pragma once
+
+#include "common/plot.h"
+#include "stackabilization/rendering/drawing.h"
+
+namespace stackabilization::experiments {
+
+/// Is there anything to draw? Not when every model failed.
+bool has_points(const Plot& plot);
+
+/// The plot as a picture. Throws UsageError unless `has_points`.
+Drawing drawing_of(const Plot& plot);
+
+}  // namespace stackabilization::experiments

@@ -1,0 +1,213 @@
+// Runs every experiment, one after the other, into one folder.
+//
+//     run_all -o FOLDER [--paper-data FOLDER] [--segmentation-benchmark FOLDER] [--quick] [--threads N]
+//             [--only NAME...]
+//
+// An experiment is skipped when an earlier run of the same program, with the same options and inputs, came to
+// its end and its outputs are unchanged; so a run that was killed goes on where it was. One that fails is
+// reported and the next follows. What each one says goes to FOLDER/NAME.log. Exit status 0: all done; 1: some
+// failed, or found that the answer to their question is no; 2: wrong usage, or the folder cannot be written;
+// 3: an input folder cannot be used.
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <tbb/info.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <fstream>
+#include <iostream>
+
+#include "common/clock.h"
+#include "common/models.h"
+#include "common/resume.h"
+#include "stackabilization/shape/errors.h"
+
+using namespace stackabilization;
+using namespace stackabilization::experiments;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Settings {
+  fs::path output, paper_data, benchmark;
+  bool quick = false;
+  int threads = tbb::info::default_concurrency();
+  std::vector<std::string> only;
+};
+
+/// What an experiment is given besides its own options.
+struct Kind {
+  bool models = true;             ///< the shipped models, or a few of them when it must be quick
+  bool paper_data = true;         ///< the authors' data, when there are any
+  bool needs_paper_data = false;  ///< nothing to do without them
+  bool needs_benchmark = false;   ///< nothing to do without a benchmark of segmentations
+  bool threads = true;
+};
+
+struct Entry {
+  std::string name;
+  Kind kind;
+  std::vector<std::string> options, quick_options;
+};
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all = {
+      {"envelope_accuracy", {}, {}, {"--directions", "3", "--fine-directions", "0"}},
+      {"direction_search", {}, {}, {"--largest", "1000", "--seeds", "1"}},
+      {"minimal_translation", {.threads = false}, {}, {"--directions", "10", "--slow-directions", "1"}},
+      {"scaling",
+       {.models = false, .paper_data = false},
+       {},
+       {"--largest-triangles", "9000", "--largest-parts", "16", "--directions", "10"}},
+      {"deformation_speed", {.paper_data = false, .threads = false}, {}, {"--edits", "20"}},
+      {"relations_against_lists", {.models = false, .needs_paper_data = true}, {}, {}},
+      {"segmentation_quality", {.models = false, .paper_data = false, .needs_benchmark = true}, {}, {}},
+      // Ended by the count of expansions and not by the clock, so that it finds the same again.
+      {"refined_against_paper",
+       {.paper_data = false},
+       {"--seconds", "3600", "--expansions", "200"},
+       {"--seconds", "3600", "--expansions", "3"}},
+  };
+  return all;
+}
+
+void add_paper_data(const fs::path& folder, Job& job) {
+  job.arguments.insert(job.arguments.end(), {"--paper-data", folder.string()});
+  for (const char* extension : {".obj", ".grp", ".ctrl", ".seg", ".txt"})
+    for (const fs::path& file : files_below(folder, extension)) job.inputs.push_back(file);
+}
+
+void add_benchmark(const fs::path& folder, Job& job) {
+  job.arguments.push_back(folder.string());
+  for (const char* extension : {".off", ".seg"})
+    for (const fs::path& file : files_below(folder / "data", extension)) job.inputs.push_back(file);
+}
+
+Job job_of(const Entry& entry, const fs::path& programs, const Settings& settings) {
+  Job job{entry.name, programs / entry.name, settings.quick ? entry.quick_options : entry.options, {}};
+  if (entry.kind.threads)
+    job.arguments.insert(job.arguments.end(), {"--threads", std::to_string(settings.threads)});
+  if (entry.kind.paper_data && !settings.paper_data.empty()) add_paper_data(settings.paper_data, job);
+  if (entry.kind.needs_benchmark) add_benchmark(settings.benchmark, job);
+  const std::vector<std::string> few = {"cup", "stool", "table"};
+  if (!entry.kind.models) return job;
+  for (const ModelFile& model : shipped_models()) {
+    if (settings.quick && std::find(few.begin(), few.end(), model.name) == few.end()) continue;
+    job.arguments.push_back(model.path.string());
+    job.inputs.push_back(model.path);
+  }
+  return job;
+}
+
+/// Runs the program with its words in a log; its exit status, or 128 and more when it was killed. It ends
+/// with this process.
+int run(const Job& job, const fs::path& folder) {
+  std::vector<std::string> words = {job.program.string(), "-o", folder.string()};
+  words.insert(words.end(), job.arguments.begin(), job.arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  const std::string log = (folder / (job.name + ".log")).string();
+  const pid_t child = fork();
+  if (child < 0) throw OutputError(job.name + ": no new process can be made");
+  if (child == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0) _exit(126);
+    execv(argv[0], argv.data());
+    _exit(127);
+  }
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+std::string last_line(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string last;
+  for (std::string line; std::getline(stream, line);)
+    if (!line.empty()) last = line;
+  return last;
+}
+
+/// Runs the job unless that was done before; whether it did what it was for.
+bool settle(const Job& job, const fs::path& folder) {
+  const auto tell = [&](const std::string& what) { std::cout << job.name << ": " << what << std::endl; };
+  if (const auto status = completed(job, folder)) {
+    tell(*status == 0 ? "complete already" : "complete already, and the answer is no");
+    return *status == 0;
+  }
+  clear(job, folder);
+  const Stopwatch watch;
+  const int status = run(job, folder);
+  if (status == 0 || status == 1) record_completed(job, status, folder);
+  const std::string seconds = std::to_string(static_cast<int>(watch.seconds() + 0.5)) + " s";
+  if (status == 0) tell("done in " + seconds);
+  if (status == 1) tell("done in " + seconds + ", and the answer is no");
+  if (status > 1)
+    tell("FAILED with status " + std::to_string(status) + " after " + seconds + ": " +
+         last_line(folder / (job.name + ".log")));
+  return status == 0;
+}
+
+void prepare(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder) || access(folder.c_str(), W_OK | X_OK) != 0)
+    throw OutputError(folder.string() + ": this folder cannot be made or written to");
+}
+
+int run_all(const fs::path& programs, const Settings& settings) {
+  prepare(settings.output);
+  // Fails now rather than once for every experiment.
+  if (!settings.paper_data.empty()) paper_models(settings.paper_data);
+  if (!settings.benchmark.empty()) files_below(settings.benchmark / "data", ".off");
+  bool good = true;
+  for (const Entry& entry : entries()) {
+    const bool asked = settings.only.empty() || std::find(settings.only.begin(), settings.only.end(),
+                                                          entry.name) != settings.only.end();
+    if (!asked) continue;
+    if (entry.kind.needs_paper_data && settings.paper_data.empty())
+      std::cout << entry.name << ": skipped, it needs --paper-data" << std::endl;
+    else if (entry.kind.needs_benchmark && settings.benchmark.empty())
+      std::cout << entry.name << ": skipped, it needs --segmentation-benchmark" << std::endl;
+    else
+      good = settle(job_of(entry, programs, settings), settings.output) && good;
+  }
+  return good ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Runs every experiment into one folder; goes on where a run before it was killed.", "run_all"};
+  app.footer("Example: run_all -o results --quick");
+  Settings settings;
+  std::vector<std::string> names;
+  for (const Entry& entry : entries()) names.push_back(entry.name);
+  app.add_option("-o,--output", settings.output, "folder for all results, made when missing")->required();
+  app.add_option("--paper-data", settings.paper_data, "folder of the authors' data");
+  app.add_option("--segmentation-benchmark", settings.benchmark,
+                 "folder of the benchmark of Chen, Golovinskiy and Funkhouser (2009)");
+  app.add_flag("--quick", settings.quick, "three models and few directions: a trial in about a minute");
+  app.add_option("--threads", settings.threads, "threads of each experiment")->check(CLI::Range(1, 1024));
+  app.add_option("--only", settings.only, "only these experiments")->check(CLI::IsMember(names));
+  try {
+    app.parse(argc, argv);
+    return run_all(fs::canonical("/proc/self/exe").parent_path(), settings);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  } catch (const InputError& error) {
+    std::cerr << "run_all: " << error.what() << "\n";
+    return 3;
+  } catch (const std::exception& error) {
+    std::cerr << "run_all: " << error.what() << "\n";
+    return 2;
+  }
+}

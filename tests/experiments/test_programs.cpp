@@ -1,0 +1,144 @@
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/run_program.h"
+#include "support/catch.h"
+#include "support/solids.h"
+
+using namespace stackabilization;
+using apps::bytes_of;
+using apps::Outcome;
+using apps::TemporaryFolder;
+
+namespace {
+
+Outcome run(const std::string& program, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), std::string(EXPERIMENTS_FOLDER) + "/" + program);
+  return apps::run_program(arguments);
+}
+
+/// Does the program say one sentence about `what`, by its own name?
+bool says(const Outcome& outcome, const std::string& program, const std::string& what) {
+  return outcome.err.starts_with(program + ": ") && outcome.err.find(what) != std::string::npos &&
+         std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1;
+}
+
+const std::vector<std::string> with_models = {"deformation_speed", "direction_search", "envelope_accuracy",
+                                              "minimal_translation"};
+
+/// Options with which a program is done in no time.
+std::vector<std::string> quick(const std::string& program) {
+  static const std::map<std::string, std::vector<std::string>> options = {
+      {"deformation_speed", {"--triangles", "12", "--edits", "5"}},
+      {"direction_search", {"--largest", "100", "--seeds", "1"}},
+      {"envelope_accuracy", {"--directions", "2", "--fine-directions", "0"}},
+      {"minimal_translation", {"--directions", "2", "--slow-directions", "1"}},
+      {"scaling", {"--largest-triangles", "2048", "--largest-parts", "8", "--directions", "2"}}};
+  return options.at(program);
+}
+
+std::vector<std::string> operator+(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+}  // namespace
+
+TEST_CASE("every experiment explains itself and its options") {
+  for (const std::string& program :
+       with_models + std::vector<std::string>{"scaling", "relations_against_lists", "run_all"}) {
+    const Outcome outcome = run(program, {"--help"});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.out.find("--output") != std::string::npos);
+    CHECK(outcome.err.empty());
+  }
+}
+
+TEST_CASE("wrong usage is refused with status 2") {
+  for (const std::string& program : with_models) CHECK(run(program, {"--no-such-option"}).status == 2);
+  CHECK(run("direction_search", {"--largest", "many"}).status == 2);
+  CHECK(run("run_all", {}).status == 2);
+}
+
+TEST_CASE("a missing folder of the authors' data is refused with status 3 and one sentence") {
+  const TemporaryFolder folder;
+  for (const std::string& program : with_models) {
+    const Outcome outcome = run(program, {"--paper-data", folder / "nowhere"});
+    CHECK(outcome.status == 3);
+    CHECK(says(outcome, program, folder / "nowhere"));
+  }
+  const Outcome all = run("run_all", {"-o", folder / "results", "--paper-data", folder / "nowhere"});
+  CHECK(all.status == 3);
+  CHECK(says(all, "run_all", folder / "nowhere"));
+}
+
+TEST_CASE("a results folder that cannot be made is refused with status 2 and one sentence") {
+  const TemporaryFolder folder;
+  const std::string place = folder.file("file", "no folder") + "/results";
+  for (const std::string& program : with_models + std::vector<std::string>{"scaling", "run_all"}) {
+    const Outcome outcome = run(program, {"-o", place});
+    CHECK(outcome.status == 2);
+    CHECK(says(outcome, program, place));
+  }
+}
+
+TEST_CASE("a broken model is named, and the others still have their rows") {
+  const TemporaryFolder folder;
+  const std::string good = folder.model("good.obj", solids::box({1, 2, 3}));
+  const std::string broken = folder.file("broken.obj", "v 0 0 0\nf 1 2 3\n");
+  for (const std::string& program : with_models) {
+    const Outcome outcome = run(program, quick(program) + std::vector<std::string>{broken, good});
+    CHECK(outcome.status == 3);
+    CHECK(says(outcome, program, "broken.obj"));
+    CHECK(outcome.out.find("\ngood,") != std::string::npos);
+  }
+}
+
+TEST_CASE("a flat model is named too, although only its shape is at fault") {
+  const TemporaryFolder folder;
+  const std::string flat = folder.file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  for (const std::string program : {"direction_search", "envelope_accuracy"}) {
+    const Outcome outcome = run(program, quick(program) + std::vector<std::string>{flat});
+    CHECK(outcome.status == 3);
+    CHECK(says(outcome, program, "flat.obj"));
+  }
+}
+
+TEST_CASE("two runs leave the same bytes but for the clocks") {
+  const TemporaryFolder folder;
+  const std::string model = folder.model("box.obj", solids::box({1, 2, 3}));
+  for (const std::string& program : with_models + std::vector<std::string>{"scaling"}) {
+    const auto inputs = program == "scaling" ? std::vector<std::string>{} : std::vector<std::string>{model};
+    for (const std::string& place : {folder / "first", folder / "second"})
+      REQUIRE(run(program, quick(program) + inputs + std::vector<std::string>{"-o", place}).status == 0);
+    for (const std::string ending : {".csv", ".json"}) {
+      const std::string bytes = bytes_of(folder / ("first/" + program + ending));
+      CHECK_FALSE(bytes.empty());
+      CHECK(bytes == bytes_of(folder / ("second/" + program + ending)));
+    }
+    CHECK_FALSE(bytes_of(folder / ("first/" + program + ".clocks.csv")).empty());
+  }
+}
+
+TEST_CASE("run_all skips what is complete and repeats what is not") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> arguments = {"-o", folder / "results", "--quick", "--only", "scaling"};
+  CHECK(run("run_all", arguments).out.starts_with("scaling: done in "));
+  CHECK(run("run_all", arguments).out == "scaling: complete already\n");
+  folder.file("results/scaling.csv", "damaged");
+  CHECK(run("run_all", arguments).out.starts_with("scaling: done in "));
+  CHECK(bytes_of(folder / "results/scaling.csv").starts_with("# program: scaling"));
+}
+
+TEST_CASE("run_all reports what fails and goes on") {
+  const TemporaryFolder folder, data;
+  data.file("broken.obj", "v 0 0 0\nf 1 2 3\n");
+  const Outcome outcome =
+      run("run_all", {"-o", folder / "results", "--paper-data", data.path().string(), "--quick", "--only",
+                      "deformation_speed", "relations_against_lists", "scaling"});
+  CHECK(outcome.status == 1);
+  CHECK(outcome.out.find("relations_against_lists: FAILED with status 3") != std::string::npos);
+  CHECK(outcome.out.find("deformation_speed: done") != std::string::npos);
+  CHECK(outcome.out.find("scaling: done") != std::string::npos);
+}
