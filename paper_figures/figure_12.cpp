@@ -102,7 +102,7 @@ std::string without_text(const Removal& removal, const Shape& shape) {
 }
 
 PanelRow stacks(const Options& options, const Story& story) {
-  PanelRow row{{}, 0.5};
+  PanelRow row{{}, 0.5, PanelScale::common};
   const auto add = [&](const std::string& title, const MeasuredShape& shape, const Colour& colour) {
     row.panels.push_back({scene_panel(grounded_stack(shape, options.copies, colour),
                                       Direction(shape.measured.direction), options.camera),
@@ -112,7 +112,6 @@ PanelRow stacks(const Options& options, const Story& story) {
   };
   add("best direction", story.lying, palette::input);
   add("upright", story.upright.before, palette::input);
-  add("nearest", story.upright.after, palette::output);
   add(without_text(story.removal, story.run.rest().shape), story.rest, palette::output);
   return row;
 }
@@ -124,7 +123,7 @@ PanelRow blocked(const Options& options, const Story& story, const std::string& 
   const Blocker& blocker = story.diagnosis().blockers.front();
   ScenePanel both = scene_panel(blocked_scene(shape, blocker), up, options.camera);
   both.over = contact_rings(shape);
-  return {{{std::move(both), "", {why}, 1}}, 0.5};
+  return {{{std::move(both), "", {why}, 1}}, 0.42};
 }
 
 FigureResult make(const Options& options, const ModelFolder& models) {
