@@ -88,7 +88,7 @@ CurvePlot gap_plot(const std::vector<Shown>& shapes, const Direction& direction)
     plot.series.push_back(std::move(series));
   }
   const std::string unit = unit_symbol(shapes.front().shape.shape.unit);
-  plot.x.title = "across the seat" + (unit.empty() ? "" : ", " + unit);
+  plot.x.title = "across" + (unit.empty() ? "" : ", " + unit);
   plot.y.title = "gap f" + (unit.empty() ? "" : ", " + unit);
   return plot;
 }
