@@ -116,7 +116,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
                                      {"structure-aware", palette::output, ours.after},
                                      {"gap scaling", palette::lower, naive}};
   FigureResult result;
-  PanelRow row{{}, 0.42, PanelScale::common};
+  PanelRow row{{}, 0.25, PanelScale::common};
   const std::string unit = unit_symbol(ours.before.shape.unit);
   for (const Shown& shown : shapes) {
     row.panels.push_back(panel_of(shown, options));
