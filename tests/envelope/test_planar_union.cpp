@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "stackabilization/envelope/planar_union.h"
 #include "support/catch.h"
@@ -48,6 +49,43 @@ TEST_CASE("a union does not care which way an outline runs, and gains nothing fr
   CHECK(union_area({rectangle(0, 0, 2, 2), clockwise, segment, point}) == Approx(7).epsilon(1e-8));
   CHECK(union_area({segment, point}) == 0);
   CHECK(union_area({point}) == 0);
+}
+
+TEST_CASE(
+    "outlines that share edges, corners and whole sides are united without a crack or a doubled strip") {
+  std::vector<Outline> tiles;  // triangles of a fan and its mirror image, squares, and some of them again
+  for (int i = 0; i < 12; ++i)
+    for (int j = 0; j < 12; ++j) {
+      tiles.push_back(rectangle(i, j, i + 1, j + 1));
+      tiles.push_back({{i + 0.0, j + 0.0}, {i + 1.0, j + 0.0}, {i + 1.0, j + 1.0}});
+      if (i < 11) tiles.push_back(rectangle(i + 0.5, j, i + 1.5, j + 1));
+    }
+  CHECK(union_area(tiles) == Approx(144).epsilon(1e-8));
+  for (const double angle : {1e-9, 1e-7, 0.3, 1.0}) {
+    CHECK(union_area(turned(tiles, angle)) == Approx(144).epsilon(1e-6));
+    if (angle > 1e-3) continue;
+    std::vector<Outline> both = tiles;  // edges that all but coincide
+    for (const Outline& tile : turned(tiles, angle)) both.push_back(tile);
+    CHECK(union_area(both) == Approx(144).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("unions of random slivers agree with lines across them") {
+  std::mt19937 random(7);
+  const auto number = [&](double low, double high) {
+    return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
+  };
+  for (int round = 0; round < 20; ++round) {
+    std::vector<Outline> slivers;
+    for (int k = 0; k < 60; ++k) {
+      const Eigen::Vector2d a(number(0, 1), number(0, 1)), b(number(0, 1), number(0, 1));
+      const double width = std::pow(10, number(-9, -0.5));
+      slivers.push_back({a, b, b + width * Eigen::Vector2d(number(-1, 1), number(-1, 1))});
+    }
+    std::vector<Outline> many;  // the same union, of so many that it is measured by lines
+    while (many.size() <= 4096) many.insert(many.end(), slivers.begin(), slivers.end());
+    CHECK(std::abs(union_area(slivers) - union_area(many)) <= 1e-3);
+  }
 }
 
 TEST_CASE("a union of thousands of outlines, many deep, is measured to a thousandth of their rectangle") {

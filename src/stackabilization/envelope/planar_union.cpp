@@ -1,32 +1,17 @@
 #include "stackabilization/envelope/planar_union.h"
 
 #include <algorithm>
-#include <boost/polygon/polygon.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <utility>
 
+#include "stackabilization/envelope/outline_bounds.h"
 #include "stackabilization/shape/disjoint_sets.h"
 #include "stackabilization/shape/planar.h"
 
 namespace stackabilization::detail {
 namespace {
-
-namespace bp = boost::polygon;
-
-struct Bounds {
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector2d high = -low;
-
-  void add(const Outline& outline) {
-    for (const Eigen::Vector2d& p : outline) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-  }
-};
 
 /// Distance between two convex outlines along the best separating axis among their sides: 0 when they
 /// overlap, never more than the true distance.
@@ -58,160 +43,6 @@ double separating_distance(const Outline& a, const Outline& b) {
   return best;
 }
 
-/// The outline on a grid of 2^30 cells across the longer side of the bounds, centred.
-class Grid {
- public:
-  explicit Grid(const Bounds& bounds) : centre_((bounds.low + bounds.high) / 2) {
-    const double longer = (bounds.high - bounds.low).maxCoeff();
-    scale_ = longer > 0 ? static_cast<double>(1 << 30) / longer : 1;
-  }
-
-  bp::polygon_data<int> polygon(const Outline& outline) const {
-    std::vector<bp::point_data<int>> points;
-    for (const Eigen::Vector2d& corner : outline) {
-      const Eigen::Vector2d p = (corner - centre_) * scale_;
-      points.emplace_back(static_cast<int>(std::lround(p.x())), static_cast<int>(std::lround(p.y())));
-    }
-    bp::polygon_data<int> result;
-    result.set(points.begin(), points.end());
-    return result;
-  }
-
-  double cell_area() const { return 1 / (scale_ * scale_); }
-
- private:
-  Eigen::Vector2d centre_;
-  double scale_;
-};
-
-/// More outlines than these, which often lie many deep, are not united: that takes time quadratic in the
-/// depth.
-constexpr std::size_t most_united = 4096;
-
-/// What of the line at height y lies in the convex outline: from, to.
-std::optional<std::pair<double, double>> cut_at(const Outline& outline, double y) {
-  double left = std::numeric_limits<double>::infinity(), right = -left;
-  for (std::size_t c = 0; c < outline.size(); ++c) {
-    const Eigen::Vector2d &a = outline[c], &b = outline[(c + 1) % outline.size()];
-    if ((a.y() < y) == (b.y() < y)) continue;
-    const double x = a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-    left = std::min(left, x);
-    right = std::max(right, x);
-  }
-  if (!(left < right)) return std::nullopt;
-  return std::pair(left, right);
-}
-
-/// Length of the union of the intervals.
-double covered_length(std::vector<std::pair<double, double>>& intervals) {
-  std::sort(intervals.begin(), intervals.end());
-  double length = 0, end = -std::numeric_limits<double>::infinity();
-  for (const auto& [from, to] : intervals) {
-    length += std::max(0.0, to - std::max(from, end));
-    end = std::max(end, to);
-  }
-  return length;
-}
-
-/// Area of the union by the midpoint rule: what of evenly spaced lines is covered.
-double area_by_lines(const std::vector<Outline>& outlines, const Bounds& bounds) {
-  constexpr int lines = 2048;
-  const double step = (bounds.high.y() - bounds.low.y()) / lines;
-  if (!(step > 0)) return 0;
-  const auto line_at = [&](double y) {
-    return std::clamp(static_cast<int>((y - bounds.low.y()) / step), 0, lines - 1);
-  };
-  std::vector<std::vector<std::pair<double, double>>> intervals(lines);
-  for (const Outline& outline : outlines) {
-    Bounds own;
-    own.add(outline);
-    const int last = line_at(own.high.y());
-    for (int line = line_at(own.low.y()); line <= last; ++line)
-      if (const auto cut = cut_at(outline, bounds.low.y() + (line + 0.5) * step))
-        intervals[static_cast<std::size_t>(line)].push_back(*cut);
-  }
-  double length = 0;
-  for (auto& line : intervals) length += covered_length(line);
-  return length * step;
-}
-
-/// Which cells of a coarse bitmap the outlines touch. Cells that are only touched count as covered: that
-/// closes cracks and small gaps between neighbouring outlines.
-class CoverageBitmap {
- public:
-  CoverageBitmap(const Bounds& bounds) : low_(bounds.low), covered_(side * side, 0) {
-    const double longer = (bounds.high - bounds.low).maxCoeff();
-    // One empty cell all around, so that the outside hangs together.
-    cell_ = longer > 0 ? longer / (side - 2) : 1;
-  }
-
-  void add(const Outline& outline) {
-    Bounds bounds;
-    bounds.add(outline);
-    const int last = row_of(bounds.high.y());
-    for (int row = row_of(bounds.low.y()); row <= last; ++row) fill_row(outline, row);
-  }
-
-  /// Area of the largest set of free cells that does not reach the border.
-  double largest_hole() {
-    flood(0);
-    std::size_t largest = 0;
-    for (std::size_t cell = 0; cell < covered_.size(); ++cell)
-      if (!covered_[cell]) largest = std::max(largest, flood(cell));
-    return static_cast<double>(largest) * cell_ * cell_;
-  }
-
- private:
-  static constexpr int side = 256;
-
-  int index_of(double offset) const { return 1 + std::clamp(static_cast<int>(offset / cell_), 0, side - 3); }
-  int row_of(double y) const { return index_of(y - low_.y()); }
-
-  /// Covers the cells of one row that the outline reaches within it.
-  void fill_row(const Outline& outline, int row) {
-    const double bottom = low_.y() + (row - 1) * cell_, top = bottom + cell_;
-    double left = std::numeric_limits<double>::infinity(), right = -left;
-    for (std::size_t c = 0; c < outline.size(); ++c) {
-      const Eigen::Vector2d &a = outline[c], &b = outline[(c + 1) % outline.size()];
-      for (const double y : {std::clamp(a.y(), bottom, top), std::clamp(b.y(), bottom, top)}) {
-        if (std::max(a.y(), b.y()) < bottom || std::min(a.y(), b.y()) > top) continue;
-        const double x = a.y() == b.y() ? a.x() : a.x() + (y - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-        left = std::min({left, x, a.y() == b.y() ? b.x() : x});
-        right = std::max({right, x, a.y() == b.y() ? b.x() : x});
-      }
-    }
-    if (left > right) return;
-    for (int column = index_of(left - low_.x()); column <= index_of(right - low_.x()); ++column)
-      covered_[static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column)] = 1;
-  }
-
-  /// Covers all free cells connected with `start` by sides; returns their number.
-  std::size_t flood(std::size_t start) {
-    std::vector<std::size_t> open{start};
-    covered_[start] = 1;
-    std::size_t count = 0;
-    const auto visit = [&](std::size_t cell) {
-      if (covered_[cell]) return;
-      covered_[cell] = 1;
-      open.push_back(cell);
-    };
-    while (!open.empty()) {
-      const std::size_t cell = open.back(), column = cell % side, row = cell / side;
-      open.pop_back();
-      ++count;
-      if (column > 0) visit(cell - 1);
-      if (column + 1 < side) visit(cell + 1);
-      if (row > 0) visit(cell - side);
-      if (row + 1 < side) visit(cell + side);
-    }
-    return count;
-  }
-
-  Eigen::Vector2d low_;
-  double cell_;
-  std::vector<char> covered_;
-};
-
 }  // namespace
 
 double outline_area(const Outline& outline) {
@@ -235,7 +66,7 @@ Eigen::VectorXd outline_centroid(const Outline& outline) {
 }
 
 std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outline>& outlines, double reach) {
-  std::vector<Bounds> bounds(outlines.size());
+  std::vector<OutlineBounds> bounds(outlines.size());
   std::vector<std::size_t> order(outlines.size());
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t o = 0; o < outlines.size(); ++o) bounds[o].add(outlines[o]);
@@ -267,28 +98,6 @@ std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outli
     result[place[root]].push_back(o);
   }
   return result;
-}
-
-double union_area(const std::vector<Outline>& outlines) {
-  Bounds bounds;
-  for (const Outline& outline : outlines) bounds.add(outline);
-  if (outlines.size() > most_united) return area_by_lines(outlines, bounds);
-  const Grid grid(bounds);
-  bp::polygon_set_data<int> set;
-  for (const Outline& outline : outlines) set.insert(grid.polygon(outline));
-  std::vector<bp::polygon_with_holes_data<int>> united;
-  set.get(united);
-  double area = 0;
-  for (const auto& polygon : united) area += static_cast<double>(bp::area(polygon)) * grid.cell_area();
-  return area;
-}
-
-double largest_hole(const std::vector<Outline>& outlines) {
-  Bounds bounds;
-  for (const Outline& outline : outlines) bounds.add(outline);
-  CoverageBitmap bitmap(bounds);
-  for (const Outline& outline : outlines) bitmap.add(outline);
-  return bitmap.largest_hole();
 }
 
 Elongation elongation_of(const std::vector<Outline>& outlines) {

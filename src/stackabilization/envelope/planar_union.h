@@ -20,7 +20,7 @@ Eigen::VectorXd outline_centroid(const Outline& outline);
 /// Components by their smallest index, members ascending.
 std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outline>& outlines, double reach);
 
-/// Area of the union of the outlines: up to 4096 of them on an integer grid of 2^30 cells across; of more by
+/// Area of the union of the outlines: up to 4096 of them on a grid of 2^30 cells across; of more by
 /// 2048 lines across, to within about a thousandth of the rectangle around them.
 double union_area(const std::vector<Outline>& outlines);
 

@@ -28,7 +28,7 @@ struct DistortionChanges {
   Eigen::VectorXd box;        ///< per main axis
   double symmetry = 0;        ///< D_symm
 
-  Distortion distortion() const;
+  Distortion distortion() const;  ///< the sizes of these, Eq. 7 to 10 (their mean is D)
 };
 
 /// E(M), Eq. 5.

@@ -29,8 +29,7 @@ struct Edited {
 std::vector<Points> lines_of(const Edited& edited, const Side& side) {
   std::vector<Points> lines;
   for (const Handle& handle : edited.handles)
-    for (Points& line : handle_lines(handle, side.shape, side.primitives))
-      lines.push_back(std::move(line));
+    for (Points& line : handle_lines(handle, side.shape, side.primitives)) lines.push_back(std::move(line));
   for (const std::vector<std::int32_t>& curve : edited.curves)
     lines.emplace_back(side.shape.vertices(curve, Eigen::all));
   return lines;

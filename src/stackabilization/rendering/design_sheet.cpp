@@ -25,8 +25,7 @@ Scene tile_scene(const DesignTile& tile, const Colour& colour, const Direction& 
 std::vector<Points> lines_of(const DesignTile& tile) {
   std::vector<Points> lines;
   for (const Handle& handle : tile.handles)
-    for (Points& line : handle_lines(handle, tile.shape, tile.primitives))
-      lines.push_back(std::move(line));
+    for (Points& line : handle_lines(handle, tile.shape, tile.primitives)) lines.push_back(std::move(line));
   return lines;
 }
 
