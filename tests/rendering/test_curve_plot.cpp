@@ -120,7 +120,7 @@ TEST_CASE("labels of a narrow plot stay apart") {
     std::vector<std::pair<double, double>> labels;  // left and right ends
     for (const DrawingElement& element : plot_elements(plot, narrow, text_size))
       if (const auto* text = std::get_if<Text>(&element);
-          text != nullptr && text->at.y() == Approx(area.rectangle().bottom() + 1.25 * text_size))
+          text != nullptr && text->at.y() == Approx(area.rectangle().bottom() + 1.15 * text_size))
         labels.emplace_back(text->at.x() - text_width(*text) / 2, text->at.x() + text_width(*text) / 2);
     REQUIRE(!labels.empty());
     std::sort(labels.begin(), labels.end());
