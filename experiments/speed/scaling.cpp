@@ -1,6 +1,7 @@
 // Question: how does the cost grow with triangles, directions, parts and threads?
 //
-//     scaling [--largest-triangles N] [--largest-parts N] [--directions N] [--threads N] [-o FOLDER]
+//     scaling [--largest-triangles N] [--largest-parts N] [--directions N]
+//             [--finest-spacing A] [--threads N] [-o FOLDER]
 //
 // Triangles: a thin-walled cup with a wavy wall, from 1,000 triangles doubling up to N, on one thread: the
 // tree, and one more direction as an interval and as a rational number, over evenly spread directions, and
@@ -33,8 +34,11 @@ using namespace stackabilization::experiments;
 
 namespace {
 
+constexpr double coarsest_spacing = 0.32;
+
 struct Settings {
   int largest_triangles = 1 << 20, largest_parts = 128, directions = 50;
+  double finest_spacing = 0.02;  ///< radians
 };
 
 /// A cup 90 high that widens from radius 30 to 40, walls 2 thick, with 12 waves around and 5 up the wall; a
@@ -184,7 +188,7 @@ class Scaling {
               if (const auto found = solver.measure_if_above(r, best)) best = std::max(best, found->value);
             return best;
           }));
-    for (const double spacing : {0.32, 0.16, 0.08, 0.04, 0.02}) {
+    for (double spacing = coarsest_spacing; spacing >= settings_.finest_spacing; spacing /= 2) {
       SearchOptions options;
       options.spacing = spacing;
       std::int64_t tried = 0;
@@ -212,11 +216,13 @@ class Scaling {
   }
 
   void against_threads() {
-    const StackabilitySolver solver(wavy_cup(65536));
+    const StackabilitySolver solver(wavy_cup(std::min(settings_.largest_triangles, 1 << 14)));
+    SearchOptions options;
+    options.spacing = std::max(options.spacing, settings_.finest_spacing);
     for (int threads = 1; threads <= threads_; threads *= 2) {
       const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(threads));
-      add("threads", "search", threads, timed([&] { return best_direction(solver).best.value; }));
+      add("threads", "search", threads, timed([&] { return best_direction(solver, options).best.value; }));
     }
   }
 

@@ -34,7 +34,9 @@ std::vector<std::string> quick(const std::string& program) {
       {"direction_search", {"--largest", "100", "--seeds", "1"}},
       {"envelope_accuracy", {"--directions", "2", "--fine-directions", "0"}},
       {"minimal_translation", {"--directions", "2", "--slow-directions", "1"}},
-      {"scaling", {"--largest-triangles", "2048", "--largest-parts", "8", "--directions", "2"}}};
+      {"scaling",
+       {"--largest-triangles", "2048", "--largest-parts", "8", "--directions", "2", "--finest-spacing",
+        "0.32"}}};
   return options.at(program);
 }
 
