@@ -70,7 +70,7 @@ class Refiner {
         start_(start),
         options_(options),
         direction_(start.direction),
-        edits_(variables(checker, start, options.companions)),
+        edits_(variables(checker, start, options)),
         meter_(checker.space().rest(), checker.requirements().measure.boxes, options.alpha),
         problem_(checker, plain(edits_), direction_,
                  {options.evaluations, options.reach, options.cancelled}) {}
@@ -93,14 +93,15 @@ class Refiner {
   /// The edits given, merged where their order does not matter so much that they are refused, and
   /// counterparts.
   static std::vector<MagnitudeEdit> variables(const RequirementChecker& checker, const Candidate& start,
-                                              Companions companions) {
+                                              const RefinementOptions& options) {
     const DeformationConstraints constraints =
         deformation_constraints(checker.requirements(), checker.space().rest(), Direction(start.direction));
     std::vector<MagnitudeEdit> edits =
         merged_edits(start.design.edits, [&](const std::vector<MagnitudeEdit>& fewer) {
-          return !checker.space().replayed(plain(fewer), constraints).refusal;
+          const bool late = options.cancelled && options.cancelled();  // long lists take long to replay
+          return !late && !checker.space().replayed(plain(fewer), constraints).refusal;
         });
-    if (companions == Companions::opposite && edits.size() <= most_with_counterparts) {
+    if (options.companions == Companions::opposite && edits.size() <= most_with_counterparts) {
       const std::vector<MagnitudeEdit> others = counterparts(edits, checker.space());
       edits.insert(edits.end(), others.begin(), others.end());
     }
