@@ -60,6 +60,7 @@ Figure figure(int number, std::string title, Options (*read)(const Fields&),
           }};
 }
 
+Figure figure_01();
 Figure figure_02();
 Figure figure_03();
 Figure figure_04();

@@ -1,19 +1,12 @@
 #!/usr/bin/env bash
-# Builds the program that makes the paper's figures and makes them all: pictures and numbers in paper_figures/pictures,
-# the page about them in paper_figures/figures.md. With the authors' models (--paper-data FOLDER), which are not part of
-# this project, everything goes to out/figures_authors instead, where it is not versioned.
+# Makes the figures of the paper from this project's models into out/figures, with a page about them all. Arguments go to
+# the program: --paper-data FOLDER takes the authors' models instead. Installs the packages it needs first.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-output=paper_figures/pictures page=paper_figures/figures.md arguments=()
-if [[ ${1:-} == --paper-data && $# -eq 2 ]]; then
-  output=out/figures_authors page=out/figures_authors/figures.md arguments=(--paper-data "$2")
-elif [[ $# -ne 0 ]]; then
-  echo "usage: scripts/figures.sh [--paper-data FOLDER]" >&2
-  exit 2
-fi
-
+scripts/install_packages.sh
 scripts/build.sh paper_figures
-program=$(find build/release -name paper_figures -type f -perm -u+x | head -n 1)
-"$program" --all -o "$output" --page "$page" "${arguments[@]}"
-echo "The page about them: $page"
+status=0
+build/release/paper_figures/paper_figures --all -o out/figures --page out/figures/figures.md "$@" || status=$?
+echo "Pictures, numbers and the page figures.md are in $PWD/out/figures"
+exit "$status"
