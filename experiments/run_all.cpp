@@ -129,12 +129,12 @@ int run(const Job& job, const fs::path& folder) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
 }
 
-std::string last_line(const fs::path& file) {
+/// What it said first: the reason of a refusal.
+std::string first_line(const fs::path& file) {
   std::ifstream stream(file);
-  std::string last;
-  for (std::string line; std::getline(stream, line);)
-    if (!line.empty()) last = line;
-  return last;
+  std::string line;
+  std::getline(stream, line);
+  return line;
 }
 
 /// Runs the job unless that was done before; whether it did what it was for.
@@ -153,7 +153,7 @@ bool settle(const Job& job, const fs::path& folder) {
   if (status == 1) tell("done in " + seconds + ", and the answer is no");
   if (status > 1)
     tell("FAILED with status " + std::to_string(status) + " after " + seconds + ": " +
-         last_line(folder / (job.name + ".log")));
+         first_line(folder / (job.name + ".log")));
   return status == 0;
 }
 

@@ -230,6 +230,7 @@ int main(int argc, char** argv) {
       .add_option("--slow-directions", settings.slow_directions, "directions for every other method")
       ->check(CLI::Range(1, 100000));
   return experiment.run(argc, argv, [&](Report& report) {
+    const std::vector<ModelFile> models = experiment.models();
     ByMethod methods;
     const auto measure = [&](const std::string& name, const Shape& shape, const std::string& hash) {
       const std::vector<Row> rows = compare(shape, settings);
@@ -237,10 +238,9 @@ int main(int argc, char** argv) {
       for (const Row& row : rows) methods[row.method].push_back(row);
     };
     for (const auto& [name, shape] : small_solids()) measure(name, shape, "");
-    for_each_model(experiment.models(), report,
-                   [&](const ModelFile& model, const Shape& shape, const std::string& hash) {
-                     measure(model.name, shape, hash);
-                   });
+    for_each_model(models, report, [&](const ModelFile& model, const Shape& shape, const std::string& hash) {
+      measure(model.name, shape, hash);
+    });
     add_summary(methods, report);
     add_plot(methods, report);
   });

@@ -146,7 +146,7 @@ class Scaling {
     against_threads();
     add_exponents();
     plot("triangles", "Cost of the exact separation, wavy cup, one thread");
-    plot("directions", "Cost of the best direction, wavy cup of 4,050 triangles, one thread");
+    plot("directions", "Cost of the best direction, wavy cup, one thread");
     plot("parts", "Cost of a rack with more and more parts, one thread");
     plot("threads", "Search of the best direction on several threads");
   }
@@ -180,7 +180,7 @@ class Scaling {
   }
 
   void against_directions() {
-    const StackabilitySolver solver(wavy_cup(4096));
+    const StackabilitySolver solver(wavy_cup(std::min(settings_.largest_triangles, 4096)));
     for (int count = 100; count <= 6400; count *= 2)
       add("directions", "best of even directions", count, timed([&] {
             double best = -1;
@@ -274,6 +274,9 @@ int main(int argc, char** argv) {
   experiment.app()
       .add_option("--directions", settings.directions, "directions per shape")
       ->check(CLI::Range(1, 100000));
+  experiment.app()
+      .add_option("--finest-spacing", settings.finest_spacing, "radians between samples of the finest search")
+      ->check(CLI::Range(1e-3, coarsest_spacing));
   return experiment.run(argc, argv,
                         [&](Report& report) { Scaling(settings, experiment.threads(), report).run(); });
 }

@@ -78,7 +78,7 @@ std::vector<std::pair<std::string, Shape>> small_solids() {
       {"small brick", of_boxes({{{0, 0, 0}, {3, 2, 1}}})},
       {"small table", of_boxes({top, leg(2, 2), leg(113, 2), leg(2, 73), leg(113, 73)})},
       {"small corner", of_boxes({{{0, 0, 0}, {4, 1, 1}}, {{0, 0, 0}, {1, 4, 1}}, {{0, 0, 0}, {1, 1, 4}}})},
-      {"small cup", cup(8)}};
+      {"small cup", cup(6)}};
 }
 
 }  // namespace stackabilization::experiments
