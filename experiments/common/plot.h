@@ -22,7 +22,7 @@ inline constexpr int plot_colours = 11;
 
 /// Points that belong together. On a logarithmic axis, those that are not positive are left out.
 struct Series {
-  std::string name;
+  std::string name;  ///< stands at the right, level with the last point or the middle dot; may be empty
   std::vector<Eigen::Vector2d> points;
   SeriesStyle style = SeriesStyle::line;
   int colour = 0;  ///< series of one colour belong together; in [0, plot_colours)

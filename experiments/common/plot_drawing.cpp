@@ -1,7 +1,9 @@
 #include "common/plot_drawing.h"
 
+#include <algorithm>
 #include <array>
 
+#include "common/statistics.h"
 #include "stackabilization/rendering/curve_plot.h"
 #include "stackabilization/shape/errors.h"
 
@@ -36,13 +38,50 @@ std::vector<Eigen::Vector2d> shown(const Plot& plot, const Series& series) {
   return points;
 }
 
+/// Without its name, which gets a place of its own.
 PlotSeries drawn(const Plot& plot, const Series& series) {
   const auto colour = static_cast<std::size_t>(series.colour);
-  PlotSeries result{series.name, colours.at(colour), shown(plot, series)};
+  PlotSeries result{"", colours.at(colour), shown(plot, series)};
   if (series.style == SeriesStyle::reference) result.line = PlotLine::thin;
   if (series.style == SeriesStyle::dots) result.line = PlotLine::none;
   if (series.style != SeriesStyle::reference) result.mark = marks.at(colour % marks.size());
   return result;
+}
+
+constexpr double text_size = 15;
+constexpr Rectangle place{20, 60, 710, 520};
+
+/// The name of a series, beside the axes.
+struct Label {
+  double y;
+  std::string text;
+  Colour colour;
+};
+
+/// Level with the last point of a line, or with the middle one of the dots.
+std::vector<Label> labels_of(const Plot& plot, const PlotArea& area) {
+  std::vector<Label> labels;
+  for (const Series& series : plot.series) {
+    std::vector<double> heights;
+    for (const Eigen::Vector2d& point : shown(plot, series)) heights.push_back(area.at(point).y());
+    if (series.name.empty() || heights.empty()) continue;
+    const bool dots = series.style == SeriesStyle::dots;
+    labels.push_back({dots ? median(heights) : heights.back(), series.name,
+                      colours.at(static_cast<std::size_t>(series.colour))});
+  }
+  return labels;
+}
+
+/// Moves labels apart: they keep the order of their heights, and a line's distance.
+void spread(std::vector<Label>& labels, double bottom) {
+  constexpr double distance = 1.3 * text_size;
+  std::stable_sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.y < b.y; });
+  for (std::size_t i = 1; i < labels.size(); ++i)
+    labels[i].y = std::max(labels[i].y, labels[i - 1].y + distance);
+  for (std::size_t i = labels.size(); i-- > 0; bottom -= distance) {
+    labels[i].y = std::min(labels[i].y, bottom);
+    bottom = labels[i].y;
+  }
 }
 
 }  // namespace
@@ -57,9 +96,20 @@ Drawing drawing_of(const Plot& plot) {
   if (!has_points(plot)) throw UsageError("a plot needs at least one point");
   CurvePlot curves{axis_of(plot.x), axis_of(plot.y), {}, {}};
   for (const Series& series : plot.series) curves.series.push_back(drawn(plot, series));
-  CurvePlotOptions options;
-  options.title = plot.title;
-  return curve_plot(curves, options);
+  const PlotArea area(curves, place, text_size);
+  std::vector<Label> labels = labels_of(plot, area);
+  spread(labels, area.rectangle().bottom());
+  Drawing drawing;
+  drawing.width = 1000;
+  drawing.height = 600;
+  drawing.add(Text{{area.rectangle().x, 40}, plot.title, 1.3 * text_size, palette::ink, Anchor::left, true});
+  drawing.add(plot_elements(curves, place, text_size));
+  for (const Label& label : labels)
+    drawing.add(Text{{area.rectangle().right() + text_size, label.y + 0.35 * text_size},
+                     label.text,
+                     text_size,
+                     label.colour});
+  return drawing;
 }
 
 }  // namespace stackabilization::experiments

@@ -57,3 +57,18 @@ TEST_CASE("a single point, and equal values, still make a picture") {
          {std::vector<Eigen::Vector2d>{{5, 5}}, std::vector<Eigen::Vector2d>{{5, 5}, {5, 5}}})
       CHECK(drawing_of(plot_of(points, logarithmic)).width > 0);
 }
+
+TEST_CASE("names of series that end at the same height stand below each other, inside the picture") {
+  Plot plot = plot_of({}, false);
+  plot.series.clear();
+  for (int k = 0; k < 11; ++k) plot.series.push_back({"name " + std::to_string(k), {{1, k}, {2, 0}}});
+  const Drawing drawing = drawing_of(plot);
+  std::vector<double> heights;
+  for (const DrawingElement& element : drawing.elements)
+    if (const auto* text = std::get_if<Text>(&element); text && text->text.starts_with("name "))
+      heights.push_back(text->at.y());
+  REQUIRE(heights.size() == 11);
+  for (std::size_t k = 1; k < heights.size(); ++k) CHECK(heights[k] - heights[k - 1] > 15);
+  CHECK(heights.front() > 0);
+  CHECK(heights.back() < drawing.height);
+}
