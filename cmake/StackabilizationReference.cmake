@@ -4,8 +4,7 @@ find_program(DOXYGEN_EXECUTABLE doxygen)
 mark_as_advanced(DOXYGEN_EXECUTABLE)
 if(DOXYGEN_EXECUTABLE)
   file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/docs/*.md ${PROJECT_SOURCE_DIR}/docs/*.dox
-    ${PROJECT_SOURCE_DIR}/*.md ${PROJECT_SOURCE_DIR}/experiments/*.md ${PROJECT_SOURCE_DIR}/experiments/*/*.md
-    ${PROJECT_SOURCE_DIR}/paper_figures/*.md)
+    ${PROJECT_SOURCE_DIR}/*.md ${PROJECT_SOURCE_DIR}/experiments/*.md ${PROJECT_SOURCE_DIR}/experiments/*/*.md)
   list(TRANSFORM pages REPLACE "(.+)" "\"\\1\"" OUTPUT_VARIABLE quoted_pages)
   list(TRANSFORM installed_headers REPLACE "(.+)" "\"\\1\"" OUTPUT_VARIABLE quoted_headers)
   list(JOIN quoted_pages " " reference_pages)
