@@ -60,6 +60,8 @@ DesignTask read_design_task(const Fields& fields) {
   if (task.requirements.target >= 1) fields.refuse("target", "a stackability below 1");
   task.options.preset = choice<ImprovementPreset>(
       fields, "preset", {{"refined", ImprovementPreset::refined}, {"paper", ImprovementPreset::paper}});
+  // As published: cross-sections that are moved bend what was straight.
+  task.options.search.edits.bends = task.options.preset == ImprovementPreset::paper;
   task.options.search.expansions = fields.whole("expansions", 1, most_expansions);
   task.options.search.seconds = no_limit;
   task.options.search.cone_degrees = 0;
