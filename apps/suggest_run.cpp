@@ -84,6 +84,9 @@ SuggestRun run_suggest(const SuggestCommandOptions& options, const StructuredMod
   requirements.target = options.target.value_or(0);
   requirements.measure = options.measure;
   const RequirementChecker checker(*run.space, requirements);
+  const auto measured = [&](const Design& design, const SuggestionOptions& how) {
+    return named(input.model, [&] { return situation(checker, design, run.direction, how); });
+  };
   run.constraints = deformation_constraints(requirements, rest, run.direction);
   SuggestionOptions suggesting;
   suggesting.alpha = options.alpha.value_or(suggesting.alpha);
@@ -91,7 +94,7 @@ SuggestRun run_suggest(const SuggestCommandOptions& options, const StructuredMod
   suggesting.edits.bends = options.bends;
   if (history.nodes.empty()) {
     run.design = run.space->at_rest();
-    run.now = situation(checker, run.design, run.direction, suggesting);
+    run.now = measured(run.design, suggesting);
     HistoryNode root;
     root.name = "at rest";
     root.direction = run.direction.vector();
@@ -99,7 +102,7 @@ SuggestRun run_suggest(const SuggestCommandOptions& options, const StructuredMod
     history.nodes.push_back(std::move(root));
   } else {
     run.design = named(input.model, [&] { return design_at(*run.space, history, history.current); });
-    run.now = situation(checker, run.design, run.direction, suggesting);
+    run.now = measured(run.design, suggesting);
   }
   run.node = history.current;
   const bool only_back = options.roll_back && !options.apply;

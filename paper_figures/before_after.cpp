@@ -92,6 +92,12 @@ bool keeps_height(const ImprovedShape& shapes) {
   return std::abs(after - before) <= tolerance::relative * before;
 }
 
+StackedTask read_stacked_task(const Fields& fields) {
+  constexpr int most_copies = 20;
+  return {read_design_task(fields.object("task")), read_camera(fields),
+          fields.whole("copies", 1, most_copies)};
+}
+
 std::vector<LegendEntry> before_after_entries() {
   return {{LegendMark::swatch, palette::input, "before"}, {LegendMark::swatch, palette::output, "after"}};
 }

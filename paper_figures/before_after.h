@@ -10,6 +10,16 @@
 /// Designs before (yellow) and after (green), for figures.
 namespace stackabilization::figures {
 
+/// One design that is shown in stacks.
+struct StackedTask {
+  DesignTask task;
+  Camera camera;
+  int copies = 1;  ///< in a stack
+};
+
+/// Entries "task", "camera" and "copies" (1 to 20).
+StackedTask read_stacked_task(const Fields& fields);
+
 /// Entry "height": of a row of panels, fraction of the width of the sheet.
 double read_row_height(const Fields& fields);
 

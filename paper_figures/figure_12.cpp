@@ -10,18 +10,6 @@
 namespace stackabilization::figures {
 namespace {
 
-struct Options {
-  DesignTask task;
-  Camera camera;
-  int copies = 1;
-};
-
-Options read(const Fields& fields) {
-  constexpr int most_copies = 20;
-  return {read_design_task(fields.object("task")), read_camera(fields),
-          fields.whole("copies", 1, most_copies)};
-}
-
 /// The two copies that block each other: the parts that touch in full, the rest pale.
 Scene blocked_scene(const MeasuredShape& shape, const Blocker& blocker) {
   const Direction direction(shape.measured.direction);
@@ -80,7 +68,7 @@ struct Story {
   const Diagnosis& diagnosis() const { return *run.result.diagnosis; }
 };
 
-Story story_of(const Options& options, const ModelFolder& models) {
+Story story_of(const StackedTask& options, const ModelFolder& models) {
   DesignRun run = design_run(options.task, models);
   if (!run.result.diagnosis || run.result.diagnosis->blockers.empty())
     throw InputError("the target " + ratio_text(options.task.requirements.target) +
@@ -101,7 +89,7 @@ std::string without_text(const Removal& removal, const Shape& shape) {
   return text;
 }
 
-PanelRow stacks(const Options& options, const Story& story) {
+PanelRow stacks(const StackedTask& options, const Story& story) {
   PanelRow row{{}, 0.5, PanelScale::common};
   const auto add = [&](const std::string& title, const MeasuredShape& shape, const Colour& colour) {
     row.panels.push_back({scene_panel(grounded_stack(shape, options.copies, colour),
@@ -117,7 +105,7 @@ PanelRow stacks(const Options& options, const Story& story) {
 }
 
 /// The nearest design stacked on itself, what blocks it in colour.
-PanelRow blocked(const Options& options, const Story& story, const std::string& why) {
+PanelRow blocked(const StackedTask& options, const Story& story, const std::string& why) {
   const MeasuredShape& shape = story.upright.after;
   const Direction up(shape.measured.direction);
   const Blocker& blocker = story.diagnosis().blockers.front();
@@ -126,7 +114,7 @@ PanelRow blocked(const Options& options, const Story& story, const std::string& 
   return {{{std::move(both), "", {why}, 1}}, 0.42};
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make(const StackedTask& options, const ModelFolder& models) {
   const Story story = story_of(options, models);
   const DesignRun& run = story.run;
   const std::string why = sentence_about_the_first_blocker(story.diagnosis(), run.rest());
@@ -155,7 +143,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_12() {
-  return figure(12, "A swivel chair that is refused its target, and why", read, make);
+  return figure(12, "A swivel chair that is refused its target, and why", read_stacked_task, make);
 }
 
 }  // namespace stackabilization::figures

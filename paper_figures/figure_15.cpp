@@ -4,20 +4,8 @@
 namespace stackabilization::figures {
 namespace {
 
-struct Options {
-  DesignTask task;
-  Camera camera;
-  int copies = 1;
-};
-
-Options read(const Fields& fields) {
-  constexpr int most_copies = 20;
-  return {read_design_task(fields.object("task")), read_camera(fields),
-          fields.whole("copies", 1, most_copies)};
-}
-
 /// Alone, and a stack that can be seen through.
-Panel panel_of(const MeasuredShape& shape, const Options& options, const Colour& colour) {
+Panel panel_of(const MeasuredShape& shape, const StackedTask& options, const Colour& colour) {
   constexpr double see_through = 0.45;
   const Direction up(shape.measured.direction);
   Scene stack = grounded_stack(shape, options.copies, colour);
@@ -26,7 +14,7 @@ Panel panel_of(const MeasuredShape& shape, const Options& options, const Colour&
   return {scene_panel(scene, up, options.camera), "S " + ratio_text(shape.measured.value), {}, 1};
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make(const StackedTask& options, const ModelFolder& models) {
   const DesignRun run = design_run(options.task, models);
   const ImprovedShape shapes = improved_shape(run);
   PanelRow row{
@@ -44,7 +32,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_15() {
-  return figure(15, "A bottle, by deformation of its surface", read, make);
+  return figure(15, "A bottle, by deformation of its surface", read_stacked_task, make);
 }
 
 }  // namespace stackabilization::figures

@@ -102,6 +102,8 @@ int guarded(int argc, char** argv) {
     return complain(error.what(), status_input);
   } catch (const std::bad_alloc&) {
     return complain("this takes more memory than there is", status_input);
+  } catch (const std::exception& error) {
+    return complain(std::string("unexpected failure: ") + error.what(), status_input);
   }
 }
 

@@ -87,7 +87,9 @@ int Experiment::guarded(const std::function<void(Report&)>& body) {
     Report report;
     report.program_ = program_;
     body(report);
-    write(report);
+    const auto main_table = report.tables_.find("");
+    const bool nothing = main_table != report.tables_.end() && main_table->second.rows().empty();
+    if (!report.failed_ || !nothing) write(report);
     return report.failed_ ? 3 : report.denied_ ? 1 : 0;
   } catch (const InputError& error) {
     return complain(error, 3);

@@ -27,6 +27,8 @@ std::vector<ModelFile> shipped_models() {
 }
 
 std::vector<ModelFile> paper_models(const fs::path& folder) {
+  if (!fs::is_directory(folder))
+    throw InputError(folder.string() + ": no such folder, expected that of the authors' data");
   std::vector<ModelFile> models;
   for (const fs::path& path : files_below(folder, ".obj"))
     models.push_back({path, path.lexically_relative(folder).replace_extension().generic_string(), true});
