@@ -73,6 +73,13 @@ void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
   add_choice(command, "--preset", options.preset, presets,
              "paper: search in the paper's steps; refined: then least change of continuous magnitudes "
              "(default: refined)");
+  const Choices<ChangeMeasure> measures = {{"distortion", ChangeMeasure::distortion},
+                                           {"displacement", ChangeMeasure::displacement},
+                                           {"both", ChangeMeasure::both}};
+  add_choice(
+      command, "--least", options.least, measures,
+      "What refinement makes small: the distortion D of the primitives, the displacement of the vertices "
+      "(root mean square), or the sum of both (default: both)");
   add_number(command, "--time", options.seconds, "Seconds to search at most (default: 40)");
   add_count(command, {"--expansions", "Candidates to expand at most (default: 100)", 1}, options.expansions);
   add_number(command, "--alpha", options.alpha, "Weight of the distortion in the energy (default: 0.2)");
@@ -116,6 +123,7 @@ ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) 
   BestFirstOptions& search = improvement.search;
   search.alpha = options.alpha.value_or(search.alpha);
   improvement.refinement.alpha = search.alpha;
+  improvement.refinement.least = options.least;
   if (options.preset == ImprovementPreset::paper) search.edits.family = EditFamily::paper;
   search.edits.bends = options.bends;
   search.edits.contacts.semantics = options.measure.semantics;

@@ -13,7 +13,6 @@ find_package(PkgConfig REQUIRED)
 pkg_check_modules(minizip REQUIRED IMPORTED_TARGET minizip)
 # What CGAL's numbers stand on.
 pkg_check_modules(gmp REQUIRED IMPORTED_TARGET gmpxx mpfr gmp)
-pkg_check_modules(nlopt REQUIRED IMPORTED_TARGET nlopt)
 # tinygltf is header-only and parses with nlohmann-json.
 find_package(nlohmann_json 3.9 REQUIRED)
 

@@ -31,7 +31,7 @@ report "Small decimal without a name" \
 # Not installed: rational_number.h and half_edge_mesh.h, the doors to GMP and OpenMesh for sources that compute with
 # them, and the formats' own headers.
 report "Installed header that shows a third-party library other than Eigen" \
-  "$(source_lines '#include [<"](CGAL|OpenMesh|boost|vtk|tbb|nlopt|gmp|mpfr|pugixml|minizip|unzip|zip\.h|tiny_gltf|nlohmann|GL/|EGL/)' \
+  "$(source_lines '#include [<"](CGAL|OpenMesh|boost|vtk|tbb|gmp|mpfr|pugixml|minizip|unzip|zip\.h|tiny_gltf|nlohmann|GL/|EGL/)' \
     --include=*.h --exclude=rational_number.h --exclude=half_edge_mesh.h --exclude-dir=formats)"
 report "Output from the library" \
   "$(source_lines '(std::(cout|cerr|clog)|[^a-z_]f?printf *\(|[^a-z_]puts *\()' --include=*.h --include=*.cpp)"

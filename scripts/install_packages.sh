@@ -5,7 +5,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build ccache pkg-config git
-  libcgal-dev libeigen3-dev libboost-dev libopenmesh-dev libtbb-dev libgmp-dev libmpfr-dev libnlopt-dev
+  libcgal-dev libeigen3-dev libboost-dev libopenmesh-dev libtbb-dev libgmp-dev libmpfr-dev
   libpugixml-dev libminizip-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
   libvtk9-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   libembree-dev libfcl-dev

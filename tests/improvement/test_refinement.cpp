@@ -41,7 +41,9 @@ class Cups : public DesignSpace {
 
   DesignOutcome edited(const Design& now, const Edit& edit, const DeformationConstraints&) const override {
     const Eigen::VectorXd radii = std::get<GeneralizedCylinder>(now.primitives.front()).radii;
-    const double factor = std::get<Scale>(edit.operation).factor;
+    const auto* scaling = std::get_if<Scale>(&edit.operation);
+    if (scaling == nullptr) return {Refusal{"a cup has radii only", {}, 0}, now};
+    const double factor = scaling->factor;
     const double bottom = edit.handle.index == 0 ? radii[0] * factor : radii[0];
     const double top = edit.handle.index == 1 ? radii[1] * factor : radii[1];
     if (bottom < least_bottom_) return {Refusal{"the bottom would be too small", {}, 0}, now};
@@ -94,9 +96,15 @@ double volume_change(double bottom, double top) {
   return (bottom * bottom + bottom * top + top * top) / 3 - 1;
 }
 
-RefinementOptions alone() {
+RefinementOptions of_distortion() {
   RefinementOptions options;
-  options.companions = Companions::none;
+  options.least = ChangeMeasure::distortion;
+  return options;
+}
+
+RefinementOptions alone() {
+  RefinementOptions options = of_distortion();
+  options.joining = 0;
   return options;
 }
 
@@ -235,7 +243,7 @@ TEST_CASE("of two edits those magnitudes are found that keep the volume, where D
   const double top = std::sqrt(12.0 / 7);
   for (const auto& [b, t] : {std::pair(0.4, 1.1), std::pair(0.5, 1.2), std::pair(0.8, 1.25)}) {
     const RefinementResult result =
-        refined_candidate(checker, cups.candidate(checker, {scale(0, b), scale(1, t)}));
+        refined_candidate(checker, cups.candidate(checker, {scale(0, b), scale(1, t)}), of_distortion());
     check_met(result, 0.8);
     CHECK(result.candidate.energy.distortion.total() == Approx((top - 1) / 8).epsilon(1e-3));
     CHECK(radius(result, 1) == Approx(top).epsilon(1e-3));
@@ -247,14 +255,38 @@ TEST_CASE("what one end takes away the other may give back") {
   const Cups cups;
   const RequirementChecker checker(cups, stacks(0.8));
   const Candidate start = cups.candidate(checker, {scale(0, 0.5)});
-  const RefinementResult result = refined_candidate(checker, start);
+  const RefinementResult result = refined_candidate(checker, start, of_distortion());
   check_met(result, 0.8);
   CHECK(radius(result, 1) == Approx(std::sqrt(12.0 / 7)).epsilon(1e-3));
   REQUIRE(result.candidate.design.edits.size() == 2);
   CHECK(result.candidate.design.edits[1].handle == Handle{HandleKind::section, 0, 1});
   REQUIRE(result.candidate.reasons.size() == 2);
   CHECK(result.candidate.reasons[0] == "edit 0");
-  CHECK(result.candidate.reasons[1] == "makes up for the change opposite");
+  CHECK(result.candidate.reasons[1] == "makes up for the others");
+}
+
+TEST_CASE("the displacement is least where no other cup that stacks as well is nearer") {
+  // On the border S = 0.8 lies b = t / 2: one number is left, and can be looked through.
+  const Cups cups;
+  const RequirementChecker checker(cups, stacks(0.8));
+  const Candidate start = cups.candidate(checker, {scale(0, 0.4), scale(1, 1.1)});
+  for (const ChangeMeasure least : {ChangeMeasure::displacement, ChangeMeasure::both}) {
+    RefinementOptions options;
+    options.least = least;
+    const RefinementResult result = refined_candidate(checker, start, options);
+    check_met(result, 0.8);
+    double nearest = 1;
+    for (int step = 0; step <= 400; ++step) {
+      const double top = 1 + 0.001 * step;
+      const Candidate other = cups.candidate(checker, {scale(0, top / 2), scale(1, top)});
+      const Distortion distortion = EnergyMeter(cups.rest(), BoxModel::frame).distortion(other.design);
+      nearest =
+          std::min(nearest, size_of(least, distortion, shape_change(cups.rest().shape, other.design.shape)));
+    }
+    const double found = size_of(least, result.candidate, cups.rest().shape);
+    CHECK(found <= nearest * (1 + 1e-4));
+    CHECK(found >= nearest * (1 - 1e-3));
+  }
 }
 
 TEST_CASE("a room is filled to the end, though boxes change with the design") {
@@ -297,7 +329,7 @@ TEST_CASE("proportions are kept") {
   requirements.least_proportion = limit;
   const RequirementChecker checker(cups, requirements);
   const RefinementResult result =
-      refined_candidate(checker, cups.candidate(checker, {scale(0, 0.65), scale(1, 1.35)}));
+      refined_candidate(checker, cups.candidate(checker, {scale(0, 0.65), scale(1, 1.35)}), of_distortion());
   check_met(result, 0.8);
   CHECK(radius(result, 0) == Approx(limit).epsilon(1e-4));
   CHECK(radius(result, 0) >= limit);
@@ -309,7 +341,7 @@ TEST_CASE("where edits are refused the best of the others is found") {
   const Cups cups(limit);
   const RequirementChecker checker(cups, stacks(0.8));
   const RefinementResult result =
-      refined_candidate(checker, cups.candidate(checker, {scale(0, 0.75), scale(1, 1.6)}));
+      refined_candidate(checker, cups.candidate(checker, {scale(0, 0.75), scale(1, 1.6)}), of_distortion());
   check_met(result, 0.8);
   CHECK(radius(result, 0) >= limit);
   const double least = (std::abs(volume_change(limit, 2 * limit)) + (2 * limit - 1) / 2) / 4;
@@ -352,7 +384,7 @@ TEST_CASE("a refinement that is cancelled at once gives back what it was given, 
   const RefinementResult result = refined_candidate(checker, start, options);
   CHECK(result.reached);
   CHECK(result.evaluations <= 10);
-  const RefinementResult nothing = refined_candidate(checker, cups.candidate(checker, {}));
+  const RefinementResult nothing = refined_candidate(checker, cups.candidate(checker, {}), of_distortion());
   CHECK_FALSE(nothing.reached);
   CHECK(nothing.evaluations == 0);
 }
@@ -364,7 +396,7 @@ TEST_CASE("the same bytes for any number of threads") {
   std::vector<RefinementResult> results;
   for (const std::size_t threads : {1, 4}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    results.push_back(refined_candidate(checker, start));
+    results.push_back(refined_candidate(checker, start, of_distortion()));
   }
   CHECK(results[0].evaluations == results[1].evaluations);
   CHECK(results[0].candidate.design.shape.vertices == results[1].candidate.design.shape.vertices);

@@ -20,10 +20,10 @@ namespace {
 /// Rounds in which vertices that a solve made outermost are held as well.
 constexpr int extent_rounds = 10;
 
-/// Rounds of stretching what a solve leaves of an extent, where that is at most this share of what relations
-/// may be off by.
+/// Rounds of stretching what a solve leaves of an extent. It goes on while that is more than the first of
+/// these, in multiples of what relations may be off by; what is more than the second is no remainder.
 constexpr int remainder_rounds = 4;
-constexpr double remainder_share = 0.1;
+constexpr double settled_remainder = 0.1, largest_remainder = 10;
 
 std::size_t at(int i) {
   return static_cast<std::size_t>(i);
@@ -171,7 +171,7 @@ class EditSolution {
     for (int round = 0; round < 2 * extent_rounds; ++round) {
       const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
       if (state_.levels.size() == 0) state_.levels = watch_.levels(vertices);
-      if (!watch_.any_excess(vertices)) return;
+      if (remains_at_most(settled_remainder, vertices)) return;
       if (round >= extent_rounds) {
         constraints = unbounded;
         watch_.release();
@@ -187,14 +187,22 @@ class EditSolution {
     }
   }
 
-  /// What little a solve leaves of a kept extent, far below what relations may be off by, is taken away by
-  /// stretching all that moved along it.
+  /// Is every extent off by so little, which take_up_remainder sees to?
+  bool remains_at_most(double multiple, const Points& vertices) const {
+    for (std::size_t k = 0; k < watch_.bounds().size(); ++k) {
+      const double most = watch_.is_kept(k) ? multiple * tolerance::relation * diagonal() : 0;
+      if (std::abs(watch_.excess(k, vertices)) > most) return false;
+    }
+    return true;
+  }
+
+  /// What little a solve leaves of a kept extent is taken away by stretching all that moved along it: which
+  /// of two vertices at the foot of a leg is the lower one may change with every solve. Relations between
+  /// what moved do not notice; those to the rest are looked at afterwards.
   void take_up_remainder() {
     for (int round = 0; round < remainder_rounds; ++round) {
       const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
-      if (!watch_.any_excess(vertices)) return;
-      for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
-        if (std::abs(watch_.excess(k, vertices)) > remainder_share * tolerance::relation * diagonal()) return;
+      if (!watch_.any_excess(vertices) || !remains_at_most(largest_remainder, vertices)) return;
       for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
         if (watch_.is_kept(k) && watch_.excess(k, vertices) != 0)
           stretch(watch_.bounds()[k].normal, watch_.range(k, vertices), watch_.wanted(k, vertices));

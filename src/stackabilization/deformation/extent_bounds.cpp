@@ -99,12 +99,18 @@ bool ExtentWatch::hold_side(std::size_t k, double sign, const Points& vertices, 
   const double extreme = sign > 0 ? whole.high : -whole.low;
   const double end = bound.level ? sign * *bound.level + (sign > 0 ? bound.high : 0) : 0;
   const double outermost = bound.level ? std::min(extreme, end) : extreme - std::max(beyond, 0.0);
+  // What is level counts as that, whatever rounding made of it: which vertices are held decides what a solve
+  // does with an edit, and is to change only where the edit does.
+  const double slack = tolerance::relative * whole.length();
   bool added = false;
   for (const std::vector<int>& part : by_part_) {
     const auto height = [&](int v) { return sign * vertices.row(v).dot(bound.normal); };
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const int v : part) highest = std::max(highest, height(v));
+    if (!(highest >= outermost - slack)) continue;
     const auto top =
-        std::max_element(part.begin(), part.end(), [&](int a, int b) { return height(a) < height(b); });
-    if (top == part.end() || height(*top) < outermost || !held_.emplace(k, sign > 0, *top).second) continue;
+        std::find_if(part.begin(), part.end(), [&](int v) { return height(v) >= highest - slack; });
+    if (!held_.emplace(k, sign > 0, *top).second) continue;
     Constraint constraint;
     constraint.riders = transfer.riders(*top);
     constraint.normal = bound.normal;

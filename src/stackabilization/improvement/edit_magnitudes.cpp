@@ -3,14 +3,20 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
+#include "stackabilization/deformation/straightness.h"
+#include "stackabilization/improvement/contact_handles.h"
+#include "stackabilization/improvement/contact_side.h"
 #include "stackabilization/improvement/refinement.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization {
 
 namespace {
+
+using namespace detail;
 
 /// +1 or -1 where the vectors lie on one line through 0 as nearly as relations hold, else 0.
 int same_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -57,14 +63,64 @@ bool changes_nothing(const Edit& edit) {
   return std::get<Scale>(edit.operation).factor == 1;
 }
 
-std::optional<Handle> opposite(const Handle& handle, const Structure& structure) {
-  if (handle.kind == HandleKind::face) return Handle{handle.kind, handle.part, handle.index ^ 1};
-  if (handle.kind != HandleKind::section) return std::nullopt;
-  const auto* cylinder =
-      std::get_if<GeneralizedCylinder>(&structure.parts[static_cast<std::size_t>(handle.part)].primitive);
-  if (!cylinder || cylinder->closed) return std::nullopt;
-  const int last = static_cast<int>(cylinder->radii.size()) - 1;
-  return Handle{handle.kind, handle.part, 2 * handle.index < last ? last : 0};
+/// Sizes that count as 1: of a move as a fraction of the diagonal, of a scaling.
+constexpr double unit_move = 0.02;
+constexpr double unit_factor = 0.9;
+
+/// The least row of the parts that symmetries tie to each.
+std::vector<int> first_of_symmetric(const Structure& structure) {
+  std::vector<int> first(structure.parts.size());
+  std::iota(first.begin(), first.end(), 0);
+  const auto of = [&first](int part) -> int& { return first[static_cast<std::size_t>(part)]; };
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const Relation& relation : structure.relations) {
+      if (relation.type != RelationType::symmetry) continue;
+      const int least = std::min(of(relation.parts[0]), of(relation.parts[1]));
+      for (const int part : relation.parts) {
+        changed |= of(part) != least;
+        of(part) = least;
+      }
+    }
+  }
+  return first;
+}
+
+/// Whether the part reaches an end of the shape along w: it does not move along it then.
+bool is_on_end(const Shape& shape, int part, const ContactFrame& frame) {
+  const Eigen::VectorXd heights = part_points(shape, part) * frame.w;
+  return frame.on_end({heights.minCoeff(), heights.maxCoeff()});
+}
+
+/// The edits of one handle.
+std::vector<Edit> edits_of(const Handle& handle, const StructuredShape& rest, const ContactFrame& frame) {
+  const Structure& structure = rest.structure;
+  const Primitive& primitive = structure.parts[static_cast<std::size_t>(handle.part)].primitive;
+  const auto* cylinder = std::get_if<GeneralizedCylinder>(&primitive);
+  std::vector<Eigen::Vector3d> axes{frame.u, frame.v};
+  Falloff falloff = Falloff::gaussian;
+  if (handle.kind == HandleKind::section) {
+    const int last = static_cast<int>(cylinder->radii.size()) - 1;
+    if (cylinder->closed) return {};
+    if (handle.index != 0 && handle.index != last) {
+      const bool chosen =
+          handle.index == last / 4 || handle.index == last / 2 || handle.index == 3 * last / 4;
+      if (!chosen || has_straight_wall(*cylinder)) return {};
+      return {{handle, Scale{unit_factor, std::nullopt}, falloff}};
+    }
+    falloff = Falloff::linear;
+  } else if (handle.kind == HandleKind::part || handle.kind == HandleKind::face) {
+    if (!is_on_end(rest.shape, handle.part, frame)) axes.push_back(frame.w);
+  } else {
+    return {};
+  }
+  std::vector<Edit> result;
+  for (const Eigen::Vector3d& axis : axes)
+    result.push_back({handle, Move{unit_move * structure.diagonal * axis}, falloff});
+  if (handle.kind != HandleKind::part) result.push_back({handle, Scale{unit_factor, std::nullopt}, falloff});
+  if (handle.kind == HandleKind::part)
+    for (const Eigen::Vector3d& axis : axes) result.push_back({handle, Scale{unit_factor, axis}, falloff});
+  return result;
 }
 
 }  // namespace
@@ -94,17 +150,23 @@ std::vector<MagnitudeEdit> merged_edits(
   return result;
 }
 
-std::vector<MagnitudeEdit> counterparts(const std::vector<MagnitudeEdit>& edits, const DesignSpace& space) {
+std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edits, const DesignSpace& space,
+                                          const Direction& direction) {
+  if (space.kind() != DeformationKind::controllers) return {};
+  const StructuredShape& rest = space.rest();
   const std::vector<Handle> handles = space.handles();
+  const Design design = space.at_rest();
+  const ContactFrame frame =
+      contact_frame({rest, space.kind(), handles, design, {}, direction}, tolerance::relative);
+  const std::vector<int> first = first_of_symmetric(rest.structure);
   std::vector<MagnitudeEdit> result;
-  for (const MagnitudeEdit& given : edits) {
-    const std::optional<Handle> handle = opposite(given.edit.handle, space.rest().structure);
-    if (!handle || std::find(handles.begin(), handles.end(), *handle) == handles.end()) continue;
-    const Edit edit{*handle, given.edit.operation, given.edit.falloff};
-    const auto is_there = [&](const MagnitudeEdit& there) { return merge(there.edit, edit).has_value(); };
-    if (std::none_of(edits.begin(), edits.end(), is_there) &&
-        std::none_of(result.begin(), result.end(), is_there))
-      result.push_back({edit, std::nullopt});
+  for (const Handle& handle : handles) {
+    if (handle.kind == HandleKind::shape || first[static_cast<std::size_t>(handle.part)] != handle.part)
+      continue;
+    for (const Edit& edit : edits_of(handle, rest, frame))
+      if (std::none_of(edits.begin(), edits.end(),
+                       [&](const MagnitudeEdit& there) { return merge(there.edit, edit).has_value(); }))
+        result.push_back({edit, std::nullopt});
   }
   return result;
 }

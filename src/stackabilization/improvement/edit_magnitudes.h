@@ -19,9 +19,12 @@ struct MagnitudeEdit {
 std::vector<MagnitudeEdit> merged_edits(
     const std::vector<Edit>& edits, const std::function<bool(const std::vector<MagnitudeEdit>&)>& acceptable);
 
-/// The same operations on the handles opposite to those of `edits`, where there is such a handle and nothing
-/// does the same there already: the other end of an open generalized cylinder, the opposite face of a cuboid.
-/// What one end takes away the other can give back.
-std::vector<MagnitudeEdit> counterparts(const std::vector<MagnitudeEdit>& edits, const DesignSpace& space);
+/// What may join `edits`, in small: moves along the axes of the contacts and scalings along them of every
+/// part of a controller model; of the faces of cuboids moves and scalings; of the ends of open generalized
+/// cylinders, with Falloff::linear, moves across r and scalings; where the wall has a profile, scalings of
+/// three sections between them. Of symmetric parts the first stands for all. Nothing that one of `edits` does
+/// already; nothing for other models.
+std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edits, const DesignSpace& space,
+                                          const Direction& direction);
 
 }  // namespace stackabilization::detail

@@ -15,9 +15,9 @@ using Clock = std::chrono::steady_clock;
 
 /// Shares of the time by which the pursuits, the search in the paper's steps, and the search end where their
 /// results are refined afterwards.
-constexpr double pursuit_share = 0.5;
-constexpr double paper_share = 0.6;
-constexpr double search_share = 0.65;
+constexpr double pursuit_share = 0.4;
+constexpr double paper_share = 0.45;
+constexpr double search_share = 0.5;
 /// Each search gets this share at least.
 constexpr double least_search = 0.05;
 /// Where nothing was found, what is left beyond this share is for the diagnosis.
@@ -31,10 +31,6 @@ bool more_stackable(const Candidate& a, const Candidate& b) {
   return a.measured.value > b.measured.value;
 }
 
-bool less_distorted(const Candidate& a, const Candidate& b) {
-  return a.energy.distortion.total() < b.energy.distortion.total();
-}
-
 /// Refines what a search found until there are as many different solutions as wanted.
 class Refiner {
  public:
@@ -44,6 +40,10 @@ class Refiner {
       : checker_(checker),
         options_(options.refinement),
         wanted_(options.search.solutions),
+        less_changed_([measure = options.refinement.least, &rest = checker.space().rest().shape](
+                          const Candidate& a, const Candidate& b) {
+          return size_of(measure, a, rest) < size_of(measure, b, rest);
+        }),
         distinct_(checker.space().rest()) {
     options_.alpha = options.search.alpha;
     options_.cancelled = [this, cancelled = options.search.cancelled, give_up, end] {
@@ -57,17 +57,17 @@ class Refiner {
   std::vector<Candidate> refined(std::vector<Candidate> starts, const BestFirstResult& found) {
     starts.insert(starts.end(), found.solutions.begin(), found.solutions.end());
     const double target = checker_.requirements().target;
-    std::stable_sort(starts.begin(), starts.end(), [target](const Candidate& a, const Candidate& b) {
+    std::stable_sort(starts.begin(), starts.end(), [this, target](const Candidate& a, const Candidate& b) {
       const bool reached = a.measured.value >= target;
       if (reached != (b.measured.value >= target)) return reached;
-      return reached ? less_distorted(a, b) : more_stackable(a, b);
+      return reached ? less_changed_(a, b) : more_stackable(a, b);
     });
     for (const Candidate& start : starts) add(start);
     for (const Candidate& near : found.nearest) {
       if (static_cast<int>(solutions_.size()) >= wanted_ || options_.cancelled()) break;
       add(near);
     }
-    std::stable_sort(solutions_.begin(), solutions_.end(), less_distorted);
+    std::stable_sort(solutions_.begin(), solutions_.end(), less_changed_);
     if (static_cast<int>(solutions_.size()) > wanted_) solutions_.resize(static_cast<std::size_t>(wanted_));
     return std::move(solutions_);
   }
@@ -85,11 +85,11 @@ class Refiner {
       nearest_ = std::move(result.candidate);
   }
 
-  /// Of two solutions that are not different the less distorted one stays.
+  /// Of two solutions that are not different the less changed one stays.
   void keep(Candidate candidate) {
     for (Candidate& other : solutions_)
       if (!distinct_.differ(other.design, candidate.design)) {
-        if (less_distorted(candidate, other)) other = std::move(candidate);
+        if (less_changed_(candidate, other)) other = std::move(candidate);
         return;
       }
     solutions_.push_back(std::move(candidate));
@@ -98,6 +98,7 @@ class Refiner {
   const RequirementChecker& checker_;
   RefinementOptions options_;
   int wanted_;
+  std::function<bool(const Candidate&, const Candidate&)> less_changed_;
   detail::Distinctness distinct_;
   std::vector<Candidate> solutions_;
   std::optional<Candidate> nearest_;

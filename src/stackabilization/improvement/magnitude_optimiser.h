@@ -1,30 +1,22 @@
 #pragma once
 
-#include "stackabilization/improvement/magnitude_problem.h"
+#include "stackabilization/improvement/magnitude_model.h"
 
 namespace stackabilization::detail {
 
-enum class MagnitudeGoal {
-  feasible,   ///< the largest shortfall is made as small as can be, until a sample is feasible
-  unchanged,  ///< D is made as small as can be while no constraint falls short
-};
-
-/// Where a run of the optimiser begins, and how far it may go.
+/// Where a run of the optimiser begins, and what for.
 struct MagnitudeRun {
   Magnitudes start;
-  double radius = 0;  ///< no magnitude changes by more, > 0
   MagnitudeGoal goal = MagnitudeGoal::unchanged;
 };
 
-/// Where it ended, which need not be the best point on its way (see MagnitudeProblem::best), nor feasible.
-struct MagnitudeRunEnd {
-  Magnitudes end;
-  bool refused = false;  ///< it met edits that are refused
-};
-
-/// Goes on to a local optimum by sequential quadratic programming (NLopt's SLSQP; Kraft 1994), with extra
-/// variables for the largest shortfall or the magnitude of each change of D, so that all it sees is smooth.
-/// Precondition: the start can be made.
-MagnitudeRunEnd optimised_magnitudes(MagnitudeProblem& problem, const MagnitudeRun& run);
+/// Goes on to a local optimum; where it ended, which need not be the best point on its way (see
+/// MagnitudeProblem::best).
+///
+/// A bundle method in a trust region: S is a maximum over contacts, so its slopes jump wherever another
+/// contact takes over, and sequential quadratic programming, which believes in the slopes at one point, gets
+/// stuck there. What is seen from points that failed is kept as cuts (MagnitudeModel), and the next step
+/// knows of both contacts. Precondition: the start can be made, and is feasible unless that is the goal.
+Magnitudes optimised_magnitudes(MagnitudeProblem& problem, const MagnitudeRun& run);
 
 }  // namespace stackabilization::detail

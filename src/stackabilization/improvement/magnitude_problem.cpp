@@ -16,8 +16,8 @@ namespace {
 
 /// Pairs of blocks count as near when they miss f_max, or what the target allows, by less than this fraction
 /// of the extent; so many at most.
-constexpr double near_band = 0.2;
-constexpr std::size_t most_pairs = 160;
+constexpr double near_band = 0.1;
+constexpr std::size_t most_pairs = 80;
 
 /// Shortfall of the whole shape where the pairs stand for it.
 constexpr double no_shortfall = -1;
@@ -42,6 +42,17 @@ Eigen::VectorXd in_a_row(const DistortionChanges& changes) {
   Eigen::VectorXd row(changes.volume.size() + changes.proximity.size() + changes.box.size() + 1);
   row << changes.volume, changes.proximity, changes.box, changes.symmetry;
   return row / 4;
+}
+
+/// At most so many vertices, evenly chosen, tell how displacements vary.
+constexpr Eigen::Index most_vertices = 20000;
+
+Points some_rows(const Points& all) {
+  const Eigen::Index stride = (all.rows() + most_vertices - 1) / most_vertices;
+  if (stride <= 1) return all;
+  Points some((all.rows() + stride - 1) / stride, 3);
+  for (Eigen::Index row = 0; row < some.rows(); ++row) some.row(row) = all.row(row * stride);
+  return some;
 }
 
 /// S lost per unit of f_max.
@@ -115,14 +126,23 @@ void MagnitudeProblem::measure_blocks(const Design& design, const Stackability& 
   sample.shortfalls[0] = covered ? no_shortfall : aim() - sample.stackability;
 }
 
-MagnitudeSample MagnitudeProblem::measured(const Magnitudes& x) const {
-  MagnitudeSample sample;
+MagnitudeProblem::Measured MagnitudeProblem::measured(const Magnitudes& x) const {
+  Measured result;
+  MagnitudeSample& sample = result.sample;
   const DesignOutcome outcome = design(x);
-  if (outcome.refusal) return sample;
+  if (outcome.refusal) return result;
   sample.made = true;
-  const DistortionChanges changes = meter_.changes(outcome.design);
-  sample.distortion = changes.distortion().total();
-  sample.changes = in_a_row(changes);
+  if (limits_.measure != ChangeMeasure::displacement) {
+    const DistortionChanges changes = meter_.changes(outcome.design);
+    sample.change = changes.distortion().total();
+    sample.changes = in_a_row(changes);
+  }
+  if (limits_.measure != ChangeMeasure::distortion) {
+    const Points moved = displacements(checker_.space().rest().shape, outcome.design.shape);
+    sample.displacement = root_mean_square(moved);
+    sample.change += sample.displacement;
+    result.moved = some_rows(moved);
+  }
   Assessment assessment;
   if (checks_) {
     assessment = checker_.checked(outcome.design, direction_);
@@ -144,14 +164,21 @@ MagnitudeSample MagnitudeProblem::measured(const Magnitudes& x) const {
   for (Eigen::Index c = 0; c < checks; ++c)
     sample.shortfalls[of_pairs + c] = shortfall(assessment.checks[static_cast<std::size_t>(c)]);
   sample.shortfalls[of_pairs + checks] = asked.least_proportion + tolerance::magnitude - proportion;
-  return sample;
+  return result;
+}
+
+std::vector<MagnitudeProblem::Measured> MagnitudeProblem::measured(
+    const std::vector<Magnitudes>& points) const {
+  std::vector<Measured> made(points.size());
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t k) { made[k] = measured(points[k]); });
+  return made;
 }
 
 void MagnitudeProblem::remember(const Magnitudes& x, MagnitudeSample sample) {
   ++evaluations_;
-  if (sample.feasible && (!best_ || sample.distortion < best_distortion_)) {
+  if (sample.feasible && (!best_ || sample.change < best_change_)) {
     best_ = x;
-    best_distortion_ = sample.distortion;
+    best_change_ = sample.change;
   }
   if (sample.passes && (!nearest_ || sample.stackability > nearest_stackability_)) {
     nearest_ = x;
@@ -162,16 +189,15 @@ void MagnitudeProblem::remember(const Magnitudes& x, MagnitudeSample sample) {
 
 void MagnitudeProblem::prefer(const Magnitudes& x) {
   best_ = x;
-  best_distortion_ = samples_.at(x).distortion;
+  best_change_ = samples_.at(x).change;
 }
 
 void MagnitudeProblem::prepare(const std::vector<Magnitudes>& points) {
   std::vector<Magnitudes> fresh;
   for (const Magnitudes& x : points)
     if (!samples_.contains(x) && std::find(fresh.begin(), fresh.end(), x) == fresh.end()) fresh.push_back(x);
-  std::vector<MagnitudeSample> made(fresh.size());
-  tbb::parallel_for(std::size_t{0}, fresh.size(), [&](std::size_t k) { made[k] = measured(fresh[k]); });
-  for (std::size_t k = 0; k < fresh.size(); ++k) remember(fresh[k], std::move(made[k]));
+  std::vector<Measured> made = measured(fresh);
+  for (std::size_t k = 0; k < fresh.size(); ++k) remember(fresh[k], std::move(made[k].sample));
 }
 
 const MagnitudeSample& MagnitudeProblem::at(const Magnitudes& x) {
@@ -180,37 +206,55 @@ const MagnitudeSample& MagnitudeProblem::at(const Magnitudes& x) {
 }
 
 MagnitudeSlopes MagnitudeProblem::slopes(const Magnitudes& x) {
-  const auto neighbour = [&](std::size_t k, double step) {
+  std::vector<double> steps(size());
+  std::vector<Magnitudes> points{x};
+  const auto neighbour = [&x](std::size_t k, double step) {
     Magnitudes y = x;
     y[k] += step;
     return y;
   };
-  std::vector<double> steps(size());
-  std::vector<Magnitudes> neighbours;
   for (std::size_t k = 0; k < size(); ++k) {
     steps[k] = x[k] + tolerance::magnitude_step <= highest() ? tolerance::magnitude_step
                                                              : -tolerance::magnitude_step;
-    neighbours.push_back(neighbour(k, steps[k]));
+    points.push_back(neighbour(k, steps[k]));
   }
-  prepare(neighbours);
-  neighbours.clear();
+  std::vector<Measured> made = measured(points);
+  std::vector<std::size_t> refused;
+  std::vector<Magnitudes> others;
   for (std::size_t k = 0; k < size(); ++k) {
-    if (at(neighbour(k, steps[k])).made) continue;
+    if (made[k + 1].sample.made) continue;
+    refused.push_back(k);
     steps[k] = -steps[k];
-    neighbours.push_back(neighbour(k, steps[k]));
+    others.push_back(neighbour(k, steps[k]));
   }
-  prepare(neighbours);
+  std::vector<Measured> instead = measured(others);
+  for (std::size_t i = 0; i < refused.size(); ++i) made[refused[i] + 1] = std::move(instead[i]);
+  for (std::size_t k = 0; k <= size(); ++k)
+    remember(k == 0 ? x : neighbour(k - 1, steps[k - 1]), made[k].sample);
+  return differences(made, steps);
+}
 
-  const MagnitudeSample& base = at(x);
-  const auto columns = static_cast<Eigen::Index>(size());
+MagnitudeSlopes MagnitudeProblem::differences(const std::vector<Measured>& made,
+                                              const std::vector<double>& steps) const {
+  const MagnitudeSample& base = made.front().sample;
+  const auto columns = static_cast<Eigen::Index>(steps.size());
   MagnitudeSlopes result{Eigen::MatrixXd::Zero(base.changes.size(), columns),
-                         Eigen::MatrixXd::Zero(base.shortfalls.size(), columns)};
-  for (std::size_t k = 0; k < size(); ++k) {
-    const MagnitudeSample& there = at(neighbour(k, steps[k]));
+                         Eigen::MatrixXd::Zero(base.shortfalls.size(), columns),
+                         {},
+                         std::vector<bool>(steps.size())};
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(made.front().moved.size(), columns + 1);
+  moved.col(0) = made.front().moved.reshaped();
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const MagnitudeSample& there = made[k + 1].sample;
     if (!there.made || !base.made) continue;
-    result.changes.col(static_cast<Eigen::Index>(k)) = (there.changes - base.changes) / steps[k];
-    result.shortfalls.col(static_cast<Eigen::Index>(k)) = (there.shortfalls - base.shortfalls) / steps[k];
+    result.made[k] = true;
+    const auto column = static_cast<Eigen::Index>(k);
+    result.changes.col(column) = (there.changes - base.changes) / steps[k];
+    result.shortfalls.col(column) = (there.shortfalls - base.shortfalls) / steps[k];
+    if (moved.rows() > 0)
+      moved.col(column + 1) = (made[k + 1].moved.reshaped() - made.front().moved.reshaped()) / steps[k];
   }
+  if (moved.rows() > 0) result.gram = 3 * moved.transpose() * moved / static_cast<double>(moved.rows());
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "stackabilization/improvement/block_separations.h"
+#include "stackabilization/improvement/change_measure.h"
 #include "stackabilization/improvement/energy.h"
 #include "stackabilization/improvement/requirements.h"
 
@@ -20,15 +21,20 @@ struct MagnitudeSample {
   bool made = false;           ///< no edit was refused; otherwise the rest means nothing
   bool passes = false;         ///< every check, but perhaps for the target
   bool feasible = false;       ///< and reaches the target
-  double distortion = 0;       ///< D
+  double change = 0;           ///< what is to be small
+  double displacement = 0;     ///< its share that is a root mean square, 0 where that is not measured
   double stackability = 0;     ///< S, with the air asked for, less the handicap
-  Eigen::VectorXd changes;     ///< whose magnitudes add up to D
+  Eigen::VectorXd changes;     ///< whose magnitudes add up to the rest of it
   Eigen::VectorXd shortfalls;  ///< what each constraint lacks: positive where it is broken
 };
 
 /// How a sample changes with each magnitude: one column per magnitude, zero where no neighbour could be made.
 struct MagnitudeSlopes {
   Eigen::MatrixXd changes, shortfalls;
+  /// The square of the displacement after a step y is nearly (1 y) gram (1 y)^T; empty where that is not
+  /// measured.
+  Eigen::MatrixXd gram;
+  std::vector<bool> made;  ///< whether there is a neighbour, per magnitude
 };
 
 /// The designs that some edits make with other magnitudes, along one direction: a function of few numbers.
@@ -36,8 +42,9 @@ struct MagnitudeSlopes {
 class MagnitudeProblem {
  public:
   struct Limits {
-    int evaluations = 0;  ///< samples made at most, but for a few
-    double reach = 0;     ///< magnitudes lie in [-reach, max(reach, 1)]
+    int evaluations = 0;                          ///< samples made at most, but for a few
+    double reach = 0;                             ///< magnitudes lie in [-reach, max(reach, 1)]
+    ChangeMeasure measure = ChangeMeasure::both;  ///< what is to be small
     std::function<bool()> cancelled;
   };
 
@@ -65,12 +72,12 @@ class MagnitudeProblem {
   std::vector<Edit> edits(const Magnitudes& x) const;
   DesignOutcome design(const Magnitudes& x) const;
 
-  /// The feasible sample of least D so far, if any, and of those that pass the one of largest S.
+  /// The feasible sample of least change so far, if any, and of those that pass the one of largest S.
   const std::optional<Magnitudes>& best() const { return best_; }
   /// From now on this is the best one. Precondition: it is known and feasible.
   void prefer(const Magnitudes& x);
   const std::optional<Magnitudes>& nearest() const { return nearest_; }
-  double best_distortion() const { return best_distortion_; }
+  double best_change() const { return best_change_; }
   double nearest_stackability() const { return nearest_stackability_; }
   int evaluations() const { return evaluations_; }
   /// So many evaluations, in all, are the limit from now on.
@@ -79,12 +86,19 @@ class MagnitudeProblem {
   bool stopped() const;
 
  private:
-  MagnitudeSample measured(const Magnitudes& x) const;
+  struct Measured {
+    MagnitudeSample sample;
+    Points moved;  ///< displacements of some vertices, where they are measured
+  };
+  Measured measured(const Magnitudes& x) const;
+  std::vector<Measured> measured(const std::vector<Magnitudes>& points) const;
   /// How much more than the target a design of such boxes needs: 0 but for a room, for which S is to grow
   /// with the boxes.
   double handicap(const Stackability& measured) const;
   void measure_blocks(const Design& design, const Stackability& whole, MagnitudeSample& sample) const;
   void remember(const Magnitudes& x, MagnitudeSample sample);
+  /// Of what was measured at a point, and after one step with each magnitude.
+  MagnitudeSlopes differences(const std::vector<Measured>& made, const std::vector<double>& steps) const;
 
   const RequirementChecker& checker_;
   std::vector<Edit> edits_;
@@ -97,7 +111,7 @@ class MagnitudeProblem {
   bool checks_ = false;  ///< there are more of them than S and what the deformation keeps anyway
   std::map<Magnitudes, MagnitudeSample> samples_;
   std::optional<Magnitudes> best_, nearest_;
-  double best_distortion_ = 0, nearest_stackability_ = 0;
+  double best_change_ = 0, nearest_stackability_ = 0;
   int evaluations_ = 0;
 };
 

@@ -27,26 +27,31 @@ Eigen::Matrix3d similarity(const Points& from, const Points& to) {
 
 }  // namespace
 
-ShapeChange shape_change(const Shape& before, const Shape& after) {
+Points displacements(const Shape& before, const Shape& after) {
   if (before.vertex_count() != after.vertex_count() || before.triangle_count() != after.triangle_count() ||
       before.triangles != after.triangles)
     throw UsageError("shapes can be compared only when they have the same vertices and triangles");
-  if (before.triangle_count() == 0) return {};
+  if (before.triangle_count() == 0) return Points(0, 3);
   Points target = used_vertices(before), moved = used_vertices(after);
   const double diagonal = (target.colwise().maxCoeff() - target.colwise().minCoeff()).norm();
   // Lengths over the diagonal, so that no square overflows or underflows.
   const double unit = std::max(diagonal, (moved.colwise().maxCoeff() - moved.colwise().minCoeff()).norm());
-  if (!(diagonal > 0)) return {};
+  if (!(diagonal > 0)) return Points(0, 3);
   for (Points* points : {&target, &moved}) {
     const Eigen::RowVector3d middle = points->colwise().mean();
     *points = (points->rowwise() - middle) / unit;
   }
-  const Eigen::VectorXd distances = (moved * similarity(moved, target).transpose() - target).rowwise().norm();
-  ShapeChange change;
-  change.root_mean_square =
-      std::sqrt(distances.squaredNorm() / static_cast<double>(distances.size())) * (unit / diagonal);
-  change.largest = distances.maxCoeff() * (unit / diagonal);
-  return change;
+  return (moved * similarity(moved, target).transpose() - target) * (unit / diagonal);
+}
+
+double root_mean_square(const Points& vectors) {
+  return vectors.rows() == 0 ? 0 : vectors.norm() / std::sqrt(static_cast<double>(vectors.rows()));
+}
+
+ShapeChange shape_change(const Shape& before, const Shape& after) {
+  const Points moved = displacements(before, after);
+  if (moved.rows() == 0) return {};
+  return {root_mean_square(moved), moved.rowwise().norm().maxCoeff()};
 }
 
 }  // namespace stackabilization

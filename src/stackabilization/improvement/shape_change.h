@@ -16,4 +16,11 @@ struct ShapeChange {
 /// same triangles and as many vertices.
 ShapeChange shape_change(const Shape& before, const Shape& after);
 
+/// What shape_change measures: where the vertices that triangles use lie after that fit, less where they
+/// were, over the diagonal; n x 3, 0 x 3 where the diagonal is 0. Throws as that.
+Points displacements(const Shape& before, const Shape& after);
+
+/// Root mean square of the lengths of the rows, 0 for none.
+double root_mean_square(const Points& vectors);
+
 }  // namespace stackabilization
