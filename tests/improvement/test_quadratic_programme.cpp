@@ -1,8 +1,7 @@
-#include "stackabilization/improvement/quadratic_programme.h"
-
 #include <cstdint>
 #include <random>
 
+#include "stackabilization/improvement/quadratic_programme.h"
 #include "support/catch.h"
 
 using namespace stackabilization;

@@ -8,7 +8,8 @@ namespace stackabilization {
 /// What refinement makes small, and refined solutions are ordered by.
 enum class ChangeMeasure {
   distortion,    ///< D of Eq. 6: what the primitives lose
-  displacement,  ///< root mean square distance of the vertices after the best similarity fit, see shape_change
+  displacement,  ///< root mean square distance of the vertices after the best similarity fit, see
+                 ///< shape_change
   both,          ///< their sum: neither sees everything (D no bend of a tube, the other no symmetry)
 };
 

@@ -3,13 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "stackabilization/deformation/straightness.h"
 #include "stackabilization/improvement/contact_handles.h"
 #include "stackabilization/improvement/contact_side.h"
 #include "stackabilization/improvement/refinement.h"
+#include "stackabilization/improvement/removal.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization {
@@ -66,25 +66,6 @@ bool changes_nothing(const Edit& edit) {
 /// Sizes that count as 1: of a move as a fraction of the diagonal, of a scaling.
 constexpr double unit_move = 0.02;
 constexpr double unit_factor = 0.9;
-
-/// The least row of the parts that symmetries tie to each.
-std::vector<int> first_of_symmetric(const Structure& structure) {
-  std::vector<int> first(structure.parts.size());
-  std::iota(first.begin(), first.end(), 0);
-  const auto of = [&first](int part) -> int& { return first[static_cast<std::size_t>(part)]; };
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const Relation& relation : structure.relations) {
-      if (relation.type != RelationType::symmetry) continue;
-      const int least = std::min(of(relation.parts[0]), of(relation.parts[1]));
-      for (const int part : relation.parts) {
-        changed |= of(part) != least;
-        of(part) = least;
-      }
-    }
-  }
-  return first;
-}
 
 /// Whether the part reaches an end of the shape along w: it does not move along it then.
 bool is_on_end(const Shape& shape, int part, const ContactFrame& frame) {
@@ -158,10 +139,12 @@ std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edit
   const Design design = space.at_rest();
   const ContactFrame frame =
       contact_frame({rest, space.kind(), handles, design, {}, direction}, tolerance::relative);
-  const std::vector<int> first = first_of_symmetric(rest.structure);
+  std::vector<bool> stands_for_others(rest.structure.parts.size());
+  for (const std::vector<int>& members : symmetric_classes(rest.structure))
+    stands_for_others[static_cast<std::size_t>(members.front())] = true;
   std::vector<MagnitudeEdit> result;
   for (const Handle& handle : handles) {
-    if (handle.kind == HandleKind::shape || first[static_cast<std::size_t>(handle.part)] != handle.part)
+    if (handle.kind == HandleKind::shape || !stands_for_others[static_cast<std::size_t>(handle.part)])
       continue;
     for (const Edit& edit : edits_of(handle, rest, frame))
       if (std::none_of(edits.begin(), edits.end(),

@@ -76,9 +76,7 @@ class MagnitudeModel::Programme {
   const Cut& cut(Eigen::Index c) const { return model_.cuts_[static_cast<std::size_t>(c)]; }
   const Eigen::MatrixXd& gram() const { return model_.slopes_.gram; }
   /// What changes are divided by.
-  double scale() const {
-    return minimal_shortfall() || !(model_.base_.change > 0) ? 1 : model_.base_.change;
-  }
+  double scale() const { return minimal_shortfall() || !(model_.base_.change > 0) ? 1 : model_.base_.change; }
 
   double displacement(const Eigen::VectorXd& step) const {
     if (gram().size() == 0) return 0;
@@ -170,7 +168,8 @@ void MagnitudeModel::group_changes(const MagnitudeSample& base, const MagnitudeS
       shapes.push_back(shape);
       changes_.push_back(change);
     } else {
-      changes_[static_cast<std::size_t>(same - shapes.begin())] += shape.dot(*same) < 0 ? Row(-change) : change;
+      changes_[static_cast<std::size_t>(same - shapes.begin())] +=
+          shape.dot(*same) < 0 ? Row(-change) : change;
     }
   }
 }

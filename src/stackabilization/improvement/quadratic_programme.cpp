@@ -65,22 +65,21 @@ class InteriorPoint {
   /// False: there is no step, as where rows contradict each other.
   bool advance() {
     Eigen::MatrixXd normal = p_.q;
-    normal.noalias() +=
-        p_.a.transpose() * multipliers_.cwiseQuotient(slacks_).asDiagonal() * p_.a;
+    normal.noalias() += p_.a.transpose() * multipliers_.cwiseQuotient(slacks_).asDiagonal() * p_.a;
     const Eigen::LDLT<Eigen::MatrixXd> factors(normal);
     const Eigen::VectorXd products = slacks_.cwiseProduct(multipliers_);
     const Step predicted = step(factors, products);
-    const double ahead = std::min(step_length(slacks_, predicted.slacks),
-                                  step_length(multipliers_, predicted.multipliers));
-    const double after = (slacks_ + ahead * predicted.slacks)
-                             .dot(multipliers_ + ahead * predicted.multipliers) /
-                         static_cast<double>(slacks_.size());
+    const double ahead =
+        std::min(step_length(slacks_, predicted.slacks), step_length(multipliers_, predicted.multipliers));
+    const double after =
+        (slacks_ + ahead * predicted.slacks).dot(multipliers_ + ahead * predicted.multipliers) /
+        static_cast<double>(slacks_.size());
     const double ratio = after / gap(), centring = ratio * ratio * ratio;
     const Step corrected =
-        step(factors, (products + predicted.slacks.cwiseProduct(predicted.multipliers)).array() -
-                          centring * gap());
-    const double length = std::min(step_length(slacks_, corrected.slacks),
-                                   step_length(multipliers_, corrected.multipliers));
+        step(factors,
+             (products + predicted.slacks.cwiseProduct(predicted.multipliers)).array() - centring * gap());
+    const double length =
+        std::min(step_length(slacks_, corrected.slacks), step_length(multipliers_, corrected.multipliers));
     if (!corrected.x.allFinite() || !corrected.slacks.allFinite() || !corrected.multipliers.allFinite())
       return false;
     x_ += length * corrected.x;

@@ -18,10 +18,10 @@ struct QuadraticMinimum {
   Eigen::VectorXd multipliers;  ///< m, >= 0: how fast the minimum falls as the row's b grows
 };
 
-/// Its minimum, by Mehrotra's predictor-corrector interior-point method (Mehrotra 1992; Nocedal and Wright 2006,
-/// Algorithm 16.4), dense: for up to some hundreds of variables and rows, of which any number may repeat or depend on
-/// each other. Numbers are best of the order of 1. Where nothing satisfies all rows, some point that violates
-/// them little. Deterministic.
+/// Its minimum, by Mehrotra's predictor-corrector interior-point method (Mehrotra 1992; Nocedal and Wright
+/// 2006, Algorithm 16.4), dense: for up to some hundreds of variables and rows, of which any number may
+/// repeat or depend on each other. Numbers are best of the order of 1. Where nothing satisfies all rows, some
+/// point that violates them little. Deterministic.
 QuadraticMinimum minimum(const QuadraticProgramme& programme);
 
 }  // namespace stackabilization::detail
