@@ -18,10 +18,15 @@ using Clock = std::chrono::steady_clock;
 constexpr double pursuit_share = 0.4;
 constexpr double paper_share = 0.45;
 constexpr double search_share = 0.5;
+/// By then the magnitudes of the edits that they found are known, and edits begin to join.
+constexpr double first_share = 0.7;
 /// Each search gets this share at least.
 constexpr double least_search = 0.05;
 /// Where nothing was found, what is left beyond this share is for the diagnosis.
 constexpr double diagnosis_begin = 0.85;
+
+/// Designs measured at most for the magnitudes of one list of edits.
+constexpr int first_evaluations = 300;
 
 Clock::time_point after(Clock::time_point start, double seconds) {
   return start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -31,23 +36,30 @@ bool more_stackable(const Candidate& a, const Candidate& b) {
   return a.measured.value > b.measured.value;
 }
 
-/// Refines what a search found until there are as many different solutions as wanted.
+/// When the parts of a refinement end.
+struct Deadlines {
+  Clock::time_point give_up;  ///< all of it, while there is no solution
+  Clock::time_point first;    ///< magnitudes of the edits found
+  Clock::time_point end;      ///< of these and of edits that join
+};
+
+/// Refines what a search found: magnitudes of all of it first, then with further edits what came out best,
+/// until there are as many different solutions as wanted.
 class Refiner {
  public:
-  /// Ends at `give_up` while there is no solution, else at `end`.
-  Refiner(const RequirementChecker& checker, const ImprovementOptions& options, Clock::time_point give_up,
-          Clock::time_point end)
+  Refiner(const RequirementChecker& checker, const ImprovementOptions& options, const Deadlines& deadlines)
       : checker_(checker),
         options_(options.refinement),
-        wanted_(options.search.solutions),
+        wanted_(static_cast<std::size_t>(options.search.solutions)),
+        deadlines_(deadlines),
         less_changed_([measure = options.refinement.least, &rest = checker.space().rest().shape](
                           const Candidate& a, const Candidate& b) {
           return size_of(measure, a, rest) < size_of(measure, b, rest);
         }),
         distinct_(checker.space().rest()) {
     options_.alpha = options.search.alpha;
-    options_.cancelled = [this, cancelled = options.search.cancelled, give_up, end] {
-      return Clock::now() > (solutions_.empty() ? give_up : end) || (cancelled && cancelled());
+    options_.cancelled = [this, cancelled = options.search.cancelled] {
+      return Clock::now() > deadline_ || (cancelled && cancelled());
     };
   }
   Refiner(const Refiner&) = delete;
@@ -62,13 +74,13 @@ class Refiner {
       if (reached != (b.measured.value >= target)) return reached;
       return reached ? less_changed_(a, b) : more_stackable(a, b);
     });
+    deadline_ = deadlines_.give_up;
     for (const Candidate& start : starts) add(start);
     for (const Candidate& near : found.nearest) {
-      if (static_cast<int>(solutions_.size()) >= wanted_ || options_.cancelled()) break;
+      if (solutions_.size() >= wanted_ || options_.cancelled()) break;
       add(near);
     }
-    std::stable_sort(solutions_.begin(), solutions_.end(), less_changed_);
-    if (static_cast<int>(solutions_.size()) > wanted_) solutions_.resize(static_cast<std::size_t>(wanted_));
+    extend();
     return std::move(solutions_);
   }
 
@@ -78,11 +90,29 @@ class Refiner {
   /// Out of time, it still looks whether the candidate is a solution as it is.
   void add(const Candidate& start) {
     if (start.design.edits.empty() && !checker_.reaches(start.measured)) return;
-    RefinementResult result = refined_candidate(checker_, start, options_);
-    if (result.reached)
+    RefinementOptions alone = options_;
+    alone.joining = 0;
+    alone.evaluations = std::min(options_.evaluations, first_evaluations);
+    RefinementResult result = refined_candidate(checker_, start, alone);
+    if (result.reached) {
+      deadline_ = deadlines_.first;
       keep(std::move(result.candidate));
-    else if (!nearest_ || result.candidate.measured.value > nearest_->measured.value)
+    } else if (!nearest_ || result.candidate.measured.value > nearest_->measured.value) {
       nearest_ = std::move(result.candidate);
+    }
+  }
+
+  /// Lets further edits join, to the least changed solutions first.
+  void extend() {
+    deadline_ = deadlines_.end;
+    std::stable_sort(solutions_.begin(), solutions_.end(), less_changed_);
+    std::vector<Candidate> found;
+    found.swap(solutions_);
+    for (Candidate& candidate : found) {
+      if (solutions_.size() == wanted_) break;
+      keep(refined_candidate(checker_, candidate, options_).candidate);
+    }
+    std::stable_sort(solutions_.begin(), solutions_.end(), less_changed_);
   }
 
   /// Of two solutions that are not different the less changed one stays.
@@ -97,7 +127,9 @@ class Refiner {
 
   const RequirementChecker& checker_;
   RefinementOptions options_;
-  int wanted_;
+  std::size_t wanted_;
+  Deadlines deadlines_;
+  Clock::time_point deadline_;  ///< of what it is at
   std::function<bool(const Candidate&, const Candidate&)> less_changed_;
   detail::Distinctness distinct_;
   std::vector<Candidate> solutions_;
@@ -170,7 +202,9 @@ Improvement improve(const RequirementChecker& checker, const ImprovementOptions&
   result.progress = found.progress;
   result.end = found.end;
   if (refine) {
-    Refiner refiner(checker, options, after(start, diagnosis_begin * seconds), after(start, seconds));
+    Refiner refiner(checker, options,
+                    {after(start, diagnosis_begin * seconds), after(start, first_share * seconds),
+                     after(start, seconds)});
     result.solutions = refiner.refined(std::move(starts), found);
     if (refiner.nearest()) found.nearest.insert(found.nearest.begin(), *refiner.nearest());
     std::stable_sort(found.nearest.begin(), found.nearest.end(), more_stackable);
