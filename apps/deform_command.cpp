@@ -28,6 +28,8 @@ void check(const DeformCommandOptions& options) {
     throw UsageError("--list-handles changes nothing, so there is nothing to write");
   if (options.direction && options.kind != ModelKind::gap_scaling)
     throw UsageError("--direction is that of --model gap-scaling: the others have none");
+  if (options.extent_ends && !options.keep_extent)
+    throw UsageError("--extent-ends says where the extent of --keep-extent begins and ends: give that too");
   if (options.save && options.kind != ModelKind::controllers)
     throw UsageError("--save needs --model controllers: the others move no primitives");
 }
@@ -77,6 +79,9 @@ int run(const CLI::App& command, const DeformCommandOptions& options) {
 void add_constraint_options(CLI::App& command, DeformCommandOptions& options) {
   add_direction(command, "--keep-extent", options.keep_extent,
                 "Keep the extent along this direction exactly");
+  const Choices<ExtentEnds> ends = {{"free", ExtentEnds::free}, {"fixed", ExtentEnds::fixed}};
+  add_choice(command, "--extent-ends", options.extent_ends, ends,
+             "... wherever it lies then, or where it lies at rest, as designs of improve (default: free)");
   add_number(command, "--box-tolerance", options.box_tolerance,
              "Fraction by which the sides of the box along x, y and z may change");
   command.add_option("--fix", options.fixed_parts, "Part that stays as it is; repeatable")

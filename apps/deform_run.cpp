@@ -16,6 +16,7 @@ namespace {
 DeformationConstraints constraints_of(const DeformCommandOptions& options, const Shape& shape) {
   DeformationConstraints constraints;
   if (options.keep_extent) constraints.keep_extent = Direction(*options.keep_extent);
+  constraints.extent_ends = options.extent_ends.value_or(ExtentEnds::free);
   if (options.box_tolerance && !(*options.box_tolerance >= 0))
     throw UsageError("--box-tolerance expects a number from 0 up, found " +
                      exact_digits(*options.box_tolerance));

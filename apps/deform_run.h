@@ -28,6 +28,7 @@ struct DeformCommandOptions {
   std::vector<std::string> fixed_parts;
   std::vector<Eigen::Vector3d> fixed_points;
   std::optional<Eigen::Vector3d> keep_extent;
+  std::optional<ExtentEnds> extent_ends;  ///< default: free
   std::optional<double> box_tolerance;
   std::optional<std::string> output, picture, save;
   bool list_handles = false;

@@ -207,6 +207,7 @@ TEST_CASE("wrong uses of deform and structure end with 2 and name the mistake") 
       {{"deform", project, "--edit", "top move 0 0 1", "--fix", "lid"}, "'lid'"},
       {{"deform", project, "--edit", "top move 0 0 1", "--box-tolerance", "-1"}, "--box-tolerance"},
       {{"deform", project, "--edit", "top move 0 0 1", "--keep-extent", "0", "0", "0"}, "--keep-extent"},
+      {{"deform", project, "--edit", "top move 0 0 1", "--extent-ends", "fixed"}, "--keep-extent"},
       {{"deform", project, "--edit", "top move 0 0 1", "--fix-point", "0", "0", "up"}, "'up'"},
       {{"deform", project, "--edit", "top move 0 0 1", "--fix-point", "0", "0"}, "--fix-point"},
       {{"deform", project, "--edit", "top move 0 0 1", "--model", "clay"}, "controllers|surface"},

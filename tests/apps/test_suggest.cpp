@@ -35,6 +35,13 @@ json suggested(const Arguments& arguments) {
   return outcome.json();
 }
 
+/// Its suggestions: not a reference into a document that is gone.
+json suggestions(const Arguments& arguments) {
+  const json document = suggested(arguments);
+  REQUIRE(!document["suggestions"].empty());
+  return document["suggestions"];
+}
+
 double measured(const std::string& mesh) {
   return run_program({"measure", mesh, "--boxes", "frame", "--json", "-"})
       .json()["stackability"]
@@ -50,7 +57,10 @@ TEST_CASE("suggestions are listed best first, with what each would do") {
   CHECK(document["applied"].is_null());
   CHECK(document["node"] == 0);
   CHECK(document["now"]["stackability"].get<double>() == Approx(measured(folder.table)).margin(1e-9));
+  CHECK(document["now"]["height"].get<double>() == Approx(6).epsilon(1e-9));
   CHECK(document["now"]["energy"]["value"] == 0.0);
+  CHECK(document["now"]["energy"]["alpha"] == 0.2);
+  CHECK(document["now"]["energy"]["distortion"]["total"] == 0.0);
   CHECK(!document["contacts"].empty());
   const json& list = document["suggestions"];
   REQUIRE(list.size() == document["possible"].get<std::size_t>());
@@ -59,7 +69,7 @@ TEST_CASE("suggestions are listed best first, with what each would do") {
     CHECK(list[k]["number"] == k + 1);
     CHECK(list[k]["refusal"].is_null());
     CHECK(!list[k]["why"].get<std::string>().empty());
-    CHECK(list[k]["extent"].get<double>() == Approx(6).epsilon(1e-9));
+    CHECK(list[k]["height"].get<double>() == Approx(6).epsilon(1e-9));
     if (k > 0)
       CHECK(list[k - 1]["energy"]["value"].get<double>() <= list[k]["energy"]["value"].get<double>());
   }
@@ -68,14 +78,20 @@ TEST_CASE("suggestions are listed best first, with what each would do") {
   CHECK(all["suggestions"].size() == list.size() + all["refused"].get<std::size_t>());
 }
 
-TEST_CASE("a suggestion is what deform makes of its edit") {
+TEST_CASE("a suggestion is what deform makes of its edit, the ends of the height fixed") {
   const TableFolder folder;
-  const json first = suggested({folder.project})["suggestions"][0];
-  const std::string output = folder / "after.obj";
-  REQUIRE(run_program({"deform", folder.project, "--edit", first["edit"].get<std::string>(), "--keep-extent",
-                       "0", "0", "1", "-o", output})
-              .status == 0);
-  CHECK(measured(output) == Approx(first["stackability"].get<double>()).margin(1e-9));
+  int different = 0;
+  for (const json& one : suggestions({folder.project, "--top", "4"})) {
+    const Arguments deform = {
+        "deform", folder.project, "--edit", one["edit"].get<std::string>(), "--keep-extent", "0", "0", "1"};
+    INFO(one["edit"]);
+    const std::string fixed = folder / "fixed.obj", free = folder / "free.obj";
+    REQUIRE(run_program(joined(deform, {"--extent-ends", "fixed", "-o", fixed})).status == 0);
+    CHECK(measured(fixed) == Approx(one["stackability"].get<double>()).margin(1e-12));
+    if (run_program(joined(deform, {"-o", free})).status == 0 && bytes_of(fixed) != bytes_of(free))
+      ++different;
+  }
+  CHECK(different > 0);
 }
 
 TEST_CASE("a session: take one, take another, go back, take a third; the file is a tree") {
@@ -130,9 +146,9 @@ TEST_CASE("other commands start from the shape at rest; structure keeps the hist
 
 TEST_CASE("wishes hold: parts stay, targets are told, nothing possible ends with 1") {
   const TableFolder folder;
-  for (const json& one : suggested({folder.project, "--target", "-5"})["suggestions"])
+  for (const json& one : suggestions({folder.project, "--target", "-5"}))
     CHECK(one["reaches_target"] == true);
-  for (const json& one : suggested({folder.project, "--target", "0.99"})["suggestions"])
+  for (const json& one : suggestions({folder.project, "--target", "0.99"}))
     CHECK(one["reaches_target"] == false);
   Arguments fixed = {"suggest", folder.project};
   for (const std::string part : {"top", "leg_1", "leg_2", "leg_3", "leg_4"})
@@ -140,7 +156,7 @@ TEST_CASE("wishes hold: parts stay, targets are told, nothing possible ends with
   const Outcome outcome = run_program(fixed);
   CHECK(outcome.status == 1);
   CHECK(outcome.err.empty());
-  for (const json& one : suggested({folder.project, "--only", "leg_1", "--top", "1000"})["suggestions"])
+  for (const json& one : suggestions({folder.project, "--only", "leg_1", "--top", "1000"}))
     CHECK(one["edit"].get<std::string>().find("top") != 0);
 }
 
@@ -153,7 +169,7 @@ TEST_CASE("what improve asks of designs can be asked of suggestions") {
   CHECK(free["possible"] > 0);
   CHECK(toppling["possible"] == 0);
   CHECK(toppling["suggestions"][0]["refusal"].get<std::string>().find("standing") != std::string::npos);
-  for (const Arguments& wrong : {Arguments{"--tilt-degrees", "5"}, Arguments{"--draft-degrees", "91"},
+  for (const Arguments& wrong : {Arguments{"--tilt-degrees", "5"},  Arguments{"--draft-degrees", "91"},
                                  Arguments{"--thickness", "-1"}, Arguments{"--keep", "top", "--only", "top"}})
     CHECK(run_program(joined({"suggest", folder.project}, wrong)).status == 2);
 }
