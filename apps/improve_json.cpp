@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <array>
 
+#include "apps/design_json.h"
 #include "apps/edit_grammar.h"
 #include "apps/improve_report.h"
 #include "apps/measurement.h"
@@ -9,8 +9,6 @@
 namespace stackabilization::apps {
 
 namespace {
-
-constexpr std::array<const char*, 3> contact_types = {"dot", "line", "ring"};
 
 const char* name_of(WrittenCheck::Verdict verdict) {
   switch (verdict) {
@@ -66,19 +64,6 @@ Json edits_json(const ImproveTask& task, const Candidate& candidate) {
     list.push_back(edit_json(edits[i], known ? candidate.reasons[i] : "", task.rest().shape.part_names));
   }
   return list;
-}
-
-Json energy_json(const Energy& energy, double alpha) {
-  const Distortion& distortion = energy.distortion;
-  return {{"value", energy.value},
-          {"alpha", alpha},
-          {"gain", energy.gain},
-          {"distortion",
-           {{"total", distortion.total()},
-            {"volume", distortion.volume},
-            {"proximity", distortion.proximity},
-            {"box", distortion.box},
-            {"symmetry", distortion.symmetry}}}};
 }
 
 Json measured_json(const Stackability& measured) {
@@ -140,7 +125,7 @@ Json diagnosis_json(const Diagnosis& diagnosis, const StructuredShape& rest) {
   Json blockers = Json::array(), remedies = Json::array();
   for (const Blocker& blocker : diagnosis.blockers)
     blockers.push_back({{"parts", parts_json({blocker.upper_part, blocker.lower_part}, rest)},
-                        {"type", contact_types.at(static_cast<std::size_t>(blocker.type))},
+                        {"type", apps::name_of(blocker.type)},
                         {"f", blocker.f},
                         {"stackability", blocker.stackability},
                         {"reason", blocker.reason}});
@@ -186,7 +171,7 @@ Json solution_json(const ImproveReport& report, const SolutionReport& solution) 
           {"f_max", exact.blocked ? exact.length : 0},
           {"f_max_exact", to_json(exact.blocked ? exact.value : Rational())},
           {"height", after.extent},
-          {"energy", energy_json(solution.candidate.energy, report.run.options.search.alpha)},
+          {"energy", to_json(solution.candidate.energy, report.run.options.search.alpha)},
           {"edits", edits_json(task, solution.candidate)},
           {"change",
            {{"root_mean_square", solution.change.root_mean_square}, {"largest", solution.change.largest}}},

@@ -1,25 +1,11 @@
 #include "apps/json.h"
 
+#include "apps/design_json.h"
+
 namespace stackabilization::apps {
 
-namespace {
-
-const char* type_name(ContactType type) {
-  switch (type) {
-    case ContactType::dot:
-      return "dot";
-    case ContactType::line:
-      return "line";
-    case ContactType::ring:
-      return "ring";
-  }
-  return "";
-}
-
-}  // namespace
-
 Json to_json(const Eigen::Vector3d& vector) {
-  return {vector.x(), vector.y(), vector.z()};
+  return {vector.x() + 0.0, vector.y() + 0.0, vector.z() + 0.0};
 }
 
 Json to_json(const Eigen::Matrix3d& matrix) {
@@ -71,7 +57,7 @@ Json to_json(const Findings& findings) {
 Json to_json(const std::vector<ContactRegion>& regions, const std::vector<std::string>& part_names) {
   Json list = Json::array();
   for (const ContactRegion& region : regions)
-    list.push_back({{"type", type_name(region.type)},
+    list.push_back({{"type", name_of(region.type)},
                     {"parts", {part_names.at(region.upper_part), part_names.at(region.lower_part)}},
                     {"area", region.area},
                     {"centre", to_json(region.upper_centre)},

@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <array>
 #include <functional>
 
+#include "apps/design_json.h"
 #include "apps/edit_grammar.h"
 #include "apps/measurement.h"
 #include "apps/suggest_run.h"
@@ -11,47 +11,33 @@ namespace stackabilization::apps {
 
 namespace {
 
-constexpr std::array<const char*, 3> contact_types = {"dot", "line", "ring"};
-
-const char* type_name(ContactType type) {
-  return contact_types.at(static_cast<std::size_t>(type));
-}
-
 /// How many of the suggestions are shown.
 std::size_t shown(const SuggestRun& run, const SuggestCommandOptions& options) {
   return options.all ? run.suggestions.size()
                      : std::min(run.possible(), static_cast<std::size_t>(options.top));
 }
 
-Json to_json(const Energy& energy) {
-  return {{"value", energy.value},
-          {"gain", energy.gain},
-          {"distortion", energy.distortion.total()},
-          {"volume", energy.distortion.volume},
-          {"proximity", energy.distortion.proximity},
-          {"box", energy.distortion.box},
-          {"symmetry", energy.distortion.symmetry}};
-}
-
-Json to_json(const Stackability& measured, const Energy& energy) {
+/// Where a design stands.
+Json measured_json(const Stackability& measured, const Json& energy) {
   return {{"stackability", measured.value},
           {"f_max", measured.f_max},
-          {"extent", measured.extent},
-          {"energy", to_json(energy)}};
+          {"height", measured.extent},
+          {"energy", energy}};
 }
 
-Json to_json(const Suggestion& suggestion, const std::vector<std::string>& part_names) {
+Json to_json(const Suggestion& suggestion, const SuggestRun& run) {
+  const std::vector<std::string>& part_names = run.project.rest.shape.part_names;
   const ContactEdit& edit = suggestion.edit;
   Json json = {{"edit", edit_text(edit.edit, part_names)},
                {"words", describe(edit.edit, part_names)},
                {"why", edit.why},
                {"contact",
                 {{"region", edit.region},
-                 {"type", type_name(edit.type)},
+                 {"type", name_of(edit.type)},
                  {"copy", edit.of_lower_copy ? "below" : "above"}}},
                {"refusal", apps::to_json(suggestion.refusal)}};
   if (suggestion.refusal) return json;
-  json.update(to_json(suggestion.measured, suggestion.energy));
+  json.update(measured_json(suggestion.measured, apps::to_json(suggestion.energy, run.alpha)));
   return json;
 }
 
@@ -78,7 +64,7 @@ std::string contacts_text(const std::vector<ContactRegion>& regions) {
   for (const ContactType type : {ContactType::dot, ContactType::line, ContactType::ring}) {
     const auto count = std::count_if(regions.begin(), regions.end(),
                                      [&](const ContactRegion& region) { return region.type == type; });
-    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, type_name(type));
+    if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, name_of(type));
   }
   return text;
 }
@@ -109,12 +95,12 @@ void add_suggestions(Json& document, const SuggestRun& run, const SuggestCommand
   document["boxes"] = name_of(options.measure.boxes);
   document["semantics"] = name_of(options.measure.semantics);
   document["node"] = run.node;
-  document["now"] = to_json(run.now.measured, run.now.energy);
+  document["now"] = measured_json(run.now.measured, apps::to_json(run.now.energy, run.alpha));
   document["contacts"] = apps::to_json(run.now.contacts, names);
   Json list = Json::array();
   for (std::size_t k = 0; k < shown(run, options); ++k) {
     Json one = {{"number", run.suggestions[k].refusal ? Json(nullptr) : Json(k + 1)}};
-    one.update(to_json(run.suggestions[k], names));
+    one.update(to_json(run.suggestions[k], run));
     if (options.target) one["reaches_target"] = run.suggestions[k].reaches_target;
     list.push_back(std::move(one));
   }

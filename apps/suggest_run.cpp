@@ -90,6 +90,7 @@ SuggestRun run_suggest(const SuggestCommandOptions& options, const StructuredMod
   run.constraints = deformation_constraints(requirements, rest, run.direction);
   SuggestionOptions suggesting;
   suggesting.alpha = options.alpha.value_or(suggesting.alpha);
+  run.alpha = suggesting.alpha;
   suggesting.edits.family = options.family;
   suggesting.edits.bends = options.bends;
   if (history.nodes.empty()) {

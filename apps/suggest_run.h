@@ -42,6 +42,7 @@ struct SuggestRun {
   DeformationConstraints constraints;
   Design design;                        ///< the current one, before anything is applied
   int node = 0;                         ///< its row in the history
+  double alpha = 0;                     ///< of the energies
   Situation now;                        ///< of it
   std::vector<Suggestion> suggestions;  ///< empty when none were asked for
   std::optional<int> applied;           ///< row of `suggestions`
