@@ -1,5 +1,7 @@
 #include "stackabilization/deformation/edit.h"
 
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -10,15 +12,44 @@ namespace stackabilization {
 
 namespace {
 
-std::string text(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6).ptr;
+constexpr int readable_digits = 5;
+/// Powers of ten of what people read without exponent.
+constexpr int least_plain = -4, most_plain = 6;
+
+constexpr std::array<const char*, 6> face_names = {"-x", "+x", "-y", "+y", "-z", "+z"};
+
+std::string chars(double value, std::chars_format format, int precision) {
+  char buffer[64];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, format, precision).ptr;
   return {buffer, end};
 }
 
+int power_of_ten(double value) {
+  return static_cast<int>(std::floor(std::log10(value)));
+}
+
+/// To as many places as give five digits of `size`: what is rounding beside it reads 0.
+std::string text(double value, double size) {
+  if (!std::isfinite(size)) return chars(value, std::chars_format::general, readable_digits);
+  if (size == 0) return "0";
+  const int power = power_of_ten(size), places = readable_digits - 1 - power;
+  if (std::abs(value) <= std::pow(10.0, -places) / 2) return "0";
+  if (power < least_plain || power > most_plain)
+    return chars(value, std::chars_format::general, std::max(1, places + 1 + power_of_ten(std::abs(value))));
+  std::string digits = chars(value, std::chars_format::fixed, std::max(0, places));
+  if (places > 0) digits.erase(digits.find_last_not_of('0') + 1);
+  if (digits.back() == '.') digits.pop_back();
+  return digits == "-0" ? "0" : digits;
+}
+
+std::string text(double value) {
+  return text(value, std::abs(value));
+}
+
 std::string text(const Eigen::Vector3d& v) {
+  const double size = v.cwiseAbs().maxCoeff();
   std::string out = "(";
-  for (int k = 0; k < 3; ++k) out += (k > 0 ? ", " : "") + text(v(k));
+  for (int k = 0; k < 3; ++k) out += (k > 0 ? ", " : "") + text(v(k), size);
   return out += ')';
 }
 
@@ -29,7 +60,7 @@ std::string name_of(const Handle& handle, const std::vector<std::string>& part_n
     case HandleKind::part:
       return part_names.at(static_cast<std::size_t>(handle.part));
     case HandleKind::face:
-      return "face " + number + of_part();
+      return std::string("face ") + face_names.at(static_cast<std::size_t>(handle.index)) + of_part();
     case HandleKind::corner:
       return "corner " + number + of_part();
     case HandleKind::section:
