@@ -268,6 +268,46 @@ TEST_CASE("a kept extent is kept, with edits that would change it bent or refuse
   CHECK(refused.refusal->reason.find("extent along (0, 0, 1) would be too long") != std::string::npos);
 }
 
+TEST_CASE("what an edit leaves of an extent is stretched away, where it is next to nothing") {
+  // A cube, its height along a direction that leans by `slope`: widened, its floor passes the end with an
+  // edge.
+  const ControllerModel model(structures::box_alone({2, 2, 2}));
+  const double wider = 1.5;
+  const Edit edit{{HandleKind::face, 0, 4}, Scale{wider, {}}};
+  const auto edited = [&](double slope) {
+    DeformationConstraints constraints;
+    constraints.keep_extent = Direction(slope, 0, 1);
+    constraints.extent_ends = ExtentEnds::fixed;
+    return model.deformed({edit}, constraints);
+  };
+  const auto left_by = [&](double slope) { return slope * (wider - 1) / std::hypot(1, slope); };
+
+  const double slope = 1e-7;
+  const Eigen::Vector3d r = Direction(slope, 0, 1).unit();
+  const DeformationResult stretched = edited(slope);
+  REQUIRE_FALSE(stretched.refusal);
+  const double half = range_along(model.rest().shape, r).high;
+  const double factor = 2 * half / (2 * half + left_by(slope));
+  for (int k = 0; k < 8; ++k) {
+    Eigen::Vector3d corner = cuboid(model.rest_primitives(), 0).corners.row(k);
+    if (corner.z() < 0) corner.head<2>() *= wider;
+    const double height = corner.dot(r);
+    corner += (half + factor * (height - half) - height) * r;
+    CHECK((cuboid(stretched.primitives, 0).corners.row(k).transpose() - corner).norm() < 1e-14);
+  }
+  const Range now = range_along(stretched.shape, r);
+  CHECK(now.low == Approx(-half).margin(1e-14));
+  CHECK(now.high == Approx(half).margin(1e-14));
+
+  // At most a tenth of what relations may be off by.
+  const double most = 0.1 * 1e-6 * model.rest().structure.diagonal;
+  CHECK_FALSE(edited(0.99 * most / (wider - 1)).refusal);
+  const DeformationResult refused = edited(1.01 * most / (wider - 1));
+  REQUIRE(refused.refusal);
+  CHECK(refused.refusal->reason.find("would begin or end elsewhere") != std::string::npos);
+  CHECK(refused.refusal->amount == Approx(1.01e-7).epsilon(1e-6));
+}
+
 TEST_CASE("the box may change by its tolerance") {
   const ControllerModel model(structures::table(1));
   DeformationConstraints constraints;
