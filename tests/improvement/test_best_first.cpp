@@ -304,6 +304,27 @@ TEST_CASE("progress is reported after every candidate") {
   }
 }
 
+TEST_CASE("gap scaling is searched along its own direction only, and a cone around it is refused") {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const auto squashed = design_space(space.rest(), {DeformationKind::gap_scaling, Direction(up)});
+  Requirements requirements;
+  requirements.target = 0.9;
+  requirements.keep_height = false;
+  requirements.measure.boxes = BoxModel::frame;
+  const RequirementChecker wish(*squashed, requirements);
+  BestFirstOptions how = options();
+  how.expansions = 3;
+  for (const double cone : {0.001, 10.0}) {
+    how.cone_degrees = cone;
+    CHECK_THROWS_AS(best_first(wish, how), UsageError);
+  }
+  how.cone_degrees = 0;
+  const BestFirstResult result = best_first(wish, how);
+  CHECK(result.progress.expanded == 3);
+  REQUIRE(!result.nearest.empty());
+  for (const Candidate& candidate : result.nearest) CHECK(candidate.direction == up);
+}
+
 TEST_CASE("options out of range are refused") {
   const auto refused = [](const auto& change) {
     BestFirstOptions how = options();

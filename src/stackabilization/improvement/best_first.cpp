@@ -7,12 +7,14 @@ namespace stackabilization {
 
 namespace {
 
-void validate(const BestFirstOptions& options) {
+void validate(const RequirementChecker& checker, const BestFirstOptions& options) {
   if (options.solutions < 1) throw UsageError("a search looks for one solution at least");
   if (options.expansions < 1) throw UsageError("a search expands one candidate at least");
   if (!(options.seconds > 0)) throw UsageError("the time limit of a search must be positive");
   if (!(options.cone_degrees >= 0) || options.cone_degrees > 90)
     throw UsageError("the cone in which a direction is searched again must be within 0 and 90 degrees");
+  if (options.cone_degrees > 0 && checker.space().kind() == DeformationKind::gap_scaling)
+    throw UsageError("gap scaling keeps the direction that it scales along: its cone is one of 0 degrees");
   if (options.directions.empty()) throw UsageError("a search needs a direction to start from");
   for (const Eigen::Vector3d& direction : options.directions) static_cast<void>(Direction(direction));
 }
@@ -20,7 +22,7 @@ void validate(const BestFirstOptions& options) {
 }  // namespace
 
 BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOptions& options) {
-  validate(options);
+  validate(checker, options);
   const int queues = static_cast<int>(options.directions.size());
   detail::SearchState state(detail::task_fingerprint(checker, options), queues);
   return detail::BestFirstSearch(checker, options, std::move(state)).run();
@@ -28,7 +30,7 @@ BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOpt
 
 BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
                                    const std::string& state) {
-  validate(options);
+  validate(checker, options);
   const std::uint64_t task = detail::task_fingerprint(checker, options);
   const int queues = static_cast<int>(options.directions.size());
   return detail::BestFirstSearch(checker, options, detail::read_state(state, task, queues)).run();
