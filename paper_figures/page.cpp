@@ -105,7 +105,8 @@ std::string section(const Entry& entry) {
   for (const Json& claim : entry.numbers.at("claims"))
     text += std::string("* ") + (claim.at("holds").get<bool>() ? "holds: " : "**does not hold**: ") +
             claim.at("says").get<std::string>() + ".\n";
-  return text + "\n*Known difference:* " + entry.prose.difference + "\n";
+  return text + "\n*Known difference:* " +
+         (own ? entry.prose.difference : entry.prose.authors_difference.value_or("")) + "\n";
 }
 
 }  // namespace

@@ -19,12 +19,17 @@ std::filesystem::path input_of(const RunOptions& options, const Figure& figure) 
   return options.inputs / (stem_of(figure.number) + ".json");
 }
 
+Prose prose_of(const Fields& fields) {
+  Prose prose{fields.text("paper"), fields.text("difference"), {}};
+  if (fields.has(authors_block)) prose.authors_difference = fields.object(authors_block).text("difference");
+  return prose;
+}
+
 /// The options of a figure in its file, all of which was understood.
 PreparedFigure prepare(const std::filesystem::path& input, const Figure& figure, bool authors) {
   const Fields fields = Fields::of_file(input);
   if (fields.whole("figure", 1, 99) != figure.number) fields.refuse("figure", std::to_string(figure.number));
-  fields.text("paper");
-  fields.text("difference");
+  prose_of(fields);  // has to be there
   PreparedFigure own = figure.prepare(fields.object(own_block));
   PreparedFigure other;
   if (fields.has(authors_block)) other = figure.prepare(fields.object(authors_block));
@@ -91,8 +96,9 @@ std::vector<Figure> chosen(const RunOptions& options) {
   std::vector<Figure> all = all_figures();
   if (options.figures.empty()) {
     if (options.paper_data)
-      std::erase_if(
-          all, [&](const Figure& figure) { return !read_prose(input_of(options, figure), figure).authors; });
+      std::erase_if(all, [&](const Figure& figure) {
+        return !read_prose(input_of(options, figure), figure).authors_difference;
+      });
     return all;
   }
   std::vector<Figure> result;
@@ -114,7 +120,7 @@ std::string stem_of(int figure) {
 Prose read_prose(const std::filesystem::path& input, const Figure& figure) {
   const Fields fields = Fields::of_file(input);
   if (fields.whole("figure", 1, 99) != figure.number) fields.refuse("figure", std::to_string(figure.number));
-  return {fields.text("paper"), fields.text("difference"), fields.has(authors_block)};
+  return prose_of(fields);
 }
 
 RunReport make_figures(const RunOptions& options, std::ostream& log) {

@@ -33,7 +33,8 @@ std::string stem_of(int figure);
 struct Prose {
   std::string paper;       ///< what the paper's figure shows
   std::string difference;  ///< what is known to differ in ours, and why
-  bool authors = false;    ///< can it be made from the authors' models?
+  /// The same where it is made from the authors' models; nothing where it cannot be.
+  std::optional<std::string> authors_difference;
 };
 Prose read_prose(const std::filesystem::path& input, const Figure& figure);
 

@@ -102,8 +102,13 @@ TEST_CASE("every figure of the catalogue has an input that it understands") {
     CHECK(fields.whole("figure", 1, 15) == figure.number);
     CHECK(fields.text("paper").ends_with('.'));
     CHECK(fields.text("difference").ends_with('.'));
-    for (const std::string models : {"own", "authors"})
-      if (fields.has(models)) figure.prepare(fields.object(models));
+    figure.prepare(fields.object("own"));
+    if (fields.has("authors")) {
+      figure.prepare(fields.object("authors"));
+      const std::string difference = fields.object("authors").text("difference");
+      CHECK(difference.ends_with('.'));
+      CHECK(difference.find("this project's model") == std::string::npos);
+    }
     fields.refuse_unread();
   }
 }

@@ -56,6 +56,19 @@ TEST_CASE("two runs of a figure write the same bytes, and its page says the numb
   CHECK_THROWS_AS(figures_page({inputs, first.path(), first.path() / "figures.md"}), InputError);
 }
 
+TEST_CASE("the page says what differs on the models that a figure was made from") {
+  const Folder folder;
+  const auto page_of = [&](const std::string& models) {
+    const Json numbers = {
+        {"figure", 11}, {"models", models}, {"numbers", Json::array()}, {"claims", Json::array()}};
+    folder.file("figure_11.numbers.json", numbers.dump());
+    return figures_page({options_for(folder, {}).inputs, folder.path(), folder.path() / "figures.md"});
+  };
+  CHECK(page_of("own").find("*Known difference:* The table is this project's model") != std::string::npos);
+  CHECK(page_of("authors").find("*Known difference:* The table is the authors'") != std::string::npos);
+  CHECK(page_of("authors").find("this project's model without") == std::string::npos);
+}
+
 TEST_CASE("a model that is damaged is one sentence, and the other figures are made") {
   const Folder output, models;
   for (const auto& entry : std::filesystem::directory_iterator(
