@@ -25,8 +25,7 @@ void check_wish(const ImproveCommandOptions& options) {
     throw UsageError("--copies and --within go together: how many copies within what length");
   if (!options.target && !options.copies)
     throw UsageError("expected --target S, or --copies N with --within LENGTH");
-  refuse(options.target && *options.target >= 1, "--target",
-         "expects a stackability below 1, which would be copies without any height of their own");
+  check_target(options.target);
   refuse(options.within && options.within->value <= 0, "--within", "expects a length above 0");
   refuse(options.copies && options.directions.size() > 1, "--direction",
          "is given once with --copies and --within: the room is along it");

@@ -71,16 +71,17 @@ std::string comparison(const ImproveReport& report) {
   text += add("Height of one copy",
               [&](const Solution& s) { return quantity(s.assessment.measured.extent, unit); });
   text += add("Direction", [](const Solution& s) { return vector_text(s.candidate.direction); });
-  text +=
-      add("Distortion D", [](const Solution& s) { return rounded(s.candidate.energy.distortion.total()); });
-  text +=
-      add("  of volumes", [](const Solution& s) { return rounded(s.candidate.energy.distortion.volume); });
+  text += add("Distortion D",
+              [](const Solution& s) { return stackability_text(s.candidate.energy.distortion.total()); });
+  text += add("  of volumes",
+              [](const Solution& s) { return stackability_text(s.candidate.energy.distortion.volume); });
   text += add("  of distances",
-              [](const Solution& s) { return rounded(s.candidate.energy.distortion.proximity); });
-  text += add("  of the box", [](const Solution& s) { return rounded(s.candidate.energy.distortion.box); });
+              [](const Solution& s) { return stackability_text(s.candidate.energy.distortion.proximity); });
+  text += add("  of the box",
+              [](const Solution& s) { return stackability_text(s.candidate.energy.distortion.box); });
   text += add("  of symmetries",
-              [](const Solution& s) { return rounded(s.candidate.energy.distortion.symmetry); });
-  text += add("Energy E", [](const Solution& s) { return rounded(s.candidate.energy.value); });
+              [](const Solution& s) { return stackability_text(s.candidate.energy.distortion.symmetry); });
+  text += add("Energy E", [](const Solution& s) { return stackability_text(s.candidate.energy.value); });
   text += add("Change of the shape", [](const Solution& s) { return percent(s.change.root_mean_square); });
   return text + "</tbody></table></div>\n";
 }

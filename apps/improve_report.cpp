@@ -54,8 +54,8 @@ void add_solution_rows(ColumnTable& table, const ImproveTask& task, const Soluti
       continue;
     }
     table.add({solution.name, stackability_text(solution.assessment.measured.value),
-               rounded(solution.candidate.energy.distortion.total()),
-               rounded(solution.candidate.energy.value), change, edits[i]});
+               stackability_text(solution.candidate.energy.distortion.total()),
+               stackability_text(solution.candidate.energy.value), change, edits[i]});
   }
 }
 
@@ -98,7 +98,7 @@ std::vector<std::string> wish_lines(const ImproveReport& report) {
   const ImproveTask& task = report.task;
   std::string directions;
   for (const Eigen::Vector3d& direction : task.directions)
-    directions += (directions.empty() ? "" : " or ") + vector_text(direction);
+    directions += (directions.empty() ? "" : " or ") + point_text(direction, direction.norm());
   std::vector<std::string> lines;
   if (task.room)
     lines.push_back(std::to_string(*report.options.copies) + " copies within " +
@@ -137,8 +137,9 @@ std::vector<std::string> edit_lines(const ImproveTask& task, const SolutionRepor
 std::string saving_text(const StackHeights& stack, Unit unit) {
   const std::string copies = std::to_string(stack.copies) + (stack.copies == 1 ? " copy" : " copies");
   const double saved = 1 - stack.after / stack.before;
+  const std::string share = percent(std::abs(saved));
   return copies + ": " + quantity(stack.after, unit) + " high instead of " + quantity(stack.before, unit) +
-         ", " + percent(std::abs(saved)) + (saved < 0 ? " more" : " less");
+         ", " + (share == percent(0) ? "about as high" : share + (saved < 0 ? " more" : " less"));
 }
 
 std::string check_text(const Check& check) {

@@ -22,7 +22,8 @@ void check_range(const char* option, const std::optional<double>& value, double 
 
 void add_requirement_options(CLI::App& command, RequirementArguments& arguments) {
   add_parts(command, "--keep", arguments.kept, "Part that stays as it is; repeatable");
-  add_parts(command, "--only", arguments.editable, "Part that may change, and no other; repeatable");
+  add_parts(command, "--only", arguments.editable,
+            "Part that may change, and no other but those symmetric to it; repeatable");
   command.add_flag("--change-height", arguments.change_height,
                    "The height along the direction need not stay what it is");
   add_fraction(command, "--box-tolerance", arguments.box_tolerance,
@@ -39,6 +40,12 @@ void add_requirement_options(CLI::App& command, RequirementArguments& arguments)
             arguments.standing);
   add_number(command, "--tilt-degrees", arguments.tilt_degrees,
              "... also on ground that is tilted by this angle (default: 0)");
+}
+
+void check_target(const std::optional<double>& target) {
+  if (target && *target >= 1)
+    throw UsageError(
+        "--target expects a stackability below 1, which would be copies without any height of their own");
 }
 
 void check(const RequirementArguments& arguments) {

@@ -26,6 +26,9 @@ void add_requirement_options(CLI::App& command, RequirementArguments& arguments)
 /// Throws UsageError naming the option when a number that was given is not in [least, most].
 void check_range(const char* option, const std::optional<double>& value, double least, double most);
 
+/// Throws UsageError for a --target that is no stackability to be reached.
+void check_target(const std::optional<double>& target);
+
 /// Throws UsageError for options that contradict each other or are out of range.
 void check(const RequirementArguments& arguments);
 

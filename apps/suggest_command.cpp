@@ -12,6 +12,7 @@ namespace {
 
 void check(const SuggestCommandOptions& options) {
   check(options.requirements);
+  check_target(options.target);
   check_outputs(options.common, {{"--save", options.save, OutputKind::project}},
                 analysis_inputs(options.analysis));
   options.destination();

@@ -206,6 +206,19 @@ TEST_CASE("so many copies within a length become a target, and the stack fits") 
   CHECK(stack["fits"] == true);
 }
 
+TEST_CASE("a target that is met already has one solution, the shape as it is") {
+  const CupFolder folder;
+  const Outcome outcome = run_program(folder.along_z({"--target", "-1", "--solutions", "3"}));
+  INFO(outcome.err << outcome.out);
+  CHECK(outcome.status == 0);
+  CHECK(outcome.out.find("along (0, 0, 1)") != std::string::npos);
+  CHECK(outcome.out.find("about as high") != std::string::npos);
+  CHECK(outcome.out.find("e-1") == std::string::npos);  // rounding
+  const json solutions = folder.document("result.json")["solutions"];
+  REQUIRE(solutions.size() == 1);
+  CHECK(solutions[0]["edits"].empty());
+}
+
 TEST_CASE("a target out of reach ends with 1, what came nearest and the reason") {
   const CupFolder folder;
   const std::string part = read_shape(folder.cup).part_names[0];
@@ -330,7 +343,10 @@ TEST_CASE("wrong uses of improve end with 2, name the mistake and leave no folde
       {joined(good, joined(target, {"--box-tolerance", "-1%"})), "--box-tolerance"},
       {joined(good, joined(target, {"--thickness", "-1"})), "--thickness"},
       {joined(good, joined(target, {"--clearance", "2mm"})), "--unit"},
+      {joined(good, joined(target, {"--clearance", "1e300"})), "a million times"},
       {joined(good, joined(target, {"--cone-degrees", "91"})), "--cone-degrees"},
+      {joined(good, joined(target, {"--model", "gap-scaling", "--cone-degrees", "5"})),
+       "keeps the direction"},
       {joined(good, joined(target, {"--draft-degrees", "-1"})), "--draft-degrees"},
       {joined(good, joined(target, {"--tilt-degrees", "5"})), "--standing"},
       {joined(good, joined(target, {"--standing", "0"})), "--standing"},

@@ -160,6 +160,18 @@ TEST_CASE("wishes hold: parts stay, targets are told, nothing possible ends with
     CHECK(one["edit"].get<std::string>().find("top") != 0);
 }
 
+TEST_CASE("an edit that changes nothing is no suggestion") {
+  const TableFolder folder;
+  const Arguments squash = {folder.project, "--model", "gap-scaling", "--all"};
+  const json kept = suggestions(squash);
+  REQUIRE(kept.size() == 1);
+  CHECK(kept[0]["number"].is_null());
+  CHECK(kept[0]["refusal"] == "nothing would change");
+  const json free = suggestions(joined(squash, {"--change-height"}));
+  REQUIRE(free.size() == 1);
+  CHECK(free[0]["refusal"].is_null());
+}
+
 TEST_CASE("what improve asks of designs can be asked of suggestions") {
   const TableFolder folder;
   const json free = suggested({folder.project, "--top", "1000"});
@@ -169,7 +181,8 @@ TEST_CASE("what improve asks of designs can be asked of suggestions") {
   CHECK(free["possible"] > 0);
   CHECK(toppling["possible"] == 0);
   CHECK(toppling["suggestions"][0]["refusal"].get<std::string>().find("standing") != std::string::npos);
-  for (const Arguments& wrong : {Arguments{"--tilt-degrees", "5"},  Arguments{"--draft-degrees", "91"},
+  for (const Arguments& wrong : {Arguments{"--tilt-degrees", "5"}, Arguments{"--target", "1"},
+                                 Arguments{"--clearance", "1e300"}, Arguments{"--draft-degrees", "91"},
                                  Arguments{"--thickness", "-1"}, Arguments{"--keep", "top", "--only", "top"}})
     CHECK(run_program(joined({"suggest", folder.project}, wrong)).status == 2);
 }

@@ -97,6 +97,9 @@ TEST_CASE("What requirements forbid a deformation", "[requirements]") {
   CHECK(constraints.keep_extent->vector() == Eigen::Vector3d(1, 0, 2));
   CHECK(constraints.box_tolerance == 0.2);
   CHECK(constraints.fixed_parts == std::vector<int>{0, 3, 6, 8});
+  requirements.kept_parts = {};
+  requirements.editable_parts = {1};  // and the other legs with it
+  CHECK(deformation_constraints(requirements, table, up).fixed_parts == std::vector<int>{0, 5, 6, 7, 8});
   requirements = {};
   requirements.keep_height = false;
   const DeformationConstraints none = deformation_constraints(requirements, table, up);
@@ -130,6 +133,8 @@ TEST_CASE("Requirements that make no sense are refused", "[requirements]") {
     });
   }
   for (const double bad : {-0.1, 1.1, nan}) refused([&](Requirements& r) { r.least_proportion = bad; });
+  refused([](Requirements& r) { r.clearance = 1e8; });
+  refused([](Requirements& r) { r.play = 1e8; });
   for (const double bad : {0.0, -1.0, nan, infinity})
     refused([&](Requirements& r) { r.room = StackRoom{2, bad}; });
   refused([](Requirements& r) { r.room = StackRoom{1, 10}; });

@@ -147,6 +147,9 @@ TEST_CASE("designs differ when they are far apart, or near but moved otherwise")
   const Distinctness distinct(space.rest());
   const Design narrow = after(space, {cups::scale(0, 0.7)});
   CHECK(!distinct.differ(narrow, narrow));
+  Design rest = space.at_rest(), rounded = rest;
+  rounded.shape.vertices(0, 0) += 1e-13;
+  CHECK(!distinct.differ(rest, rounded));
   CHECK(!distinct.differ(narrow, after(space, {cups::scale(0, 0.72)})));
   CHECK(distinct.differ(narrow, after(space, {cups::scale(0, 0.9)})));
   CHECK(distinct.differ(after(space, {cups::scale(0, 0.9)}), narrow));

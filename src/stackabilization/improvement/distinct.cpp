@@ -7,6 +7,7 @@
 
 #include "stackabilization/improvement/shape_change.h"
 #include "stackabilization/shape/disjoint_sets.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
 
@@ -66,7 +67,7 @@ bool Distinctness::differ(const Design& a, const Design& b) const {
   const double from_rest = std::min(change(rest_.shape, a.shape), change(rest_.shape, b.shape));
   const double between = change(a.shape, b.shape);
   const bool same_gestures = gestures(a.edits) == gestures(b.edits);
-  return between > 0 && between >= (same_gestures ? far_apart : apart) * from_rest;
+  return between > tolerance::relative && between >= (same_gestures ? far_apart : apart) * from_rest;
 }
 
 }  // namespace stackabilization::detail

@@ -7,6 +7,7 @@
 
 #include "stackabilization/improvement/design_match.h"
 #include "stackabilization/improvement/proportions.h"
+#include "stackabilization/improvement/removal.h"
 #include "stackabilization/improvement/requirement_checks.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/stacking/clearance.h"
@@ -15,9 +16,18 @@ namespace stackabilization {
 
 namespace {
 
+/// Air beyond this many diagonals is a slip of the unit, and numbers that no file takes.
+constexpr double most_air = 1e6;
+
 void require_at_least_zero(double value, const std::string& what) {
   if (!std::isfinite(value) || value < 0)
     throw UsageError("the " + what + " that is required must be a finite number of at least 0");
+}
+
+void require_air(double value, const std::string& what, double diagonal) {
+  require_at_least_zero(value, what);
+  if (value > most_air * diagonal)
+    throw UsageError("the " + what + " that is required cannot exceed a million times the size of the shape");
 }
 
 void require_angle(double degrees, const std::string& what) {
@@ -42,8 +52,9 @@ std::vector<int> parts_that_stay(const Requirements& requirements, const Structu
   std::set<int> stay(requirements.kept_parts.begin(), requirements.kept_parts.end());
   if (!requirements.editable_parts.empty()) {
     const std::set<int> editable(requirements.editable_parts.begin(), requirements.editable_parts.end());
-    for (int part = 0; part < static_cast<int>(structure.parts.size()); ++part)
-      if (!editable.contains(part)) stay.insert(part);
+    for (const std::vector<int>& members : symmetric_classes(structure))
+      if (std::none_of(members.begin(), members.end(), [&](int part) { return editable.contains(part); }))
+        stay.insert(members.begin(), members.end());
   }
   return {stay.begin(), stay.end()};
 }
@@ -65,8 +76,8 @@ void validate(const Requirements& requirements, const StructuredShape& rest) {
   require_parts(requirements.editable_parts, rest.structure);
   if (!(requirements.least_proportion >= 0 && requirements.least_proportion <= 1))
     throw UsageError("the least proportion that is required must be from 0 to 1");
-  require_at_least_zero(requirements.clearance, "clearance");
-  require_at_least_zero(requirements.play, "play");
+  require_air(requirements.clearance, "clearance", rest.structure.diagonal);
+  require_air(requirements.play, "play", rest.structure.diagonal);
   require_at_least_zero(requirements.box_tolerance.value_or(0), "tolerance of the box");
   require_at_least_zero(requirements.least_thickness.value_or(0), "thickness");
   require_angle(requirements.least_draft_degrees.value_or(0), "draft angle");

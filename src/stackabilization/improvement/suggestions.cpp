@@ -7,6 +7,7 @@
 
 #include "stackabilization/improvement/design_contacts.h"
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization {
 
@@ -31,6 +32,11 @@ class Judge {
     const DesignOutcome outcome = checker_.space().edited(design, suggestion.edit.edit, constraints_);
     if (outcome.refusal) {
       suggestion.refusal = outcome.refusal->reason;
+      return;
+    }
+    const double moved = (outcome.design.shape.vertices - design.shape.vertices).cwiseAbs().maxCoeff();
+    if (moved <= tolerance::relative * checker_.space().rest().structure.diagonal) {
+      suggestion.refusal = "nothing would change";
       return;
     }
     const Assessment assessment = checker_.checked(outcome.design, direction_);
