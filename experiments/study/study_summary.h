@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/experiment.h"
+#include "stackabilization/improvement/energy.h"
+
+namespace stackabilization::experiments {
+
+/// One user, or one preset of the automatic method, at one task.
+struct StudyRun {
+  std::string task, model, input_hash, user;
+  std::optional<std::int64_t> seed;  ///< of a simulated user
+  double target = 0, before = 0;     ///< S asked for, and at rest
+  bool reached = false;              ///< the target, all requirements held
+  double stackability = 0;           ///< at the end
+  Energy energy;                     ///< against rest
+  double change = 0;                 ///< root mean square of the vertices, over the diagonal
+  std::int64_t kept = 0, tried = 0;  ///< edits
+  double seconds = 0;
+};
+
+/// How runs of the user who goes by `refined`'s name are told from the others.
+inline constexpr const char* refined_user = "automatic, refined";
+
+/// Tables of the runs ("") and of their medians and quartiles ("summary"), the latter per task and over all
+/// tasks; plots of D against S ("") and of targets reached against edits tried ("edits"). Users and tasks in
+/// the order in which they first occur.
+void report_study(const std::vector<StudyRun>& runs, Report& report);
+
+}  // namespace stackabilization::experiments
