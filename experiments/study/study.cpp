@@ -34,7 +34,7 @@ namespace {
 
 struct Settings {
   int seeds = 20, edits = 200, compared = 8;
-  std::int64_t expansions = 20;
+  std::int64_t expansions = 40;
   std::filesystem::path paper_data;
   std::vector<std::string> names;
 };
