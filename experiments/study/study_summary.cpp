@@ -16,12 +16,12 @@ double way(const StudyRun& run) {
   return (run.stackability - run.before) / (run.target - run.before);
 }
 
-/// Did the first one do better: the target rather than not, then less distortion, or more S where both
+/// Did the first one do better: the target rather than not, then the less of `cost`, or more S where both
 /// missed?
-bool better(const StudyRun& a, const StudyRun& b) {
+template <class Cost>
+bool better(const StudyRun& a, const StudyRun& b, const Cost& cost) {
   if (a.reached != b.reached) return a.reached;
-  if (!a.reached) return a.stackability > b.stackability;
-  return a.energy.distortion.total() < b.energy.distortion.total();
+  return a.reached ? cost(a) < cost(b) : a.stackability > b.stackability;
 }
 
 template <class Member>
@@ -40,6 +40,10 @@ double share(const Runs& runs, const Condition& holds) {
 
 double distortion(const StudyRun& run) {
   return run.energy.distortion.total();
+}
+
+double change(const StudyRun& run) {
+  return run.change;
 }
 
 /// Lower quartile, median, upper quartile.
@@ -155,7 +159,8 @@ class Summary {
                                              "tried_lower",
                                              "tried_median",
                                              "tried_upper",
-                                             "refined_is_better"};
+                                             "refined_beats_D",
+                                             "refined_beats_change_rms"};
     for (const Column& column : columns(values)) all.push_back(column);
     all.push_back({"median_seconds", ColumnKind::clock});
     return report_.table("summary", all);
@@ -174,12 +179,18 @@ class Summary {
     Runs reached = runs;
     std::erase_if(reached, [](const StudyRun* run) { return !run->reached; });
     row.emplace_back(reached.empty() ? Cell() : Cell(median(each(reached, distortion))));
-    row.emplace_back(median(each(runs, [](const StudyRun& run) { return run.change; })));
+    row.emplace_back(median(each(runs, change)));
     add_quartiles(each(runs, [](const StudyRun& run) { return run.kept; }), row);
     add_quartiles(each(runs, [](const StudyRun& run) { return run.tried; }), row);
-    row.emplace_back(share(runs, [&](const StudyRun& run) { return better(*refined_.at(run.task), run); }));
+    row.emplace_back(share_beaten(runs, distortion));
+    row.emplace_back(share_beaten(runs, change));
     row.emplace_back(median(each(runs, [](const StudyRun& run) { return run.seconds; })));
     table().add(std::move(row));
+  }
+
+  template <class Cost>
+  double share_beaten(const Runs& runs, const Cost& cost) const {
+    return share(runs, [&](const StudyRun& run) { return better(*refined_.at(run.task), run, cost); });
   }
 
   const std::vector<StudyRun>& runs_;

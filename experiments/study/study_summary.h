@@ -27,9 +27,10 @@ inline constexpr const char* refined_user = "automatic, refined";
 
 /// Tables of the runs ("") and of their medians and quartiles ("summary"), the latter per task and over all
 /// tasks, where S stands as the part of the way to the target; plots of D against S ("") and of targets
-/// reached against edits tried ("edits"). `refined_is_better`: the share of the runs that missed a target
-/// which the refined preset reached, or reached it with more D; where both missed it, with less S. Users and
-/// tasks in the order in which they first occur. Precondition: every task has a run of the refined preset.
+/// reached against edits tried ("edits"). `refined_beats_D`: the share of the runs that missed a target which
+/// the refined preset reached, or reached it with more D; where both missed it, with less S. The same for the
+/// root mean square change. Users and tasks in the order in which they first occur. Precondition: every task
+/// has a run of the refined preset.
 void report_study(const std::vector<StudyRun>& runs, Report& report);
 
 }  // namespace stackabilization::experiments

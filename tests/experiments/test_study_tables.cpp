@@ -79,12 +79,14 @@ TEST_CASE("a summary has shares and quartiles per task and over all tasks, and s
   CHECK(number(cell(table, "cup", "random", "D_median")) == Approx(0.2));
   CHECK(number(cell(table, "cup", "random", "D_median_where_reached")) == Approx(0.2));
   // Not better than the one that reached the target with D = 0.05.
-  CHECK(number(cell(table, "cup", "random", "refined_is_better")) == 0.75);
+  CHECK(number(cell(table, "cup", "random", "refined_beats_D")) == 0.75);
   // Nobody reached the target: more S is better.
-  CHECK(number(cell(table, "stool", "random", "refined_is_better")) == 0.5);
+  CHECK(number(cell(table, "stool", "random", "refined_beats_D")) == 0.5);
   CHECK(std::holds_alternative<std::monostate>(cell(table, "stool", "random", "D_median_where_reached")));
+  // Changes are all the same, so that only those who missed the target are beaten.
+  CHECK(number(cell(table, "cup", "random", "refined_beats_change_rms")) == 0.25);
   CHECK(number(cell(table, "all", "random", "reached")) == 0.5);
-  CHECK(number(cell(table, "all", refined_user, "refined_is_better")) == 0);
+  CHECK(number(cell(table, "all", refined_user, "refined_beats_D")) == 0);
   CHECK(std::holds_alternative<std::monostate>(cell(table, "all", "random", "S_median")));
 }
 
