@@ -13,7 +13,6 @@
 // the automatic method is the number of designs that it made.
 
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <iostream>
@@ -63,29 +62,28 @@ class TaskStudy {
     ImprovementOptions options;
     options.preset = preset;
     options.search.expansions = settings_.expansions;
-    const double start = now();
+    const Stopwatch watch;
     const AutomaticWork work = automatic_work(*space_, task_, options);
     StudyRun run = run_of(user, work.result);
-    run.seconds = now() - start;
+    run.processor_seconds = watch.processor_seconds();
     run.reached = work.reached;
     run.tried = work.tried;
     return run;
   }
 
   std::vector<StudyRun> manual(Habit habit) const {
+    const Stopwatch watch;
     std::vector<StudyRun> runs(static_cast<std::size_t>(settings_.seeds));
-    tbb::parallel_for(std::size_t{0}, runs.size(), [&](std::size_t k) {
-      // Nobody takes up another one's work while waiting, or its time would count for both.
-      tbb::this_task_arena::isolate([&] { runs[k] = manual(habit, static_cast<unsigned>(k + 1)); });
-    });
+    tbb::parallel_for(std::size_t{0}, runs.size(),
+                      [&](std::size_t k) { runs[k] = manual(habit, static_cast<unsigned>(k + 1)); });
+    const double each = watch.processor_seconds() / settings_.seeds;
+    for (StudyRun& run : runs) run.processor_seconds = each;
     return runs;
   }
 
   StudyRun manual(Habit habit, unsigned seed) const {
-    const double start = now();
     const ManualWork work = worked(tool_, {habit, seed, settings_.edits, settings_.compared});
     StudyRun run = run_of(name_of(habit), work.result);
-    run.seconds = now() - start;
     run.seed = seed;
     run.reached = work.reached;
     run.tried = work.tried;

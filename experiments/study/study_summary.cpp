@@ -162,7 +162,7 @@ class Summary {
                                              "refined_beats_D",
                                              "refined_beats_change_rms"};
     for (const Column& column : columns(values)) all.push_back(column);
-    all.push_back({"median_seconds", ColumnKind::clock});
+    all.push_back({"median_cpu_seconds", ColumnKind::clock});
     return report_.table("summary", all);
   }
 
@@ -184,7 +184,7 @@ class Summary {
     add_quartiles(each(runs, [](const StudyRun& run) { return run.tried; }), row);
     row.emplace_back(share_beaten(runs, distortion));
     row.emplace_back(share_beaten(runs, change));
-    row.emplace_back(median(each(runs, [](const StudyRun& run) { return run.seconds; })));
+    row.emplace_back(median(each(runs, [](const StudyRun& run) { return run.processor_seconds; })));
     table().add(std::move(row));
   }
 
@@ -202,7 +202,7 @@ void add_run(const StudyRun& run, Table& table) {
   const Distortion& d = run.energy.distortion;
   table.add({run.task, run.model, run.input_hash, run.user, run.seed ? Cell(*run.seed) : Cell(), run.target,
              run.before, run.reached, run.stackability, d.total(), d.volume, d.proximity, d.box, d.symmetry,
-             run.energy.value, run.change, run.kept, run.tried, run.seconds});
+             run.energy.value, run.change, run.kept, run.tried, run.processor_seconds});
 }
 
 }  // namespace
@@ -212,7 +212,7 @@ void report_study(const std::vector<StudyRun>& runs, Report& report) {
   for (const Column& column : columns({"target", "S_before", "reached", "S", "D", "D_vol", "D_prox", "D_BB",
                                        "D_symm", "E", "change_rms", "edits_kept", "edits_tried"}))
     all.push_back(column);
-  all.push_back({"seconds", ColumnKind::clock});
+  all.push_back({"cpu_seconds", ColumnKind::clock});
   Table& table = report.table("", all);
   for (const StudyRun& run : runs) add_run(run, table);
   if (runs.empty()) return;

@@ -19,7 +19,7 @@ struct StudyRun {
   Energy energy;                     ///< against rest
   double change = 0;                 ///< root mean square of the vertices, over the diagonal
   std::int64_t kept = 0, tried = 0;  ///< edits
-  double seconds = 0;
+  double processor_seconds = 0;      ///< of the machine; of simulated users their mean
 };
 
 /// `user` of the runs with which the others are compared.
