@@ -43,6 +43,7 @@ struct Settings {
 /// What an experiment is given besides its own options.
 struct Kind {
   bool models = true;             ///< the shipped models, or a few of them when it must be quick
+  bool own_choice = false;        ///< it takes no models, but reads shipped ones
   bool paper_data = true;         ///< the authors' data, when there are any
   bool needs_paper_data = false;  ///< nothing to do without them
   bool needs_benchmark = false;   ///< nothing to do without a benchmark of segmentations
@@ -73,6 +74,10 @@ const std::vector<Entry>& entries() {
        {.paper_data = false},
        {"--seconds", "3600", "--expansions", "200"},
        {"--seconds", "3600", "--expansions", "3"}},
+      {"study",
+       {.models = false, .own_choice = true},
+       {},
+       {"--seeds", "3", "--edits", "30", "--expansions", "2", "cup", "cup-handle"}},
   };
   return all;
 }
@@ -89,19 +94,23 @@ void add_benchmark(const fs::path& folder, Job& job) {
     for (const fs::path& file : files_below(folder / "data", extension)) job.inputs.push_back(file);
 }
 
+void add_models(const Entry& entry, bool quick, Job& job) {
+  const std::vector<std::string> few = {"cup", "stool", "table"};
+  for (const ModelFile& model : shipped_models()) {
+    const bool among_few = std::find(few.begin(), few.end(), model.name) != few.end();
+    if (entry.kind.models && quick && !among_few) continue;
+    if (entry.kind.models) job.arguments.push_back(model.path.string());
+    job.inputs.push_back(model.path);
+  }
+}
+
 Job job_of(const Entry& entry, const fs::path& programs, const Settings& settings) {
   Job job{entry.name, programs / entry.name, settings.quick ? entry.quick_options : entry.options, {}};
   if (entry.kind.threads)
     job.arguments.insert(job.arguments.end(), {"--threads", std::to_string(settings.threads)});
   if (entry.kind.paper_data && !settings.paper_data.empty()) add_paper_data(settings.paper_data, job);
   if (entry.kind.needs_benchmark) add_benchmark(settings.benchmark, job);
-  const std::vector<std::string> few = {"cup", "stool", "table"};
-  if (!entry.kind.models) return job;
-  for (const ModelFile& model : shipped_models()) {
-    if (settings.quick && std::find(few.begin(), few.end(), model.name) == few.end()) continue;
-    job.arguments.push_back(model.path.string());
-    job.inputs.push_back(model.path);
-  }
+  if (entry.kind.models || entry.kind.own_choice) add_models(entry, settings.quick, job);
   return job;
 }
 

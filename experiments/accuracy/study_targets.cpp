@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
-#include <fstream>
 #include <map>
 #include <set>
 
 #include "accuracy/sampling.h"
+#include "common/authors_targets.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/stacking/stackability.h"
 #ifdef STACKABILIZATION_WITH_RENDERING
@@ -20,36 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Task names without the digits, dashes and spellings in which files and tasks.txt differ.
-std::string plain(const std::string& stem) {
-  std::string name;
-  for (const char c : stem)
-    if (std::isalpha(static_cast<unsigned char>(c)) != 0)
-      name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (const std::size_t bar = name.find("middlebar"); bar != std::string::npos)
-    name.replace(bar, 9, "midbar");
-  return name;
-}
-
-/// Target by plain name of the task.
-std::map<std::string, double> targets(const fs::path& file) {
-  std::ifstream stream(file);
-  if (!stream) throw InputError(file.string() + ": cannot be opened for reading");
-  std::map<std::string, double> result;
-  std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
-    while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
-    if (line.empty()) continue;
-    const std::size_t blank = line.rfind(' ');
-    double target = 0;
-    const char* end = line.data() + line.size();
-    if (blank == std::string::npos || std::from_chars(line.data() + blank + 1, end, target).ptr != end)
-      throw InputError(file.string() + ", line " + std::to_string(number) + ": expected a path and a target");
-    result[plain(fs::path(line.substr(0, blank)).stem().string())] = target;
-  }
-  return result;
-}
-
 /// S along z in the boxes of the frame with this translation, model units.
 double stackability_in_frame(const Shape& shape, double translation) {
   StackabilityOptions options;
@@ -58,12 +27,13 @@ double stackability_in_frame(const Shape& shape, double translation) {
 }
 
 /// The targets in (exact, read], each once, ascending.
-std::string misread(const std::map<std::string, double>& targets, double exact, double read) {
+std::string misread(const std::map<std::string, AuthorsTarget>& targets, double exact, double read) {
   std::set<std::string> texts;
-  for (const auto& [task, target] : targets)
-    if (target > exact && target <= read) {
+  for (const auto& [name, task] : targets)
+    if (task.target > exact && task.target <= read) {
       std::array<char, 16> buffer{};
-      texts.emplace(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), target).ptr);
+      texts.emplace(buffer.data(),
+                    std::to_chars(buffer.data(), buffer.data() + buffer.size(), task.target).ptr);
     }
   std::string list;
   for (const std::string& text : texts) list += (list.empty() ? "" : " ") + text;
@@ -92,7 +62,7 @@ std::optional<Reading> authors_reading(const Shape&) {
 }  // namespace
 
 void compare_study_targets(const fs::path& paper_data, Report& report) {
-  const auto target_of = targets(paper_data / "user-study-graphics" / "UserStudyApp" / "tasks.txt");
+  const auto target_of = authors_targets(paper_data);
   Table& table = report.table("study", {{"model", ColumnKind::key},
                                         {"input_hash", ColumnKind::key},
                                         {"pixels_across"},
@@ -108,9 +78,9 @@ void compare_study_targets(const fs::path& paper_data, Report& report) {
         stackability_in_frame(shape, minimal_stacking_translation(shape, Direction(0, 0, 1)).length);
     const double read = stackability_in_frame(shape, reading->translation);
     const bool of_study = model.name.find("UserStudyApp") != std::string::npos;
-    const auto own = target_of.find(plain(model.path.stem().string()));
+    const auto own = target_of.find(plain_task_name(model.path.stem().string()));
     table.add({model.name, hash, reading->across, exact, read, read - exact,
-               of_study && own != target_of.end() ? Cell(own->second) : Cell(),
+               of_study && own != target_of.end() ? Cell(own->second.target) : Cell(),
                misread(target_of, exact, read)});
   };
   for_each_model(paper_models(paper_data), report, measure);

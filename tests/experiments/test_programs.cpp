@@ -36,7 +36,8 @@ std::vector<std::string> quick(const std::string& program) {
       {"minimal_translation", {"--directions", "2", "--slow-directions", "1"}},
       {"scaling",
        {"--largest-triangles", "2048", "--largest-parts", "8", "--directions", "2", "--finest-spacing",
-        "0.32"}}};
+        "0.32"}},
+      {"study", {"cup", "--seeds", "2", "--edits", "4", "--expansions", "1"}}};
   return options.at(program);
 }
 
@@ -49,7 +50,7 @@ std::vector<std::string> operator+(std::vector<std::string> a, const std::vector
 
 TEST_CASE("every experiment explains itself and its options") {
   for (const std::string& program :
-       with_models + std::vector<std::string>{"scaling", "relations_against_lists", "run_all"}) {
+       with_models + std::vector<std::string>{"scaling", "study", "relations_against_lists", "run_all"}) {
     const Outcome outcome = run(program, {"--help"});
     CHECK(outcome.status == 0);
     CHECK(outcome.out.find("--output") != std::string::npos);
@@ -60,12 +61,14 @@ TEST_CASE("every experiment explains itself and its options") {
 TEST_CASE("wrong usage is refused with status 2") {
   for (const std::string& program : with_models) CHECK(run(program, {"--no-such-option"}).status == 2);
   CHECK(run("direction_search", {"--largest", "many"}).status == 2);
+  CHECK(says(run("study", {"--edits", "1", "spoon"}), "study", "'spoon'"));
+  CHECK(run("study", {"--edits", "1", "spoon"}).status == 2);
   CHECK(run("run_all", {}).status == 2);
 }
 
 TEST_CASE("a missing folder of the authors' data is refused with status 3 and one sentence") {
   const TemporaryFolder folder;
-  for (const std::string& program : with_models) {
+  for (const std::string& program : with_models + std::vector<std::string>{"study"}) {
     const Outcome outcome = run(program, {"--paper-data", folder / "nowhere"});
     CHECK(outcome.status == 3);
     CHECK(says(outcome, program, folder / "nowhere"));
@@ -78,7 +81,7 @@ TEST_CASE("a missing folder of the authors' data is refused with status 3 and on
 TEST_CASE("a results folder that cannot be made is refused with status 2 and one sentence") {
   const TemporaryFolder folder;
   const std::string place = folder.file("file", "no folder") + "/results";
-  for (const std::string& program : with_models + std::vector<std::string>{"scaling", "run_all"}) {
+  for (const std::string& program : with_models + std::vector<std::string>{"scaling", "study", "run_all"}) {
     const Outcome outcome = run(program, {"-o", place});
     CHECK(outcome.status == 2);
     CHECK(says(outcome, program, place));
@@ -120,6 +123,19 @@ TEST_CASE("two runs leave the same bytes but for the clocks") {
       CHECK(bytes == bytes_of(folder / ("second/" + program + ending)));
     }
     CHECK_FALSE(bytes_of(folder / ("first/" + program + ".clocks.csv")).empty());
+  }
+}
+
+TEST_CASE("a study leaves the same rows for any number of threads") {
+  const TemporaryFolder folder;
+  for (const std::string threads : {"1", "2"})
+    REQUIRE(
+        run("study", quick("study") + std::vector<std::string>{"--threads", threads, "-o", folder / threads})
+            .status == 0);
+  for (const std::string table : {"/study.csv", "/study_summary.csv"}) {
+    // The head of the table says how many threads there were.
+    const std::string one = bytes_of(folder / ("1" + table)), two = bytes_of(folder / ("2" + table));
+    CHECK(one.substr(one.find("\ntask,")) == two.substr(two.find("\ntask,")));
   }
 }
 

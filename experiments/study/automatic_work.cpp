@@ -1,0 +1,55 @@
+#include "study/automatic_work.h"
+
+#include <atomic>
+
+namespace stackabilization::experiments {
+
+namespace {
+
+/// Counts the designs that are made of another space.
+class CountedSpace : public DesignSpace {
+ public:
+  explicit CountedSpace(const DesignSpace& space) : space_(space) {}
+
+  std::int64_t made() const { return made_; }
+
+  const StructuredShape& rest() const override { return space_.rest(); }
+  DeformationKind kind() const override { return space_.kind(); }
+  std::vector<Handle> handles() const override { return space_.handles(); }
+  std::vector<Eigen::Vector3d> centres() const override { return space_.centres(); }
+  Design at_rest() const override { return space_.at_rest(); }
+
+  DesignOutcome edited(const Design& now, const Edit& edit,
+                       const DeformationConstraints& constraints) const override {
+    ++made_;
+    return space_.edited(now, edit, constraints);
+  }
+
+  DesignOutcome replayed(const std::vector<Edit>& edits,
+                         const DeformationConstraints& constraints) const override {
+    ++made_;
+    return space_.replayed(edits, constraints);
+  }
+
+ private:
+  const DesignSpace& space_;
+  mutable std::atomic<std::int64_t> made_ = 0;
+};
+
+}  // namespace
+
+AutomaticWork automatic_work(const DesignSpace& space, const StudyTask& task,
+                             const ImprovementOptions& options) {
+  constexpr double no_limit = 1e9;
+  ImprovementOptions limited = options;
+  limited.search.seconds = no_limit;
+  limited.search.cone_degrees = 0;
+  limited.search.directions = {task.direction};
+  const CountedSpace counted(space);
+  Improvement found = improve(RequirementChecker(counted, task.requirements), limited);
+  const bool reached = !found.solutions.empty();
+  Candidate& best = reached ? found.solutions.front() : found.nearest ? *found.nearest : found.before;
+  return {std::move(best), reached, counted.made()};
+}
+
+}  // namespace stackabilization::experiments
