@@ -53,6 +53,12 @@ struct Entry {
   std::string name;
   Kind kind;
   std::vector<std::string> options, quick_options;
+  std::vector<std::string> only_models = {};  ///< of the shipped ones; empty: all
+
+  bool takes(const std::string& model) const {
+    return only_models.empty() ||
+           std::find(only_models.begin(), only_models.end(), model) != only_models.end();
+  }
 };
 
 const std::vector<Entry>& entries() {
@@ -73,6 +79,11 @@ const std::vector<Entry>& entries() {
        {.paper_data = false},
        {"--seconds", "3600", "--expansions", "200"},
        {"--seconds", "3600", "--expansions", "3"}},
+      {"deformation_models",
+       {.paper_data = false},
+       {},
+       {"--targets", "0.2", "--alphas", "0.1,0.8", "--expansions", "2", "--evaluations", "20"},
+       {"bowl", "cup", "mug_with_handle", "stool", "table"}},
   };
   return all;
 }
@@ -98,6 +109,7 @@ Job job_of(const Entry& entry, const fs::path& programs, const Settings& setting
   const std::vector<std::string> few = {"cup", "stool", "table"};
   if (!entry.kind.models) return job;
   for (const ModelFile& model : shipped_models()) {
+    if (!entry.takes(model.name)) continue;
     if (settings.quick && std::find(few.begin(), few.end(), model.name) == few.end()) continue;
     job.arguments.push_back(model.path.string());
     job.inputs.push_back(model.path);
