@@ -21,6 +21,12 @@ const Variant& variant(const std::string& name) {
 /// Limits with which nothing takes long.
 constexpr Limits few{1, 10, 3600};
 
+Shape cup() {
+  solids::FrustumShell cup;
+  cup.segments = 24;
+  return solids::frustum_shell(cup);
+}
+
 Task task(ImprovementPreset preset, double target) {
   return {preset, 0.2, 0.5, target};
 }
@@ -28,7 +34,7 @@ Task task(ImprovementPreset preset, double target) {
 }  // namespace
 
 TEST_CASE("a target that the shape at rest reaches costs nothing, whatever the model") {
-  const Subject subject(solids::frustum_shell({}));
+  const Subject subject(cup());
   CHECK(subject.stackability_at_rest() > 0.1);
   for (const std::string name : {"cuboids", "cylinders", "mixed", "surface", "gap-scaling"}) {
     const Trial trial = subject.trials(variant(name), {task(ImprovementPreset::paper, 0.1)}, few).front();
@@ -54,7 +60,7 @@ TEST_CASE("a target out of reach has what came nearest, and why") {
 }
 
 TEST_CASE("a variant is measured on the structure of the mixed one") {
-  const Subject subject(solids::frustum_shell({}));
+  const Subject subject(cup());
   REQUIRE(subject.consists_of(PrimitiveKind::cylinder));
   CHECK_FALSE(subject.consists_of(PrimitiveKind::cuboid));
   const double target = 0.5 * (1 + subject.stackability_at_rest());
@@ -72,12 +78,12 @@ TEST_CASE("a variant is measured on the structure of the mixed one") {
 TEST_CASE("a model that cannot be deformed in some way says why, for every task") {
   // A ball has no feature curves.
   solids::Polygon profile;
-  constexpr int steps = 32;
+  constexpr int steps = 16;
   for (int k = 0; k <= steps; ++k) {
     const double angle = std::numbers::pi * k / steps;
     profile.emplace_back(k == 0 || k == steps ? 0 : std::sin(angle), -std::cos(angle));
   }
-  const Subject subject(solids::surface_of_revolution(profile, 64));
+  const Subject subject(solids::surface_of_revolution(profile, 32));
   const std::vector<Trial> trials = subject.trials(
       variant("iwires"), {task(ImprovementPreset::paper, 0.1), task(ImprovementPreset::refined, 0.2)}, few);
   REQUIRE(trials.size() == 2);
