@@ -67,9 +67,30 @@ std::vector<Trial> swept(const Subject& subject, const Settings& settings) {
   return subject.trials(mixed_variant(), all, settings.limits);
 }
 
-/// Where the analysis chooses the kind of a variant for every part, that variant is the mixed one.
+/// Is the variant the mixed one, or the same because the analysis chooses its kind for every part?
 bool is_mixed(const Variant& variant, const Subject& subject) {
-  return variant.primitives && subject.consists_of(*variant.primitives);
+  return variant.name == mixed_variant().name ||
+         (variant.primitives && subject.consists_of(*variant.primitives));
+}
+
+/// All variants that are wanted; what is the mixed one is tried once.
+std::vector<Trial> compared(const Subject& subject, const Settings& settings) {
+  std::vector<Trial> all, of_mixed;
+  for (const Variant& variant : variants()) {
+    if (!settings.wants(variant)) continue;
+    std::vector<Trial> trials;
+    const bool same = is_mixed(variant, subject);
+    if (same && !of_mixed.empty())
+      trials = of_mixed;
+    else
+      trials = subject.trials(variant, tasks_of(variant, subject, settings), settings.limits);
+    if (same) of_mixed = trials;
+    for (Trial& trial : trials) {
+      trial.variant = variant.name;
+      all.push_back(std::move(trial));
+    }
+  }
+  return all;
 }
 
 Findings examine(const Shape& shape, const Settings& settings) {
@@ -78,20 +99,8 @@ Findings examine(const Shape& shape, const Settings& settings) {
   findings.stackability_at_rest = subject.stackability_at_rest();
   findings.rest = subject.shape();
   findings.shown_fraction = settings.targets[settings.targets.size() / 2];
-  const Variant& mixed = mixed_variant();
-  const std::vector<Trial> of_mixed =
-      subject.trials(mixed, tasks_of(mixed, subject, settings), settings.limits);
-  for (const Variant& variant : variants()) {
-    if (!settings.wants(variant)) continue;
-    const bool same = variant.name == mixed.name || is_mixed(variant, subject);
-    std::vector<Trial> trials =
-        same ? of_mixed : subject.trials(variant, tasks_of(variant, subject, settings), settings.limits);
-    for (Trial& trial : trials) {
-      trial.variant = variant.name;
-      findings.trials.push_back(std::move(trial));
-    }
-  }
-  if (settings.wants(mixed)) findings.alphas = swept(subject, settings);
+  findings.trials = compared(subject, settings);
+  if (settings.wants(mixed_variant())) findings.alphas = swept(subject, settings);
   return findings;
 }
 
