@@ -29,7 +29,7 @@ namespace {
 
 struct Settings {
   Limits limits;
-  std::vector<double> targets = {0.15, 0.3, 0.45};
+  std::vector<double> targets = {0.1, 0.2, 0.35};
   std::vector<double> alphas = {0, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95};
   std::vector<std::string> deformations;
 

@@ -21,11 +21,14 @@ struct Findings {
 /// alpha of the comparison, that of the paper.
 inline constexpr double common_alpha = 0.2;
 
-/// A row per trial.
+/// "paper", "refined".
+std::string preset_name(ImprovementPreset preset);
+
+/// A row per trial, and the designs of one target side by side.
 void add_rows(const Findings& findings, Report& report);
 
-/// The designs of one target side by side, S over D and over the change of each model, and both against
-/// alpha; tables `summary` and `alpha` over all models.
+/// D and the change over S, by model, and D and the cost of a search over alpha; tables `summary` and `alpha`
+/// over all models.
 void summarise(const std::vector<Findings>& models, Report& report);
 
 }  // namespace stackabilization::experiments

@@ -7,10 +7,6 @@
 namespace stackabilization::experiments {
 namespace {
 
-const char* name_of(ImprovementPreset preset) {
-  return preset == ImprovementPreset::paper ? "paper" : "refined";
-}
-
 Table& main_table(Report& report) {
   std::vector<Column> all = columns(
       {"model", "input_hash", "deformation", "preset", "alpha", "fraction", "target"}, ColumnKind::key);
@@ -24,7 +20,7 @@ Table& main_table(Report& report) {
 
 void add_row(const Findings& findings, const Trial& trial, Table& table) {
   const Task& task = trial.task;
-  std::vector<Cell> row = {findings.model, findings.hash, trial.variant, name_of(task.preset),
+  std::vector<Cell> row = {findings.model, findings.hash, trial.variant, preset_name(task.preset),
                            task.alpha,     task.fraction, task.target,   trial.reached};
   if (trial.best) {
     const Distortion& d = trial.best->distortion;
@@ -71,6 +67,10 @@ Sheet sheet_of(const Findings& findings) {
 }
 
 }  // namespace
+
+std::string preset_name(ImprovementPreset preset) {
+  return preset == ImprovementPreset::paper ? "paper" : "refined";
+}
 
 void add_rows(const Findings& findings, Report& report) {
   Table& table = main_table(report);

@@ -19,6 +19,12 @@ double change(const Measures& measures) {
   return measures.change.root_mean_square;
 }
 
+/// What the refined preset makes small.
+double both(const Measures& measures) {
+  return distortion(measures) + change(measures);
+}
+constexpr std::array<Cost, 3> costs{distortion, change, both};
+
 /// A target for a model.
 using Target = std::pair<std::string, double>;
 /// What a variant reached, by target.
@@ -81,22 +87,23 @@ class Comparison {
 void add_summary(const std::vector<Findings>& models, Report& report) {
   const Comparison comparison(models);
   std::vector<Column> all = columns({"deformation", "preset"}, ColumnKind::key);
-  for (const Column& column : columns({"tasks", "reached", "D_over_mixed", "change_over_mixed", "least_D",
-                                       "least_change", "D_over_paper", "change_over_paper"}))
+  for (const Column& column :
+       columns({"tasks", "reached", "D_over_mixed", "change_over_mixed", "both_over_mixed", "least_D",
+                "least_change", "least_both", "D_over_paper", "change_over_paper", "both_over_paper"}))
     all.push_back(column);
   Table& table = report.table("summary", all);
   for (const Variant& variant : variants())
     for (const ImprovementPreset preset : {ImprovementPreset::paper, ImprovementPreset::refined}) {
-      const Kind kind{variant.name, preset}, mixed_kind{mixed_variant().name, preset};
-      const Kind paper{variant.name, ImprovementPreset::paper};
+      const Kind kind{variant.name, preset}, paper{variant.name, ImprovementPreset::paper};
       if (comparison.tasks(kind) == 0) continue;
       const bool refined = preset == ImprovementPreset::refined;
-      table.add({variant.name, refined ? "refined" : "paper", std::int64_t{comparison.tasks(kind)},
-                 static_cast<std::int64_t>(comparison.reached(kind).size()),
-                 comparison.ratio(kind, mixed_kind, distortion), comparison.ratio(kind, mixed_kind, change),
-                 comparison.least(kind, distortion), comparison.least(kind, change),
-                 refined ? comparison.ratio(kind, paper, distortion) : Cell(),
-                 refined ? comparison.ratio(kind, paper, change) : Cell()});
+      std::vector<Cell> row = {variant.name, preset_name(preset), std::int64_t{comparison.tasks(kind)},
+                               static_cast<std::int64_t>(comparison.reached(kind).size())};
+      for (const Cost cost : costs)
+        row.push_back(comparison.ratio(kind, {mixed_variant().name, preset}, cost));
+      for (const Cost cost : costs) row.emplace_back(comparison.least(kind, cost));
+      for (const Cost cost : costs) row.push_back(refined ? comparison.ratio(kind, paper, cost) : Cell());
+      table.add(std::move(row));
     }
 }
 
