@@ -82,8 +82,9 @@ const std::vector<Entry>& entries() {
       {"deformation_models",
        {.paper_data = false},
        {},
-       {"--targets", "0.2", "--alphas", "0.1,0.8", "--expansions", "2", "--evaluations", "20"},
-       {"cup", "mug_with_handle", "stool", "table"}},
+       {"--targets", "0.2", "--alphas", "0.1,0.8", "--expansions", "2", "--evaluations", "20",
+        "--deformations", "cuboids,mixed"},
+       {"cup", "mug_with_handle", "table"}},
   };
   return all;
 }

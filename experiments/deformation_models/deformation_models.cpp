@@ -127,7 +127,7 @@ void add_options(CLI::App& app, Settings& settings) {
 
 int main(int argc, char** argv) {
   Experiment experiment("deformation_models", "Which deformation model pays least for stackability?");
-  experiment.use_by_default({"cup", "mug_with_handle", "stool", "table"});
+  experiment.use_by_default({"cup", "mug_with_handle", "table"});
   Settings settings;
   add_options(experiment.app(), settings);
   return experiment.run(argc, argv, [&](Report& report) {

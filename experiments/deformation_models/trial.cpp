@@ -85,7 +85,9 @@ const std::vector<Variant>& variants() {
 }
 
 const Variant& mixed_variant() {
-  return variants()[2];
+  return *std::find_if(variants().begin(), variants().end(), [](const Variant& variant) {
+    return variant.kind == DeformationKind::controllers && !variant.primitives;
+  });
 }
 
 Subject::Subject(const Shape& shape)

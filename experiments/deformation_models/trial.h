@@ -28,8 +28,8 @@ const Variant& mixed_variant();
 
 /// Where every run ends.
 struct Limits {
-  std::int64_t expansions = 20;  ///< of each search
-  int evaluations = 100;         ///< of each refinement
+  std::int64_t expansions = 10;  ///< of each search
+  int evaluations = 60;          ///< of each refinement
   double seconds = 3600;         ///< what these end depends on the machine
 };
 
