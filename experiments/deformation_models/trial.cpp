@@ -79,7 +79,7 @@ const std::vector<Variant>& variants() {
       {"surface", DeformationKind::surface},
       {"iwires", DeformationKind::iwires},
       {"gap-scaling", DeformationKind::gap_scaling},
-      {"gap-scaling, height free", DeformationKind::gap_scaling, {}, false},
+      {"gap-scaling-height-free", DeformationKind::gap_scaling, {}, false},
   };
   return all;
 }
