@@ -54,6 +54,12 @@ struct Entry {
   std::string name;
   Kind kind;
   std::vector<std::string> options, quick_options;
+  std::vector<std::string> only_models = {};  ///< of the shipped ones; empty: all
+
+  bool takes(const std::string& model) const {
+    return only_models.empty() ||
+           std::find(only_models.begin(), only_models.end(), model) != only_models.end();
+  }
 };
 
 const std::vector<Entry>& entries() {
@@ -72,12 +78,18 @@ const std::vector<Entry>& entries() {
       // Ended by the count of expansions and not by the clock, so that it finds the same again.
       {"refined_against_paper",
        {.paper_data = false},
-       {"--seconds", "3600", "--expansions", "200"},
+       {"--seconds", "3600", "--expansions", "12"},
        {"--seconds", "3600", "--expansions", "3"}},
       {"study",
        {.models = false, .own_choice = true},
        {},
        {"--seeds", "3", "--edits", "30", "--expansions", "2", "cup", "cup-handle"}},
+      {"deformation_models",
+       {.paper_data = false},
+       {},
+       {"--targets", "0.2", "--alphas", "0.1,0.8", "--expansions", "2", "--evaluations", "20",
+        "--deformations", "cuboids,mixed"},
+       {"cup", "mug_with_handle", "table"}},
   };
   return all;
 }
@@ -98,7 +110,7 @@ void add_models(const Entry& entry, bool quick, Job& job) {
   const std::vector<std::string> few = {"cup", "stool", "table"};
   for (const ModelFile& model : shipped_models()) {
     const bool among_few = std::find(few.begin(), few.end(), model.name) != few.end();
-    if (entry.kind.models && quick && !among_few) continue;
+    if (!entry.takes(model.name) || (entry.kind.models && quick && !among_few)) continue;
     if (entry.kind.models) job.arguments.push_back(model.path.string());
     job.inputs.push_back(model.path);
   }

@@ -4,6 +4,7 @@
 #include <tbb/info.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "stackabilization/shape/errors.h"
@@ -11,6 +12,7 @@
 #include "stackabilization/shape/write_file.h"
 #ifdef STACKABILIZATION_WITH_RENDERING
 #include "common/plot_drawing.h"
+#include "stackabilization/rendering/pictures.h"
 #endif
 
 namespace stackabilization::experiments {
@@ -24,6 +26,17 @@ std::string name_of(const std::string& value) {
   const fs::path path = value;
   return path.has_filename() ? path.filename().string() : path.parent_path().filename().string();
 }
+
+#ifdef STACKABILIZATION_WITH_RENDERING
+Drawing drawing_of(const Sheet& sheet) {
+  std::vector<DesignTile> tiles;
+  for (const SheetTile& tile : sheet.tiles) tiles.push_back({tile.shape, {}, {}, {}, tile.captions});
+  DesignSheetOptions options;
+  options.width = 1200;
+  options.title = sheet.title;
+  return design_sheet(tiles, sheet.direction, options);
+}
+#endif
 
 }  // namespace
 
@@ -57,10 +70,24 @@ Experiment::Experiment(std::string program, const std::string& question, Inputs 
       ->type_name("FOLDER");
 }
 
+void Experiment::use_by_default(std::vector<std::string> names) {
+  default_models_ = std::move(names);
+  std::string text = "mesh files; by default of the shipped ones";
+  for (std::size_t k = 0; k < default_models_.size(); ++k)
+    text += (k == 0 ? " " : k + 1 < default_models_.size() ? ", " : " and ") + default_models_[k];
+  app_.get_option("models")->description(text);
+}
+
 std::vector<ModelFile> Experiment::models() const {
   std::vector<ModelFile> models;
   for (const std::string& file : files_) models.push_back({file, fs::path(file).stem().string()});
-  if (models.empty()) models = shipped_models();
+  if (models.empty()) {
+    models = shipped_models();
+    std::erase_if(models, [&](const ModelFile& model) {
+      return !default_models_.empty() &&
+             std::find(default_models_.begin(), default_models_.end(), model.name) == default_models_.end();
+    });
+  }
   if (!paper_data_.empty())
     for (const ModelFile& model : paper_models(paper_data_)) models.push_back(model);
   return models;
@@ -129,8 +156,11 @@ void Experiment::write(const Report& report) const {
       write_file_atomically(path(name, ".clocks.csv"), csv_text(table.clocks(), provenance));
   }
 #ifdef STACKABILIZATION_WITH_RENDERING
-  for (const auto& [name, plot] : report.plots_)
-    if (has_points(plot)) write_drawing(path(name, "." + plot_format_), drawing_of(plot));
+  for (const auto& [name, plots] : report.plots_)
+    if (std::any_of(plots.begin(), plots.end(), has_points))
+      write_drawing(path(name, "." + plot_format_),
+                    plots.size() == 1 ? drawing_of(plots.front()) : drawing_of(plots));
+  for (const auto& [name, sheet] : report.sheets_) write_drawing(path(name, ".png"), drawing_of(sheet));
 #endif
 }
 

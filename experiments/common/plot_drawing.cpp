@@ -48,8 +48,15 @@ PlotSeries drawn(const Plot& plot, const Series& series) {
   return result;
 }
 
-constexpr double text_size = 15;
-constexpr Rectangle place{20, 60, 710, 520};
+constexpr int plot_width = 1000, plot_height = 600;
+/// Pixels; in a picture of several plots, which is shown smaller, the other one.
+constexpr double text_size = 15, small_plot_text_size = 24;
+
+/// Where a plot goes.
+struct Layout {
+  Eigen::Vector2d corner;  ///< upper left, pixels
+  double text_size;
+};
 
 /// The name of a series, beside the axes.
 struct Label {
@@ -72,9 +79,8 @@ std::vector<Label> labels_of(const Plot& plot, const PlotArea& area) {
   return labels;
 }
 
-/// Moves labels apart: they keep the order of their heights, and a line's distance.
-void spread(std::vector<Label>& labels, double bottom) {
-  constexpr double distance = 1.3 * text_size;
+/// Moves labels apart: they keep the order of their heights, and at least this distance.
+void spread(std::vector<Label>& labels, double distance, double bottom) {
   std::stable_sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.y < b.y; });
   for (std::size_t i = 1; i < labels.size(); ++i)
     labels[i].y = std::max(labels[i].y, labels[i - 1].y + distance);
@@ -82,6 +88,26 @@ void spread(std::vector<Label>& labels, double bottom) {
     labels[i].y = std::min(labels[i].y, bottom);
     bottom = labels[i].y;
   }
+}
+
+void add_plot(const Plot& plot, const Layout& layout, Drawing& drawing) {
+  CurvePlot curves{axis_of(plot.x), axis_of(plot.y), {}, {}};
+  for (const Series& series : plot.series) curves.series.push_back(drawn(plot, series));
+  const double size = layout.text_size;
+  const Rectangle place{layout.corner.x() + 20, layout.corner.y() + 60, 710, 520};
+  const PlotArea area(curves, place, size);
+  std::vector<Label> labels = labels_of(plot, area);
+  spread(labels, 1.3 * size, area.rectangle().bottom());
+  drawing.add(Text{{area.rectangle().x, layout.corner.y() + 40},
+                   plot.title,
+                   1.3 * size,
+                   palette::ink,
+                   Anchor::left,
+                   true});
+  drawing.add(plot_elements(curves, place, size));
+  for (const Label& label : labels)
+    drawing.add(
+        Text{{area.rectangle().right() + size, label.y + 0.35 * size}, label.text, size, label.colour});
 }
 
 }  // namespace
@@ -94,21 +120,21 @@ bool has_points(const Plot& plot) {
 
 Drawing drawing_of(const Plot& plot) {
   if (!has_points(plot)) throw UsageError("a plot needs at least one point");
-  CurvePlot curves{axis_of(plot.x), axis_of(plot.y), {}, {}};
-  for (const Series& series : plot.series) curves.series.push_back(drawn(plot, series));
-  const PlotArea area(curves, place, text_size);
-  std::vector<Label> labels = labels_of(plot, area);
-  spread(labels, area.rectangle().bottom());
-  Drawing drawing;
-  drawing.width = 1000;
-  drawing.height = 600;
-  drawing.add(Text{{area.rectangle().x, 40}, plot.title, 1.3 * text_size, palette::ink, Anchor::left, true});
-  drawing.add(plot_elements(curves, place, text_size));
-  for (const Label& label : labels)
-    drawing.add(Text{{area.rectangle().right() + text_size, label.y + 0.35 * text_size},
-                     label.text,
-                     text_size,
-                     label.colour});
+  Drawing drawing{plot_width, plot_height, {}};
+  add_plot(plot, {{0, 0}, text_size}, drawing);
+  return drawing;
+}
+
+Drawing drawing_of(const std::vector<Plot>& plots) {
+  if (std::none_of(plots.begin(), plots.end(), has_points)) throw UsageError("plots need at least one point");
+  constexpr std::size_t columns = 2;
+  const auto rows = static_cast<int>((plots.size() + columns - 1) / columns);
+  Drawing drawing{static_cast<int>(columns) * plot_width, rows * plot_height, {}};
+  for (std::size_t k = 0; k < plots.size(); ++k) {
+    const Eigen::Vector2d corner(plot_width * static_cast<double>(k % columns),
+                                 plot_height * static_cast<double>(k / columns));
+    if (has_points(plots[k])) add_plot(plots[k], {corner, small_plot_text_size}, drawing);
+  }
   return drawing;
 }
 

@@ -72,3 +72,19 @@ TEST_CASE("names of series that end at the same height stand below each other, i
   CHECK(heights.front() > 0);
   CHECK(heights.back() < drawing.height);
 }
+
+TEST_CASE("several plots stand two in a row, each in its own place, and one without points leaves it empty") {
+  const Plot plot = plot_of({{1, 1}, {2, 4}}, false);
+  const Drawing single = drawing_of(plot);
+  const Drawing several = drawing_of({plot, plot_of({{0, 1}}, true), plot});
+  CHECK(several.width == 2 * single.width);
+  CHECK(several.height == 2 * single.height);
+  std::vector<Eigen::Vector2d> titles;
+  for (const DrawingElement& element : several.elements)
+    if (const auto* text = std::get_if<Text>(&element); text && text->text == "title")
+      titles.push_back(text->at);
+  REQUIRE(titles.size() == 2);
+  CHECK(titles[1].x() == titles[0].x());
+  CHECK(titles[1].y() == titles[0].y() + single.height);
+  CHECK_THROWS_AS(drawing_of(std::vector<Plot>{}), UsageError);
+}

@@ -24,12 +24,15 @@ bool says(const Outcome& outcome, const std::string& program, const std::string&
          std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1;
 }
 
-const std::vector<std::string> with_models = {"deformation_speed", "direction_search", "envelope_accuracy",
-                                              "minimal_translation"};
+const std::vector<std::string> with_models = {"deformation_models", "deformation_speed", "direction_search",
+                                              "envelope_accuracy", "minimal_translation"};
 
 /// Options with which a program is done in no time.
 std::vector<std::string> quick(const std::string& program) {
   static const std::map<std::string, std::vector<std::string>> options = {
+      {"deformation_models",
+       {"--targets", "0.2", "--alphas", "0.8", "--expansions", "1", "--evaluations", "10", "--deformations",
+        "cuboids,mixed"}},
       {"deformation_speed", {"--triangles", "12", "--edits", "5"}},
       {"direction_search", {"--largest", "100", "--seeds", "1"}},
       {"envelope_accuracy", {"--directions", "2", "--fine-directions", "0"}},
@@ -103,7 +106,7 @@ TEST_CASE("a broken model is named, and the others still have their rows") {
 TEST_CASE("a flat model is named too, although only its shape is at fault") {
   const TemporaryFolder folder;
   const std::string flat = folder.file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  for (const std::string program : {"direction_search", "envelope_accuracy"}) {
+  for (const std::string program : {"deformation_models", "direction_search", "envelope_accuracy"}) {
     const Outcome outcome = run(program, quick(program) + std::vector<std::string>{flat});
     CHECK(outcome.status == 3);
     CHECK(says(outcome, program, "flat.obj"));

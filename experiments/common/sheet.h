@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stackabilization/shape/direction.h"
+#include "stackabilization/shape/shape.h"
+
+namespace stackabilization::experiments {
+
+struct SheetTile {
+  Shape shape;
+  std::vector<std::string> captions;  ///< lines below it
+};
+
+/// Designs side by side as an experiment states them, the first one that at rest; it becomes a picture where
+/// pictures are built.
+struct Sheet {
+  std::string title;
+  Direction direction;  ///< up
+  std::vector<SheetTile> tiles;
+};
+
+}  // namespace stackabilization::experiments
