@@ -28,6 +28,9 @@ constexpr double diagnosis_begin = 0.85;
 /// Designs measured at most for the magnitudes of one list of edits.
 constexpr int first_evaluations = 300;
 
+/// So many more than are wanted are tried with edits that join: which becomes the best is not known before.
+constexpr std::size_t more_extended = 4;
+
 Clock::time_point after(Clock::time_point start, double seconds) {
   return start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
@@ -108,11 +111,13 @@ class Refiner {
     std::stable_sort(solutions_.begin(), solutions_.end(), less_changed_);
     std::vector<Candidate> found;
     found.swap(solutions_);
-    for (Candidate& candidate : found) {
-      if (solutions_.size() == wanted_) break;
-      keep(refined_candidate(checker_, candidate, options_).candidate);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      if (k < wanted_ + more_extended && !options_.cancelled())
+        found[k] = refined_candidate(checker_, found[k], options_).candidate;
+      keep(std::move(found[k]));
     }
     std::stable_sort(solutions_.begin(), solutions_.end(), less_changed_);
+    if (solutions_.size() > wanted_) solutions_.resize(wanted_);
   }
 
   /// Of two solutions that are not different the less changed one stays.
