@@ -127,7 +127,8 @@ std::string suggestions_text(const SuggestRun& run, const SuggestCommandOptions&
   table.add("Contacts", std::to_string(run.now.contacts.size()), contacts_text(run.now.contacts));
   const std::size_t refused = run.suggestions.size() - run.possible();
   table.add("Suggestions", std::to_string(run.possible()),
-            std::to_string(refused) + " more are refused" + (refused > 0 ? ": see --all" : ""));
+            std::to_string(refused) + (refused == 1 ? " more is refused" : " more are refused") +
+                (refused > 0 && !options.all ? ": see --all" : ""));
   std::string text = table.text() + suggestion_table(run, options);
   if (run.applied)
     text += "\nApplied number " + std::to_string(*run.applied + 1) + " as node " +

@@ -167,6 +167,9 @@ TEST_CASE("an edit that changes nothing is no suggestion") {
   REQUIRE(kept.size() == 1);
   CHECK(kept[0]["number"].is_null());
   CHECK(kept[0]["refusal"] == "nothing would change");
+  const Outcome told = run_program({"suggest", folder.project, "--model", "gap-scaling"});
+  CHECK(told.status == 1);
+  CHECK(told.out.find("1 more is refused: see --all") != std::string::npos);
   const json free = suggestions(joined(squash, {"--change-height"}));
   REQUIRE(free.size() == 1);
   CHECK(free[0]["refusal"].is_null());

@@ -161,7 +161,9 @@ TEST_CASE("The sides of the box change by so much at most", "[requirements]") {
 }
 
 TEST_CASE("Parts that stay have not moved", "[requirements]") {
-  const Still space(two_cubes());
+  StructuredShape cubes = two_cubes();
+  cubes.structure.relations.clear();  // else the right one may change with the left one
+  const Still space(std::move(cubes));
   const auto moved = [&](int part, double fraction) {
     Design design = space.at_rest();
     design.shape.vertices(8 * part, 1) += fraction * std::sqrt(18.0);

@@ -75,8 +75,9 @@ void validate(const Edit& edit);
 /// Does `falloff` change what the edit does, where the cross-section is one of an open generalized cylinder?
 bool falls_off_linearly(const Edit& edit);
 
-/// "move face 3 of leg by (0.1, 0, 0)", "scale cross-section 4 of leg by 0.9, linearly"; `part_names` are
-/// those of the shape. Precondition: the handle's part is one of them, where its kind needs one.
+/// "move face +y of leg by (0.1, 0, 0)", "scale cross-section 4 of leg by 0.9, linearly": numbers to five
+/// digits, those of a vector to the places of its largest, -0 as 0. `part_names` are those of the shape.
+/// Precondition: the handle's part is one of them and its face one of six, where its kind needs them.
 std::string describe(const Edit& edit, const std::vector<std::string>& part_names);
 
 /// Where a kept extent begins and ends.

@@ -81,7 +81,7 @@ struct BestFirstResult {
 /// parts counted as one) or move them otherwise.
 ///
 /// The same result for any number of threads, and after any interruption, unless the time limit ends it.
-/// Throws UsageError for options out of range.
+/// Throws UsageError for options out of range, and for gap scaling with a cone: it keeps its direction.
 BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOptions& options);
 
 /// Goes on from a text given to `save` by a search with the same checker and options; only its limits, of

@@ -25,7 +25,7 @@ struct Requirements {
   StackabilityOptions measure;      ///< what S means; boxes and semantics of all measurements
   bool keep_height = true;          ///< h(M, r) = h(M0, r), to tolerance::relative of it
   std::vector<int> kept_parts;      ///< stay as they are
-  std::vector<int> editable_parts;  ///< only these may change; empty: all
+  std::vector<int> editable_parts;  ///< only these and parts symmetric to them may change; empty: all
   /// Sizes of parts shrink to no less than this fraction of what they are at rest and grow to no more than
   /// its inverse (proportions.h); in [0, 1], 0: anything goes.
   double least_proportion = 0.4;
@@ -39,13 +39,13 @@ struct Requirements {
   double least_tilt_degrees = 0;              ///< and topple only beyond this tilt
 };
 
-/// Throws UsageError for a target >= 1, a room out of range, negative lengths, fractions or angles, angles
-/// above 90 degrees, fewer than one standing copy, a tilt without such copies, parts that do not exist,
-/// anything not finite.
+/// Throws UsageError for a target >= 1, a room out of range, negative lengths, fractions or angles, air of
+/// more than a million diagonals, angles above 90 degrees, fewer than one standing copy, a tilt without such
+/// copies, parts that do not exist, anything not finite.
 void validate(const Requirements& requirements, const StructuredShape& rest);
 
 /// What they forbid a deformation model, for stacking along `direction`: extent, box, parts that stay (those
-/// kept, and all but the editable ones where some are named; in order).
+/// kept, and all but the editable ones and those symmetric to them where some are named; in order).
 DeformationConstraints deformation_constraints(const Requirements& requirements, const StructuredShape& rest,
                                                const Direction& direction);
 

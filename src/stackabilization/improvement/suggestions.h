@@ -13,8 +13,8 @@ namespace stackabilization {
 /// One edit that the contacts of a design suggest, and what it would do.
 struct Suggestion {
   ContactEdit edit;  ///< what to do, and why
-  /// Why it cannot be made: the refusal of the model, or the first requirement, other than the target, that
-  /// the design would break. When set, `measured` and `energy` say nothing.
+  /// Why it cannot be made: the refusal of the model, that nothing would change, or the first requirement,
+  /// other than the target, that the design would break. When set, `measured` and `energy` say nothing.
   std::optional<std::string> refusal;
   Stackability measured;        ///< S(M, r) after the edit, exact, with the air asked for
   Energy energy;                ///< against rest
