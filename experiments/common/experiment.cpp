@@ -32,7 +32,7 @@ Drawing drawing_of(const Sheet& sheet) {
   std::vector<DesignTile> tiles;
   for (const SheetTile& tile : sheet.tiles) tiles.push_back({tile.shape, {}, {}, {}, tile.captions});
   DesignSheetOptions options;
-  options.width = 1200;
+  options.width = 1000;
   options.title = sheet.title;
   return design_sheet(tiles, sheet.direction, options);
 }
