@@ -1,7 +1,9 @@
 #include "study/study_summary.h"
 
 #include <algorithm>
+#include <limits>
 #include <map>
+#include <utility>
 
 #include "common/statistics.h"
 
@@ -78,19 +80,23 @@ class Summary {
       add_row("all", user, chosen([&](const StudyRun& run) { return run.user == user; }));
   }
 
-  /// Each run a dot; on the left what missed the target, on the right what reached it.
+  /// Each run a dot; on the left what missed the target, on the right what reached it. The automatic method
+  /// lies on top.
   void add_plot_of_distortion() {
     Plot plot{"Distortion against what was reached",
               {"S gained, as a part of what was asked for"},
-              {"distortion D"},
+              {"distortion D", true},
               {}};
-    plot.series.push_back({"", {{1, 0}, {1, largest_distortion()}}, SeriesStyle::reference, 7});
-    for (const std::string& user : users()) {
-      Series series{user, {}, SeriesStyle::dots, colour(user)};
-      for (const StudyRun& run : runs_)
-        if (run.user == user) series.points.emplace_back(way(run), distortion(run));
-      plot.series.push_back(std::move(series));
-    }
+    const auto [least, most] = range_of_distortion();
+    plot.series.push_back({"", {{1, least}, {1, most}}, SeriesStyle::reference, 7});
+    for (const bool simulated : {true, false})
+      for (const std::string& user : users()) {
+        Series series{user, {}, SeriesStyle::dots, colour(user)};
+        for (const StudyRun& run : runs_)
+          if (run.user == user && run.seed.has_value() == simulated)
+            series.points.emplace_back(way(run), distortion(run));
+        if (!series.points.empty()) plot.series.push_back(std::move(series));
+      }
     report_.plot("", plot);
   }
 
@@ -132,10 +138,15 @@ class Summary {
     return static_cast<int>(std::find(all.begin(), all.end(), user) - all.begin()) % 7;
   }
 
-  double largest_distortion() const {
-    double largest = 0;
-    for (const StudyRun& run : runs_) largest = std::max(largest, distortion(run));
-    return largest;
+  /// Least and largest D that a logarithmic axis can show.
+  std::pair<double, double> range_of_distortion() const {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const StudyRun& run : runs_) {
+      if (distortion(run) <= 0) continue;
+      least = std::min(least, distortion(run));
+      most = std::max(most, distortion(run));
+    }
+    return {least, most};
   }
 
   Table& table() const {
