@@ -38,6 +38,18 @@ const char* name_of(SearchEnd end) {
   return "";
 }
 
+const char* name_of(ChangeMeasure measure) {
+  switch (measure) {
+    case ChangeMeasure::distortion:
+      return "distortion";
+    case ChangeMeasure::displacement:
+      return "displacement";
+    case ChangeMeasure::both:
+      return "both";
+  }
+  return "";
+}
+
 Json edit_json(const Edit& edit, const std::string& reason, const std::vector<std::string>& part_names) {
   Json document = {{"text", edit_text(edit, part_names)},
                    {"words", describe(edit, part_names)},
@@ -154,6 +166,7 @@ Json wish_json(const ImproveReport& report) {
           {"boxes", apps::name_of(measure.boxes)},
           {"deformation", stackabilization::name_of(task.space->kind())},
           {"preset", report.options.preset == ImprovementPreset::paper ? "paper" : "refined"},
+          {"least", name_of(report.options.least)},
           {"words", wish_lines(report)}};
 }
 

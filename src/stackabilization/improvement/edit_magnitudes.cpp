@@ -73,6 +73,13 @@ bool is_on_end(const Shape& shape, int part, const ContactFrame& frame) {
   return frame.on_end({heights.minCoeff(), heights.maxCoeff()});
 }
 
+/// Unit; outwards while the box is not inside out.
+Eigen::Vector3d face_normal(const Cuboid& cuboid, int face) {
+  Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
+  for (const int corner : cuboid_face(face)) middle += cuboid.corners.row(corner) / 4;
+  return (middle - cuboid.corners.colwise().mean()).transpose().normalized();
+}
+
 /// The edits of one handle.
 std::vector<Edit> edits_of(const Handle& handle, const StructuredShape& rest, const ContactFrame& frame) {
   const Structure& structure = rest.structure;
@@ -90,7 +97,12 @@ std::vector<Edit> edits_of(const Handle& handle, const StructuredShape& rest, co
       return {{handle, Scale{unit_factor, std::nullopt}, falloff}};
     }
     falloff = Falloff::linear;
-  } else if (handle.kind == HandleKind::part || handle.kind == HandleKind::face) {
+  } else if (handle.kind == HandleKind::face) {
+    const Eigen::Vector3d normal = face_normal(std::get<Cuboid>(primitive), handle.index);
+    const bool along_r = std::abs(normal.dot(frame.w)) > std::sqrt(0.5);
+    if (along_r && is_on_end(rest.shape, handle.part, frame)) return {};
+    return {{handle, Move{unit_move * structure.diagonal * normal}, falloff}};
+  } else if (handle.kind == HandleKind::part) {
     if (!is_on_end(rest.shape, handle.part, frame)) axes.push_back(frame.w);
   } else {
     return {};

@@ -19,11 +19,11 @@ struct MagnitudeEdit {
 std::vector<MagnitudeEdit> merged_edits(
     const std::vector<Edit>& edits, const std::function<bool(const std::vector<MagnitudeEdit>&)>& acceptable);
 
-/// What may join `edits`, in small: moves along the axes of the contacts and scalings along them of every
-/// part of a controller model; of the faces of cuboids moves and scalings; of the ends of open generalized
-/// cylinders, with Falloff::linear, moves across r and scalings; where the wall has a profile, scalings of
-/// three sections between them. Of symmetric parts the first stands for all. Nothing that one of `edits` does
-/// already; nothing for other models.
+/// What may join `edits`, in small, of a controller model: moves and scalings of every part along the axes of
+/// the contacts; moves of the faces of cuboids, in and out; of the ends of open generalized cylinders, with
+/// Falloff::linear, moves across r and scalings; where the wall has a profile, scalings of three sections
+/// between them. Of symmetric parts the first stands for all. Nothing along r of a part at an end of the
+/// shape, nothing that one of `edits` does already, nothing for other models.
 std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edits, const DesignSpace& space,
                                           const Direction& direction);
 
