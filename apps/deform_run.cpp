@@ -21,12 +21,7 @@ DeformationConstraints constraints_of(const DeformCommandOptions& options, const
     throw UsageError("--box-tolerance expects a number from 0 up, found " +
                      exact_digits(*options.box_tolerance));
   constraints.box_tolerance = options.box_tolerance;
-  for (const std::string& name : options.fixed_parts) {
-    const auto found = std::find(shape.part_names.begin(), shape.part_names.end(), name);
-    if (found == shape.part_names.end())
-      throw UsageError("--fix expects the name of a part, and there is no part '" + name + "'");
-    constraints.fixed_parts.push_back(static_cast<int>(found - shape.part_names.begin()));
-  }
+  constraints.fixed_parts = parts_named("--fix", options.fixed_parts, shape);
   constraints.fixed_points = options.fixed_points;
   return constraints;
 }

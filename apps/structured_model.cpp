@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "apps/values.h"
+#include "stackabilization/shape/part_names.h"
 #include "stackabilization/structure/authors_files.h"
 #include "stackabilization/structure/seeds.h"
 
@@ -162,17 +163,11 @@ StructuredModel load_structured(const CLI::App& command, const CommonOptions& co
 
 std::vector<int> parts_named(const std::string& option, const std::vector<std::string>& names,
                              const Shape& shape) {
-  const std::vector<std::string>& known = shape.part_names;
-  std::vector<int> parts;
-  for (const std::string& name : names) {
-    const auto found = std::find(known.begin(), known.end(), name);
-    if (found == known.end())
-      throw UsageError(option + " expects the name of a part, and there is no part '" + name + "'");
-    parts.push_back(static_cast<int>(found - known.begin()));
+  try {
+    return stackabilization::parts_named(shape, names);
+  } catch (const InputError& error) {
+    throw UsageError(option + " expects the name of a part, and " + error.what());
   }
-  std::sort(parts.begin(), parts.end());
-  parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
-  return parts;
 }
 
 }  // namespace stackabilization::apps

@@ -37,7 +37,9 @@ function(stackabilization_options target)
   endif()
 endfunction()
 
-# For programs and tests that spend their time in the libraries: a fifth less to compile in a release.
+# For programs and tests that spend their time in the libraries: a fifth less to compile in a release. With
+# -O1, GCC takes some of Eigen's storage for uninitialized.
 function(stackabilization_quick_build target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_compile_options(${target} PRIVATE
+    $<$<CONFIG:Release>:-O1> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endfunction()

@@ -92,6 +92,10 @@ bool keeps_height(const ImprovedShape& shapes) {
   return std::abs(after - before) <= tolerance::relative * before;
 }
 
+NamedTask read_named_task(const Fields& fields) {
+  return {fields.text("name"), read_design_task(fields), read_camera(fields)};
+}
+
 StackedTask read_stacked_task(const Fields& fields) {
   constexpr int most_copies = 20;
   return {read_design_task(fields.object("task")), read_camera(fields),

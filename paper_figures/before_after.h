@@ -10,6 +10,16 @@
 /// Designs before (yellow) and after (green), for figures.
 namespace stackabilization::figures {
 
+/// One of several objects that a figure makes stackable.
+struct NamedTask {
+  std::string name;
+  DesignTask task;
+  Camera camera;
+};
+
+/// Entries "name" and "camera" besides those of the task.
+NamedTask read_named_task(const Fields& fields);
+
 /// One design that is shown in stacks.
 struct StackedTask {
   DesignTask task;

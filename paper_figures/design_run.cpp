@@ -1,11 +1,10 @@
 #include "paper_figures/design_run.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "paper_figures/shown.h"
 #include "stackabilization/improvement/removal.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/part_names.h"
 
 namespace stackabilization::figures {
 namespace {
@@ -67,16 +66,6 @@ DesignTask read_design_task(const Fields& fields) {
   task.options.search.cone_degrees = 0;
   task.options.search.directions = {direction};
   return task;
-}
-
-std::vector<int> parts_named(const Shape& shape, const std::vector<std::string>& names) {
-  std::vector<int> parts;
-  for (const std::string& name : names) {
-    const auto found = std::find(shape.part_names.begin(), shape.part_names.end(), name);
-    if (found == shape.part_names.end()) throw InputError("the model has no part '" + name + "'");
-    parts.push_back(static_cast<int>(found - shape.part_names.begin()));
-  }
-  return parts;
 }
 
 StructuredShape structured_shape(const DesignTask& task, const ModelFolder& models) {

@@ -56,7 +56,4 @@ DesignRun design_run(StructuredShape rest, const DesignTask& task);
 /// The shape at rest and the best design, measured along the direction of the task.
 ImprovedShape improved_shape(const DesignRun& run);
 
-/// Rows of the parts with these names. Throws InputError for a part that does not exist.
-std::vector<int> parts_named(const Shape& shape, const std::vector<std::string>& names);
-
 }  // namespace stackabilization::figures

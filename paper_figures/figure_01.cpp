@@ -6,21 +6,14 @@
 namespace stackabilization::figures {
 namespace {
 
-struct Object {
-  std::string name;
-  DesignTask task;
-  Camera camera;
-};
-
 struct Options {
-  std::vector<Object> objects;
+  std::vector<NamedTask> objects;
   int copies = 5;
 };
 
 Options read(const Fields& fields) {
   Options options{{}, fields.whole("copies", 2, 20)};
-  for (const Fields& object : fields.objects("objects"))
-    options.objects.push_back({object.text("name"), read_design_task(object), read_camera(object)});
+  for (const Fields& object : fields.objects("objects")) options.objects.push_back(read_named_task(object));
   return options;
 }
 
@@ -29,7 +22,7 @@ double stack_height(const MeasuredShape& shape, int copies) {
 }
 
 /// Both stacks with their heights.
-ScenePanel panel_of(const ImprovedShape& shapes, const Object& object, int copies) {
+ScenePanel panel_of(const ImprovedShape& shapes, const NamedTask& object, int copies) {
   ScenePanel panel = stacks_panel(shapes, copies, object.camera);
   const Eigen::Vector3d up = Direction(shapes.after.measured.direction).unit();
   const auto dimension = [&](const MeasuredShape& shape, Anchor side) {
@@ -45,7 +38,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
   PanelRow row;
   row.height = 0.62;
   bool reached = true, kept = true, lower = true;
-  for (const Object& object : options.objects) {
+  for (const NamedTask& object : options.objects) {
     const DesignRun run = design_run(object.task, models);
     const ImprovedShape shapes = improved_shape(run);
     const double before = stack_height(shapes.before, options.copies),

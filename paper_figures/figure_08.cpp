@@ -10,9 +10,7 @@ namespace stackabilization::figures {
 namespace {
 
 struct Object {
-  std::string name;
-  DesignTask task;
-  Camera camera;
+  NamedTask named;
   double height = 1;  ///< of its row, fraction of the width of the sheet
 };
 
@@ -26,8 +24,7 @@ Options read(const Fields& fields) {
   Options options;
   options.states = fields.whole("states", 2, most_states);
   for (const Fields& object : fields.objects("objects"))
-    options.objects.push_back(
-        {object.text("name"), read_design_task(object), read_camera(object), read_row_height(object)});
+    options.objects.push_back({read_named_task(object), read_row_height(object)});
   return options;
 }
 
@@ -100,11 +97,11 @@ FigureResult make(const Options& options, const ModelFolder& models) {
   FigureResult result;
   std::vector<PanelRow> rows;
   bool reached = true, better = true;
-  for (const Object& object : options.objects) {
+  for (const auto& [object, height] : options.objects) {
     const DesignRun run = design_run(object.task, models);
     const std::vector<State> states = path(run, options.states);
     const std::size_t edits = run.best().design.edits.size();
-    rows.push_back({{}, object.height, PanelScale::common});
+    rows.push_back({{}, height, PanelScale::common});
     for (const State& state : states) {
       const std::string how = caption(state, edits);
       const double s = state.measured.measured.value;

@@ -6,6 +6,7 @@
 #include "stackabilization/rendering/stacking_scene.h"
 #include "stackabilization/rendering/structure_views.h"
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/part_names.h"
 #include "stackabilization/stacking/rigid_transform.h"
 #include "stackabilization/stacking/search.h"
 #include "stackabilization/structure/analysis.h"
@@ -37,18 +38,12 @@ Options read(const Fields& fields) {
   return options;
 }
 
-int part_named(const Shape& shape, const std::string& name) {
-  const auto found = std::find(shape.part_names.begin(), shape.part_names.end(), name);
-  if (found == shape.part_names.end()) throw InputError("the model has no part '" + name + "'");
-  return static_cast<int>(found - shape.part_names.begin());
-}
-
 /// The line joint of two parts, its ends as rows.
 Points hinge_of(const StructuredShape& structured, const Fold& fold) {
-  const int a = part_named(structured.shape, fold.joint[0]), b = part_named(structured.shape, fold.joint[1]);
+  const std::vector<int> parts = parts_named(structured.shape, fold.joint);
   for (const Relation& relation : structured.structure.relations)
     if (relation.type == RelationType::line_joint &&
-        (relation.parts == std::vector{a, b} || relation.parts == std::vector{b, a}))
+        std::is_permutation(relation.parts.begin(), relation.parts.end(), parts.begin(), parts.end()))
       return relation.points;
   throw InputError("the parts '" + fold.joint[0] + "' and '" + fold.joint[1] +
                    "' of the model are not joined along a line");
@@ -59,7 +54,7 @@ Shape folded(Shape shape, const Points& hinge, const Fold& fold) {
   if (axis.sum() < 0) axis = -axis;
   const RigidTransform turn = rotation_about({hinge.row(0).transpose(), Direction(axis)}, fold.degrees);
   std::vector<bool> moves(static_cast<std::size_t>(shape.part_count()), false);
-  for (const std::string& name : fold.moves) moves[static_cast<std::size_t>(part_named(shape, name))] = true;
+  for (const int part : parts_named(shape, fold.moves)) moves[static_cast<std::size_t>(part)] = true;
   std::vector<bool> moved(static_cast<std::size_t>(shape.vertex_count()), false);
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
     if (moves[static_cast<std::size_t>(shape.triangle_part[static_cast<std::size_t>(t)])])

@@ -9,14 +9,8 @@
 namespace stackabilization::figures {
 namespace {
 
-struct Object {
-  std::string name;
-  DesignTask task;
-  Camera camera;
-};
-
 struct Options {
-  std::vector<Object> objects;
+  std::vector<NamedTask> objects;
   std::size_t columns = 1;
   int copies = 1;
   double height = 1;  ///< of a row of pictures, fraction of the width of the sheet
@@ -28,8 +22,7 @@ Options read(const Fields& fields) {
   options.columns = static_cast<std::size_t>(fields.whole("columns", 1, most_columns));
   options.copies = fields.whole("copies", 1, most_copies);
   options.height = read_row_height(fields);
-  for (const Fields& object : fields.objects("objects"))
-    options.objects.push_back({object.text("name"), read_design_task(object), read_camera(object)});
+  for (const Fields& object : fields.objects("objects")) options.objects.push_back(read_named_task(object));
   return options;
 }
 
@@ -38,7 +31,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
   std::vector<PanelRow> rows;
   bool reached = true, kept = true, better = true;
   for (std::size_t k = 0; k < options.objects.size(); ++k) {
-    const Object& object = options.objects[k];
+    const NamedTask& object = options.objects[k];
     const DesignRun run = design_run(object.task, models);
     const ImprovedShape shapes = improved_shape(run);
     reached = reached && run.reached();

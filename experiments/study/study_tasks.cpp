@@ -5,6 +5,7 @@
 #include "common/authors_targets.h"
 #include "stackabilization/improvement/removal.h"
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/part_names.h"
 #include "stackabilization/shape/read.h"
 #include "stackabilization/structure/analysis.h"
 
@@ -31,16 +32,6 @@ const std::vector<Choice>& choices() {
       {"chair-armrest", "armchair", 0.42, {-0.12, 0, 1}},
   };
   return all;
-}
-
-std::vector<int> parts_named(const Shape& shape, const std::vector<std::string>& names) {
-  std::vector<int> parts;
-  for (const std::string& name : names) {
-    const auto found = std::find(shape.part_names.begin(), shape.part_names.end(), name);
-    if (found == shape.part_names.end()) throw InputError("the model has no part '" + name + "'");
-    parts.push_back(static_cast<int>(found - shape.part_names.begin()));
-  }
-  return parts;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "stackabilization/improvement/block_separations.h"
 #include "stackabilization/improvement/energy.h"
+#include "stackabilization/improvement/magnitude_problem.h"
 #include "stackabilization/improvement/refinement.h"
 #include "stackabilization/shape/errors.h"
 #include "support/catch.h"
@@ -213,6 +214,32 @@ TEST_CASE("the signed changes add up to the distortion") {
       CHECK(changes.box.sum() == Approx(wider / (2 * width + height)).margin(1e-12));
     }
   }
+}
+
+TEST_CASE("slopes tell what a small step changes, the displacement to second order") {
+  const Cups cups;
+  const RequirementChecker checker(cups, stacks(0.6));
+  detail::MagnitudeProblem problem(checker, {scale(0, 0.7), scale(1, 1.2)}, Direction(0, 0, 1),
+                                   {1000, 3, ChangeMeasure::both, {}});
+  const detail::Magnitudes x{1, 0.5};
+  const detail::MagnitudeSample base = problem.at(x);
+  const detail::MagnitudeSlopes slopes = problem.slopes(x);
+  REQUIRE(slopes.made == std::vector<bool>{true, true});
+  CHECK(base.displacement > 0.01);
+  CHECK(base.change == Approx(base.displacement + base.changes.cwiseAbs().sum()));
+  const auto wrong = [&](double length) {
+    double largest = 0;
+    for (const Eigen::Vector2d& y : {Eigen::Vector2d(1, 0), Eigen::Vector2d(0.6, -0.8)}) {
+      const detail::MagnitudeSample there = problem.at({x[0] + length * y[0], x[1] + length * y[1]});
+      const Eigen::Vector3d from(1, length * y[0], length * y[1]);
+      CHECK(std::abs(there.displacement - base.displacement) > 0.005 * length);
+      largest = std::max({largest, std::abs(std::sqrt(from.dot(slopes.gram * from)) - there.displacement),
+                          (base.changes + slopes.changes * from.tail(2) - there.changes).cwiseAbs().maxCoeff()});
+    }
+    return largest;
+  };
+  CHECK(wrong(0.1) < 0.01);
+  CHECK(wrong(0.01) < wrong(0.1) / 50);
 }
 
 TEST_CASE("the least taper of a cup has a closed form") {

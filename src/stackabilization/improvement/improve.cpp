@@ -48,9 +48,10 @@ struct Deadlines {
 
 /// Refines what a search found: magnitudes of all of it first, then with further edits what came out best,
 /// until there are as many different solutions as wanted.
-class Refiner {
+class Refinements {
  public:
-  Refiner(const RequirementChecker& checker, const ImprovementOptions& options, const Deadlines& deadlines)
+  Refinements(const RequirementChecker& checker, const ImprovementOptions& options,
+              const Deadlines& deadlines)
       : checker_(checker),
         options_(options.refinement),
         wanted_(static_cast<std::size_t>(options.search.solutions)),
@@ -65,8 +66,8 @@ class Refiner {
       return Clock::now() > deadline_ || (cancelled && cancelled());
     };
   }
-  Refiner(const Refiner&) = delete;
-  Refiner& operator=(const Refiner&) = delete;
+  Refinements(const Refinements&) = delete;
+  Refinements& operator=(const Refinements&) = delete;
 
   /// `starts`: what else was found. Begins with what reaches the target with the least change: time may end.
   std::vector<Candidate> refined(std::vector<Candidate> starts, const BestFirstResult& found) {
@@ -207,11 +208,11 @@ Improvement improve(const RequirementChecker& checker, const ImprovementOptions&
   result.progress = found.progress;
   result.end = found.end;
   if (refine) {
-    Refiner refiner(checker, options,
-                    {after(start, diagnosis_begin * seconds), after(start, first_share * seconds),
-                     after(start, seconds)});
-    result.solutions = refiner.refined(std::move(starts), found);
-    if (refiner.nearest()) found.nearest.insert(found.nearest.begin(), *refiner.nearest());
+    Refinements refinements(checker, options,
+                            {after(start, diagnosis_begin * seconds), after(start, first_share * seconds),
+                             after(start, seconds)});
+    result.solutions = refinements.refined(std::move(starts), found);
+    if (refinements.nearest()) found.nearest.insert(found.nearest.begin(), *refinements.nearest());
     std::stable_sort(found.nearest.begin(), found.nearest.end(), more_stackable);
     if (!result.solutions.empty() && found.solutions.empty() && result.end == SearchEnd::exhausted)
       result.end = SearchEnd::solved;

@@ -16,7 +16,7 @@ struct RefinementOptions {
   int evaluations = 800;                      ///< designs measured at most, >= 10
   double alpha = 0.2;                         ///< of the energies reported
   double reach = 3;          ///< magnitudes are sought in [-reach, reach] times those given, > 0
-  double negligible = 0.02;  ///< edits that give less than this fraction of what S gains are tried without
+  double negligible = 0.02;  ///< edits that give less than this fraction of what S gains leave if they can
   std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends with the best so far
 };
 

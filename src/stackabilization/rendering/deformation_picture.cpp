@@ -2,7 +2,6 @@
 #include <array>
 #include <utility>
 
-#include "stackabilization/rendering/handle_lines.h"
 #include "stackabilization/rendering/handle_marks.h"
 #include "stackabilization/rendering/legend.h"
 #include "stackabilization/rendering/pictures.h"
@@ -27,9 +26,7 @@ struct Edited {
 };
 
 std::vector<Points> lines_of(const Edited& edited, const Side& side) {
-  std::vector<Points> lines;
-  for (const Handle& handle : edited.handles)
-    for (Points& line : handle_lines(handle, side.shape, side.primitives)) lines.push_back(std::move(line));
+  std::vector<Points> lines = detail::lines_of(edited.handles, side.shape, side.primitives);
   for (const std::vector<std::int32_t>& curve : edited.curves)
     lines.emplace_back(side.shape.vertices(curve, Eigen::all));
   return lines;

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "stackabilization/rendering/handle_lines.h"
 #include "stackabilization/rendering/handle_marks.h"
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/rendering/plot_parts.h"
@@ -20,13 +19,6 @@ Scene tile_scene(const DesignTile& tile, const Colour& colour, const Direction& 
   scene.add(contact_marks(tile.contacts, EnvelopeSide::upper, lift * direction.unit()));
   scene.add(contact_marks(tile.contacts, EnvelopeSide::lower, -lift * direction.unit()));
   return scene;
-}
-
-std::vector<Points> lines_of(const DesignTile& tile) {
-  std::vector<Points> lines;
-  for (const Handle& handle : tile.handles)
-    for (Points& line : handle_lines(handle, tile.shape, tile.primitives)) lines.push_back(std::move(line));
-  return lines;
 }
 
 /// What a tile takes, pixels.
@@ -61,11 +53,13 @@ Drawing design_sheet(const std::vector<DesignTile>& tiles, const Direction& dire
   TileSize tile{(options.width - (columns + 1) * margin) / columns, 0, 0.85 * size, 0};
   tile.picture = picture_aspect * tile.width;
   std::vector<Scene> scenes;
+  std::vector<std::vector<Points>> lines;
   Scene all;
   for (const DesignTile& one : tiles) {
     const Colour& colour = scenes.empty() ? palette::input : palette::output;
     scenes.push_back(tile_scene(one, colour, direction));
     all.add(scenes.back());
+    lines.push_back(detail::lines_of(one.handles, one.shape, one.primitives));
     tile.lines = std::max(tile.lines, static_cast<double>(one.captions.size()));
   }
   ViewOptions view_options;
@@ -82,7 +76,7 @@ Drawing design_sheet(const std::vector<DesignTile>& tiles, const Direction& dire
     const Rectangle place{margin + static_cast<double>(k % per_row) * (tile.width + margin),
                           top + static_cast<double>(k / per_row) * tile.height(), tile.width, tile.picture};
     drawing.add(PlacedImage{place, render(scenes[k], view)});
-    drawing.add(detail::handle_marks(lines_of(tiles[k]), view, place));
+    drawing.add(detail::handle_marks(lines[k], view, place));
     drawing.add(captions(tiles[k].captions, {place.x, place.bottom(), place.width, 0}, tile.text));
   }
   return drawing;

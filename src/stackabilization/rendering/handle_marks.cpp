@@ -20,6 +20,14 @@ Scene edited_scene(const Shape& shape, const Colour& colour, const std::vector<H
   return scene;
 }
 
+std::vector<Points> lines_of(const std::vector<Handle>& handles, const Shape& shape,
+                             const std::vector<Primitive>& primitives) {
+  std::vector<Points> lines;
+  for (const Handle& handle : handles)
+    for (Points& line : handle_lines(handle, shape, primitives)) lines.push_back(std::move(line));
+  return lines;
+}
+
 Elements handle_marks(const std::vector<Points>& lines, const View& view, const Rectangle& place) {
   Elements elements;
   for (const Points& line : lines) {
