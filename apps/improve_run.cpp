@@ -28,11 +28,11 @@ bool parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 /// Another direction than up is worth its time when it is better by this much.
 constexpr double clearly_better = 0.1;
 /// Cosine of the largest angle, one degree, by which an axis of the shape may miss the upward axis of the
-/// file and still be what "up" means: a hat that stands a hair aslant stacks along its own axis.
+/// file and still be what "up" may mean: a hat that stands a hair aslant stacks along its own axis.
 constexpr double nearly_up = 0.99985;
 
-/// Up: along an axis of symmetry, or the line that two mirror planes share, where there is one.
-Eigen::Vector3d upward(const Structure& structure) {
+/// An axis of symmetry, or the line that two mirror planes share, that may be what "up" means.
+std::optional<Eigen::Vector3d> upright_axis(const Structure& structure) {
   std::vector<Eigen::Vector3d> axes;
   const std::vector<Symmetry>& symmetries = structure.symmetries;
   for (std::size_t i = 0; i < symmetries.size(); ++i) {
@@ -43,7 +43,17 @@ Eigen::Vector3d upward(const Structure& structure) {
   }
   for (const Eigen::Vector3d& axis : axes)
     if (std::abs(axis.z()) > nearly_up * axis.norm()) return axis.z() < 0 ? Eigen::Vector3d(-axis) : axis;
-  return Eigen::Vector3d::UnitZ();
+  return std::nullopt;
+}
+
+/// Up: the upward axis of the file or of the shape, as it stacks better. Axes are found on the shape, more or
+/// less closely: one that is off by a hair jams what fits straight down.
+Stackability upward(const StackabilitySolver& solver, const Structure& structure) {
+  const Stackability of_file = solver.measure(Direction(0, 0, 1));
+  const std::optional<Eigen::Vector3d> axis = upright_axis(structure);
+  if (!axis) return of_file;
+  const Stackability of_shape = solver.measure(Direction(*axis));
+  return of_shape.value > of_file.value ? of_shape : of_file;
 }
 
 /// Share of --time by which analysis and the look for directions should be done, and what is left for
@@ -55,9 +65,10 @@ constexpr double least_improvement = 0.5;
 std::vector<Eigen::Vector3d> directions_of(const ImproveCommandOptions& options, const StructuredShape& rest,
                                            const Stopwatch& watch) {
   if (!options.directions.empty()) return options.directions;
-  std::vector<Eigen::Vector3d> directions = {upward(rest.structure)};
-  if (options.copies || options.kind == DeformationKind::gap_scaling) return directions;
   const StackabilitySolver solver(rest.shape, options.measure);
+  const Stackability up = upward(solver, rest.structure);
+  std::vector<Eigen::Vector3d> directions = {up.direction};
+  if (options.copies || options.kind == DeformationKind::gap_scaling) return directions;
   ProgressBar bar("Looking for directions");
   SearchOptions search;
   search.progress = [&bar](double fraction) { bar.show(fraction); };
@@ -65,8 +76,7 @@ std::vector<Eigen::Vector3d> directions_of(const ImproveCommandOptions& options,
     return watch.seconds() > end;
   };
   const Stackability best = best_direction(solver, search).best;
-  const double up = solver.measure(Direction(directions.front())).value;
-  if (best.value > up + clearly_better && !parallel(best.direction, directions.front()))
+  if (best.value > up.value + clearly_better && !parallel(best.direction, up.direction))
     directions.push_back(best.direction);
   return directions;
 }
