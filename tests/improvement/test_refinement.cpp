@@ -233,8 +233,9 @@ TEST_CASE("slopes tell what a small step changes, the displacement to second ord
       const detail::MagnitudeSample there = problem.at({x[0] + length * y[0], x[1] + length * y[1]});
       const Eigen::Vector3d from(1, length * y[0], length * y[1]);
       CHECK(std::abs(there.displacement - base.displacement) > 0.005 * length);
-      largest = std::max({largest, std::abs(std::sqrt(from.dot(slopes.gram * from)) - there.displacement),
-                          (base.changes + slopes.changes * from.tail(2) - there.changes).cwiseAbs().maxCoeff()});
+      largest =
+          std::max({largest, std::abs(std::sqrt(from.dot(slopes.gram * from)) - there.displacement),
+                    (base.changes + slopes.changes * from.tail(2) - there.changes).cwiseAbs().maxCoeff()});
     }
     return largest;
   };

@@ -214,8 +214,7 @@ MagnitudeSlopes MagnitudeProblem::slopes(const Magnitudes& x) {
     return y;
   };
   for (std::size_t k = 0; k < size(); ++k) {
-    steps[k] = x[k] + tolerance::magnitude_step <= highest() ? tolerance::magnitude_step
-                                                             : -tolerance::magnitude_step;
+    steps[k] = x[k] + step_ <= highest() ? step_ : -step_;
     points.push_back(neighbour(k, steps[k]));
   }
   std::vector<Measured> made = measured(points);

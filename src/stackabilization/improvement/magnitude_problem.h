@@ -13,6 +13,11 @@
 
 namespace stackabilization::detail {
 
+/// Steps of differences that give slopes along magnitudes, as a fraction of the edits given. The shortest
+/// tell kinks apart that lie close together; in the longest what a solve leaves open (up to 1e-5 of the
+/// diagonal, where it stretches to keep a height) does not show.
+inline constexpr double shortest_magnitude_step = 1.0 / (1 << 12), longest_magnitude_step = 1.0 / (1 << 8);
+
 /// One magnitude per edit.
 using Magnitudes = std::vector<double>;
 
@@ -64,6 +69,7 @@ class MagnitudeProblem {
   void constrain_pairs(const Magnitudes& x);
 
   const MagnitudeSample& at(const Magnitudes& x);
+  /// By differences over a step of each magnitude, see step_by.
   MagnitudeSlopes slopes(const Magnitudes& x);
   /// Measures several at once, so that at() has them.
   void prepare(const std::vector<Magnitudes>& points);
@@ -82,6 +88,8 @@ class MagnitudeProblem {
   int evaluations() const { return evaluations_; }
   /// So many evaluations, in all, are the limit from now on.
   void allow(int evaluations) { limits_.evaluations = evaluations; }
+  /// Slopes are taken over such steps from now on, at first over the shortest that make sense.
+  void step_by(double step) { step_ = step; }
   /// The limit of evaluations is used up, or it was cancelled.
   bool stopped() const;
 
@@ -113,6 +121,7 @@ class MagnitudeProblem {
   std::optional<Magnitudes> best_, nearest_;
   double best_change_ = 0, nearest_stackability_ = 0;
   int evaluations_ = 0;
+  double step_ = shortest_magnitude_step;
 };
 
 }  // namespace stackabilization::detail

@@ -16,8 +16,9 @@ namespace {
 /// Uniform multiples of the magnitudes that are tried before anything else when the target is not reached.
 constexpr double multiples[] = {1.25, 1.5, 2, 3};
 
-/// Runs of the optimiser, each from the best point so far with its own pairs of blocks. One that lessens the
-/// change or raises S by less than this fraction is the last.
+/// Runs of the optimiser, each from the best point so far with its own pairs of blocks, with slopes over
+/// short and over long steps in turn. Where neither lessens the change or raises S by more than this
+/// fraction, they end.
 constexpr int most_runs = 8;
 constexpr double least_progress = 0.001;
 
@@ -121,13 +122,15 @@ class MagnitudeSearch {
   /// Phase 2.
   void descend() {
     problem_.allow(static_cast<int>(share_of_descent * options_.evaluations));
-    for (int run = 0; run < most_runs && !problem_.stopped(); ++run) {
+    int idle = 0;
+    for (int run = 0; run < most_runs && idle < 2 && !problem_.stopped(); ++run) {
       const Magnitudes from = *problem_.best();
       const double before = problem_.best_change();
+      problem_.step_by(run % 2 == 0 ? shortest_magnitude_step : longest_magnitude_step);
       problem_.constrain_pairs(from);
       optimised_magnitudes(problem_, {from, MagnitudeGoal::unchanged});
       pull_back();
-      if (!(problem_.best_change() < before * (1 - least_progress))) break;
+      idle = problem_.best_change() < before * (1 - least_progress) ? 0 : idle + 1;
     }
     problem_.allow(options_.evaluations);
   }

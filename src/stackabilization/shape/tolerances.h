@@ -112,11 +112,6 @@ inline constexpr double target = 1e-7;
 /// Relative accuracy at which magnitudes of edits, and the distortion that they cause, count as settled.
 inline constexpr double magnitude = 1e-6;
 
-/// Step of differences that give slopes along magnitudes, as a fraction of the edits given: far above what a
-/// solve leaves open (up to 1e-5 of the diagonal, where it stretches to keep a height), long enough to see
-/// over the facets of curved surfaces.
-inline constexpr double magnitude_step = 0x1p-8;
-
 /// Smallest factor by which a deformation may shrink a radius, a piece of a curve, the volume at a corner of
 /// a cuboid, or length and area of a feature curve: what is smaller has collapsed.
 inline constexpr double collapse = 1e-3;
