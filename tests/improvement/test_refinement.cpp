@@ -350,6 +350,19 @@ TEST_CASE("an edit that is of no use is left out, its counterpart merged") {
   CHECK(radius(result, 0) == Approx(0.5).epsilon(1e-6));
 }
 
+TEST_CASE("edits that hardly matter leave together, even when the time is up") {
+  const Cups cups;
+  const RequirementChecker checker(cups, stacks(0.8));
+  RefinementOptions options = alone();
+  options.cancelled = [] { return true; };
+  std::vector<Edit> edits{scale(0, 0.4), scale(1, 0.99999), scale(1, 0.99998)};
+  edits.back().falloff = Falloff::gaussian;
+  const RefinementResult result = refined_candidate(checker, cups.candidate(checker, edits), options);
+  CHECK(result.reached);
+  REQUIRE(result.candidate.design.edits.size() == 1);
+  CHECK(result.candidate.design.edits.front().handle.index == 0);
+}
+
 TEST_CASE("proportions are kept") {
   // The kink lies at b = 0.65: b stays at what it may, and t = 2 b.
   const Cups cups;
