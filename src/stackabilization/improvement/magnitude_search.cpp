@@ -16,9 +16,9 @@ namespace {
 /// Uniform multiples of the magnitudes that are tried before anything else when the target is not reached.
 constexpr double multiples[] = {1.25, 1.5, 2, 3};
 
-/// Runs of the optimiser, each from the best point so far with its own pairs of blocks, with slopes over
-/// short and over long steps in turn. Where neither lessens the change or raises S by more than this
-/// fraction, they end.
+/// Runs of the optimiser, each from the best point so far with its own pairs of blocks; one that lessens the
+/// change or raises S by less than this fraction gains nothing. For less change slopes are taken over short
+/// and over long steps in turn, until neither gains anything.
 constexpr int most_runs = 8;
 constexpr double least_progress = 0.001;
 
