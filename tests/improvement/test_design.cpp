@@ -237,7 +237,7 @@ TEST_CASE("a flat part carries its primitive by a translation") {
         1e-14);
   Points wider = rest.shape.vertices;
   wider.col(0) *= 2;
-  const auto& after = std::get<Cuboid>(carried.at(wider)[2]).corners;
+  const auto after = std::get<Cuboid>(carried.at(wider)[2]).corners;
   CHECK((after - (before.rowwise() + Eigen::RowVector3d(5.5, 0, 0))).norm() < 1e-13);
 }
 
