@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <utility>
 
 #include "apps/improve_files.h"
@@ -46,14 +47,14 @@ std::optional<Eigen::Vector3d> upright_axis(const Structure& structure) {
   return std::nullopt;
 }
 
-/// Up: the upward axis of the file or of the shape, as it stacks better. Axes are found on the shape, more or
-/// less closely: one that is off by a hair jams what fits straight down.
+/// Up: the upward axis of the file, or that of the shape where it stacks better along it. Axes are found on
+/// the shape, more or less closely: one that is off by a hair jams what fits straight down.
 Stackability upward(const StackabilitySolver& solver, const Structure& structure) {
   const Stackability of_file = solver.measure(Direction(0, 0, 1));
   const std::optional<Eigen::Vector3d> axis = upright_axis(structure);
   if (!axis) return of_file;
   const Stackability of_shape = solver.measure(Direction(*axis));
-  return of_shape.value > of_file.value ? of_shape : of_file;
+  return of_shape.value > of_file.value + tolerance::stackability ? of_shape : of_file;
 }
 
 /// Share of --time by which analysis and the look for directions should be done, and what is left for

@@ -1,6 +1,5 @@
 #include "apps/structured_model.h"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 

@@ -1,4 +1,6 @@
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <numbers>
 #include <pugixml.hpp>
 #include <set>
 
@@ -204,6 +206,21 @@ TEST_CASE("so many copies within a length become a target, and the stack fits") 
   CHECK(result["solutions"][0]["requirements"][0]["name"] == "room");
   CHECK(stack["height_before"].get<double>() == Approx(now.extent + 9 * now.f_max));
   CHECK(stack["fits"] == true);
+}
+
+TEST_CASE("up is the axis of a cup that stands aslant by half a degree") {
+  const CupFolder folder;
+  const double angle = 0.5 * std::numbers::pi / 180;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
+  const std::string aslant =
+      folder.model("aslant.obj", transformed(solids::frustum_shell(coarse()), turn, {0, 0, 0}));
+  const Outcome outcome =
+      run_program({"improve", aslant, "--copies", "2", "--within", "100", "--no-pictures", "-o", folder.out});
+  INFO(outcome.err << outcome.out);
+  REQUIRE(outcome.status == 0);
+  const json direction = folder.document("result.json")["target"]["directions"][0];
+  const Eigen::Vector3d r(direction[0], direction[1], direction[2]);
+  CHECK((r.normalized() - turn.col(2)).norm() < 0.1 * angle);
 }
 
 TEST_CASE("a target that is met already has one solution, the shape as it is") {

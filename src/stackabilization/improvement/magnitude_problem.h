@@ -63,9 +63,8 @@ class MagnitudeProblem {
   double aim() const;
 
   /// From now on shortfalls have one row for the whole shape, one for each pair of blocks that comes near its
-  /// f_max at `x`, and one per check
-  /// and the proportions. That of the whole shape counts only where no such pair attains f_max,
-  /// so that no pair is forgotten. Precondition: at(x).made.
+  /// f_max at `x`, one per check and one for the proportions. That of the whole shape counts only where no
+  /// such pair attains f_max, so that no pair is forgotten. Precondition: at(x).made.
   void constrain_pairs(const Magnitudes& x);
 
   const MagnitudeSample& at(const Magnitudes& x);

@@ -13,9 +13,9 @@ namespace stackabilization {
 struct RefinementOptions {
   int joining = 12;                           ///< further edits that may join in one round, >= 0
   ChangeMeasure least = ChangeMeasure::both;  ///< what is made small
-  int evaluations = 800;                      ///< designs measured at most, >= 10
-  double alpha = 0.2;                         ///< of the energies reported
-  double reach = 3;          ///< magnitudes are sought in [-reach, reach] times those given, > 0
+  int evaluations = 800;  ///< designs measured at most, >= 10, but for those that tell which edits can leave
+  double alpha = 0.2;     ///< of the energies reported
+  double reach = 3;       ///< magnitudes are sought in [-reach, reach] times those given, > 0
   double negligible = 0.02;  ///< edits that give less than this fraction of what S gains leave if they can
   std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends with the best so far
 };
