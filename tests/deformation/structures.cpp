@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "support/solids.h"
 #include "support/variants.h"
@@ -193,6 +195,25 @@ StructuredShape table(int levels) {
 
 StructuredShape table_with_line_joints() {
   return table_of(1, true);
+}
+
+StructuredShape rough_stool() {
+  Assembly stool;
+  const int top = stool.add_box("top", {-5, -5, 15}, {5, 5, 16}, 1);
+  std::vector<int> legs;
+  for (const auto& [x, y] : std::vector<std::pair<double, double>>{{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}) {
+    const auto number = static_cast<int>(legs.size()) + 1;
+    const GeneralizedCylinder leg = straight_cylinder({x, y, 0}, {x, y, 15}, 0.5, 24);
+    legs.push_back(stool.add("leg_" + std::to_string(number), tube(leg, 11 + number), leg));
+    stool.joint(top, legs.back(), Eigen::RowVector3d(x, y, 15));
+  }
+  stool.mirror({top}, Eigen::Vector3d::UnitX());
+  stool.mirror({top}, Eigen::Vector3d::UnitY());
+  for (const std::size_t k : {0u, 2u}) {
+    stool.mirror({legs[k], legs[k + 1]}, Eigen::Vector3d::UnitX());
+    stool.mirror({legs[k], legs[(k + 3) % 4]}, Eigen::Vector3d::UnitY());
+  }
+  return stool.done();
 }
 
 StructuredShape mug(int around) {

@@ -28,6 +28,10 @@ StructuredShape table(int levels = 0);
 /// The table with line joints between bars and legs.
 StructuredShape table_with_line_joints();
 
+/// Stool around the z axis, 10 x 10 x 16: box "top" and "leg_1" to "leg_4", straight generalized cylinders
+/// with point joints. Mirror planes x = 0 and y = 0, which the mesh does not have: leg k has 11 + k sides.
+StructuredShape rough_stool();
+
 /// Mug around the z axis: "body", a straight generalized cylinder, and "handle", a curved one in the plane y
 /// = 0, with two point joints; mirror plane y = 0.
 StructuredShape mug(int around = 24);

@@ -268,6 +268,28 @@ TEST_CASE("a kept extent is kept, with edits that would change it bent or refuse
   CHECK(refused.refusal->reason.find("extent along (0, 0, 1) would be too long") != std::string::npos);
 }
 
+TEST_CASE("legs lean on their ground although their feet are no images of each other") {
+  // What each leg has lowest after it leant lies at another height: the lowest of all stands on the ground.
+  const ControllerModel model(structures::rough_stool());
+  DeformationConstraints constraints;
+  constraints.keep_extent = Direction(0, 0, 1);
+  constraints.extent_ends = GENERATE(ExtentEnds::fixed, ExtentEnds::free);
+  const Eigen::Vector3d aside(-1, -0.7, 0);
+  const DeformationResult result =
+      model.deformed({{{HandleKind::section, 1, 0}, Move{aside}, Falloff::linear}}, constraints);
+  REQUIRE_FALSE(result.refusal);
+  const Range height = range_along(result.shape, Eigen::Vector3d::UnitZ());
+  CHECK(height.length() == Approx(16).epsilon(1e-9));
+  for (std::size_t leg = 1; leg < 5; ++leg) {
+    const auto& rest = std::get<GeneralizedCylinder>(model.rest_primitives()[leg]);
+    const auto& now = std::get<GeneralizedCylinder>(result.primitives[leg]);
+    const Points moves = now.centres - rest.centres;
+    CHECK(std::abs(moves(0, 0)) == Approx(1).margin(1e-3));
+    CHECK(std::abs(moves(0, 1)) == Approx(0.7).margin(1e-3));
+    CHECK(moves.row(23).norm() < 0.05);
+  }
+}
+
 TEST_CASE("what an edit leaves of an extent is stretched away, where it is next to nothing") {
   // A cube, its height along a direction that leans by `slope`: widened, its floor passes the end with an
   // edge.

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/structure/symmetry_detection.h"
@@ -60,6 +61,25 @@ TEST_CASE("the legs of a square table are a cycle of pairs, without its diagonal
   for (const Symmetry& plane : top) CHECK(plane.axis.cwiseAbs().maxCoeff() == Approx(1));
   CHECK(relations.size() == 6);
   for (const Relation& relation : relations) CHECK(relation.residual <= 1e-9);
+}
+
+TEST_CASE("the rails of a square may differ from side to side") {
+  const solids::Table options;
+  const double w = options.width, l = options.leg, z = options.height / 3;
+  std::vector<Shape> parts = {solids::table(options)};
+  const auto rail = [&](double x, double y, const Eigen::Vector3d& size, const std::string& name) {
+    const Eigen::Vector3d low(x, y, z);
+    parts.push_back(solids::named(solids::box(low, low + size), name));
+  };
+  rail(l, 0, {w - 2 * l, l, l}, "front");
+  rail(l, w - l, {w - 2 * l, l, l}, "back");
+  rail(0, l, {l, w - 2 * l, l}, "left");
+  rail(w - l, l, {l, w - 2 * l, l}, "right");
+  const Shape table = solids::joined(parts);
+  const Pairs pairs = pairs_of(table, relations_of(table));
+  CHECK(pairs.count({"front", "back"}) == 1);
+  CHECK(pairs.count({"left", "right"}) == 1);
+  CHECK(pairs.size() == 6);
 }
 
 TEST_CASE("every symmetry relation takes its first part onto its second") {
@@ -129,8 +149,8 @@ TEST_CASE("one round part has two perpendicular planes and its axis") {
   CHECK(std::abs(own[0].axis.dot(own[1].axis)) <= 1e-12);
 }
 
-TEST_CASE("three and five legs hang together") {
-  for (const int legs : {3, 5}) {
+TEST_CASE("the legs of a polygon hang together") {
+  for (const auto& [legs, planes] : {std::pair{3, 2}, {5, 2}, {6, 3}, {8, 3}}) {
     CAPTURE(legs);
     std::vector<Shape> parts{solids::named(solids::prism(solids::regular_polygon(legs), 0.2), "seat")};
     for (int k = 0; k < legs; ++k) {
@@ -150,7 +170,7 @@ TEST_CASE("three and five legs hang together") {
                         [&](const std::string& name) { return reached.count(name) > 0; }))
           reached.insert(pair.begin(), pair.end());
     CHECK(static_cast<int>(reached.size()) == legs);
-    CHECK(planes_in(own_of(stool, relations, "seat")) == 2);
+    CHECK(planes_in(own_of(stool, relations, "seat")) == planes);
   }
 }
 

@@ -14,7 +14,7 @@ struct ControllerModel::Data {
   explicit Data(StructuredShape structured)
       : rest(std::move(structured)),
         rig(rest.structure),
-        mesh{detail::MeshTransfer(rest.shape, rig), detail::vertices_by_part(rest.shape),
+        mesh{detail::MeshTransfer(rest.shape, rig), detail::vertices_by_class(rest.shape, rig),
              SurfaceIndex(rest.shape)} {
     for (const Part& part : rest.structure.parts) primitives.push_back(part.primitive);
   }

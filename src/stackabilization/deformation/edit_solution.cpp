@@ -43,7 +43,7 @@ class EditSolution {
         class_(rig.space.class_of(edit_.part)),
         progress_(at(rig.space.class_count()), Progress::open),
         corrections_(rig),
-        watch_(mesh.by_part, extent_bounds(task.shape, task.constraints)) {}
+        watch_(mesh.by_class, extent_bounds(task.shape, task.constraints)) {}
 
   EditOutcome run() {
     fix_parts();
@@ -130,61 +130,74 @@ class EditSolution {
     for (const Constraint& fixed : fixed_point_constraints()) constraints.push_back(fixed);
     fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.distinct_joints.size()),
                      constraints.end()};
-    std::vector<Constraint> bounded = constraints;
-    if (hold_fixed_ends(bounded)) {
-      const SolverState prescribed = state_;
-      state_ = solved(rig_, corrections_, bounded, std::move(state_));
-      if (!(largest_gap(rig_, bounded, state_) <= tolerance::relation * diagonal())) {
-        bounded = constraints;
-        watch_.release();
-        state_ = prescribed;
-        corrections_.keep_straight(state_.controls);
-      }
-    }
-    if (bounded.size() == constraints.size())
+    if (!solve_with_fixed_ends(constraints))
       state_ = solved(rig_, corrections_, constraints, std::move(state_));
     if (watch_.bounds().empty() || largest_gap(rig_, constraints, state_) > tolerance::relation * diagonal())
       return;
     const SolverState unbounded = state_;
-    bound_extents(bounded, constraints);
+    bound_extents(constraints);
     // Relations give way when bounds cannot be met: then the bounds are what is to be reported.
     if (!(largest_gap(rig_, constraints, state_) <= tolerance::relation * diagonal())) state_ = unbounded;
   }
 
   /// What stands on the fixed ends of an extent is held from the start: else joints take everything along
-  /// first, and what passes the ends then is not what has to stay on them.
-  bool hold_fixed_ends(std::vector<Constraint>& constraints) {
+  /// first, and what passes the ends then is not what has to stay on them. False, and nothing done, when
+  /// there is nothing to hold, or it cannot be held together with `constraints`.
+  bool solve_with_fixed_ends(const std::vector<Constraint>& constraints) {
     const bool fixed = std::any_of(watch_.bounds().begin(), watch_.bounds().end(),
                                    [](const ExtentBound& bound) { return bound.level.has_value(); });
     if (!fixed) return false;
-    const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
+    const SolverState prescribed = state_;
+    const Points vertices = current_vertices();
     state_.levels = watch_.levels(vertices);
     bool held = false;
     for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
-      if (watch_.bounds()[k].level) held |= watch_.hold(k, vertices, mesh_.transfer, constraints);
-    return held;
+      if (watch_.bounds()[k].level) held |= watch_.hold(k, vertices, ExtentWatch::Former::held);
+    if (held) {
+      const std::vector<Constraint> all = solve_held(constraints);
+      if (largest_gap(rig_, all, state_) <= tolerance::relation * diagonal()) return true;
+    }
+    watch_.release();
+    state_ = prescribed;
+    corrections_.keep_straight(state_.controls);
+    return false;
   }
 
-  /// Holds the outermost vertices. Those found one after the other are held together at first; where that
-  /// contradicts itself, as on a face that the edit tilts by a hair, only those of the last round.
-  void bound_extents(std::vector<Constraint>& constraints, const std::vector<Constraint>& unbounded) {
-    for (int round = 0; round < 2 * extent_rounds; ++round) {
-      const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
-      if (state_.levels.size() == 0) state_.levels = watch_.levels(vertices);
-      if (remains_at_most(settled_remainder, vertices)) return;
-      if (round >= extent_rounds) {
-        constraints = unbounded;
-        watch_.release();
+  /// Holds the outermost vertices, one of every class: when another one becomes outermost, that instead;
+  /// where they take turns, all of those; and where what was held before is in the way, as on a face that the
+  /// edit tilts by a hair, only what is outermost in any class.
+  void bound_extents(const std::vector<Constraint>& constraints) {
+    using Former = ExtentWatch::Former;
+    for (const Former former : {Former::released, Former::held})
+      for (int round = 0; round < extent_rounds; ++round) {
+        const Points vertices = current_vertices();
+        if (state_.levels.size() == 0) state_.levels = watch_.levels(vertices);
+        if (remains_at_most(settled_remainder, vertices)) return;
+        bool held = false;
+        for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
+          if (watch_.excess(k, vertices) != 0) held |= watch_.hold(k, vertices, former);
+        if (!held) break;
+        solve_held(constraints);
       }
-      bool held = false;
+    for (int round = 0; round < extent_rounds; ++round) {
+      const Points vertices = current_vertices();
+      if (remains_at_most(settled_remainder, vertices)) return;
+      watch_.release();
       for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
-        if (watch_.excess(k, vertices) != 0 || (round >= extent_rounds && watch_.is_kept(k)))
-          held |= watch_.hold(k, vertices, mesh_.transfer, constraints);
-      if (held)
-        state_ = solved(rig_, corrections_, constraints, std::move(state_));
-      else
-        round = std::max(round, extent_rounds - 1);
+        if (watch_.excess(k, vertices) != 0 || watch_.is_kept(k)) watch_.hold(k, vertices, Former::released);
+      solve_held(constraints);
     }
+  }
+
+  /// Solves for `constraints` and what is held; these together.
+  std::vector<Constraint> solve_held(std::vector<Constraint> constraints) {
+    for (Constraint& held : watch_.constraints(mesh_.transfer)) constraints.push_back(std::move(held));
+    state_ = solved(rig_, corrections_, constraints, std::move(state_));
+    return constraints;
+  }
+
+  Points current_vertices() const {
+    return mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
   }
 
   /// Is every extent off by so little, which take_up_remainder sees to?
@@ -201,7 +214,7 @@ class EditSolution {
   /// what moved do not notice; those to the rest are looked at afterwards.
   void take_up_remainder() {
     for (int round = 0; round < remainder_rounds; ++round) {
-      const Points vertices = mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
+      const Points vertices = current_vertices();
       if (!watch_.any_excess(vertices) || !remains_at_most(largest_remainder, vertices)) return;
       for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
         if (watch_.is_kept(k) && watch_.excess(k, vertices) != 0)

@@ -15,8 +15,8 @@ namespace stackabilization::detail {
 /// A mesh on a rig.
 struct RiggedMesh {
   MeshTransfer transfer;
-  std::vector<std::vector<int>> by_part;  ///< see vertices_by_part
-  SurfaceIndex surface;                   ///< at rest
+  std::vector<std::vector<int>> by_class;  ///< see vertices_by_class
+  SurfaceIndex surface;                    ///< at rest
 };
 
 /// An edit to be solved for.

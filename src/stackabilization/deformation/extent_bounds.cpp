@@ -41,11 +41,25 @@ std::vector<std::vector<int>> vertices_by_part(const Shape& shape) {
   return by_part;
 }
 
+std::vector<std::vector<int>> vertices_by_class(const Shape& shape, const Rig& rig) {
+  const std::vector<std::vector<int>> by_part = vertices_by_part(shape);
+  std::vector<std::vector<int>> by_class;
+  for (int c = 0; c < rig.space.class_count(); ++c) {
+    std::set<int> vertices;
+    for (const int part : rig.space.members(c)) {
+      const std::vector<int>& own = by_part[static_cast<std::size_t>(part)];
+      vertices.insert(own.begin(), own.end());
+    }
+    by_class.emplace_back(vertices.begin(), vertices.end());
+  }
+  return by_class;
+}
+
 Range ExtentWatch::range(std::size_t k, const Points& vertices) const {
   const Eigen::Vector3d& normal = bounds_[k].normal;
   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-  for (const std::vector<int>& part : by_part_)
-    for (const int v : part) {
+  for (const std::vector<int>& group : groups_)
+    for (const int v : group) {
       const double height = vertices.row(v).dot(normal);
       range.low = std::min(range.low, height);
       range.high = std::max(range.high, height);
@@ -84,42 +98,56 @@ Eigen::VectorXd ExtentWatch::levels(const Points& vertices) const {
   return levels;
 }
 
-bool ExtentWatch::hold(std::size_t k, const Points& vertices, const MeshTransfer& transfer,
-                       std::vector<Constraint>& constraints) {
-  const bool above = hold_side(k, 1, vertices, transfer, constraints);
-  const bool below = hold_side(k, -1, vertices, transfer, constraints);
+bool ExtentWatch::hold(std::size_t k, const Points& vertices, Former former) {
+  const bool above = hold_side(k, true, vertices, former);
+  const bool below = hold_side(k, false, vertices, former);
   return above || below;
 }
 
-bool ExtentWatch::hold_side(std::size_t k, double sign, const Points& vertices, const MeshTransfer& transfer,
-                            std::vector<Constraint>& constraints) {
+bool ExtentWatch::hold_side(std::size_t k, bool upper, const Points& vertices, Former former) {
   const ExtentBound& bound = bounds_[k];
-  const double beyond = excess(k, vertices);
+  const double sign = upper ? 1 : -1, beyond = excess(k, vertices);
   const Range whole = range(k, vertices);
-  const double extreme = sign > 0 ? whole.high : -whole.low;
-  const double end = bound.level ? sign * *bound.level + (sign > 0 ? bound.high : 0) : 0;
+  const double extreme = upper ? whole.high : -whole.low;
+  const double end = bound.level ? sign * *bound.level + (upper ? bound.high : 0) : 0;
   const double outermost = bound.level ? std::min(extreme, end) : extreme - std::max(beyond, 0.0);
   // What is level counts as that, whatever rounding made of it: which vertices are held decides what a solve
   // does with an edit, and is to change only where the edit does.
   const double slack = tolerance::relative * whole.length();
   bool added = false;
-  for (const std::vector<int>& part : by_part_) {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
     const auto height = [&](int v) { return sign * vertices.row(v).dot(bound.normal); };
     double highest = -std::numeric_limits<double>::infinity();
-    for (const int v : part) highest = std::max(highest, height(v));
+    for (const int v : groups_[g]) highest = std::max(highest, height(v));
     if (!(highest >= outermost - slack)) continue;
-    const auto top =
-        std::find_if(part.begin(), part.end(), [&](int v) { return height(v) >= highest - slack; });
-    if (!held_.emplace(k, sign > 0, *top).second) continue;
-    Constraint constraint;
-    constraint.riders = transfer.riders(*top);
-    constraint.normal = bound.normal;
-    constraint.height = bound.level ? sign * end : sign > 0 ? (beyond > 0 ? bound.high : bound.low) : 0;
-    if (!bound.level) constraint.level = static_cast<int>(k);
-    constraints.push_back(std::move(constraint));
-    added = true;
+    const int top = *std::find_if(groups_[g].begin(), groups_[g].end(),
+                                  [&](int v) { return height(v) >= highest - slack; });
+    Held& held = held_[{k, upper, g}];
+    if (former == Former::released) held.vertices.clear();
+    const bool joins = held.vertices.insert(top).second, first = held.ever.insert(top).second;
+    added |= former == Former::released ? first : joins;
+    held.height = bound.level ? sign * end : upper ? (beyond > 0 ? bound.high : bound.low) : 0;
   }
   return added;
+}
+
+std::vector<Constraint> ExtentWatch::constraints(const MeshTransfer& transfer) const {
+  std::vector<Constraint> constraints;
+  for (const auto& [where, held] : held_)
+    for (const int vertex : held.vertices) {
+      const std::size_t k = std::get<0>(where);
+      Constraint constraint;
+      constraint.riders = transfer.riders(vertex);
+      constraint.normal = bounds_[k].normal;
+      constraint.height = held.height;
+      if (!bounds_[k].level) constraint.level = static_cast<int>(k);
+      constraints.push_back(std::move(constraint));
+    }
+  return constraints;
+}
+
+void ExtentWatch::release() {
+  held_.clear();
 }
 
 }  // namespace stackabilization::detail

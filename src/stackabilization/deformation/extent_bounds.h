@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <set>
 #include <tuple>
@@ -26,13 +27,15 @@ std::vector<ExtentBound> extent_bounds(const Shape& rest, const DeformationConst
 
 /// Rows of the vertices that the triangles of each part use, ascending.
 std::vector<std::vector<int>> vertices_by_part(const Shape& shape);
+/// The same of all parts of each class.
+std::vector<std::vector<int>> vertices_by_class(const Shape& shape, const Rig& rig);
 
 /// Turns bounds that a mesh breaks into constraints on its outermost vertices.
 class ExtentWatch {
  public:
-  /// `by_part` as vertices_by_part gives it; it must outlive this.
-  ExtentWatch(const std::vector<std::vector<int>>& by_part, std::vector<ExtentBound> bounds)
-      : by_part_(by_part), bounds_(std::move(bounds)) {}
+  /// `groups` has the vertices of parts that move alike, ascending; it must outlive this.
+  ExtentWatch(const std::vector<std::vector<int>>& groups, std::vector<ExtentBound> bounds)
+      : groups_(groups), bounds_(std::move(bounds)) {}
 
   const std::vector<ExtentBound>& bounds() const { return bounds_; }
   /// By how much the extent passes bound `k`, model units: above zero too long, below too short, 0 within
@@ -47,20 +50,31 @@ class ExtentWatch {
   bool is_kept(std::size_t k) const { return bounds_[k].low == bounds_[k].high; }
   /// Lowest heights along the normals of the bounds: levels to start a solve from.
   Eigen::VectorXd levels(const Points& vertices) const;
-  /// Adds constraints that hold the extent at the bound it passes: in every part the outermost vertex on
-  /// either side, if it reaches into the excess. False when all of them were held already.
-  bool hold(std::size_t k, const Points& vertices, const MeshTransfer& transfer,
-            std::vector<Constraint>& constraints);
+
+  /// What happens to vertices that were held before, where another one of their group became outermost.
+  enum class Former { released, held };
+  /// Holds the extent at the bound it passes: in every group the outermost vertex on either side, if it
+  /// reaches into the excess. False when that adds nothing to what is held, or, with those before released,
+  /// to what was.
+  bool hold(std::size_t k, const Points& vertices, Former former);
+  /// The constraints that hold what is held.
+  std::vector<Constraint> constraints(const MeshTransfer& transfer) const;
   /// Forgets what is held, so that it may be held again.
-  void release() { held_.clear(); }
+  void release();
 
  private:
-  bool hold_side(std::size_t k, double sign, const Points& vertices, const MeshTransfer& transfer,
-                 std::vector<Constraint>& constraints);
+  /// Of one group on one side of a bound.
+  struct Held {
+    std::set<int> vertices;  ///< now
+    std::set<int> ever;
+    double height = 0;  ///< as of Constraint
+  };
 
-  const std::vector<std::vector<int>>& by_part_;
+  bool hold_side(std::size_t k, bool upper, const Points& vertices, Former former);
+
+  const std::vector<std::vector<int>>& groups_;
   std::vector<ExtentBound> bounds_;
-  std::set<std::tuple<std::size_t, bool, int>> held_;  ///< bound, upper side, vertex
+  std::map<std::tuple<std::size_t, bool, std::size_t>, Held> held_;  ///< bound, upper side, group
 };
 
 }  // namespace stackabilization::detail

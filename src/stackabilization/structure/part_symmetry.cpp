@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "stackabilization/shape/disjoint_sets.h"
 #include "stackabilization/structure/canonical_reflections.h"
 #include "stackabilization/structure/part_match.h"
 #include "stackabilization/structure/symmetry_candidates.h"
@@ -17,8 +18,9 @@ namespace {
 
 using detail::SymmetrySurface;
 
-constexpr double nearly_parallel = 0.99;  // cosine
-constexpr double nearly_across = 0.05;    // cosine
+constexpr double nearly_parallel = 0.99;                         // cosine
+constexpr double nearly_across = 0.05;                           // cosine
+constexpr double least_diagonal = 0.697, most_diagonal = 0.717;  // cosine
 
 class PartSymmetry {
  public:
@@ -88,23 +90,42 @@ class PartSymmetry {
   }
 
   /// Three legs, five legs: planes that are not orthogonal to those there are count when they give a part the
-  /// first counterpart it has; otherwise its orbit under those there are is what the design keeps.
+  /// first counterpart it has. Six legs: also where they take parts onto each other that nothing else makes
+  /// equal. Only the diagonals of a square do not: it may become a rectangle.
   void add_oblique_planes() {
     for (const Symmetry& candidate : candidates_) {
-      const bool parallel = std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& plane) {
-        return std::abs(plane.axis.dot(candidate.axis)) > nearly_parallel;
-      });
-      if (parallel) continue;
+      if (meets_any_at(nearly_parallel, 1, candidate)) continue;
       const Symmetry plane = detail::fitted_to(planes_, candidate);
       const std::vector<Relation> relations = relations_under(plane);
+      const bool is_diagonal = meets_any_at(least_diagonal, most_diagonal, candidate);
+      DisjointSets orbits(static_cast<std::size_t>(parts_.count()));
+      for (const Relation& relation : relations_) join(orbits, relation);
       const bool joins = std::any_of(relations.begin(), relations.end(), [&](const Relation& relation) {
-        return relation.type == RelationType::symmetry && (!has(relation.parts[0], RelationType::symmetry) ||
-                                                           !has(relation.parts[1], RelationType::symmetry));
+        const bool first = std::any_of(relation.parts.begin(), relation.parts.end(),
+                                       [&](int part) { return !has(part, RelationType::symmetry); });
+        return relation.type == RelationType::symmetry && (is_diagonal ? first : join(orbits, relation));
       });
       if (!joins) continue;
       planes_.push_back(plane);
       append(relations);
     }
+  }
+
+  /// Whether the cosine of the angle to a plane there is lies between `least` and `most`.
+  bool meets_any_at(double least, double most, const Symmetry& candidate) const {
+    return std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& plane) {
+      const double cosine = std::abs(plane.axis.dot(candidate.axis));
+      return least < cosine && cosine <= most;
+    });
+  }
+
+  /// Whether the relation takes parts onto each other that were not in one orbit.
+  static bool join(DisjointSets& orbits, const Relation& relation) {
+    const auto a = static_cast<std::size_t>(relation.parts.front()),
+               b = static_cast<std::size_t>(relation.parts.back());
+    const bool apart = orbits.root(a) != orbits.root(b);
+    orbits.join(a, b);
+    return apart;
   }
 
   /// Reflections that take the part onto itself.
