@@ -197,6 +197,14 @@ StructuredShape table_with_line_joints() {
   return table_of(1, true);
 }
 
+StructuredShape board_with_screw() {
+  Assembly assembly;
+  const int board = assembly.add_box("board", {-5, -5, -0.5}, {5, 5, 0.5}, 1),
+            screw = assembly.add_box("screw", {-0.05, -0.05, 0.5}, {0.05, 0.05, 0.6}, 0);
+  assembly.joint(board, screw, Eigen::RowVector3d(0, 0, 0.5));
+  return assembly.done();
+}
+
 StructuredShape rough_stool() {
   Assembly stool;
   const int top = stool.add_box("top", {-5, -5, 15}, {5, 5, 16}, 1);

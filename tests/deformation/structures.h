@@ -28,6 +28,9 @@ StructuredShape table(int levels = 0);
 /// The table with line joints between bars and legs.
 StructuredShape table_with_line_joints();
 
+/// Box "board", 10 x 10 x 1, and on the middle of its top, z = 0.5, a cube "screw" of 0.1 with a point joint.
+StructuredShape board_with_screw();
+
 /// Stool around the z axis, 10 x 10 x 16: box "top" and "leg_1" to "leg_4", straight generalized cylinders
 /// with point joints. Mirror planes x = 0 and y = 0, which the mesh does not have: leg k has 11 + k sides.
 StructuredShape rough_stool();

@@ -290,6 +290,21 @@ TEST_CASE("legs lean on their ground although their feet are no images of each o
   }
 }
 
+TEST_CASE("a screw goes along with its board, it is not stretched to where that was") {
+  const ControllerModel model(structures::board_with_screw());
+  DeformationConstraints constraints;
+  constraints.keep_extent = Direction(1, 0, 0);
+  constraints.extent_ends = ExtentEnds::fixed;  // nothing goes along before the solve
+  const DeformationResult result =
+      model.deformed({{{HandleKind::face, 0, 5}, Move{{0, 0, 0.5}}}}, constraints);
+  REQUIRE_FALSE(result.refusal);
+  const Points &before = cuboid(model.rest_primitives(), 1).corners,
+               &now = cuboid(result.primitives, 1).corners;
+  for (int k = 1; k < 8; ++k)
+    CHECK((now.row(k) - now.row(0) - before.row(k) + before.row(0)).norm() < 0.2 * 0.1);
+  CHECK(now(0, 2) == Approx(1).margin(1e-6));
+}
+
 TEST_CASE("what an edit leaves of an extent is stretched away, where it is next to nothing") {
   // A cube, its height along a direction that leans by `slope`: widened, its floor passes the end with an
   // edge.

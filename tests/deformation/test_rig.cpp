@@ -47,7 +47,8 @@ TEST_CASE("bases hold what self-symmetries leave, in as few columns as that take
     for (int c = 0; c < rig.space.class_count(); ++c) {
       const Eigen::MatrixXd& basis = rig.bases[static_cast<std::size_t>(c)];
       const Primitive& first = rig.space.rest(rig.space.members(c).front());
-      const Eigen::MatrixXd all = rig.space.invariant_columns(c, correction_basis(first));
+      const double strain = rig.strains[static_cast<std::size_t>(c)];
+      const Eigen::MatrixXd all = rig.space.invariant_columns(c, correction_basis(first, strain));
       const Eigen::MatrixXd wanted = all * all.transpose(), found = basis * basis.transpose();
       CHECK((found - wanted).norm() < 1e-9 * wanted.norm());
       CHECK((rig.space.invariant_columns(c, basis) - basis).norm() < 1e-12 * basis.norm());

@@ -51,7 +51,7 @@ double bend(const Points& centres) {
 TEST_CASE("corrections of straight cylinders slide, lean and stretch, but do not bend") {
   const GeneralizedCylinder cylinder = cone();
   const Eigen::MatrixXd slides = detail::slide_functions(cylinder);
-  const Eigen::MatrixXd columns = detail::StraightCorrections(cylinder, slides, {}).columns(cylinder);
+  const Eigen::MatrixXd columns = detail::StraightCorrections(cylinder, slides, 1, {}).columns(cylinder);
   const Eigen::Index n = cylinder.centres.rows();
   const double step = 1e-4;
   double worst = 0, slid = 0;
@@ -78,7 +78,7 @@ TEST_CASE("corrections of straight cylinders slide, lean and stretch, but do not
 TEST_CASE("a settled step leaves a cone a straight cone, however long it is") {
   const GeneralizedCylinder cylinder = cone();
   const Eigen::MatrixXd slides = detail::slide_functions(cylinder);
-  const detail::StraightCorrections corrections(cylinder, slides, {});
+  const detail::StraightCorrections corrections(cylinder, slides, 1, {});
   const Eigen::MatrixXd columns = corrections.columns(cylinder);
   const Eigen::Index n = cylinder.centres.rows();
   Eigen::VectorXd amounts(columns.cols());
@@ -104,7 +104,7 @@ TEST_CASE("a settled step leaves a cone a straight cone, however long it is") {
 TEST_CASE("what an edit prescribes of a straight cylinder is not settled away") {
   const GeneralizedCylinder cylinder = cone();
   const Eigen::MatrixXd slides = detail::slide_functions(cylinder);
-  const detail::StraightCorrections corrections(cylinder, slides, {4, 7});
+  const detail::StraightCorrections corrections(cylinder, slides, 1, {4, 7});
   GeneralizedCylinder now = cylinder;
   now.centres.row(4) += Eigen::RowVector3d(0.3, -0.2, 0.1);
   now.centres.row(9) += Eigen::RowVector3d(-0.1, 0.4, 0.2);
@@ -123,7 +123,7 @@ TEST_CASE("what is slightly bent is carried as it is") {
         0.01 * std::sin(std::numbers::pi * static_cast<double>(i) / 11) * across.transpose();
   REQUIRE(detail::is_straight(bow));
   const Eigen::MatrixXd slides = detail::slide_functions(bow);
-  const detail::StraightCorrections corrections(bow, slides, {});
+  const detail::StraightCorrections corrections(bow, slides, 1, {});
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).matrix();
   GeneralizedCylinder now = bow;
   now.centres = bow.centres * turn.transpose();

@@ -76,6 +76,13 @@ TEST_CASE("parts that must stay are what is in the way, and freeing the legs is 
   CHECK(says(text, "'leg_1' is fixed (12 edits)"));
 }
 
+TEST_CASE("what came very near to the target is told from it") {
+  Diagnosis diagnosis;
+  diagnosis.target = 0.4;
+  diagnosis.reached = 0.39988;
+  CHECK(says(text(diagnosis, structures::table()), "S = 0.400 was not reached; the best is S = 0.3999."));
+}
+
 TEST_CASE("freeing the legs is what lets a table sink deeper") {
   const StructuredShape table = structures::table();
   const auto space = design_space(table);

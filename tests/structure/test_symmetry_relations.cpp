@@ -121,6 +121,37 @@ TEST_CASE("a thin leg has no counterpart in one that is thicker or elsewhere") {
   CHECK(table(4.3, 0.2).empty());
 }
 
+TEST_CASE("small parts that miss their counterpart by more than their own size tells are pairs") {
+  // A trestle of 10, its feet of 0.2: the right one sits 0.05 off.
+  using solids::box;
+  using solids::named;
+  const auto trestle = [&](double off) {
+    return solids::joined({named(box({-5, -1, 4}, {5, 1, 5}), "top"),
+                           named(box({-4.5, -0.1, 0}, {-4.3, 0.1, 0.2}), "left"),
+                           named(box({4.3 + off, -0.1, 0}, {4.5 + off, 0.1, 0.2}), "right")});
+  };
+  for (const double off : {0.0, 0.05})
+    CHECK(pairs_of(trestle(off), relations_of(trestle(off))) == Pairs{{"left", "right"}});
+  CHECK(pairs_of(trestle(0.3), relations_of(trestle(0.3))).empty());
+}
+
+TEST_CASE("a part that a plane of the whole cuts off its middle has no plane of its own beside that") {
+  using solids::box;
+  using solids::named;
+  const auto own_across = [](double off) {
+    const Shape shape = solids::joined({named(box({-5, -1, 4}, {5, 2, 5}), "top"),
+                                        named(box({-4, -1, 0}, {-3, 0, 4}), "left"),
+                                        named(box({3, -1, 0}, {4, 0, 4}), "right"),
+                                        named(box({-0.5 + off, 1, 5}, {0.5 + off, 1.1, 5.1}), "bar")});
+    const std::vector<Symmetry> own = own_of(shape, relations_of(shape), "bar");
+    return std::count_if(own.begin(), own.end(),
+                         [](const Symmetry& plane) { return std::abs(plane.axis.x()) > 0.9; });
+  };
+  CHECK(own_across(0) == 1);  // that of the whole
+  CHECK(own_across(0.3) == 0);
+  CHECK(own_across(2) == 1);
+}
+
 TEST_CASE("the body of a cup keeps two planes and its axis, the handle one plane") {
   const Shape cup = solids::cup_with_handle();
   const auto relations = relations_of(cup);

@@ -17,6 +17,8 @@ namespace {
 constexpr double spread_sigma = 0.2;
 /// Smooth functions along the curve below this fraction of the strongest are left out.
 constexpr double weakest_mode = 0.001;
+/// Parts below this fraction of the diagonal are small.
+constexpr double small_part = 0.1;
 
 /// Kronecker product with the unit matrix of size 3: a function along the points becomes three columns.
 void append_moves(const Eigen::MatrixXd& functions, double factor, Eigen::MatrixXd& basis,
@@ -85,6 +87,14 @@ Eigen::MatrixXd basis_of(const Cuboid& cuboid) {
 
 }  // namespace
 
+double strain_length(const Primitive& rest, double diagonal) {
+  const Points points = control_points(rest);
+  double size = (points.rowwise() - points.row(0)).rowwise().norm().maxCoeff();
+  if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&rest))
+    size = std::max(size, 2 * cylinder->radii.maxCoeff());
+  return std::min(1.0, size / (small_part * diagonal));
+}
+
 Eigen::MatrixXd gaussian_spread(const GeneralizedCylinder& rest) {
   const Eigen::VectorXd s = section_arc_lengths(rest);
   const double whole = s(s.size() - 1), sigma = spread_sigma * whole;
@@ -119,8 +129,10 @@ Eigen::MatrixXd edit_kernel(const Primitive& rest) {
   return kernel;
 }
 
-Eigen::MatrixXd correction_basis(const Primitive& rest) {
-  return std::visit([](const auto& primitive) { return basis_of(primitive); }, rest);
+Eigen::MatrixXd correction_basis(const Primitive& rest, double strain) {
+  Eigen::MatrixXd basis = std::visit([](const auto& primitive) { return basis_of(primitive); }, rest);
+  basis.rightCols(basis.cols() - 3) *= strain;
+  return basis;
 }
 
 Eigen::MatrixXd turning(const GeneralizedCylinder& rest) {

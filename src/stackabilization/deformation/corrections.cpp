@@ -64,7 +64,7 @@ void Corrections::keep_straight(const std::vector<ControlState>& states) {
     const Primitive now = rig_.space.primitive(rig_.space.members(c).front(), states[at(c)]);
     const auto* cylinder = std::get_if<GeneralizedCylinder>(&now);
     if (cylinder == nullptr || is_fixed(c) || !is_straight(*cylinder)) continue;
-    straight_[at(c)].emplace(*cylinder, rig_.slides[at(c)], handle_in(c));
+    straight_[at(c)].emplace(*cylinder, rig_.slides[at(c)], rig_.strains[at(c)], handle_in(c));
     allow(c, rig_.space.invariant_columns(c, straight_[at(c)]->columns(*cylinder)));
   }
 }

@@ -45,7 +45,8 @@ Rig::Rig(const Structure& structure) : rest(structure), space(structure) {
     const Primitive& first = space.rest(space.members(c).front());
     const Eigen::MatrixXd half = space.invariant_columns(c, edit_kernel(first));
     edit_kernels.push_back(space.invariant_columns(c, half.transpose()));
-    bases.push_back(invariant_basis(space, c, correction_basis(first)));
+    strains.push_back(strain_length(first, rest.diagonal));
+    bases.push_back(invariant_basis(space, c, correction_basis(first, strains.back())));
     const auto* cylinder = std::get_if<GeneralizedCylinder>(&first);
     slides.push_back(cylinder && !cylinder->closed ? slide_functions(*cylinder) : Eigen::MatrixXd());
     turnings.push_back(cylinder ? turning(*cylinder) : Eigen::MatrixXd());

@@ -30,6 +30,7 @@ struct Rig {
   std::vector<int> distinct_joints;           ///< rows of joints, see joint_copies.h
   std::vector<Eigen::MatrixXd> edit_kernels;  ///< per class, within what its self-symmetries leave free
   std::vector<Eigen::MatrixXd> bases;         ///< per class, likewise: see correction_basis.h
+  std::vector<double> strains;                ///< per class: strain_length
   std::vector<Eigen::MatrixXd> slides;        ///< per class; empty but for open cylinders: slide_functions
   std::vector<Eigen::MatrixXd> turnings;      ///< per class; empty for cuboids
 };

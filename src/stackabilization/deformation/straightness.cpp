@@ -90,9 +90,10 @@ Eigen::MatrixXd slide_functions(const GeneralizedCylinder& rest) {
 }
 
 StraightCorrections::StraightCorrections(GeneralizedCylinder start, const Eigen::MatrixXd& slides,
-                                         StraightHandle handle)
+                                         double strain, StraightHandle handle)
     : start_(std::move(start)),
       slides_(slides),
+      strain_(strain),
       handle_(handle),
       from_(0),
       to_(static_cast<int>(start_.centres.rows()) - 1),
@@ -140,6 +141,7 @@ Eigen::MatrixXd StraightCorrections::columns(const GeneralizedCylinder& now) con
   // As of cuboids, equal strains have equal prices: a slender leg is not to grow thick.
   const double slenderness = std::min(1.0, 2 * now.radii.mean() / chord.norm());
   columns.bottomRightCorner(n, 2) = slenderness * radius_length * linear;
+  columns.rightCols(columns.cols() - 3) *= strain_;
   return columns;
 }
 

@@ -35,8 +35,9 @@ struct StraightHandle {
 /// that linear change: a cone whose handle goes up stays a cone. What `start` is off its chord it stays.
 class StraightCorrections {
  public:
-  /// `slides` as of slide_functions; `start` is straight.
-  StraightCorrections(GeneralizedCylinder start, const Eigen::MatrixXd& slides, StraightHandle handle);
+  /// `slides` as of slide_functions, `strain` as of strain_length; `start` is straight.
+  StraightCorrections(GeneralizedCylinder start, const Eigen::MatrixXd& slides, double strain,
+                      StraightHandle handle);
 
   /// 4n x k: these corrections around `now`, to first order, as columns of changes of control values (see
   /// ControlState).
@@ -53,6 +54,7 @@ class StraightCorrections {
 
   GeneralizedCylinder start_;
   const Eigen::MatrixXd& slides_;
+  double strain_;
   StraightHandle handle_;
   int from_, to_;            ///< sections whose centres stay when the others are put on the line through them
   Points offsets_;           ///< of the sections of `start_` from that line

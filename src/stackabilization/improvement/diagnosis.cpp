@@ -23,11 +23,20 @@ constexpr double worth_saying = 0.01;
 constexpr int most_blockers = 4;
 constexpr std::size_t most_constraints = 3, most_removals = 3;
 
-std::string number(double value) {
-  char buffer[32];
-  const double rounded = std::round(1000 * value) / 1000 + 0.0;  // no -0.000
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, rounded, std::chars_format::fixed, 3).ptr;
+std::string number(double value, int digits = 3) {
+  char buffer[64];
+  const double unit = std::pow(10, digits);
+  const double rounded = std::round(unit * value) / unit + 0.0;  // no -0.000
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, rounded, std::chars_format::fixed, digits).ptr;
   return {buffer, end};
+}
+
+/// With as many digits as tell it from `other`.
+std::string number_unlike(double value, double other) {
+  int digits = 3;
+  while (digits < 9 && number(value, digits) == number(other, digits)) ++digits;
+  return number(value, digits);
 }
 
 std::string text_of(const Eigen::Vector3d& v) {
@@ -278,8 +287,8 @@ Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& re
 }
 
 std::string text(const Diagnosis& diagnosis, const StructuredShape& rest) {
-  std::string text = "S = " + number(diagnosis.target) +
-                     " was not reached; the best is S = " + number(diagnosis.reached) + ".\n";
+  std::string text = "S = " + number(diagnosis.target) + " was not reached; the best is S = " +
+                     number_unlike(diagnosis.reached, diagnosis.target) + ".\n";
   for (const Blocker& blocker : diagnosis.blockers) text += sentence(blocker, rest.shape);
   if (!diagnosis.constraints.empty()) text += "What stood against edits most often:\n";
   for (const std::string& constraint : diagnosis.constraints) text += "  " + constraint + "\n";

@@ -182,8 +182,20 @@ class PartSymmetry {
         planes.push_back(detail::to_model(surface, plane));
     }
     for (const Symmetry& plane : detail::canonical_reflections(surface, {&surface}, planes))
-      if (const auto residual = parts_.match(part, part, plane))
+      if (const auto residual = parts_.match(part, part, plane);
+          residual && !lies_beside_common(plane, surface))
         relations_.push_back(related({part}, plane, *residual));
+  }
+
+  /// A part that a plane of the whole cuts, but not in the middle, has no plane of its own beside that one:
+  /// what it is joined to on both sides would be symmetric about the one, and the joints about the other.
+  bool lies_beside_common(const Symmetry& own, const SymmetrySurface& surface) const {
+    const double half =
+        surface.diagonal * (own.axis.transpose() * surface.box.axes).cwiseAbs() * surface.box.half_extents;
+    return std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& common) {
+      return std::abs(common.axis.dot(own.axis)) > nearly_parallel &&
+             std::abs(common.axis.dot(own.point - common.point)) < half;
+    });
   }
 
   SymmetryOptions options_;

@@ -48,9 +48,10 @@ std::vector<FoundSymmetry> find_symmetries(const Shape& shape, const SymmetryOpt
 ///
 /// * Reflections: at most three, mutually orthogonal, exactly so in the result; planes along the boxes of
 ///   the parts and of the whole go before diagonals, so that four legs are a cycle of four pairs. A plane at
-///   another angle counts only when it gives a part its first counterpart (three legs, five legs), and is
-///   turned by what makes it generate a finite group with the others. Of a revolution two perpendicular
-///   planes through the axis count.
+///   another angle counts only when it gives a part its first counterpart (three legs, five legs) or, except
+///   at 45 degrees, makes parts equal that nothing else does (six legs), and is turned by what makes it
+///   generate a finite group with the others. Of a revolution two perpendicular planes through the axis
+///   count.
 /// * A part has a counterpart, or is its own, when the image comes within the tolerance of it, by the
 ///   distance of centroids and by the root mean square distance of the surfaces both ways, as fractions of
 ///   the whole shape, and when in addition their sizes agree to ten tolerances.

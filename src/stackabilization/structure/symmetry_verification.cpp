@@ -44,10 +44,10 @@ Agreement agreement(std::vector<double> distances, double diagonal, const Symmet
   Agreement result;
   result.residual = std::sqrt(inner / std::max<double>(1, static_cast<double>(supported)));
   result.support = static_cast<double>(first_outer - distances.begin()) / count;
-  result.holds =
-      result.residual <= options.tolerance && result.support >= options.support &&
-      std::sqrt(outer / count) <= options.tolerance &&
-      distances[quantile(distances.size(), outlying_samples)] <= deepest_detail(options) * diagonal;
+  result.holds = result.residual <= options.tolerance && result.support >= options.support &&
+                 std::sqrt(outer / count) <= options.tolerance &&
+                 distances[quantile(distances.size(), outlying_samples)] <=
+                     std::max(deepest_detail(options) * diagonal, options.tolerance);
   return result;
 }
 

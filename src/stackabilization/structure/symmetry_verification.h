@@ -18,8 +18,9 @@ struct Agreement {
 /// Do the distances, in the unit that `options.tolerance` is a fraction of, tell of a symmetry? So when: the
 /// share `options.support` of them has at most the tolerance as root mean square and lies within three times
 /// of it; the others, spread over all, add at most the tolerance again; and all but outliers stay below 0.4
-/// (1 - `options.support`) of the diagonal. The last two tell missing detail (a label, a button) from missing
-/// members (a leg, a handle), which may have even less area. The diagonal is `diagonal` in that unit.
+/// (1 - `options.support`) of the diagonal, or below the tolerance where that is more. The last two tell
+/// missing detail (a label, a button) from missing members (a leg, a handle), which may have even less area.
+/// The diagonal is `diagonal` in that unit.
 Agreement agreement(std::vector<double> distances, double diagonal, const SymmetryOptions& options);
 
 /// Distances of the images of `points` under `map` from the surface.
