@@ -114,7 +114,7 @@ class PartSymmetry {
   /// Whether the cosine of the angle to a plane there is lies between `least` and `most`.
   bool meets_any_at(double least, double most, const Symmetry& candidate) const {
     return std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& plane) {
-      const double cosine = std::abs(plane.axis.dot(candidate.axis));
+      const double cosine = std::min(1.0, std::abs(plane.axis.dot(candidate.axis)));
       return least < cosine && cosine <= most;
     });
   }
