@@ -28,7 +28,9 @@ constexpr double diagnosis_begin = 0.85;
 /// Designs measured at most for the magnitudes of one list of edits.
 constexpr int first_evaluations = 300;
 
-/// So many more than are wanted are tried with edits that join: which becomes the best is not known before.
+/// Which solution becomes the best is not known before its refinement: so many at least are looked for, and
+/// so many more than are wanted are tried with edits that join.
+constexpr int least_solutions = 3;
 constexpr std::size_t more_extended = 4;
 
 Clock::time_point after(Clock::time_point start, double seconds) {
@@ -81,7 +83,7 @@ class Refinements {
     deadline_ = deadlines_.give_up;
     for (const Candidate& start : starts) add(start);
     for (const Candidate& near : found.nearest) {
-      if (solutions_.size() >= wanted_ || options_.cancelled()) break;
+      if (solutions_.size() >= std::max<std::size_t>(wanted_, least_solutions) || options_.cancelled()) break;
       add(near);
     }
     extend();
@@ -190,6 +192,7 @@ Improvement improve(const RequirementChecker& checker, const ImprovementOptions&
   BestFirstOptions search = options.search;
   std::vector<Candidate> starts;
   if (refine) {
+    search.solutions = std::max(search.solutions, least_solutions);
     const auto until = [&](double share) {
       return std::max(share * seconds - seconds_since(start), least_search * seconds);
     };
@@ -214,7 +217,8 @@ Improvement improve(const RequirementChecker& checker, const ImprovementOptions&
     result.solutions = refinements.refined(std::move(starts), found);
     if (refinements.nearest()) found.nearest.insert(found.nearest.begin(), *refinements.nearest());
     std::stable_sort(found.nearest.begin(), found.nearest.end(), more_stackable);
-    if (!result.solutions.empty() && found.solutions.empty() && result.end == SearchEnd::exhausted)
+    if (result.solutions.size() >= static_cast<std::size_t>(options.search.solutions) ||
+        (!result.solutions.empty() && found.solutions.empty() && result.end == SearchEnd::exhausted))
       result.end = SearchEnd::solved;
   } else {
     result.solutions = found.solutions;
