@@ -7,7 +7,6 @@
 #include "stackabilization/envelope/exact_pair.h"
 #include "stackabilization/envelope/node_pair.h"
 #include "stackabilization/envelope/triangle_pair.h"
-#include "stackabilization/envelope/triangle_pieces.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/variants.h"
@@ -152,28 +151,4 @@ TEST_CASE("the bound of a pair of nodes holds every pair below it") {
         }
     }
   }
-}
-
-TEST_CASE("pieces cover their triangles") {
-  // Long needles on a grid, cut many times; their points at eighths are exact.
-  const Shape shape = stretched(soup(3, 2, 3), {64, 1, 0.25});
-  const std::vector<TreeTriangle> triangles = triangles_of(shape);
-  const Pieces pieces = cut_into_pieces(triangles);
-  CHECK(pieces.pieces.size() > 2 * triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (int i = 0; i <= 8; ++i)
-      for (int j = 0; i + j <= 8; ++j) {
-        bool covered = false;
-        for (const Piece& piece : pieces.pieces) {
-          if (piece.triangle != static_cast<std::int32_t>(t)) continue;
-          bool inside = true;
-          for (int axis = 0; axis < 3; ++axis) {
-            const auto& c = triangles[t].corners;
-            const double x = (i * c[0][axis] + j * c[1][axis] + (8 - i - j) * c[2][axis]) / 8;
-            inside = inside && x >= piece.low[axis] && x <= piece.high[axis];
-          }
-          covered = covered || inside;
-        }
-        CHECK(covered);
-      }
 }

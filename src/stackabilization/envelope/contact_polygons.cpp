@@ -105,7 +105,6 @@ class ContactSearch {
     friend bool operator<(const Pair& a, const Pair& b) {
       return a.upper != b.upper ? a.upper < b.upper : a.lower < b.lower;
     }
-    friend bool operator==(const Pair& a, const Pair& b) { return a.upper == b.upper && a.lower == b.lower; }
   };
 
   void collect(const TreeNode& upper, const TreeNode& lower) {
@@ -115,9 +114,7 @@ class ContactSearch {
   }
 
   std::vector<ContactPolygon> polygons() {
-    // Pieces of one triangle bring the same pair several times.
     std::sort(pairs_.begin(), pairs_.end());
-    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
     std::vector<std::optional<ContactPolygon>> found(pairs_.size());
     tbb::parallel_for(std::size_t{0}, pairs_.size(),
                       [&](std::size_t p) { found[p] = polygon_of(pairs_[p]); });

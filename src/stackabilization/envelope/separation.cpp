@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -186,10 +185,6 @@ class SeparationQuery {
   }
 
   void decide(const Task& task) {
-    // Triangles cut into pieces come up once for every two of their pieces.
-    const auto upper_index = static_cast<std::uint32_t>(upper_.triangles[task.upper].index),
-               lower_index = static_cast<std::uint32_t>(lower_.triangles[task.lower].index);
-    if (!decided_.insert(std::uint64_t{upper_index} << 32 | lower_index).second) return;
     std::optional<Rational> value = exact_maximum(upper_.triangles[task.upper], lower_.triangles[task.lower],
                                                   projection_.shear, projection_.semantics);
     if (!value || (best_ && *value <= *best_)) return;
@@ -215,7 +210,6 @@ class SeparationQuery {
   ProjectedNodes upper_nodes_, lower_nodes_;  ///< the second is empty where both shapes are one
   std::optional<Rational> best_;
   std::int32_t best_upper_ = -1, best_lower_ = -1;  ///< in tree order
-  std::unordered_set<std::uint64_t> decided_;       ///< pairs of triangles of the shapes
 };
 
 /// Two trees in one frame: as they are if their origins agree, else built again in the file's axes.

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "stackabilization/envelope/shear.h"
-#include "stackabilization/envelope/triangle_pieces.h"
 
 namespace stackabilization {
 namespace {
@@ -22,103 +21,123 @@ using namespace detail;
 constexpr std::int32_t largest_slab = 256;
 constexpr std::int32_t smallest_task = 8192;
 
+/// Where the box of a triangle has its centre, for splitting: single precision says enough, and little is
+/// moved about.
+struct Place {
+  std::array<float, 3> centre;
+  std::int32_t triangle;
+};
+
 /// Builds the tree top down by median splits, in parallel, into nodes whose places depend on the counts
-/// alone, so that the result is the same for any number of threads.
+/// alone, so that the result is the same for any number of threads. Boxes and slabs are fitted on the way
+/// back.
 class TreeBuilder {
  public:
-  TreeBuilder(Pieces& pieces, const std::vector<TreeTriangle>& triangles, SeparationTree::Data& data)
-      : cut_(pieces), pieces_(pieces.pieces), triangles_(triangles), nodes_(data.nodes) {
-    nodes_.resize(node_count(static_cast<std::int32_t>(pieces_.size())));
-    build(0, 1, 0, static_cast<std::int32_t>(pieces_.size()));
-    data.triangles.reserve(pieces_.size());
-    for (const Piece& piece : pieces_) data.triangles.push_back(triangles_[piece.triangle]);
+  TreeBuilder(const std::vector<TreeTriangle>& triangles, SeparationTree::Data& data)
+      : triangles_(triangles), data_(data), rounding_(16 * unit_roundoff * data.magnitude) {
+    const auto count = static_cast<std::int32_t>(triangles.size());
+    places_.reserve(triangles.size());
+    for (const TreeTriangle& triangle : triangles) places_.push_back(place_of(triangle));
+    data_.triangles.resize(triangles.size());
+    data_.nodes.resize(node_count(count));
+    build(0, 1, 0, count);
   }
 
  private:
-  static std::size_t node_count(std::int32_t pieces) {
-    return pieces <= leaf_size ? 1 : 1 + node_count(pieces / 2) + node_count(pieces - pieces / 2);
+  static Place place_of(const TreeTriangle& triangle) {
+    Place place{{}, triangle.index};
+    const auto& [a, b, c] = triangle.corners;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
+      place.centre[axis] = static_cast<float>(low / 2 + high / 2);
+    }
+    return place;
   }
 
-  /// Node `self` over [first, last); its descendants occupy nodes_ from `free` on. Returns which way its
-  /// triangles face: the sum of area n n^T over them.
-  Eigen::Matrix3d build(std::size_t self, std::size_t free, std::int32_t first, std::int32_t last) {
-    TreeNode& node = nodes_[self];
-    fit_box(node, first, last);
+  static std::size_t node_count(std::int32_t triangles) {
+    return triangles <= leaf_size ? 1 : 1 + node_count(triangles / 2) + node_count(triangles - triangles / 2);
+  }
+
+  /// Node `self` over [first, last); its descendants occupy the nodes from `free` on. Returns which way its
+  /// triangles face: the sum of their area normals, each turned to the side of those before.
+  Eigen::Vector3d build(std::size_t self, std::size_t free, std::int32_t first, std::int32_t last) {
+    TreeNode& node = data_.nodes[self];
     const std::int32_t count = last - first;
+    Eigen::Vector3d facing;
     if (count <= leaf_size) {
       node.first = first;
       node.count = count;
-      const Eigen::Matrix3d facing = facing_of(first, last);
-      fit_slab(node, facing, first, last);
-      return facing;
-    }
-    const std::int32_t middle = first + count / 2;
-    split(node, first, middle, last);
-    node.first = static_cast<std::int32_t>(free);
-    node.count = 0;
-    const std::size_t left_descendants = free + 2;
-    const std::size_t right_descendants = left_descendants + node_count(count / 2) - 1;
-    Eigen::Matrix3d left_facing, right_facing;
-    const auto left = [&] { left_facing = build(free, left_descendants, first, middle); };
-    const auto right = [&] { right_facing = build(free + 1, right_descendants, middle, last); };
-    if (count < smallest_task) {
-      left();
-      right();
+      facing = fill(node, first, last);
     } else {
-      tbb::parallel_invoke(left, right);
+      const std::int32_t middle = first + count / 2;
+      split(first, middle, last);
+      node.first = static_cast<std::int32_t>(free);
+      node.count = 0;
+      const std::size_t left_descendants = free + 2;
+      const std::size_t right_descendants = left_descendants + node_count(count / 2) - 1;
+      Eigen::Vector3d left_facing, right_facing;
+      const auto left = [&] { left_facing = build(free, left_descendants, first, middle); };
+      const auto right = [&] { right_facing = build(free + 1, right_descendants, middle, last); };
+      if (count < smallest_task) {
+        left();
+        right();
+      } else {
+        tbb::parallel_invoke(left, right);
+      }
+      unite(node, data_.nodes[free], data_.nodes[free + 1]);
+      facing = joined(left_facing, right_facing);
     }
-    const Eigen::Matrix3d facing = left_facing + right_facing;
     fit_slab(node, facing, first, last);
     return facing;
   }
 
-  void fit_box(TreeNode& node, std::int32_t first, std::int32_t last) const {
+  /// The triangles of a leaf and its box.
+  Eigen::Vector3d fill(TreeNode& node, std::int32_t first, std::int32_t last) {
     node.low.fill(std::numeric_limits<double>::infinity());
     node.high.fill(-std::numeric_limits<double>::infinity());
-    for (std::int32_t t = first; t < last; ++t)
-      for (int axis = 0; axis < 3; ++axis) {
-        node.low[axis] = std::min(node.low[axis], pieces_[t].low[axis]);
-        node.high[axis] = std::max(node.high[axis], pieces_[t].high[axis]);
-      }
-  }
-
-  Eigen::Matrix3d facing_of(std::int32_t first, std::int32_t last) const {
-    Eigen::Matrix3d facing = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d facing = Eigen::Vector3d::Zero();
     for (std::int32_t t = first; t < last; ++t) {
-      const Eigen::Vector3d normal = area_normal(triangles_[pieces_[t].triangle]);
-      const double length = normal.stableNorm();
-      if (length > 0) facing += normal * (normal / length).transpose();
+      const TreeTriangle& triangle = data_.triangles[t] = triangles_[places_[t].triangle];
+      for (const auto& corner : triangle.corners) include(node, corner, corner);
+      facing = joined(facing, area_normal(triangle));
     }
     return facing;
   }
 
-  /// Slab across the direction that the triangles face most: the dominant eigenvector of `facing`.
-  void fit_slab(TreeNode& node, const Eigen::Matrix3d& facing, std::int32_t first, std::int32_t last) const {
+  static void unite(TreeNode& node, const TreeNode& left, const TreeNode& right) {
+    node.low = left.low;
+    node.high = left.high;
+    include(node, right.low, right.high);
+  }
+
+  static void include(TreeNode& node, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+    for (int axis = 0; axis < 3; ++axis) {
+      node.low[axis] = std::min(node.low[axis], low[axis]);
+      node.high[axis] = std::max(node.high[axis], high[axis]);
+    }
+  }
+
+  static Eigen::Vector3d joined(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return a.dot(b) < 0 ? Eigen::Vector3d(a - b) : Eigen::Vector3d(a + b);
+  }
+
+  /// Slab across `facing`. Any axis gives a valid bound; this one is good for what is nearly flat.
+  void fit_slab(TreeNode& node, const Eigen::Vector3d& facing, std::int32_t first, std::int32_t last) const {
     node.normal.fill(0);
     node.slab_low = node.slab_high = 0;
     if (last - first > largest_slab) return;
-    const Eigen::Vector3d axis = dominant_axis(facing);
+    const Eigen::Vector3d axis = facing.stableNormalized();
     if (!axis.allFinite() || axis.isZero(0)) return;
-    double low = std::numeric_limits<double>::infinity(), high = -low, magnitude = 0;
-    const auto include = [&](const std::array<double, 3>& point) {
-      const double offset = axis[0] * point[0] + axis[1] * point[1] + axis[2] * point[2];
-      low = std::min(low, offset);
-      high = std::max(high, offset);
-      for (const double coordinate : point) magnitude = std::max(magnitude, std::abs(coordinate));
-    };
-    for (std::int32_t t = first; t < last; ++t) {
-      const Piece& piece = pieces_[t];
-      if (piece.polygon < 0) {
-        for (const auto& corner : triangles_[piece.triangle].corners) include(corner);
-      } else {
-        const PiecePolygon& polygon = cut_.polygons[piece.polygon];
-        std::for_each_n(polygon.points.begin(), polygon.point_count, include);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (std::int32_t t = first; t < last; ++t)
+      for (const auto& corner : data_.triangles[t].corners) {
+        const double offset = axis[0] * corner[0] + axis[1] * corner[1] + axis[2] * corner[2];
+        low = std::min(low, offset);
+        high = std::max(high, offset);
       }
-    }
-    const double rounding = 16 * unit_roundoff * magnitude;
     node.normal = {axis[0], axis[1], axis[2]};
-    node.slab_low = low - rounding;
-    node.slab_high = high + rounding;
+    node.slab_low = low - rounding_;
+    node.slab_high = high + rounding_;
   }
 
   static Eigen::Vector3d area_normal(const TreeTriangle& triangle) {
@@ -127,35 +146,28 @@ class TreeBuilder {
     return (b - a).cross(c - a);
   }
 
-  /// Dominant eigenvector by squaring the matrix: good enough for a bound, whose validity does not depend on
-  /// it.
-  static Eigen::Vector3d dominant_axis(Eigen::Matrix3d matrix) {
-    for (int step = 0; step < 6; ++step) {
-      const double scale = matrix.cwiseAbs().maxCoeff();
-      if (!(scale > 0) || !std::isfinite(scale)) return Eigen::Vector3d::Zero();
-      matrix /= scale;
-      matrix = (matrix * matrix).eval();
-    }
-    Eigen::Index column = 0;
-    matrix.diagonal().maxCoeff(&column);
-    return matrix.col(column).normalized();
-  }
-
-  void split(const TreeNode& node, std::int32_t first, std::int32_t middle, std::int32_t last) {
+  /// In the middle along the axis along which the centres are spread most.
+  void split(std::int32_t first, std::int32_t middle, std::int32_t last) {
+    std::array<float, 3> low = places_[first].centre, high = low;
+    for (std::int32_t t = first; t < last; ++t)
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::min(low[axis], places_[t].centre[axis]);
+        high[axis] = std::max(high[axis], places_[t].centre[axis]);
+      }
     int axis = 0;
     for (int other = 1; other < 3; ++other)
-      if (node.high[other] - node.low[other] > node.high[axis] - node.low[axis]) axis = other;
-    std::nth_element(pieces_.begin() + first, pieces_.begin() + middle, pieces_.begin() + last,
-                     [axis](const Piece& a, const Piece& b) {
-                       const double ca = a.low[axis] + a.high[axis], cb = b.low[axis] + b.high[axis];
-                       return ca != cb ? ca < cb : a.triangle < b.triangle;
+      if (high[other] - low[other] > high[axis] - low[axis]) axis = other;
+    std::nth_element(places_.begin() + first, places_.begin() + middle, places_.begin() + last,
+                     [axis](const Place& a, const Place& b) {
+                       return a.centre[axis] != b.centre[axis] ? a.centre[axis] < b.centre[axis]
+                                                               : a.triangle < b.triangle;
                      });
   }
 
-  const Pieces& cut_;
-  std::vector<Piece>& pieces_;  ///< those of `cut_`, reordered
   const std::vector<TreeTriangle>& triangles_;
-  std::vector<TreeNode>& nodes_;
+  SeparationTree::Data& data_;
+  double rounding_;            ///< of an offset from the origin along a unit vector
+  std::vector<Place> places_;  ///< in tree order
 };
 
 /// A number that can be subtracted from everything in [low, high] without rounding, close to it if it is far
@@ -199,8 +211,7 @@ SeparationTree::Data build(std::vector<TreeTriangle> triangles, const std::array
         corner[axis] -= origin[axis];
         data.magnitude = std::max(data.magnitude, std::abs(corner[axis]));
       }
-  Pieces pieces = cut_into_pieces(triangles);
-  TreeBuilder(pieces, triangles, data);
+  TreeBuilder(triangles, data);
   return data;
 }
 
@@ -214,14 +225,10 @@ TreeTriangle SeparationTree::Data::in_file_axes(std::int32_t triangle) const {
 }
 
 SeparationTree::Data SeparationTree::Data::in_file_axes() const {
-  // Triangles that were cut occur several times.
-  std::vector<TreeTriangle> whole;
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    const auto index = static_cast<std::size_t>(triangles[t].index);
-    if (index >= whole.size()) whole.resize(index + 1);
-    whole[index] = in_file_axes(static_cast<std::int32_t>(t));
-  }
-  return build(std::move(whole), {});
+  std::vector<TreeTriangle> in_order(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    in_order[static_cast<std::size_t>(triangles[t].index)] = in_file_axes(static_cast<std::int32_t>(t));
+  return build(std::move(in_order), {});
 }
 
 SeparationTree::SeparationTree(const Shape& shape) {

@@ -11,7 +11,7 @@ namespace stackabilization {
 /// Corners of one triangle, relative to the origin of the tree, and where it came from.
 struct TreeTriangle {
   std::array<std::array<double, 3>, 3> corners;  ///< by corner, then coordinate; model units
-  std::int32_t index;                            ///< row of Shape::triangles; several pieces may share one
+  std::int32_t index;                            ///< row of Shape::triangles
 };
 
 /// Axis-aligned box plus one slab  slab_low <= normal . p <= slab_high  holding all points of the node.
