@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <numbers>
 #include <string>
@@ -288,6 +290,36 @@ TEST_CASE("legs lean on their ground although their feet are no images of each o
     CHECK(std::abs(moves(0, 1)) == Approx(0.7).margin(1e-3));
     CHECK(moves.row(23).norm() < 0.05);
   }
+}
+
+TEST_CASE("rungs go up their legs, the seat stays as thick as it is") {
+  const std::filesystem::path file =
+      std::filesystem::path(STACKABILIZATION_SOURCE_DIR) / "data/models/stool.obj";
+  const ControllerModel model(analyse_structure(read_shape(file)));
+  const auto named = [&](const std::string& name) {
+    const std::vector<Part>& parts = model.rest().structure.parts;
+    const auto found =
+        std::find_if(parts.begin(), parts.end(), [&](const Part& part) { return part.name == name; });
+    return static_cast<int>(found - parts.begin());
+  };
+  DeformationConstraints constraints;
+  constraints.keep_extent = Direction(0, 0, 1);
+  constraints.extent_ends = ExtentEnds::fixed;
+  const double up = 0.04;
+  const DeformationResult result =
+      model.deformed({{{HandleKind::part, named("rung_left"), 0}, Move{{0, 0, up}}}}, constraints);
+  REQUIRE_FALSE(result.refusal);
+  const auto change = [&](const char* part, Eigen::Index section) {
+    const GeneralizedCylinder &rest = cylinder(model.rest_primitives(), named(part)),
+                              &now = cylinder(result.primitives, named(part));
+    return (now.centres.row(section) - rest.centres.row(section)).norm();
+  };
+  CHECK(change("rung_left", 0) == Approx(up).epsilon(0.1));
+  for (const Eigen::Index end : {0, 23}) {
+    CHECK(change("seat", end) < 0.1 * up);
+    CHECK(change("leg_front_left", end) < 0.25 * up);
+  }
+  CHECK(change("leg_front_left", 12) > 0.5 * up);
 }
 
 TEST_CASE("a screw goes along with its board, it is not stretched to where that was") {

@@ -9,6 +9,7 @@ namespace stackabilization::detail {
 /// Length of columns of corrections relative to that of affine motions, whose price is 1: a price of 1 over
 /// their square.
 inline constexpr double bending_length = 0.3;
+inline constexpr double sliding_length = 1;
 inline constexpr double corner_length = 0.1;
 inline constexpr double radius_length = 0.1;
 

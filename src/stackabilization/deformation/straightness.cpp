@@ -130,16 +130,17 @@ Eigen::MatrixXd StraightCorrections::columns(const GeneralizedCylinder& now) con
   const Eigen::Vector3d chord = chord_of(now), along = chord.normalized();
   const Eigen::VectorXd places = shares_of_chord(now);
   const Eigen::MatrixXd linear = linear_functions(places);
+  // As of cuboids, equal strains have equal prices: a disc is not to grow thin, nor a slender leg thick.
+  const double proportion = 2 * now.radii.mean() / chord.norm();
+  const double flatness = std::min(1.0, 1 / proportion), slenderness = std::min(1.0, proportion);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(4 * n, 6 + slides + 2);
   for (Eigen::Index i = 0; i < n; ++i) {
-    for (int f = 0; f < 2; ++f)
-      columns.block<3, 3>(3 * i, 3 * f) = linear(i, f) * Eigen::Matrix3d::Identity();
-    columns.block(3 * i, 6, 3, slides) = bending_length * along * slides_.row(i);
+    columns.block<3, 3>(3 * i, 0) = linear(i, 0) * Eigen::Matrix3d::Identity();
+    columns.block<3, 3>(3 * i, 3) = flatness * linear(i, 1) * Eigen::Matrix3d::Identity();
+    columns.block(3 * i, 6, 3, slides) = sliding_length * along * slides_.row(i);
     columns.block(3 * n + i, 6, 1, slides) =
-        bending_length * slope_at(places(i)) / chord.norm() * slides_.row(i);
+        sliding_length * slope_at(places(i)) / chord.norm() * slides_.row(i);
   }
-  // As of cuboids, equal strains have equal prices: a slender leg is not to grow thick.
-  const double slenderness = std::min(1.0, 2 * now.radii.mean() / chord.norm());
   columns.bottomRightCorner(n, 2) = slenderness * radius_length * linear;
   columns.rightCols(columns.cols() - 3) *= strain_;
   return columns;
