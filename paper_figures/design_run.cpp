@@ -1,5 +1,8 @@
 #include "paper_figures/design_run.h"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <utility>
 
 #include "paper_figures/shown.h"
@@ -90,6 +93,17 @@ DesignRun design_run(StructuredShape rest, const DesignTask& task) {
   run.checker = std::make_unique<RequirementChecker>(*run.space, requirements);
   run.result = improve(*run.checker, task.options);
   return run;
+}
+
+std::vector<DesignRun> design_runs(const std::vector<DesignTask>& tasks, const ModelFolder& models) {
+  std::vector<StructuredShape> shapes;
+  for (const DesignTask& task : tasks) shapes.push_back(structured_shape(task, models));
+  std::vector<DesignRun> runs(tasks.size());
+  tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t k) {
+    // A thread that waits for part of one task is not to begin another.
+    tbb::this_task_arena::isolate([&] { runs[k] = design_run(std::move(shapes[k]), tasks[k]); });
+  });
+  return runs;
 }
 
 const Candidate& DesignRun::best() const {

@@ -50,7 +50,18 @@ StructuredShape structured_shape(const DesignTask& task, const ModelFolder& mode
 /// Searches. Throws InputError as the model demands.
 DesignRun design_run(const DesignTask& task, const ModelFolder& models);
 
-/// The same for a shape that was made otherwise, such as a piece of another.
+/// Several at once: each of them has its own results, whatever the others do.
+std::vector<DesignRun> design_runs(const std::vector<DesignTask>& tasks, const ModelFolder& models);
+
+/// The tasks of objects that have one each.
+template <class Object>
+std::vector<DesignTask> tasks_of(const std::vector<Object>& objects) {
+  std::vector<DesignTask> tasks;
+  for (const Object& object : objects) tasks.push_back(object.task);
+  return tasks;
+}
+
+/// The same as design_run for a shape that was made otherwise, such as a piece of another.
 DesignRun design_run(StructuredShape rest, const DesignTask& task);
 
 /// The shape at rest and the best design, measured along the direction of the task.

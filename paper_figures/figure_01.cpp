@@ -38,8 +38,10 @@ FigureResult make(const Options& options, const ModelFolder& models) {
   PanelRow row;
   row.height = 0.62;
   bool reached = true, kept = true, lower = true;
-  for (const NamedTask& object : options.objects) {
-    const DesignRun run = design_run(object.task, models);
+  const std::vector<DesignRun> runs = design_runs(tasks_of(options.objects), models);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const NamedTask& object = options.objects[k];
+    const DesignRun& run = runs[k];
     const ImprovedShape shapes = improved_shape(run);
     const double before = stack_height(shapes.before, options.copies),
                  after = stack_height(shapes.after, options.copies);

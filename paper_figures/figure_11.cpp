@@ -55,13 +55,13 @@ FigureResult make(const Options& options, const ModelFolder& models) {
     alone.panels.push_back({stack_panel(shape, 1, colour, options.camera), name, {}, 1});
     stacks.panels.push_back({stack_panel(shape, options.copies, colour, options.camera), "", lines, 1});
   };
-  std::vector<DesignRun> runs;
+  const std::vector<DesignRun> runs = design_runs(tasks_of(options.variants), models);
   bool reached = true, kept = true;
-  for (const Variant& variant : options.variants) {
-    runs.push_back(design_run(variant.task, models));
-    const DesignRun& run = runs.back();
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const Variant& variant = options.variants[k];
+    const DesignRun& run = runs[k];
     const ImprovedShape shapes = improved_shape(run);
-    if (runs.size() == 1) show("original", shapes.before, palette::input, captions(shapes.before));
+    if (k == 0) show("original", shapes.before, palette::input, captions(shapes.before));
     std::vector<std::string> lines = captions(shapes.after);
     lines.push_back("D " + ratio_text(run.best().energy.distortion.total()));
     show(variant.name, shapes.after, palette::output, lines);

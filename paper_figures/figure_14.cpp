@@ -52,8 +52,10 @@ FigureResult make(const Options& options, const ModelFolder& models) {
   std::vector<Stackability> before, after;
   std::vector<std::string> parts, wanted = whole.shape.part_names;
   bool reached = true;
-  for (const Piece& piece : options.pieces) {
-    const DesignRun run = design_run(piece.task, models);
+  const std::vector<DesignRun> runs = design_runs(tasks_of(options.pieces), models);
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const Piece& piece = options.pieces[k];
+    const DesignRun& run = runs[k];
     const ImprovedShape shapes = improved_shape(run);
     row.panels.push_back(
         {stacks_panel(shapes, options.copies, options.camera), piece.name, {change_text(shapes)}, 1});

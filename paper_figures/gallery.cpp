@@ -30,9 +30,10 @@ FigureResult make(const Options& options, const ModelFolder& models) {
   FigureResult result;
   std::vector<PanelRow> rows;
   bool reached = true, kept = true, better = true;
+  const std::vector<DesignRun> runs = design_runs(tasks_of(options.objects), models);
   for (std::size_t k = 0; k < options.objects.size(); ++k) {
     const NamedTask& object = options.objects[k];
-    const DesignRun run = design_run(object.task, models);
+    const DesignRun& run = runs[k];
     const ImprovedShape shapes = improved_shape(run);
     reached = reached && run.reached();
     kept = kept && keeps_height(shapes);
