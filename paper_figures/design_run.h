@@ -50,7 +50,7 @@ StructuredShape structured_shape(const DesignTask& task, const ModelFolder& mode
 /// Searches. Throws InputError as the model demands.
 DesignRun design_run(const DesignTask& task, const ModelFolder& models);
 
-/// Several at once: each of them has its own results, whatever the others do.
+/// The same for several, side by side; each result is what it would be alone. Throws as design_run.
 std::vector<DesignRun> design_runs(const std::vector<DesignTask>& tasks, const ModelFolder& models);
 
 /// The tasks of objects that have one each.

@@ -10,6 +10,7 @@
 #include "stackabilization/deformation/controller_model.h"
 #include "stackabilization/deformation/relation_residual.h"
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/part_names.h"
 #include "stackabilization/shape/read.h"
 #include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
@@ -296,12 +297,7 @@ TEST_CASE("rungs go up their legs, the seat stays as thick as it is") {
   const std::filesystem::path file =
       std::filesystem::path(STACKABILIZATION_SOURCE_DIR) / "data/models/stool.obj";
   const ControllerModel model(analyse_structure(read_shape(file)));
-  const auto named = [&](const std::string& name) {
-    const std::vector<Part>& parts = model.rest().structure.parts;
-    const auto found =
-        std::find_if(parts.begin(), parts.end(), [&](const Part& part) { return part.name == name; });
-    return static_cast<int>(found - parts.begin());
-  };
+  const auto named = [&](const std::string& name) { return parts_named(model.rest().shape, {name}).front(); };
   DeformationConstraints constraints;
   constraints.keep_extent = Direction(0, 0, 1);
   constraints.extent_ends = ExtentEnds::fixed;

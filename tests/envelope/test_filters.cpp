@@ -152,3 +152,17 @@ TEST_CASE("the bound of a pair of nodes holds every pair below it") {
     }
   }
 }
+
+TEST_CASE("a tree is the same in any unit") {
+  const Shape shape = soup(40, 0);
+  const auto order = [](const Shape& of) {
+    std::vector<std::int32_t> indices;
+    const SeparationTree tree(of);
+    for (const TreeTriangle& triangle : tree.data().triangles) indices.push_back(triangle.index);
+    return indices;
+  };
+  for (const int exponent : {-190, -60, 60, 190}) {
+    const double unit = std::ldexp(1.0, exponent);
+    CHECK(order(stretched(shape, {unit, unit, unit})) == order(shape));
+  }
+}

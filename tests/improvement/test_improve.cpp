@@ -22,9 +22,10 @@ RequirementChecker checker(double target) {
   return {space, requirements};
 }
 
-Improvement improved(ImprovementPreset preset, double target, int evaluations = 60) {
+Improvement improved(ImprovementPreset preset, double target, int evaluations = 60, int solutions = 1) {
   ImprovementOptions options;
   options.preset = preset;
+  options.search.solutions = solutions;
   options.search.seconds = 1e6;
   options.search.expansions = 20;
   options.search.cone_degrees = 0;
@@ -59,6 +60,14 @@ TEST_CASE("the refined preset comes to the least change of a cup") {
   CHECK(distortion(refined) == Approx((top - 1) / 8).epsilon(1e-3));
   CHECK(refined.solutions.front().measured.value <= target + tolerance::target);
   CHECK(distortion(improved(ImprovementPreset::paper, target)) > 1.2 * distortion(refined));
+}
+
+TEST_CASE("one solution asked for is the best of three") {
+  const Improvement one = improved(ImprovementPreset::refined, 0.7);
+  const Improvement three = improved(ImprovementPreset::refined, 0.7, 60, 3);
+  REQUIRE(one.solutions.size() == 1);
+  REQUIRE(!three.solutions.empty());
+  CHECK(distortion(one) == distortion(three));
 }
 
 TEST_CASE("improving gives the same bytes for any number of threads") {

@@ -21,10 +21,9 @@ using namespace detail;
 constexpr std::int32_t largest_slab = 256;
 constexpr std::int32_t smallest_task = 8192;
 
-/// Where the box of a triangle has its centre, for splitting: single precision says enough, and little is
-/// moved about.
+/// Where the box of a triangle has its centre, for splitting: little that is moved about.
 struct Place {
-  std::array<float, 3> centre;
+  std::array<double, 3> centre;
   std::int32_t triangle;
 };
 
@@ -49,7 +48,7 @@ class TreeBuilder {
     const auto& [a, b, c] = triangle.corners;
     for (int axis = 0; axis < 3; ++axis) {
       const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
-      place.centre[axis] = static_cast<float>(low / 2 + high / 2);
+      place.centre[axis] = low / 2 + high / 2;
     }
     return place;
   }
@@ -148,7 +147,7 @@ class TreeBuilder {
 
   /// In the middle along the axis along which the centres are spread most.
   void split(std::int32_t first, std::int32_t middle, std::int32_t last) {
-    std::array<float, 3> low = places_[first].centre, high = low;
+    std::array<double, 3> low = places_[first].centre, high = low;
     for (std::int32_t t = first; t < last; ++t)
       for (int axis = 0; axis < 3; ++axis) {
         low[axis] = std::min(low[axis], places_[t].centre[axis]);
@@ -201,7 +200,7 @@ std::array<double, 3> exact_origin(const std::vector<TreeTriangle>& triangles) {
   return {exact_origin(low[0], high[0]), exact_origin(low[1], high[1]), exact_origin(low[2], high[2])};
 }
 
-/// Takes triangles in the file's axes.
+/// Takes triangles in the file's axes, each in the row that is its index.
 SeparationTree::Data build(std::vector<TreeTriangle> triangles, const std::array<double, 3>& origin) {
   SeparationTree::Data data;
   data.origin = origin;
