@@ -1,6 +1,7 @@
 #include "paper_figures/page.h"
 
 #include <algorithm>
+#include <cmath>
 #include <system_error>
 #include <vector>
 
@@ -21,11 +22,13 @@ struct Entry {
   std::string seconds;  ///< of the run, or "?"
 };
 
-/// Five digits for people; all of them are in the JSON.
+/// Five digits for people, and 0 where only rounding is left; all of them are in the JSON.
 std::string value_text(const Json& value) {
+  constexpr double rounding = 1e-12;
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_number_float()) return value.dump();
-  return number_text(value.get<double>());
+  const auto number = value.get<double>();
+  return number_text(std::abs(number) < rounding ? 0 : number);
 }
 
 Json read_json(const std::filesystem::path& path) {
@@ -117,11 +120,10 @@ std::string figures_page(const PageOptions& options) {
       "# The figures of the paper\n\n"
       "Written by `paper_figures --page`; do not edit. Each figure is made by one command from one input,\n"
       "`figure_NN.json`, which also holds the words below; `scripts/figures.sh` makes them all. Numbers are\n"
-      "rounded here; `figure_NN.numbers.json` beside a picture has all digits. S is stackability (Eq. 3);\n"
-      "boxes are minimal oriented ones unless said otherwise. Yellow is a shape as given, green one that "
-      "was\n"
-      "improved; blue is the upper envelope, orange the lower one and contact parts, red where copies touch\n"
-      "and handles that were moved.\n\n";
+      "rounded here, to 0 below 1e-12; `figure_NN.numbers.json` beside a picture has all digits. S is\n"
+      "stackability (Eq. 3); boxes are minimal oriented ones unless said otherwise. Yellow is a shape as\n"
+      "given, green one that was improved; blue is the upper envelope, orange the lower one and contact\n"
+      "parts, red where copies touch and handles that were moved.\n\n";
   try {
     text += summary_table(entries);
     for (const Entry& entry : entries) text.append("\n").append(section(entry));
