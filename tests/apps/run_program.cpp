@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "stackabilization/shape/write.h"
+#include "support/catch.h"
 
 namespace stackabilization::apps {
 
@@ -72,6 +73,21 @@ bool is_one_sentence(const std::string& text) {
   constexpr std::size_t shortest = 30;
   return text.starts_with("stackabilize: ") && text.ends_with('\n') &&
          std::count(text.begin(), text.end(), '\n') == 1 && text.size() > shortest;
+}
+
+void check_refused(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int status,
+                   const std::string& words) {
+  std::string line = "stackabilize";
+  for (const std::string& argument : arguments) line += " " + argument;
+  INFO(line);
+  const std::vector<std::string> before = folder.names();
+  const Outcome outcome = run_program(arguments);
+  INFO(outcome.err);
+  CHECK(outcome.status == status);
+  CHECK(outcome.out.empty());
+  CHECK(is_one_sentence(outcome.err));
+  CHECK(outcome.err.find(words) != std::string::npos);
+  CHECK(folder.names() == before);
 }
 
 std::string bytes_of(const std::string& path) {

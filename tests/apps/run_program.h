@@ -46,6 +46,11 @@ Outcome run_program(const std::vector<std::string>& arguments, const std::string
 /// Is it one sentence of the program, on one line?
 bool is_one_sentence(const std::string& text);
 
+/// Runs it and checks that it ends with `status`, with nothing on standard output and one sentence that
+/// contains `words`, and that `folder` has the files that it had.
+void check_refused(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int status,
+                   const std::string& words);
+
 std::string bytes_of(const std::string& path);
 
 }  // namespace stackabilization::apps

@@ -9,20 +9,11 @@ using namespace stackabilization::apps;
 
 namespace {
 
-/// Status 3, one sentence that names the file, nothing on standard output, no result written.
-void check_unusable(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+/// Status 3, one sentence that names the file, no result written.
+void check_unusable(const TemporaryFolder& folder, std::vector<std::string> arguments,
                     const std::string& name) {
-  INFO(name);
-  const std::string result = folder / "result.json";
-  std::vector<std::string> all = arguments;
-  all.insert(all.end(), {"--json", result});
-  const Outcome outcome = run_program(all);
-  INFO(outcome.err);
-  CHECK(outcome.status == 3);
-  CHECK(outcome.out.empty());
-  CHECK(is_one_sentence(outcome.err));
-  CHECK(outcome.err.find(name) != std::string::npos);
-  CHECK(!std::filesystem::exists(result));
+  arguments.insert(arguments.end(), {"--json", folder / "result.json"});
+  check_refused(folder, arguments, 3, name);
 }
 
 std::string with_zeros(std::string text, std::size_t count) {

@@ -238,20 +238,8 @@ TEST_CASE("wrong uses of deform and structure end with 2 and name the mistake") 
       {{"structure", folder.table, "--grp", project, "--json", project}, "replace the relations"},
       {{"structure", folder.table, "--ctrl", project, "--graph", project}, "replace the primitives"},
   };
-  const std::vector<std::string> before = folder.names();
   const std::string bytes = bytes_of(project);
-  for (const auto& [arguments, words] : cases) {
-    std::string line;
-    for (const std::string& argument : arguments) line += " " + argument;
-    INFO("stackabilize" << line);
-    const Outcome outcome = run_program(arguments);
-    INFO(outcome.err);
-    CHECK(outcome.status == 2);
-    CHECK(outcome.out.empty());
-    CHECK(is_one_sentence(outcome.err));
-    CHECK(outcome.err.find(words) != std::string::npos);
-  }
-  CHECK(folder.names() == before);
+  for (const auto& [arguments, words] : cases) check_refused(folder, arguments, 2, words);
   CHECK(bytes_of(project) == bytes);
 }
 
@@ -261,13 +249,7 @@ TEST_CASE("projects that are damaged end with 3 and one sentence") {
   for (std::size_t k = 1; k < 12; ++k) {
     const std::string project = folder.file("cut.json", good.substr(0, good.size() * k / 12));
     for (const Arguments& arguments :
-         {Arguments{"structure", project}, Arguments{"deform", project, "--edit", "top move 0 0 0"}}) {
-      const Outcome outcome = run_program(arguments);
-      INFO(outcome.err);
-      CHECK(outcome.status == 3);
-      CHECK(outcome.out.empty());
-      CHECK(is_one_sentence(outcome.err));
-      CHECK(outcome.err.find("cut.json") != std::string::npos);
-    }
+         {Arguments{"structure", project}, Arguments{"deform", project, "--edit", "top move 0 0 0"}})
+      check_refused(folder, arguments, 3, "cut.json");
   }
 }

@@ -321,10 +321,7 @@ TEST_CASE("a resumed run starts anew where there is nothing, and refuses the sta
   CHECK(run_program(joined(folder.more(), {"--resume", "--quiet"})).err.empty());
   for (const std::string state : {"", "{}", "state", "[1, 2"}) {
     CHECK(!folder.file("out/search-state.json", state).empty());
-    const Outcome outcome = run_program(joined(folder.more(), {"--resume"}));
-    CHECK(outcome.status == 3);
-    CHECK(is_one_sentence(outcome.err));
-    CHECK(outcome.err.find("search-state.json") != std::string::npos);
+    check_refused(folder, joined(folder.more(), {"--resume"}), 3, "search-state.json");
   }
 }
 
@@ -375,19 +372,7 @@ TEST_CASE("wrong uses of improve end with 2, name the mistake and leave no folde
       {{"improve", cup, "--target", "0.5", "-o", "-"}, "folder"},
       {{"improve", cup, "--target", "0.5", "-o", ""}, "folder"},
   };
-  const std::vector<std::string> before = folder.names();
-  for (const auto& [arguments, words] : cases) {
-    std::string line;
-    for (const std::string& argument : arguments) line += " " + argument;
-    INFO("stackabilize" << line);
-    const Outcome outcome = run_program(arguments);
-    INFO(outcome.err);
-    CHECK(outcome.status == 2);
-    CHECK(outcome.out.empty());
-    CHECK(is_one_sentence(outcome.err));
-    CHECK(outcome.err.find(words) != std::string::npos);
-  }
-  CHECK(folder.names() == before);
+  for (const auto& [arguments, words] : cases) check_refused(folder, arguments, 2, words);
 }
 
 TEST_CASE("improve replaces no file that it reads") {

@@ -16,13 +16,8 @@ TEST_CASE("a program without rendering says so instead of drawing") {
       {"suggest", box, "--pictures", folder / "ideas"},
       {"structure", box, "--picture", folder / "box.png"},
       {"deform", box, "--edit", "shape scale 2", "--picture", folder / "box.png"}};
-  for (const std::vector<std::string>& arguments : cases) {
-    const Outcome outcome = run_program(arguments);
-    CHECK(outcome.status == 2);
-    CHECK(is_one_sentence(outcome.err));
-    CHECK(outcome.err.find("without rendering") != std::string::npos);
-  }
-  CHECK(folder.names() == std::vector<std::string>{"box.obj"});
+  for (const std::vector<std::string>& arguments : cases)
+    check_refused(folder, arguments, 2, "without rendering");
 }
 
 TEST_CASE("solutions are written without pictures, and the page says so") {
