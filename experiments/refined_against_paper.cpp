@@ -129,11 +129,16 @@ class Rows {
   Table& table_;
 };
 
+/// What one measurement says is S another may miss by a rounding.
+double safely(double reached) {
+  return reached - tolerance::stackability;
+}
+
 /// Half of the way to the best that the paper's preset meets.
 double target_in_reach(const DesignSpace& space, const Settings& settings) {
   constexpr double out_of_reach = 0.99;
   const Run paper = run(space, ImprovementPreset::paper, out_of_reach, settings);
-  return (paper.improvement.before.measured.value + paper.best().measured.value) / 2;
+  return safely((paper.improvement.before.measured.value + paper.best().measured.value) / 2);
 }
 
 void compare(const Task& task, const Settings& settings, Table& table) {
@@ -142,10 +147,9 @@ void compare(const Task& task, const Settings& settings, Table& table) {
   if (targets.empty()) targets = {target_in_reach(rows.space(), settings)};
   for (const double target : targets) {
     const Run paper = run(rows.space(), ImprovementPreset::paper, target, settings);
-    // What one measurement says is S another may miss by a rounding.
-    const double reached = paper.best().measured.value - tolerance::stackability;
     rows.add(paper);
-    rows.add(run(rows.space(), ImprovementPreset::refined, paper.reached() ? reached : target, settings));
+    const double reached = paper.reached() ? safely(paper.best().measured.value) : target;
+    rows.add(run(rows.space(), ImprovementPreset::refined, reached, settings));
   }
 }
 
