@@ -30,6 +30,10 @@ double effort_per_box(const HullSupport& hull) {
 /// Intervals of an arc narrower than this are searched by golden section, radians.
 constexpr double narrow = 0.01;
 
+/// So far from its end, in radians, such an interval is probed for the slope there: too near for another kink
+/// to lie between, and far enough for rounding to hide no slope that matters over the whole interval.
+constexpr double beside = 3e-9;
+
 /// The turn from one hull face normal to a neighbouring one.
 struct Arc {
   Eigen::Vector3d start, side;
@@ -103,6 +107,7 @@ class MinimalBoxSearch {
   void visit_faces();
   void visit_arcs();
   void split(const Interval& interval);
+  bool least_at_an_end(const Interval& interval);
   void minimise_inside(const Interval& interval);
 
   const HullSupport& hull_;
@@ -145,10 +150,20 @@ void MinimalBoxSearch::split(const Interval& interval) {
   push(interval.arc, middle, interval.high);
 }
 
+/// Do boxes grow from the end with the smaller one on? Then it is the minimum of the interval.
+bool MinimalBoxSearch::least_at_an_end(const Interval& interval) {
+  if (interval.width() < 2 * beside) return false;
+  const bool at_low = interval.low.volume <= interval.high.volume;
+  const double angle = at_low ? interval.low.angle + beside : interval.high.angle - beside;
+  const double volume = visit(arcs_[interval.arc].normal(angle), angle).volume;
+  return volume >= (at_low ? interval.low : interval.high).volume;
+}
+
 /// Golden section: it needs no derivatives, and the minimum is often a kink where the hull touches with
 /// another corner.
 void MinimalBoxSearch::minimise_inside(const Interval& interval) {
   constexpr double golden = 0.6180339887498949;
+  if (least_at_an_end(interval)) return;
   const Arc& arc = arcs_[interval.arc];
   double low = interval.low.angle, high = interval.high.angle;
   const auto inner = [&](double fraction) {
