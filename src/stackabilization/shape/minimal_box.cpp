@@ -32,7 +32,7 @@ constexpr double narrow = 0.01;
 
 /// So far from its end, in radians, such an interval is probed for the slope there: too near for another kink
 /// to lie between, and far enough for rounding to hide no slope that matters over the whole interval.
-constexpr double beside = 3e-9;
+constexpr double beside = 3 * tolerance::relative;
 
 /// The turn from one hull face normal to a neighbouring one.
 struct Arc {
