@@ -30,8 +30,9 @@ double effort_per_box(const HullSupport& hull) {
 /// Intervals of an arc narrower than this are searched by golden section, radians.
 constexpr double narrow = 0.01;
 
-/// So far from its end, in radians, such an interval is probed for the slope there: too near for another kink
-/// to lie between, and far enough for rounding to hide no slope that matters over the whole interval.
+/// So far from its end, in radians, such an interval is probed for the slope there: a kink that lies between
+/// hides little more than the accuracy of boxes, and a slope that rounding hides makes little over the
+/// interval.
 constexpr double beside = 3 * tolerance::relative;
 
 /// The turn from one hull face normal to a neighbouring one.
