@@ -163,3 +163,16 @@ TEST_CASE("run_all reports what fails and goes on") {
   CHECK(outcome.out.find("deformation_speed: done") != std::string::npos);
   CHECK(outcome.out.find("scaling: done") != std::string::npos);
 }
+
+#ifdef COMMAND_COSTS_BUILT
+TEST_CASE("the costs of every command are listed for every model") {
+  const Outcome outcome = run("command_costs", {"--largest-parts", "10", "--largest-triangles", "1000"});
+  CHECK(outcome.status == 0);
+  for (const std::string model : {"cubes,10,120,", "rack,10,120,", "coincident cubes,10,120,", "cup,1,968,"})
+    for (const std::string command : {"inspect", "measure", "search", "map", "stack", "validate", "structure",
+                                      "deform", "suggest", "improve"}) {
+      INFO(model + command);
+      CHECK(outcome.out.find("\n" + model + command + ",") != std::string::npos);
+    }
+}
+#endif
