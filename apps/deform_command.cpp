@@ -14,11 +14,10 @@ namespace stackabilization::apps {
 namespace {
 
 void check(const DeformCommandOptions& options) {
-  check_outputs(options.common,
-                {{"--output", options.output, OutputKind::mesh},
-                 {"--picture", options.picture, OutputKind::picture},
-                 {"--save", options.save, OutputKind::project}},
-                analysis_inputs(options.analysis));
+  check_outputs(options.common, {{{"--output", options.output, OutputKind::mesh},
+                                  {"--picture", options.picture, OutputKind::picture},
+                                  {"--save", options.save, OutputKind::project}},
+                                 analysis_inputs(options.analysis)});
   if (options.picture) require_rendering();
   if (options.edits.empty() && !options.list_handles)
     throw UsageError("expected --edit with what to do, or --list-handles");

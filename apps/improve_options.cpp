@@ -112,8 +112,8 @@ void check(const ImproveCommandOptions& options) {
   check_numbers(options);
   check_gap_scaling(options);
   check(options.requirements);
-  check_outputs(options.common, {}, analysis_inputs(options.analysis));
-  check_folder(options);
+  check_outputs(options.common,
+                {{}, analysis_inputs(options.analysis), {{"--output", improve_folder(options)}}});
 }
 
 ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) {

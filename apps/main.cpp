@@ -13,6 +13,8 @@
 #include "apps/interrupt.h"
 #include "apps/version.h"
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/formats/text.h"
+#include "stackabilization/shape/utf8.h"
 
 namespace stackabilization::apps {
 
@@ -43,7 +45,7 @@ int guarded(const std::function<int()>& body) {
   } catch (const Error& error) {
     return complain(error.what(), status_input);
   } catch (const Interrupted& error) {
-    return complain(error.what(), status_interrupted);
+    return complain(error.what(), status_interrupted());
   } catch (const std::bad_alloc&) {
     return complain("this takes more memory than there is", status_input);
   } catch (const std::exception& error) {
@@ -61,7 +63,15 @@ std::string unknown_command(const CLI::App& program) {
   return "expected one of the commands " + known + "; " + found;
 }
 
+/// Names of files and parts go on into JSON, which holds UTF-8 only.
+void check_encoding(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i)
+    if (!is_utf8(argv[i]))
+      throw UsageError("argument " + std::to_string(i) + " expects UTF-8, found " + in_quotes(argv[i]));
+}
+
 int parse_and_run(int argc, char** argv) {
+  check_encoding(argc, argv);
   CLI::App program("Measure exactly how well 3D shapes stack, and find out how to stack them best.",
                    "stackabilize");
   program.set_version_flag("--version", version_text(), "Print the version and exit");

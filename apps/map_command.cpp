@@ -98,7 +98,7 @@ std::string map_text(const Model& model, const StackabilityMap& map, const Summa
 int run(const CLI::App& command, const Options& options) {
   const Stopwatch watch;
   check_outputs(options.common,
-                {{"--output", options.table}, {"--picture", options.picture, OutputKind::picture}});
+                {{{"--output", options.table}, {"--picture", options.picture, OutputKind::picture}}});
   if (options.picture) require_rendering();
   const ThreadLimit limit(options.common);
   const Model model = load_model(options.common);

@@ -73,7 +73,7 @@ std::string search_text(const SearchResult& result) {
 
 int run(const CLI::App& command, const Options& options) {
   const Stopwatch watch;
-  check_outputs(options.common, {{"--picture", options.picture, OutputKind::picture}});
+  check_outputs(options.common, {{{"--picture", options.picture, OutputKind::picture}}});
   if (options.picture) require_rendering();
   const SearchOptions search = search_options(options);
   const ThreadLimit limit(options.common);

@@ -34,7 +34,7 @@ int run(const CLI::App& command, const StackCommandOptions& options) {
   add_stack(document, stack, direction);
   add_document_tail(document, options.common, model, watch);
   if (options.output)
-    write_mesh_output(options.common, *options.output, stacked_shape(model.shape, direction, stack.result));
+    write_mesh_output(options.common, *options.output, stacked_copies(model.shape, direction, stack.result));
   if (options.picture)
     write_stack_picture({*options.picture, title_of(model)}, placed_copies(stack, model, direction));
   deliver(options.common, document,

@@ -18,10 +18,9 @@ void refuse(bool given, const char* option, const char* reason) {
 void check(const StackCommandOptions& options) {
   std::vector<InputFile> container;
   if (options.into) container.push_back({"the container", *options.into});
-  check_outputs(
-      options.common,
-      {{"--output", options.output, OutputKind::mesh}, {"--picture", options.picture, OutputKind::picture}},
-      container);
+  check_outputs(options.common, {{{"--output", options.output, OutputKind::mesh},
+                                  {"--picture", options.picture, OutputKind::picture}},
+                                 container});
   if (options.picture) require_rendering();
   refuse(options.picture && options.copy_count() > most_drawn_copies, "--picture",
          "draws at most 200 copies");

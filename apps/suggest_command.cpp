@@ -13,9 +13,11 @@ namespace {
 void check(const SuggestCommandOptions& options) {
   check(options.requirements);
   check_target(options.target);
-  check_outputs(options.common, {{"--save", options.save, OutputKind::project}},
-                analysis_inputs(options.analysis));
-  options.destination();
+  CommandFiles files{{}, analysis_inputs(options.analysis)};
+  const bool updates = !options.save && options.destination();
+  files.outputs = {{updates ? "MODEL" : "--save", options.destination(), OutputKind::project, updates}};
+  if (options.pictures) files.folder = {"--pictures", suggestion_folder(*options.pictures)};
+  check_outputs(options.common, files);
   if (options.pictures) require_rendering();
   if (options.show_history && (options.apply || options.roll_back || options.pictures))
     throw UsageError(

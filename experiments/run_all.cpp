@@ -21,6 +21,7 @@
 #include "common/models.h"
 #include "common/resume.h"
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/file_plan.h"
 
 using namespace stackabilization;
 using namespace stackabilization::experiments;
@@ -153,15 +154,27 @@ bool settle(const Job& job, const fs::path& folder) {
   return status == 0;
 }
 
-void prepare(const fs::path& folder) {
+/// Is it a name of a file that an experiment, or this program for it, writes?
+bool is_written(const std::string& name) {
+  return std::any_of(entries().begin(), entries().end(), [&name](const Entry& entry) {
+    return is_output_of(entry.name, name) || name == entry.name + ".log" || name == entry.name + ".done";
+  });
+}
+
+void prepare(const Settings& settings) {
+  FilePlan plan;
+  for (const fs::path& folder : {settings.paper_data, settings.benchmark})
+    plan.reads_all("the input", folder);
+  for (const ModelFile& model : shipped_models()) plan.reads("the model", model.path);
+  plan.fills("--output", settings.output, is_written);
+  plan.check();
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder) || access(folder.c_str(), W_OK | X_OK) != 0)
-    throw OutputError(folder.string() + ": this folder cannot be made or written to");
+  fs::create_directories(settings.output, error);
+  if (error) throw OutputError(settings.output.string() + " cannot be made: " + error.message());
 }
 
 int run_all(const fs::path& programs, const Settings& settings) {
-  prepare(settings.output);
+  prepare(settings);
   // Fails now rather than once for every experiment.
   if (!settings.paper_data.empty()) paper_models(settings.paper_data);
   if (!settings.benchmark.empty()) files_below(settings.benchmark / "data", ".off");

@@ -91,4 +91,7 @@ BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOpt
 BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
                                    const std::string& state);
 
+/// Is it a text given to `save`, of whatever search and version?
+bool is_search_state(const std::string& text);
+
 }  // namespace stackabilization

@@ -162,3 +162,9 @@ SearchState read_state(const std::string& text, std::uint64_t task, int queues) 
 }
 
 }  // namespace stackabilization::detail
+
+bool stackabilization::is_search_state(const std::string& text) {
+  using nlohmann::json;
+  const json state = json::parse(text, nullptr, false);
+  return state.is_object() && state.value("format", json()) == detail::format_name;
+}

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/formats/text.h"
 #include "stackabilization/shape/tolerances.h"
+#include "stackabilization/shape/utf8.h"
 
 namespace stackabilization {
 
@@ -28,6 +30,7 @@ void validate_parts(const Shape& shape) {
   std::set<std::string> names;
   for (const std::string& name : shape.part_names) {
     if (name.empty()) throw InputError("a part has an empty name");
+    if (!is_utf8(name)) throw InputError("the part name " + in_quotes(name) + " is not UTF-8");
     if (!names.insert(name).second) throw InputError("the part name '" + name + "' occurs twice");
   }
   for (std::size_t t = 0; t < shape.triangle_part.size(); ++t)
