@@ -83,11 +83,13 @@ std::vector<Eigen::Vector3d> directions_of(const ImproveCommandOptions& options,
 }
 
 /// The target that a wish for copies comes to, with the height and the boxes at rest.
-double target_of(const ImproveCommandOptions& options, double room, const Stackability& rest) {
-  const StackPlan plan = plan_within(rest, {*options.copies, room, 0});
+double target_of(const ImproveCommandOptions& options, const Requirements& asked, const Stackability& rest) {
+  const StackPlan plan = plan_within(rest, {asked.room->copies, asked.room->length, asked.clearance});
   if (!plan.possible || *plan.stackability >= 1)
     throw UsageError("--within " + options.within->text + " has no room for " +
                      std::to_string(*options.copies) + " copies of height " + exact_digits(rest.extent) +
+                     (asked.clearance > 0 ? " with " + exact_digits(asked.clearance) + " of air between them"
+                                          : "") +
                      ", however well they stack");
   return *plan.stackability;
 }
@@ -134,7 +136,7 @@ ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& o
     const Direction first(task.directions.front());
     if (task.room) {
       requirements.room = StackRoom{*options.copies, *task.room};
-      requirements.target = target_of(options, *task.room, stackability(rest.shape, first, options.measure));
+      requirements.target = target_of(options, requirements, stackability(rest.shape, first, options.measure));
     }
     task.space = design_space(std::move(rest), {options.kind, first});
     task.checker = std::make_unique<RequirementChecker>(*task.space, requirements);

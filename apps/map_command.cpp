@@ -88,9 +88,9 @@ std::string map_text(const Model& model, const StackabilityMap& map, const Summa
       "Directions", std::to_string(map.samples.size()),
       exact_digits(map.step_degrees) + " degrees apart over the upper hemisphere; opposite ones stack alike");
   table.add("Best", stackability_text(summary.best.stackability),
-            "along " + point_text(summary.best.direction));
+            direction_text(summary.best.direction));
   table.add("Worst", stackability_text(summary.worst.stackability),
-            "along " + point_text(summary.worst.direction));
+            direction_text(summary.worst.direction));
   table.add("Mean", stackability_text(summary.mean), "stackability: 1 saves all the space, 0 none");
   return table.text();
 }

@@ -39,12 +39,6 @@ std::string number_unlike(double value, double other) {
   return number(value, digits);
 }
 
-std::string text_of(const Eigen::Vector3d& v) {
-  std::string text = "(";
-  for (int k = 0; k < 3; ++k) text += (k > 0 ? ", " : "") + number(v(k));
-  return text + ")";
-}
-
 std::string names(const std::vector<int>& parts, const Shape& shape) {
   std::string text;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -81,6 +75,7 @@ class Diagnostician {
   Diagnosis run() {
     diagnosis_.target = checker_.needed(best_.measured);
     diagnosis_.reached = best_.measured.value;
+    diagnosis_.direction = best_.direction;
     find_blockers();
     for (const RefusalCount& refusal : result_.refusals) {
       if (diagnosis_.constraints.size() == most_constraints) break;
@@ -186,7 +181,7 @@ class Diagnostician {
     const Stackability best = best_direction(rest, options).best;
     if (!helps(best.value)) return;
     add({Remedy::Kind::other_direction,
-         "stack along " + text_of(best.direction) + ", without any edit",
+         "stack " + direction_text(best.direction) + ", without any edit",
          {},
          best.direction,
          best.value});
@@ -288,7 +283,8 @@ Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& re
 
 std::string text(const Diagnosis& diagnosis, const StructuredShape& rest) {
   std::string text = "S = " + number(diagnosis.target) + " was not reached; the best is S = " +
-                     number_unlike(diagnosis.reached, diagnosis.target) + ".\n";
+                     number_unlike(diagnosis.reached, diagnosis.target) + " " +
+                     direction_text(diagnosis.direction) + ".\n";
   for (const Blocker& blocker : diagnosis.blockers) text += sentence(blocker, rest.shape);
   if (!diagnosis.constraints.empty()) text += "What stood against edits most often:\n";
   for (const std::string& constraint : diagnosis.constraints) text += "  " + constraint + "\n";

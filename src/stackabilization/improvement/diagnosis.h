@@ -32,6 +32,7 @@ struct Remedy {
 /// Why a target was not reached.
 struct Diagnosis {
   double target = 0, reached = 0;        ///< S asked for; largest S met
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< along which that is
   std::vector<Blocker> blockers;         ///< largest f first
   std::vector<std::string> constraints;  ///< requirements and relations that refused edits, most often first
   std::vector<Remedy> remedies;          ///< largest S first

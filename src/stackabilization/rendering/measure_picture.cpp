@@ -109,7 +109,7 @@ Elements number_table(const Subject& s, const Rectangle& place) {
   const double line = 1.75 * s.text_size;
   double y = place.y + 1.5 * s.text_size;
   Elements elements{Text{{place.x, y},
-                         "Stackability  S = " + detail::fixed_text(m.value),
+                         "Stackability  S = " + detail::fixed_text(m.value) + " " + direction_text(m.direction),
                          1.6 * s.text_size,
                          palette::ink,
                          Anchor::left,
