@@ -136,7 +136,7 @@ class Parser {
       }
     }
     const auto found = std::find(part_names_.begin(), part_names_.end(), name);
-    if (found == part_names_.end()) 
+    if (found == part_names_.end())
       fail("expected a part, shape, point=N or wire=N, and " + unknown_part(part_names_, name));
     return static_cast<int>(found - part_names_.begin());
   }

@@ -30,6 +30,8 @@ const char* name_of(SearchEnd end) {
       return "exhausted";
     case SearchEnd::expansion_limit:
       return "expansion limit";
+    case SearchEnd::trial_limit:
+      return "effort";
     case SearchEnd::time_limit:
       return "time limit";
     case SearchEnd::cancelled:

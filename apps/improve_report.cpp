@@ -5,6 +5,7 @@
 
 #include "apps/edit_grammar.h"
 #include "apps/text.h"
+#include "stackabilization/shape/direction_text.h"
 
 namespace stackabilization::apps {
 
@@ -119,6 +120,9 @@ std::string end_text(const ImproveRun& run) {
       return "there is nothing left to try";
     case SearchEnd::expansion_limit:
       return "stopped after the candidates of --expansions; --resume goes on with more";
+    case SearchEnd::trial_limit:
+      return "stopped after the work of --effort " + rounded(run.options.effort) +
+             "; --resume goes on with a larger one";
     case SearchEnd::time_limit:
       return "stopped after the seconds of --time; --resume goes on";
     case SearchEnd::cancelled:
@@ -158,7 +162,7 @@ std::string improvement_text(const ImproveReport& report) {
   add_model_line(head, task.model);
   const std::vector<std::string> wishes = wish_lines(report);
   for (std::size_t i = 0; i < wishes.size(); ++i) head.add(i == 0 ? "Asked for" : "", wishes[i]);
-  head.add("Search", counted(result.progress.evaluated, "candidate") + " measured, " + end_text(report.run));
+  head.add("Search", counted(result.progress.evaluated, "design") + " measured, " + end_text(report.run));
   ColumnTable table({"", "S", "direction", "D", "E", "change", "edits"});
   for (const SolutionReport* solution : report.shown()) add_solution_rows(table, task, *solution);
   std::string text = head.text();

@@ -4,6 +4,7 @@
 #include "apps/measurement.h"
 #include "apps/rendering.h"
 #include "apps/text.h"
+#include "stackabilization/shape/direction_text.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::apps {

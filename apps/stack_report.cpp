@@ -4,6 +4,7 @@
 #include "apps/measurement.h"
 #include "apps/stack_run.h"
 #include "apps/text.h"
+#include "stackabilization/shape/direction_text.h"
 
 namespace stackabilization::apps {
 
@@ -90,10 +91,9 @@ void add_wish_lines(TextTable& table, const StackRun& run, Unit unit) {
   if (!plan.possible)
     table.add("", "impossible", "whatever is changed below this height");
   else if (plan.f_max && plan.stackability)
-    table.add(
-        "", quantity(*plan.f_max, unit),
-        "largest f_max that a straight stack may have: a stackability of " + rounded(*plan.stackability) +
-            (run.options.clearance > 0 ? ", air included" : ""));
+    table.add("", quantity(*plan.f_max, unit),
+              "largest f_max that a straight stack may have: a stackability of " +
+                  rounded(*plan.stackability) + (run.options.clearance > 0 ? ", air included" : ""));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "apps/rendering.h"
 #include "apps/suggest_run.h"
 #include "apps/text.h"
+#include "stackabilization/shape/direction_text.h"
 #include "stackabilization/shape/errors.h"
 
 namespace stackabilization::apps {

@@ -7,6 +7,7 @@
 #include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/scene.h"
 #include "stackabilization/rendering/stacking_scene.h"
+#include "stackabilization/shape/direction_text.h"
 #include "stackabilization/shape/errors.h"
 
 namespace stackabilization {

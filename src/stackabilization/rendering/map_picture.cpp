@@ -1,6 +1,7 @@
 #include "stackabilization/rendering/map_panel.h"
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/rendering/plot_parts.h"
+#include "stackabilization/shape/direction_text.h"
 
 namespace stackabilization {
 

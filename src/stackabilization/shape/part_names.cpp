@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <numeric>
 #include <string_view>
 #include <utility>
 
+#include "stackabilization/shape/edit_distance.h"
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/formats/text.h"
 
 namespace stackabilization {
 
@@ -16,25 +17,17 @@ constexpr std::size_t max_listed = 12;
 /// Names are compared by so many characters: a file may have names of any length.
 constexpr std::size_t max_compared = 48;
 
-char lower(char c) {
-  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+/// Whatever the case of letters.
+std::size_t distance(const std::string& a, const std::string& b) {
+  return edit_distance(lower_case(std::string_view(a).substr(0, max_compared)),
+                       lower_case(std::string_view(b).substr(0, max_compared)));
 }
 
-/// Levenshtein distance, whatever the case of letters.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  a = a.substr(0, max_compared);
-  b = b.substr(0, max_compared);
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (lower(a[i]) == lower(b[j]) ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
+/// To be typed again as it stands, but for what would garble a terminal.
+std::string quoted(const std::string& name) {
+  std::string text = "'";
+  for (const char c : name) text += static_cast<unsigned char>(c) < ' ' || c == '\x7f' ? '?' : c;
+  return text + "'";
 }
 
 /// "part_12": a number that a segmentation gave.
@@ -63,11 +56,11 @@ std::vector<int> parts_named(const Shape& shape, const std::vector<std::string>&
 std::string unknown_part(const std::vector<std::string>& part_names, const std::string& name) {
   std::vector<std::pair<std::size_t, std::size_t>> ranked;
   for (std::size_t row = 0; row < part_names.size(); ++row)
-    ranked.emplace_back(edit_distance(name, part_names[row]), row);
+    ranked.emplace_back(distance(name, part_names[row]), row);
   std::sort(ranked.begin(), ranked.end());
   const std::size_t listed = std::min(max_listed, ranked.size());
-  std::string text = "there is no part '" + name + "', only ";
-  for (std::size_t i = 0; i < listed; ++i) text += (i > 0 ? ", '" : "'") + part_names[ranked[i].second] + "'";
+  std::string text = "there is no part " + quoted(name) + ", only ";
+  for (std::size_t i = 0; i < listed; ++i) text += (i > 0 ? ", " : "") + quoted(part_names[ranked[i].second]);
   if (listed < ranked.size()) text += " and " + std::to_string(ranked.size() - listed) + " more";
   if (std::all_of(part_names.begin(), part_names.end(), is_numbered))
     text += ": parts without names in the file, which stackabilize structure --picture FILE shows";

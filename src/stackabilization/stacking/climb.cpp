@@ -15,10 +15,10 @@ namespace stackabilization {
 
 namespace {
 
-constexpr int most_rounds = 120;         ///< trials per climb
+constexpr int most_rounds = 120;                 ///< trials per climb
 constexpr std::int64_t directions_per_step = 3;  ///< a trial, and two for its slopes
-constexpr std::size_t most_planes = 12;  ///< of the latest trials
-constexpr double widest_chart = 0.1;     ///< tangent coordinates beyond this start a new chart
+constexpr std::size_t most_planes = 12;          ///< of the latest trials
+constexpr double widest_chart = 0.1;             ///< tangent coordinates beyond this start a new chart
 
 /// One of the smooth functions whose least is S, near a point of the chart.
 struct Plane {

@@ -35,9 +35,9 @@ struct StackPlan {
   std::optional<std::int64_t> copies_now;
 };
 
-/// S with the translation (length - h) / (copies - 1) from copy to copy: 1 - (translation / h) V(M, r) / V(M).
-/// Copies fit into the length when S, with the air between them counted in the translation, is at least that.
-/// Preconditions: copies >= 2, V(M) > 0.
+/// S with the translation (length - h) / (copies - 1) from copy to copy: 1 - (translation / h) V(M, r) /
+/// V(M). Copies fit into the length when S, with the air between them counted in the translation, is at least
+/// that. Preconditions: copies >= 2, V(M) > 0.
 double stackability_within(const Stackability& measured, int copies, double length);
 
 /// From a wish to numbers, for a shape measured along r (StackabilitySolver::measure or stackability()).

@@ -120,9 +120,7 @@ class DirectionSearch {
   /// directions.
   bool perfect() const { return best_ >= 1 - tolerance::stackability; }
   /// Directions that may still be tried.
-  std::int64_t left() const {
-    return std::max<std::int64_t>(0, options_.max_directions - result_.evaluated);
-  }
+  std::int64_t left() const { return std::max<std::int64_t>(0, options_.max_directions - result_.evaluated); }
   bool ended() {
     if (left() == 0) return true;
     if (!result_.cancelled && options_.cancelled) result_.cancelled = options_.cancelled();
@@ -132,7 +130,7 @@ class DirectionSearch {
   const StackabilitySolver& solver_;
   const SearchOptions& options_;
   DirectionRegion region_;
-  double spacing_;  ///< of even samples, radians
+  double spacing_;               ///< of even samples, radians
   std::vector<Sample> samples_;  ///< measured trials in their order
   std::size_t first_trials_ = 0;
   double best_ = -std::numeric_limits<double>::infinity();
@@ -164,8 +162,7 @@ std::vector<Trial> DirectionSearch::trials() const {
       for (const Eigen::Vector3d& direction : *directions)
         for (const Eigen::Vector3d& line : lines_in_plane(*options_.plane_normal, direction))
           if (const auto member = region_.member(line)) trials.push_back({*member, none});
-  for (const Eigen::Vector3d& direction : region_.samples(spacing_))
-    trials.push_back({direction, none});
+  for (const Eigen::Vector3d& direction : region_.samples(spacing_)) trials.push_back({direction, none});
   if (!options_.plane_normal)
     for (const Eigen::Vector3d& normal : candidates.main)
       for (const Eigen::Vector3d& direction : half_circle(normal, spacing_ / 2))
@@ -178,8 +175,7 @@ std::vector<Trial> DirectionSearch::trials() const {
 void DirectionSearch::measure(const std::vector<Trial>& trials, double range) {
   for (std::size_t begin = 0; begin < trials.size(); begin += batch_size) {
     if (!samples_.empty() && (ended() || perfect())) return;
-    const std::size_t count =
-        std::min({batch_size, trials.size() - begin, static_cast<std::size_t>(left())});
+    const std::size_t count = std::min({batch_size, trials.size() - begin, static_cast<std::size_t>(left())});
     std::vector<std::optional<Stackability>> measured(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       measured[i] = solver_.measure_if_above(Direction(trials[begin + i].direction), best_ - range);
@@ -312,7 +308,8 @@ std::vector<Sample> DirectionSearch::climb_from(std::vector<Sample> starts, doub
 void DirectionSearch::look_around(Sample& top) {
   const double widest = spacing_ / (1 << halvings);
   int climbs_left = most_new_climbs;
-  for (double radius = widest; radius > tolerance::direction_step && !ended() && left() >= max_circle_trials;) {
+  for (double radius = widest;
+       radius > tolerance::direction_step && !ended() && left() >= max_circle_trials;) {
     const Sample best = best_on_circle(top, radius);
     if (best.at.value <= top.at.value + tolerance::stackability || climbs_left == 0) {
       radius /= 4;
