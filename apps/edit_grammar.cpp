@@ -10,6 +10,7 @@
 #include "apps/text.h"
 #include "apps/values.h"
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/part_names.h"
 
 namespace stackabilization::apps {
 
@@ -18,7 +19,6 @@ namespace {
 constexpr std::array<const char*, 6> face_names = {"-x", "+x", "-y", "+y", "-z", "+z"};
 constexpr const char* linear_word = "linearly";
 constexpr std::uint64_t largest_index = std::numeric_limits<int>::max();
-constexpr std::size_t listed_names = 12;
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
 /// What follows the part in a handle, "face=", and the kind it makes.
@@ -136,15 +136,9 @@ class Parser {
       }
     }
     const auto found = std::find(part_names_.begin(), part_names_.end(), name);
-    if (found == part_names_.end()) fail("there is no part '" + name + "'; expected " + known_handles());
+    if (found == part_names_.end())
+      fail("expected a part, shape, point=N or wire=N, and " + unknown_part(part_names_, name));
     return static_cast<int>(found - part_names_.begin());
-  }
-
-  std::string known_handles() const {
-    std::string names = "shape, point=N, wire=N or one of the parts ";
-    for (std::size_t i = 0; i < std::min(listed_names, part_names_.size()); ++i)
-      names += (i > 0 ? ", " : "") + part_names_[i];
-    return part_names_.size() > listed_names ? names + ", ..." : names;
   }
 
   Operation operation() {

@@ -160,9 +160,9 @@ int run(const CLI::App& command, const ImproveCommandOptions& options) {
   const Stopwatch watch;
   check(options);
   const ThreadLimit limit(options.common);
-  const ImproveTask task = improve_task(command, options);
+  const ImproveTask task = improve_task(command, options, watch);
   improve_folder(options).make();
-  const ImproveRun found = run_improve(options, task);
+  const ImproveRun found = run_improve(options, task, watch);
 
   ImproveReport report{options, task, found, {}, {}, {}};
   report.pictures_missing = options.no_pictures ? "left out by --no-pictures" : rendering_missing();

@@ -30,6 +30,8 @@ const char* name_of(SearchEnd end) {
       return "exhausted";
     case SearchEnd::expansion_limit:
       return "expansion limit";
+    case SearchEnd::trial_limit:
+      return "effort";
     case SearchEnd::time_limit:
       return "time limit";
     case SearchEnd::cancelled:
@@ -79,7 +81,8 @@ Json edits_json(const ImproveTask& task, const Candidate& candidate) {
 }
 
 Json measured_json(const Stackability& measured) {
-  return {{"stackability", measured.value},
+  return {{"direction", to_json(measured.direction)},
+          {"stackability", measured.value},
           {"f_max", measured.f_max},
           {"height", measured.extent},
           {"box_volume", measured.box_volume},
@@ -148,9 +151,13 @@ Json diagnosis_json(const Diagnosis& diagnosis, const StructuredShape& rest) {
                         {"direction", turns ? to_json(remedy.direction) : Json(nullptr)},
                         {"stackability", remedy.stackability}});
   }
-  return {{"target", diagnosis.target}, {"reached", diagnosis.reached},
-          {"blockers", blockers},       {"constraints", diagnosis.constraints},
-          {"remedies", remedies},       {"text", text(diagnosis, rest)}};
+  return {{"target", diagnosis.target},
+          {"reached", diagnosis.reached},
+          {"direction", to_json(diagnosis.direction)},
+          {"blockers", blockers},
+          {"constraints", diagnosis.constraints},
+          {"remedies", remedies},
+          {"text", text(diagnosis, rest)}};
 }
 
 Json wish_json(const ImproveReport& report) {

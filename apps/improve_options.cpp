@@ -12,6 +12,8 @@ namespace stackabilization::apps {
 namespace {
 
 constexpr double most_degrees = 90;
+/// A direction that nobody gave may turn by so much at each edit.
+constexpr double free_cone_degrees = 10;
 constexpr int most_solutions = 20, most_copies = 10000;
 
 void refuse(bool given, const char* option, const char* reason) {
@@ -44,6 +46,7 @@ void check_numbers(const ImproveCommandOptions& options) {
   check_range("--cone-degrees", options.cone_degrees, 0, most_degrees);
   check_range("--alpha", options.alpha, 0, 1);
   refuse(options.seconds && !(*options.seconds > 0), "--time", "expects a number of seconds above 0");
+  refuse(options.effort && !(*options.effort > 0), "--effort", "expects a number above 0");
 }
 
 void add_wish_options(CLI::App& command, ImproveCommandOptions& options) {
@@ -79,14 +82,17 @@ void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
       command, "--least", options.least, measures,
       "What refinement makes small: the distortion D of the primitives, the displacement of the vertices "
       "(root mean square), or the sum of both (default: both)");
-  add_number(command, "--time", options.seconds, "Seconds to search at most (default: 40)");
+  add_number(command, "--effort", options.effort,
+             "How much work to do at most: 1 takes up to about 40 seconds on two cores (default: 1)");
+  add_number(command, "--time", options.seconds,
+             "Seconds after which to end with the best so far (default: no such limit)");
   add_count(command, {"--expansions", "Candidates to expand at most (default: 100)", 1}, options.expansions);
   add_number(command, "--alpha", options.alpha, "Weight of the distortion in the energy (default: 0.2)");
   command.add_flag("--bend", options.bends,
                    "Let straight parts bend and walls bulge, as in the paper (default: they stay straight)");
   add_number(command, "--cone-degrees", options.cone_degrees,
-             "The direction may turn by this angle at each edit, 0: never (default: 10; with --copies, and "
-             "gap-scaling: 0)");
+             "The direction may turn by this angle at each edit, 0: never (default: 0 with --direction, "
+             "--copies or --model gap-scaling, else 10)");
 }
 
 }  // namespace
@@ -128,10 +134,11 @@ ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) 
   search.edits.contacts.semantics = options.measure.semantics;
   search.solutions = options.solutions;
   search.expansions = options.expansions.value_or(search.expansions);
-  search.seconds = options.seconds.value_or(search.seconds);
-  // The room is along the direction as given; gap scaling knows no other than that it was made for.
-  if (options.copies || options.kind == DeformationKind::gap_scaling) search.cone_degrees = 0;
-  search.cone_degrees = options.cone_degrees.value_or(search.cone_degrees);
+  improvement.effort = options.effort.value_or(improvement.effort);
+  // A direction that is given is kept. So is that of a room, and gap scaling knows no other than its own.
+  const bool is_free =
+      options.directions.empty() && !options.copies && options.kind != DeformationKind::gap_scaling;
+  search.cone_degrees = options.cone_degrees.value_or(is_free ? free_cone_degrees : 0);
   return improvement;
 }
 

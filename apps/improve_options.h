@@ -26,7 +26,7 @@ struct ImproveCommandOptions {
   ChangeMeasure least = ChangeMeasure::both;
   std::vector<Eigen::Vector3d> directions;
   bool bends = false;
-  std::optional<double> cone_degrees, alpha, seconds;
+  std::optional<double> cone_degrees, alpha, effort, seconds;
   std::optional<std::int64_t> expansions;
   RequirementArguments requirements;
   std::vector<std::string> removed;  ///< names of parts
@@ -43,7 +43,7 @@ void add_improve_options(CLI::App& command, ImproveCommandOptions& options);
 /// OutputError when it cannot be written.
 void check(const ImproveCommandOptions& options);
 
-/// How the search goes; without directions, limits of interruption and callbacks.
+/// How the search goes; without directions, deadline and callbacks.
 ImprovementOptions improvement_options_of(const ImproveCommandOptions& options);
 
 }  // namespace stackabilization::apps

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "apps/text.h"
+#include "stackabilization/shape/direction_text.h"
 
 namespace stackabilization::apps {
 
@@ -62,6 +63,7 @@ std::string comparison(const ImproveReport& report) {
   std::string text = "<div class=\"scroll\"><table>\n<thead><tr><th></th>";
   for (const SolutionReport* solution : solutions) text += element("th scope=\"col\"", title_of(*solution));
   text += "</tr></thead>\n<tbody>\n";
+  text += add("Direction", [](const Solution& s) { return direction_text(s.candidate.direction); });
   text += add("S before", [](const Solution& s) { return stackability_text(s.before.value); });
   text += add("S after", [](const Solution& s) { return stackability_text(s.assessment.measured.value); });
   text += add("Each further copy adds, before",
@@ -70,7 +72,7 @@ std::string comparison(const ImproveReport& report) {
               [&](const Solution& s) { return quantity(s.assessment.measured.f_max, unit); });
   text += add("Height of one copy",
               [&](const Solution& s) { return quantity(s.assessment.measured.extent, unit); });
-  text += add("Direction", [](const Solution& s) { return vector_text(s.candidate.direction); });
+  text += add("Direction, as numbers", [](const Solution& s) { return vector_text(s.candidate.direction); });
   text += add("Distortion D",
               [](const Solution& s) { return stackability_text(s.candidate.energy.distortion.total()); });
   text += add("  of volumes",
@@ -116,7 +118,9 @@ std::string article(const ImproveReport& report, const SolutionReport& solution)
   const Unit unit = report.task.rest().shape.unit;
   std::string text = "<article>\n<h2>" + escaped(title_of(solution)) + " <span class=\"" +
                      (solution.good() ? "good" : "bad") + "\">S " +
-                     escaped(stackability_text(solution.assessment.measured.value)) + "</span></h2>\n";
+                     escaped(stackability_text(solution.assessment.measured.value) + " " +
+                             direction_text(solution.candidate.direction)) +
+                     "</span></h2>\n";
   if (report.pictures_missing.empty()) {
     text += picture(solution.name + "_before_after.png", "before and after");
     text += picture(solution.name + "_stack.png", "stacks before and after");

@@ -5,6 +5,7 @@
 
 #include "apps/edit_grammar.h"
 #include "apps/text.h"
+#include "stackabilization/shape/direction_text.h"
 
 namespace stackabilization::apps {
 
@@ -50,10 +51,11 @@ void add_solution_rows(ColumnTable& table, const ImproveTask& task, const Soluti
   const std::string change = percent(solution.change.root_mean_square);
   for (std::size_t i = 0; i < edits.size(); ++i) {
     if (i > 0) {
-      table.add({"", "", "", "", "", edits[i]});
+      table.add({"", "", "", "", "", "", edits[i]});
       continue;
     }
     table.add({solution.name, stackability_text(solution.assessment.measured.value),
+               direction_text(solution.candidate.direction),
                stackability_text(solution.candidate.energy.distortion.total()),
                stackability_text(solution.candidate.energy.value), change, edits[i]});
   }
@@ -98,13 +100,13 @@ std::vector<std::string> wish_lines(const ImproveReport& report) {
   const ImproveTask& task = report.task;
   std::string directions;
   for (const Eigen::Vector3d& direction : task.directions)
-    directions += (directions.empty() ? "" : " or ") + point_text(direction, direction.norm());
+    directions += (directions.empty() ? "" : " or ") + direction_text(direction);
   std::vector<std::string> lines;
   if (task.room)
     lines.push_back(std::to_string(*report.options.copies) + " copies within " +
                     quantity(*task.room, task.rest().shape.unit));
   const BoxModel boxes = task.checker->requirements().measure.boxes;
-  lines.push_back("S of at least " + rounded(task.target()) + " along " + directions + " (" +
+  lines.push_back("S of at least " + rounded(task.target()) + " " + directions + " (" +
                   (boxes == BoxModel::frame ? "frame" : "oriented") + " boxes)");
   add_requirement_lines(lines, report);
   return lines;
@@ -118,6 +120,9 @@ std::string end_text(const ImproveRun& run) {
       return "there is nothing left to try";
     case SearchEnd::expansion_limit:
       return "stopped after the candidates of --expansions; --resume goes on with more";
+    case SearchEnd::trial_limit:
+      return "stopped after the work of --effort " + rounded(run.options.effort) +
+             "; --resume goes on with a larger one";
     case SearchEnd::time_limit:
       return "stopped after the seconds of --time; --resume goes on";
     case SearchEnd::cancelled:
@@ -157,8 +162,8 @@ std::string improvement_text(const ImproveReport& report) {
   add_model_line(head, task.model);
   const std::vector<std::string> wishes = wish_lines(report);
   for (std::size_t i = 0; i < wishes.size(); ++i) head.add(i == 0 ? "Asked for" : "", wishes[i]);
-  head.add("Search", counted(result.progress.evaluated, "candidate") + " measured, " + end_text(report.run));
-  ColumnTable table({"", "S", "D", "E", "change", "edits"});
+  head.add("Search", counted(result.progress.evaluated, "design") + " measured, " + end_text(report.run));
+  ColumnTable table({"", "S", "direction", "D", "E", "change", "edits"});
   for (const SolutionReport* solution : report.shown()) add_solution_rows(table, task, *solution);
   std::string text = head.text();
   if (!table.empty()) text += "\n" + table.text();

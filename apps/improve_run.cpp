@@ -11,6 +11,7 @@
 #include "apps/interrupt.h"
 #include "apps/progress.h"
 #include "apps/text.h"
+#include "stackabilization/improvement/effort.h"
 #include "stackabilization/improvement/removal.h"
 #include "stackabilization/shape/read_file.h"
 #include "stackabilization/shape/tolerances.h"
@@ -57,49 +58,62 @@ Stackability upward(const StackabilitySolver& solver, const Structure& structure
   return of_shape.value > of_file.value + tolerance::stackability ? of_shape : of_file;
 }
 
-/// Share of --time by which analysis and the look for directions should be done, and what is left for
-/// improvement in any case.
+/// Shares of the effort and of --time that the look for directions may take.
+constexpr double directions_effort = 0.1;
 constexpr double directions_end = 0.25;
-constexpr double least_improvement = 0.5;
+/// What is left for the search in any case: enough to say where the design stands.
+constexpr double min_seconds = 1e-3;
 
-/// Those given, else up and, where another one is clearly better, the best one found.
-std::vector<Eigen::Vector3d> directions_of(const ImproveCommandOptions& options, const StructuredShape& rest,
-                                           const Stopwatch& watch) {
+/// The best direction that a fixed amount of work finds; nothing where --time ends it before.
+std::optional<Stackability> best_found(const ImproveCommandOptions& options, const StackabilitySolver& solver,
+                                       const Stopwatch& watch) {
+  ProgressBar bar("Looking for directions");
+  SearchOptions search;
+  const double effort = directions_effort * improvement_options_of(options).effort;
+  search.max_directions = directions_of_effort(effort, solver.shape());
+  search.progress = [&bar](double fraction) { bar.show(fraction); };
+  if (options.seconds)
+    search.cancelled = [&watch, end = directions_end * *options.seconds] { return watch.seconds() > end; };
+  const SearchResult found = best_direction(solver, search);
+  return found.cancelled ? std::nullopt : std::optional(found.best);
+}
+
+/// Those given, or of the search to go on with, else up and, where another one is clearly better, the best
+/// one found.
+std::vector<Eigen::Vector3d> starting_directions(const ImproveCommandOptions& options,
+                                                 const StructuredShape& rest, const Stopwatch& watch,
+                                                 ImproveTask& task) {
   if (!options.directions.empty()) return options.directions;
+  if (task.saved) return directions_of(*task.saved);
   const StackabilitySolver solver(rest.shape, options.measure);
   const Stackability up = upward(solver, rest.structure);
   std::vector<Eigen::Vector3d> directions = {up.direction};
   if (options.copies || options.kind == DeformationKind::gap_scaling) return directions;
-  ProgressBar bar("Looking for directions");
-  SearchOptions search;
-  search.progress = [&bar](double fraction) { bar.show(fraction); };
-  search.cancelled = [&watch, end = directions_end * improvement_options_of(options).search.seconds] {
-    return watch.seconds() > end;
-  };
-  const Stackability best = best_direction(solver, search).best;
-  if (best.value > up.value + clearly_better && !parallel(best.direction, up.direction))
-    directions.push_back(best.direction);
+  const std::optional<Stackability> best = best_found(options, solver, watch);
+  task.late = !best;
+  if (best && best->value > up.value + clearly_better && !parallel(best->direction, up.direction))
+    directions.push_back(best->direction);
   return directions;
 }
 
 /// The target that a wish for copies comes to, with the height and the boxes at rest.
-double target_of(const ImproveCommandOptions& options, double room, const Stackability& rest) {
-  const StackPlan plan = plan_within(rest, {*options.copies, room, 0});
+double target_of(const ImproveCommandOptions& options, const Requirements& asked, const Stackability& rest) {
+  const StackPlan plan = plan_within(rest, {asked.room->copies, asked.room->length, asked.clearance});
   if (!plan.possible || *plan.stackability >= 1)
-    throw UsageError("--within " + options.within->text + " has no room for " +
-                     std::to_string(*options.copies) + " copies of height " + exact_digits(rest.extent) +
-                     ", however well they stack");
+    throw UsageError(
+        "--within " + options.within->text + " has no room for " + std::to_string(*options.copies) +
+        " copies of height " + exact_digits(rest.extent) +
+        (asked.clearance > 0 ? " with " + exact_digits(asked.clearance) + " of air between them" : "") +
+        ", however well they stack");
   return *plan.stackability;
 }
 
-std::optional<std::string> saved_state(const ImproveCommandOptions& options) {
+/// What --resume finds in the folder.
+std::optional<SavedSearch> saved_search(const ImproveCommandOptions& options) {
   const std::filesystem::path file = state_file(options.folder);
   std::error_code error;
-  if (!options.resume) {
-    std::filesystem::remove(file, error);
-    return std::nullopt;
-  }
-  if (std::filesystem::exists(file, error)) return read_file(file);
+  if (!options.resume) return std::nullopt;
+  if (std::filesystem::exists(file, error)) return SavedSearch{read_file(file), file.string()};
   if (!options.common.quiet)
     std::cerr << "stackabilize: there is no " + file.string() + " to go on with, so the search starts anew\n";
   return std::nullopt;
@@ -117,11 +131,12 @@ std::string status_text(const ImprovementProgress& progress) {
 
 }  // namespace
 
-ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& options) {
-  const Stopwatch watch;
+ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& options,
+                         const Stopwatch& watch) {
   StructuredModel input = load_structured(command, options.common, options.analysis);
   ImproveTask task;
   task.model = std::move(input.model);
+  task.saved = saved_search(options);
   named(task.model, [&] {
     StructuredShape rest = std::move(input.structured);
     if (!options.removed.empty())
@@ -130,16 +145,16 @@ ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& o
     requirements.measure = options.measure;
     requirements.target = options.target.value_or(0);
     if (options.within) task.room = options.within->in(rest.shape.unit);
-    task.directions = directions_of(options, rest, watch);
+    task.directions = starting_directions(options, rest, watch, task);
     const Direction first(task.directions.front());
     if (task.room) {
       requirements.room = StackRoom{*options.copies, *task.room};
-      requirements.target = target_of(options, *task.room, stackability(rest.shape, first, options.measure));
+      requirements.target =
+          target_of(options, requirements, stackability(rest.shape, first, options.measure));
     }
     task.space = design_space(std::move(rest), {options.kind, first});
     task.checker = std::make_unique<RequirementChecker>(*task.space, requirements);
   });
-  task.seconds = watch.seconds();
   return task;
 }
 
@@ -147,30 +162,32 @@ bool ended_by_itself(const ImproveRun& run) {
   return !run.interrupted && (run.result.end == SearchEnd::solved || run.result.end == SearchEnd::exhausted);
 }
 
-ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& task) {
+ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& task,
+                       const Stopwatch& watch) {
   ImproveRun run;
   run.options = improvement_options_of(options);
   const std::filesystem::path state = state_file(options.folder);
-  const std::optional<std::string> saved = saved_state(options);
+  std::error_code error;
+  if (!task.saved) std::filesystem::remove(state, error);
   const DeferredInterrupts interrupts;
   StatusLine status;
   BestFirstOptions& search = run.options.search;
-  search.seconds = std::max(search.seconds - task.seconds, least_improvement * search.seconds);
+  if (options.seconds) search.seconds = std::max(*options.seconds - watch.seconds(), min_seconds);
   search.directions = task.directions;
   search.progress = [&status](const ImprovementProgress& progress) {
     if (status.due()) status.show(status_text(progress));
   };
   search.cancelled = [&interrupts] { return interrupts.requested(); };
   search.save = [&state](const std::string& text) { write_file_atomically(state, text); };
-  run.options.refinement.cancelled = search.cancelled;
   try {
-    run.result = improve(*task.checker, run.options, saved);
-  } catch (const InputError& error) {
-    throw InputError((saved ? state.string() : display_name(task.model)) + ": " + error.what());
+    run.result = improve(*task.checker, run.options, task.saved);
+  } catch (const SavedSearchError&) {
+    throw;
+  } catch (const InputError& error_of_model) {
+    throw InputError(display_name(task.model) + ": " + error_of_model.what());
   }
   run.interrupted = interrupts.requested();
-  // What --time stops after the search proper is cancelled as well, but not by anybody.
-  if (run.result.end == SearchEnd::cancelled && !run.interrupted) run.result.end = SearchEnd::time_limit;
+  if (task.late && !run.interrupted) run.result.end = SearchEnd::time_limit;
   return run;
 }
 

@@ -8,6 +8,7 @@
 #include "apps/progress.h"
 #include "apps/rendering.h"
 #include "apps/values.h"
+#include "stackabilization/shape/direction_text.h"
 #include "stackabilization/stacking/map.h"
 
 namespace stackabilization::apps {
@@ -87,10 +88,8 @@ std::string map_text(const Model& model, const StackabilityMap& map, const Summa
   table.add(
       "Directions", std::to_string(map.samples.size()),
       exact_digits(map.step_degrees) + " degrees apart over the upper hemisphere; opposite ones stack alike");
-  table.add("Best", stackability_text(summary.best.stackability),
-            "along " + point_text(summary.best.direction));
-  table.add("Worst", stackability_text(summary.worst.stackability),
-            "along " + point_text(summary.worst.direction));
+  table.add("Best", stackability_text(summary.best.stackability), direction_text(summary.best.direction));
+  table.add("Worst", stackability_text(summary.worst.stackability), direction_text(summary.worst.direction));
   table.add("Mean", stackability_text(summary.mean), "stackability: 1 saves all the space, 0 none");
   return table.text();
 }

@@ -4,6 +4,7 @@
 #include "apps/measurement.h"
 #include "apps/rendering.h"
 #include "apps/text.h"
+#include "stackabilization/shape/direction_text.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::apps {
@@ -42,7 +43,7 @@ void add_box_lines(TextTable& table, const Measurement& measurement, Unit unit) 
             "of one copy, and " + quantity(values.stack_box_volume, unit, 3) +
                 " with a side along the direction (" + name_of(measurement.options.boxes) + ")");
   if (values.box_volume > 0)
-    table.add("Stackability", stackability_text(values.value),
+    table.add("Stackability", stackability_text(values.value) + " " + direction_text(values.direction),
               "space saved in a tall stack: 1 is all of it, 0 none");
   else
     table.add("Stackability", "not defined", "the shape is flat: its box has no volume");

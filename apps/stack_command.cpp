@@ -13,7 +13,7 @@ namespace {
 PlacedCopies placed_copies(const StackRun& run, const Model& model, const Direction& direction) {
   PlacedCopies stack;
   stack.direction = direction;
-  stack.notes = stack_notes(run, model.shape.unit);
+  stack.notes = stack_notes(run, model.shape.unit, direction);
   for (const StackedCopy& copy : run.result.copies) {
     const RigidTransform lift{Eigen::Matrix3d::Identity(), copy.offset.to_double() * direction.vector()};
     stack.copies.push_back(transformed(model.shape, composed(lift, copy.transform)));

@@ -4,6 +4,7 @@
 #include "apps/measurement.h"
 #include "apps/stack_run.h"
 #include "apps/text.h"
+#include "stackabilization/shape/direction_text.h"
 
 namespace stackabilization::apps {
 
@@ -90,9 +91,9 @@ void add_wish_lines(TextTable& table, const StackRun& run, Unit unit) {
   if (!plan.possible)
     table.add("", "impossible", "whatever is changed below this height");
   else if (plan.f_max && plan.stackability)
-    table.add(
-        "", quantity(*plan.f_max, unit),
-        "largest f_max that a straight stack may have: a stackability of " + rounded(*plan.stackability));
+    table.add("", quantity(*plan.f_max, unit),
+              "largest f_max that a straight stack may have: a stackability of " +
+                  rounded(*plan.stackability) + (run.options.clearance > 0 ? ", air included" : ""));
 }
 
 }  // namespace
@@ -141,7 +142,7 @@ std::string stack_text(const StackRun& run, const Model& model, const Direction&
   table.add("Boxes", quantity(result.stack_volume, unit, 3),
             "of the stack, and " + quantity(result.box_volume, unit, 3) + " of one copy (" +
                 name_of(run.options.boxes) + ")");
-  table.add("Stackability", stackability_text(result.stackability),
+  table.add("Stackability", stackability_text(result.stackability) + " " + direction_text(direction.vector()),
             "space saved by this stack: 1 is all of it, 0 none");
   add_conflict_lines(table, run, unit);
   if (run.wish) add_wish_lines(table, run, unit);
@@ -150,10 +151,11 @@ std::string stack_text(const StackRun& run, const Model& model, const Direction&
          " to the stack: " + percent(result.increment / run.extent) + " of the height.\n";
 }
 
-std::vector<std::string> stack_notes(const StackRun& run, Unit unit) {
+std::vector<std::string> stack_notes(const StackRun& run, Unit unit, const Direction& direction) {
   return {std::to_string(run.options.copies) + " copies, " + quantity(run.result.height, unit) + " high",
           "each further copy adds " + quantity(run.result.increment, unit),
-          "stackability " + stackability_text(run.result.stackability)};
+          "stackability " + stackability_text(run.result.stackability) + " " +
+              direction_text(direction.vector())};
 }
 
 }  // namespace stackabilization::apps

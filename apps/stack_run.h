@@ -35,7 +35,7 @@ StackRun run_stack(const StackCommandOptions& options, const Model& model);
 void add_stack(Json& document, const StackRun& run, const Direction& direction);
 std::string stack_text(const StackRun& run, const Model& model, const Direction& direction);
 /// Lines for a picture of the stack.
-std::vector<std::string> stack_notes(const StackRun& run, Unit unit);
+std::vector<std::string> stack_notes(const StackRun& run, Unit unit, const Direction& direction);
 
 /// The subcommand with --into: MODEL is lowered into a container.
 int run_nest(const CLI::App& command, const StackCommandOptions& options);

@@ -5,6 +5,7 @@
 #include "apps/rendering.h"
 #include "apps/suggest_run.h"
 #include "apps/text.h"
+#include "stackabilization/shape/direction_text.h"
 #include "stackabilization/shape/errors.h"
 
 namespace stackabilization::apps {
@@ -55,7 +56,7 @@ void write_suggestion_pictures(const SuggestRun& run, const SuggestCommandOption
   const StructuredShape before = as_rest(run.project.rest, run.design);
   DesignSheet sheet;
   sheet.direction = run.direction;
-  sheet.notes = {"along " + vector_text(run.direction.vector()) + ", with contact regions in red"};
+  sheet.notes = {direction_text(run.direction.vector()) + ", with contact regions in red"};
   sheet.tiles.push_back({run.design,
                          std::nullopt,
                          run.now.contacts,

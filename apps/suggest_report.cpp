@@ -6,6 +6,7 @@
 #include "apps/measurement.h"
 #include "apps/suggest_run.h"
 #include "apps/text.h"
+#include "stackabilization/shape/direction_text.h"
 
 namespace stackabilization::apps {
 
@@ -19,7 +20,8 @@ std::size_t shown(const SuggestRun& run, const SuggestCommandOptions& options) {
 
 /// Where a design stands.
 Json measured_json(const Stackability& measured, const Json& energy) {
-  return {{"stackability", measured.value},
+  return {{"direction", to_json(measured.direction)},
+          {"stackability", measured.value},
           {"f_max", measured.f_max},
           {"height", measured.extent},
           {"energy", energy}};
@@ -83,7 +85,7 @@ std::string suggestion_table(const SuggestRun& run, const SuggestCommandOptions&
                  stackability_text(one.energy.value), stackability_text(one.energy.distortion.total()), edit,
                  one.edit.why + (options.target && one.reaches_target ? " (reaches the target)" : "")});
   }
-  return table.empty() ? "" : "\n" + table.text();
+  return table.empty() ? "" : "\nS " + direction_text(run.direction.vector()) + ":\n" + table.text();
 }
 
 }  // namespace
@@ -119,7 +121,7 @@ std::string suggestions_text(const SuggestRun& run, const SuggestCommandOptions&
       "Node", std::to_string(run.node),
       "of " + counted(static_cast<long long>(run.project.history.nodes.size()), "node") + " in the history");
   table.add("Direction", vector_text(run.direction.vector()));
-  table.add("S", stackability_text(run.now.measured.value),
+  table.add("S", stackability_text(run.now.measured.value) + " " + direction_text(run.direction.vector()),
             "f_max " + quantity(run.now.measured.f_max, model.shape.unit) + ", h " +
                 quantity(run.now.measured.extent, model.shape.unit));
   table.add("E", stackability_text(run.now.energy.value),
@@ -138,7 +140,7 @@ std::string suggestions_text(const SuggestRun& run, const SuggestCommandOptions&
 
 std::string history_text(const Project& project) {
   const History& history = project.history;
-  ColumnTable table({"node", "S", "E", "edits"});
+  ColumnTable table({"node", "S", "direction", "E", "edits"});
   const std::function<void(int, const std::string&)> add = [&](int row, const std::string& indent) {
     const HistoryNode& node = history.nodes[static_cast<std::size_t>(row)];
     std::string edits;
@@ -146,7 +148,8 @@ std::string history_text(const Project& project) {
       edits += (edits.empty() ? "" : "; ") + describe(edit, project.rest.shape.part_names);
     if (!node.name.empty()) edits += edits.empty() ? node.name : " (" + node.name + ")";
     table.add({std::to_string(row) + (row == history.current ? " *" : ""),
-               stackability_text(node.stackability), stackability_text(node.energy), indent + edits});
+               stackability_text(node.stackability), direction_text(node.direction),
+               stackability_text(node.energy), indent + edits});
     for (std::size_t child = 0; child < history.nodes.size(); ++child)
       if (history.nodes[child].parent == row) add(static_cast<int>(child), indent + "  ");
   };

@@ -1,16 +1,18 @@
 // Question: by how much does continuous refinement beat the paper's search, on distortion at equal S?
 //
-//     refined_against_paper [--boxes oriented|frame] [--seconds T] [--expansions N] [--threads N]
-//                           [-o FOLDER] MODEL[=S[,S...]]...
+//     refined_against_paper [--boxes oriented|frame] [--expansions N] [--threads N] [-o FOLDER]
+//                           MODEL[=S[,S...]]...
 //
-// MODEL is a mesh, whose structure is found first, or a project file; S are its targets along z, with the
-// height kept. Without one, the target lies half of the way from S at rest to the largest S that the paper's
-// preset meets within the limits when it may go on forever. Each target is given to the paper's preset, and
-// the S that this reached, which is more, to the refined one: two rows that compare D at equal S. Where the
-// paper's preset does not reach a target, both rows are for that target. Every row is the best solution of
-// its run, or what came nearest to one.
+// MODEL is a mesh, whose structure is found first, or a project file; S are its targets along z, which every
+// design keeps, with the height kept. A count of expansions ends each search, so that it finds the same
+// again. Without one, the target lies half of the way from S at rest to the largest S that the paper's preset
+// meets within the limits when it may go on forever. Each target is given to the paper's preset, and the S
+// that this reached, which is more, to the refined one: two rows that compare D at equal S. Where the paper's
+// preset does not reach a target, both rows are for that target. Every row is the best solution of its run,
+// or what came nearest to one.
 
 #include <charconv>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -20,6 +22,7 @@
 #include "common/experiment.h"
 #include "stackabilization/improvement/improve.h"
 #include "stackabilization/improvement/shape_change.h"
+#include "stackabilization/shape/direction_text.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/read.h"
 #include "stackabilization/shape/tolerances.h"
@@ -62,8 +65,7 @@ StructuredShape structured(const std::string& model) {
 
 struct Settings {
   BoxModel boxes = BoxModel::oriented;
-  double seconds = 60;
-  std::int64_t expansions = 2000;
+  std::int64_t expansions = 12;
 };
 
 struct Run {
@@ -85,7 +87,7 @@ Run run(const DesignSpace& space, ImprovementPreset preset, double target, const
   requirements.measure.boxes = settings.boxes;
   ImprovementOptions options;
   options.preset = preset;
-  options.search.seconds = settings.seconds;
+  options.effort = std::numeric_limits<double>::infinity();
   options.search.expansions = settings.expansions;
   const double start = now();
   Run result{preset, target, improve(RequirementChecker(space, requirements), options), 0};
@@ -94,7 +96,8 @@ Run run(const DesignSpace& space, ImprovementPreset preset, double target, const
 }
 
 Table& table_of(Report& report) {
-  std::vector<Column> all = columns({"model", "input_hash", "target", "preset"}, ColumnKind::key);
+  std::vector<Column> all =
+      columns({"model", "input_hash", "target", "direction", "preset"}, ColumnKind::key);
   for (const Column& column : columns({"reached", "S", "D", "D_vol", "D_prox", "D_BB", "D_symm", "E",
                                        "change_rms", "edits", "evaluated"}))
     all.push_back(column);
@@ -117,9 +120,10 @@ class Rows {
     const Candidate& best = run.best();
     const Distortion& d = best.energy.distortion;
     const double change = shape_change(space_->rest().shape, best.design.shape).root_mean_square;
-    table_.add({name_, hash_, run.target, run.preset == ImprovementPreset::paper ? "paper" : "refined",
-                run.reached(), best.measured.value, d.total(), d.volume, d.proximity, d.box, d.symmetry,
-                best.energy.value, change, static_cast<std::int64_t>(best.design.edits.size()),
+    table_.add({name_, hash_, run.target, direction_text(best.direction),
+                run.preset == ImprovementPreset::paper ? "paper" : "refined", run.reached(),
+                best.measured.value, d.total(), d.volume, d.proximity, d.box, d.symmetry, best.energy.value,
+                change, static_cast<std::int64_t>(best.design.edits.size()),
                 std::int64_t{run.improvement.progress.evaluated}, run.seconds});
   }
 
@@ -166,7 +170,6 @@ int main(int argc, char** argv) {
   app.add_option("--boxes", settings.boxes, "how boxes are measured: oriented or frame")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, BoxModel>{{"oriented", BoxModel::oriented}, {"frame", BoxModel::frame}}));
-  app.add_option("--seconds", settings.seconds, "limit of each search")->check(CLI::PositiveNumber);
   app.add_option("--expansions", settings.expansions, "limit of each search")->check(CLI::PositiveNumber);
   app.add_option("tasks", texts, "MODEL[=S[,S...]]: meshes or project files with their targets")->required();
   return experiment.run(argc, argv, [&](Report& report) {

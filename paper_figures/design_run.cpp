@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <limits>
 #include <utility>
 
 #include "paper_figures/shown.h"
@@ -13,8 +14,6 @@ namespace stackabilization::figures {
 namespace {
 
 constexpr int most_expansions = 10000;
-/// Beyond any search: what ends one is its number of expansions.
-constexpr double no_limit = 1e9;
 
 std::vector<std::string> optional_texts(const Fields& fields, const std::string& key) {
   return fields.has(key) ? fields.texts(key) : std::vector<std::string>{};
@@ -65,8 +64,7 @@ DesignTask read_design_task(const Fields& fields) {
   // As published: cross-sections that are moved bend what was straight.
   task.options.search.edits.bends = task.options.preset == ImprovementPreset::paper;
   task.options.search.expansions = fields.whole("expansions", 1, most_expansions);
-  task.options.search.seconds = no_limit;
-  task.options.search.cone_degrees = 0;
+  task.options.effort = std::numeric_limits<double>::infinity();  // what ends it are the expansions
   task.options.search.directions = {direction};
   return task;
 }

@@ -25,7 +25,7 @@ def arguments():
     parser.add_argument("--direction", default="0 0 1", help="three numbers")
     parser.add_argument("--boxes", default="oriented", choices=("oriented", "frame"))
     parser.add_argument("--gain", type=float, default=0.2, help="target is S + gain (1 - S)")
-    parser.add_argument("--time", type=float, default=40, help="seconds of the search for a design")
+    parser.add_argument("--effort", type=float, default=1, help="work of the search for a design")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=600, help="limit of the step")
     parser.add_argument("--options", default="", help="more options for improve")
@@ -55,7 +55,7 @@ def command(options, result):
     wanted = target(options)
     if wanted is None:
         return None
-    return words + direction + ["--target", repr(wanted), "--time", str(options.time), "--output", str(result.parent),
+    return words + direction + ["--target", repr(wanted), "--effort", str(options.effort), "--output", str(result.parent),
                                 *shlex.split(options.options)]
 
 

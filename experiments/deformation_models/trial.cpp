@@ -1,6 +1,7 @@
 #include "deformation_models/trial.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "common/clock.h"
 #include "stackabilization/improvement/carried_design.h"
@@ -32,6 +33,8 @@ std::string text_of(SearchEnd end) {
       return "no edits left";
     case SearchEnd::expansion_limit:
       return "limit of expansions";
+    case SearchEnd::trial_limit:
+      return "limit of work";
     case SearchEnd::time_limit:
       return "limit of time";
     case SearchEnd::cancelled:
@@ -56,7 +59,7 @@ ImprovementOptions options_of(const Task& task, const Limits& limits) {
   options.search.alpha = task.alpha;
   options.search.expansions = limits.expansions;
   options.search.seconds = limits.seconds;
-  options.search.cone_degrees = 0;
+  options.effort = std::numeric_limits<double>::infinity();
   options.search.directions = {upwards.vector()};
   return options;
 }

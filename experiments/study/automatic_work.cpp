@@ -1,6 +1,7 @@
 #include "study/automatic_work.h"
 
 #include <atomic>
+#include <limits>
 
 namespace stackabilization::experiments {
 
@@ -40,10 +41,8 @@ class CountedSpace : public DesignSpace {
 
 AutomaticWork automatic_work(const DesignSpace& space, const StudyTask& task,
                              const ImprovementOptions& options) {
-  constexpr double no_limit = 1e9;
   ImprovementOptions limited = options;
-  limited.search.seconds = no_limit;
-  limited.search.cone_degrees = 0;
+  limited.effort = std::numeric_limits<double>::infinity();
   limited.search.directions = {task.direction};
   const CountedSpace counted(space);
   Improvement found = improve(RequirementChecker(counted, task.requirements), limited);

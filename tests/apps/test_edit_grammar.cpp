@@ -115,7 +115,7 @@ TEST_CASE("a mistake is named by its word and by what was expected") {
       {"body", "expected move, rotate or scale, found the end"},
       {"body shove 1 0 0", "expected move, rotate or scale, found 'shove'"},
       {"leg_9 move 1 0 0",
-       "there is no part 'leg_9'; expected shape, point=N, wire=N or one of the parts body"},
+       "expected a part, shape, point=N or wire=N, and there is no part 'leg_9', only 'leg_1', "},
       {"left leg move 1 0 0", "there is no part 'left'"},
       {"'left leg move 1 0 0", "expected a closing '"},
       {"'left leg'x move 1 0 0", "after the quoted part, found 'x'"},

@@ -228,9 +228,9 @@ TEST_CASE("a target that is met already has one solution, the shape as it is") {
   const Outcome outcome = run_program(folder.along_z({"--target", "-1", "--solutions", "3"}));
   INFO(outcome.err << outcome.out);
   CHECK(outcome.status == 0);
-  CHECK(outcome.out.find("along (0, 0, 1)") != std::string::npos);
+  CHECK(outcome.out.find("S of at least -1 along z") != std::string::npos);
   CHECK(outcome.out.find("about as high") != std::string::npos);
-  CHECK(outcome.out.find("solution_1  0.46875  0  0  0.0 %") != std::string::npos);
+  CHECK(outcome.out.find("solution_1  0.46875  along z    0  0  0.0 %") != std::string::npos);
   const json solutions = folder.document("result.json")["solutions"];
   REQUIRE(solutions.size() == 1);
   CHECK(solutions[0]["edits"].empty());
@@ -352,10 +352,113 @@ TEST_CASE("a resumed run starts anew where there is nothing, and refuses the sta
   CHECK(is_one_sentence(anew.err));
   CHECK(anew.err.find("starts anew") != std::string::npos);
   CHECK(run_program(joined(folder.more(), {"--resume", "--quiet"})).err.empty());
-  for (const std::string state : {"", "{}", "state", "[1, 2"}) {
+  for (const auto& [state, words] : std::vector<std::pair<std::string, std::string>>{
+           {"", "search-state.json:1: expected JSON, found something else at byte"},
+           {"{}", "search-state.json: /: this is no saved search of this version"},
+           {"state", "search-state.json:1: expected JSON"},
+           {"{\"format\": \"stackabilization search\", \"version\": 2}",
+            "search-state.json: /: the key 'task' is missing"}}) {
     CHECK(!folder.file("out/search-state.json", state).empty());
-    check_refused(folder, joined(folder.more(), {"--resume"}), 3, "search-state.json");
+    check_refused(folder, joined(folder.more(), {"--resume"}), 3, words);
   }
+}
+
+TEST_CASE("a run without --time is the same for every machine, and --effort says how much it does") {
+  const CupFolder folder;
+  const auto run = [&](const std::string& effort, const Arguments& further) {
+    return run_program(joined({"improve", folder.cup, "--target", "0.97", "--effort", effort, "--no-pictures",
+                               "--json", "-", "-o", folder.out},
+                              further));
+  };
+  const Outcome one = run("0.01", {"--threads", "1", "--no-timing"});
+  CHECK(one.status == 1);
+  CHECK(one.out == run("0.01", {"--threads", "3", "--no-timing"}).out);
+  const json little = one.json()["search"], more = run("0.05", {}).json()["search"];
+  CHECK(little["end"] == "effort");
+  CHECK(little["evaluated"].get<int>() < more["evaluated"].get<int>());
+  CHECK(run_program(joined(folder.more(), {"--effort", "0"})).status == 2);
+}
+
+TEST_CASE("a deadline that is met is told, and its run goes on with the directions that it had") {
+  const CupFolder folder, whole;
+  const auto task = [](const CupFolder& where, const Arguments& further) {
+    return joined({"improve", where.cup, "--target", "0.97", "--effort", "0.01", "--no-pictures",
+                   "--no-timing", "-o", where.out},
+                  further);
+  };
+  const Outcome late = run_program(task(folder, {"--time", "1e-9"}));
+  INFO(late.err << late.out);
+  CHECK(late.status == 1);
+  CHECK(late.out.find("stopped after the seconds of --time; --resume goes on") != std::string::npos);
+  CHECK(folder.document("result.json")["search"]["end"] == "time limit");
+  CHECK(folder.document("search-state.json")["directions"] == json::parse("[[0.0, 0.0, 1.0]]"));
+  CHECK(run_program(task(folder, {"--resume"})).status == 1);
+  CHECK(run_program(task(whole, {"--direction", "0", "0", "1", "--cone-degrees", "10"})).status == 1);
+  json a = folder.document("result.json"), b = whole.document("result.json");
+  a["model"] = b["model"];
+  CHECK(a == b);
+}
+
+TEST_CASE("a direction that is given is kept, one that is free may turn, and each S names its own") {
+  const TemporaryFolder folder;
+  const std::string model =
+      (fs::path(STACKABILIZATION_SOURCE_DIR) / "data" / "models" / "chair.obj").string();
+  const auto directions_of = [&](const Arguments& further) {
+    const Outcome outcome = run_program(joined(
+        {"improve", model, "--target", "0.99", "--preset", "paper", "--expansions", "1", "--no-pictures",
+         "--json", "-", "-o", folder / "out"},
+        further));
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 1);
+    const json nearest = outcome.json()["nearest"];
+    for (const char* side : {"before", "after"}) CHECK(nearest[side]["direction"] == nearest["direction"]);
+    CHECK(outcome.json()["diagnosis"]["direction"] == nearest["direction"]);
+    return nearest["direction"];
+  };
+  const json up = json::parse("[0.0, 0.0, 1.0]");
+  CHECK(directions_of({"--direction", "0", "0", "1"}) == up);
+  CHECK(directions_of({"--direction", "0", "0", "1", "--change-height", "--cone-degrees", "10"}) != up);
+}
+
+TEST_CASE("stack and improve name the same stackability for the same copies in the same room") {
+  const CupFolder folder;
+  const Stackability now = stackability(read_shape(folder.cup), {0, 0, 1});
+  const std::string room = std::to_string(now.extent + 4 * 0.8 * now.f_max);
+  for (const Arguments& air :
+       {Arguments{}, Arguments{"--clearance", "0.05"}, Arguments{"--lateral-clearance", "0.01"},
+        Arguments{"--clearance", "0.05", "--lateral-clearance", "0.01"}}) {
+    const json stacked =
+        run_program(joined({"stack", folder.cup, "-n", "5", "--within", room, "--json", "-"}, air)).json();
+    run_program(joined({"improve", folder.cup, "--copies", "5", "--within", room, "--effort", "0.001",
+                        "--no-pictures", "-o", folder.out},
+                       air));
+    const double wished = stacked["within"]["straight"]["stackability"];
+    CHECK(wished == folder.document("result.json")["target"]["stackability"].get<double>());
+    CHECK(wished == Approx(1 - 0.8 * (1 - now.value)).epsilon(1e-5));
+  }
+  check_refused(folder,
+                {"improve", folder.cup, "--copies", "5", "--within", room, "--clearance", "100", "-o",
+                 folder.out},
+                2, "of air between them");
+}
+
+TEST_CASE("a part that is not there is answered with those that are, in every option") {
+  const TemporaryFolder folder;
+  const std::string table =
+                        (fs::path(STACKABILIZATION_SOURCE_DIR) / "data" / "models" / "chair.obj").string(),
+                    cup = folder.model("cup.obj", solids::frustum_shell(coarse())), out = folder / "out";
+  for (const Arguments& arguments : std::vector<Arguments>{
+           {"improve", table, "--target", "0.5", "-o", out, "--keep", "Seat"},
+           {"improve", table, "--target", "0.5", "-o", out, "--only", "Seat"},
+           {"improve", table, "--target", "0.5", "-o", out, "--remove", "Seat"},
+           {"suggest", table, "--keep", "Seat"},
+           {"deform", table, "--edit", "seat move 0 0 0.01", "--fix", "Seat"},
+           {"deform", table, "--edit", "Seat move 0 0 0.01"},
+           {"structure", table, "--primitive", "Seat=cuboid"}})
+    check_refused(folder, arguments, 2,
+                  "there is no part 'Seat', only 'seat', ");
+  check_refused(folder, {"improve", cup, "--target", "0.5", "-o", out, "--keep", "handle"}, 2,
+                "there is no part 'handle', only ");
 }
 
 TEST_CASE("wrong uses of improve end with 2, name the mistake and leave no folder") {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,7 +30,6 @@ RequirementChecker checker(double target) {
 BestFirstOptions options() {
   BestFirstOptions options;
   options.edits.family = EditFamily::paper;
-  options.seconds = 1e6;
   return options;
 }
 
@@ -228,7 +228,7 @@ TEST_CASE("a search that is cancelled anywhere goes on to the same result") {
     interrupted.cancelled = [&] { return ++asked >= moment; };
     interrupted.save = [&](const std::string& text) { state = text; };
     if (best_first(task, interrupted).end == SearchEnd::cancelled) ++stopped;
-    check_same(best_first_resumed(task, how, state), whole);
+    check_same(best_first_resumed(task, how, {state}), whole);
   }
   CHECK(stopped >= 3);
 }
@@ -240,7 +240,7 @@ TEST_CASE("a search that ended at a limit goes on when the limit is raised") {
   how.save = [&](const std::string& text) { state = text; };
   CHECK(best_first(checker(0.6), how).end == SearchEnd::expansion_limit);
   how.expansions = 50;
-  const BestFirstResult resumed = best_first_resumed(checker(0.6), how, state);
+  const BestFirstResult resumed = best_first_resumed(checker(0.6), how, {state});
   CHECK(resumed.end == SearchEnd::solved);
   check_same(resumed, best_first(checker(0.6), how));
 }
@@ -254,9 +254,9 @@ TEST_CASE("a search that ran out of time goes on with time of its own, and saves
   how.seconds = 1e-9;
   CHECK(best_first(checker(0.6), how).end == SearchEnd::time_limit);
   CHECK(state != whole);
-  CHECK(best_first_resumed(checker(0.6), how, state).end == SearchEnd::time_limit);
-  how.seconds = 1e6;
-  CHECK(best_first_resumed(checker(0.6), how, state).end == SearchEnd::solved);
+  CHECK(best_first_resumed(checker(0.6), how, {state}).end == SearchEnd::time_limit);
+  how.seconds = std::numeric_limits<double>::infinity();
+  CHECK(best_first_resumed(checker(0.6), how, {state}).end == SearchEnd::solved);
   CHECK(state == whole);
 }
 
@@ -266,26 +266,91 @@ TEST_CASE("a state that belongs to another task, or is none, is refused") {
   std::string state;
   how.save = [&](const std::string& text) { state = text; };
   best_first(checker(0.6), how);
-  CHECK_NOTHROW(best_first_resumed(checker(0.6), how, state));
-  CHECK_THROWS_AS(best_first_resumed(checker(0.61), how, state), InputError);
+  CHECK_NOTHROW(best_first_resumed(checker(0.6), how, {state}));
+  CHECK_THROWS_AS(best_first_resumed(checker(0.61), how, {state}), InputError);
   BestFirstOptions other = how;
   other.alpha = 0.3;
-  CHECK_THROWS_AS(best_first_resumed(checker(0.6), other, state), InputError);
+  CHECK_THROWS_AS(best_first_resumed(checker(0.6), other, {state}), InputError);
   for (const std::string& text : {std::string(), std::string("{}"), std::string("[1, 2]"),
                                   state.substr(0, state.size() / 2), state.substr(1)})
-    CHECK_THROWS_AS(best_first_resumed(checker(0.6), how, text), InputError);
-  // A candidate that is its own parent, and a number that is none.
-  for (const auto& [from, to] : {std::pair<std::string, std::string>{"\"parent\":0", "\"parent\":7777"},
-                                 {"\"queue\":0", "\"queue\":3"},
-                                 {"\"factor\":", "\"factor\":-"},
-                                 {"\"gain\"", "\"gains\""},
-                                 {"\"state\":\"expanded\"", "\"state\":\"lost\""}}) {
+    CHECK_THROWS_AS(best_first_resumed(checker(0.6), how, {text}), InputError);
+}
+
+TEST_CASE("a damaged state is named with the place and what was expected there") {
+  BestFirstOptions how = options();
+  how.expansions = 2;
+  std::string state;
+  how.save = [&](const std::string& text) { state = text; };
+  best_first(checker(0.6), how);
+  struct Damage {
+    std::string from, to, words;
+  };
+  for (const Damage& damage : std::vector<Damage>{
+           {"\"parent\":0", "\"parent\":7777", "/parent: expected an integer from 0 to 0, found 7777"},
+           {"\"queue\":0", "\"queue\":3", "/candidates/0/queue: expected an integer from 0 to 0, found 3"},
+           {"\"factor\":", "\"factor\":-", "/edit: "},
+           {"\"energy\"", "\"energies\"", "/candidates/0: there is no key 'energies' here"},
+           {"\"energy\":[", "\"energy\":[[],", "/candidates/0/energy: expected a list of 2"},
+           {"\"measured\":[", "\"measured\":[null,", "/candidates/0/measured: expected a list of 5"},
+           {"\"state\":\"expanded\"", "\"state\":\"lost\"", "/candidates/0/state: expected 'queued'"},
+           {"\"key\":\"", "\"key\":\"x", "/candidates/0/key: expected a whole number in quotes"},
+           {"\"turn\":0", "\"turn\":1", "/turn: expected an integer from 0 to 0, found 1"},
+           {"\"directions\":[[0.0,0.0,1.0]]", "\"directions\":[]", "/directions: expected at least one"},
+           {"\"directions\":[[0.0,0.0,1.0]]", "\"directions\":[[0.0,0.0,0.0]]", "/directions/0: a direction"},
+           {"\"version\":2", "\"version\":1", "/: this is no saved search of this version"},
+           {"\"refusals\":{", "\"refusals\":{\"x\":-1,", "/refusals/x: expected an integer"}}) {
+    INFO(damage.from << " -> " << damage.to);
     std::string damaged = state;
-    const auto at = damaged.find(from);
-    if (at == std::string::npos) continue;
-    damaged.replace(at, from.size(), to);
-    CHECK_THROWS_AS(best_first_resumed(checker(0.6), how, damaged), InputError);
+    const auto at = damaged.find(damage.from);
+    REQUIRE(at != std::string::npos);
+    damaged.replace(at, damage.from.size(), damage.to);
+    std::string words;
+    try {
+      best_first_resumed(checker(0.6), how, {damaged, "folder/state.json"});
+    } catch (const SavedSearchError& error) {
+      words = error.what();
+    }
+    INFO(words);
+    CHECK(words.starts_with("folder/state.json: /"));
+    CHECK(words.find(damage.words) != std::string::npos);
+    CHECK(words.find("json.exception") == std::string::npos);
   }
+}
+
+TEST_CASE("a saved search knows its directions, before its first step too") {
+  BestFirstOptions how = options();
+  how.directions = {{0.1, 0, 1}, {0, 0, 1}, {1. / 3, 2, -1}};
+  how.expansions = 2;
+  std::vector<std::string> states;
+  how.save = [&](const std::string& text) { states.push_back(text); };
+  const BestFirstResult whole = best_first(checker(0.6), how);
+  REQUIRE(states.size() >= 2);
+  CHECK(states.front() == search_at_start(checker(0.6), how));
+  for (const std::string& state : states) CHECK(directions_of({state}) == how.directions);
+  check_same(best_first_resumed(checker(0.6), how, {states.front()}), whole);
+  CHECK_THROWS_AS(directions_of({"{}"}), SavedSearchError);
+}
+
+TEST_CASE("a limit of trials bounds the edits tried, and leaves no trace of what goes beyond it") {
+  BestFirstOptions how = options();
+  const BestFirstResult whole = best_first(checker(0.6), how);
+  REQUIRE(whole.trials > 4);
+  std::string state;
+  how.save = [&](const std::string& text) { state = text; };
+  std::int64_t before = 0;
+  for (const std::int64_t limit : {std::int64_t{0}, whole.trials / 2, whole.trials - 1}) {
+    how.trials = limit;
+    const BestFirstResult part = best_first(checker(0.6), how);
+    CHECK(part.end == SearchEnd::trial_limit);
+    CHECK(part.trials <= limit);
+    CHECK(part.trials >= before);
+    before = part.trials;
+    BestFirstOptions more = how;
+    more.trials = whole.trials;
+    check_same(best_first_resumed(checker(0.6), more, {state}), whole);
+  }
+  how.trials = whole.trials;
+  check_same(best_first(checker(0.6), how), whole);
 }
 
 TEST_CASE("progress is reported after every candidate") {
@@ -333,6 +398,7 @@ TEST_CASE("options out of range are refused") {
   };
   refused([](BestFirstOptions& how) { how.solutions = 0; });
   refused([](BestFirstOptions& how) { how.expansions = 0; });
+  refused([](BestFirstOptions& how) { how.trials = -1; });
   refused([](BestFirstOptions& how) { how.seconds = 0; });
   refused([](BestFirstOptions& how) { how.seconds = std::nan(""); });
   refused([](BestFirstOptions& how) { how.cone_degrees = -1; });

@@ -67,7 +67,8 @@ TEST_CASE("a pursuit frees every contact of one height, where one edit alone wou
   wanted.measure.boxes = BoxModel::frame;
   const RequirementChecker checker(*space, wanted);
   const Candidate start = at_rest(checker, {0, 0, 1});
-  const Candidate found = pursued(checker, start);
+  const PursuitResult result = pursued(checker, start);
+  const Candidate& found = result.candidate;
   CHECK(found.measured.value >= wanted.target);
   CHECK(found.design.edits.size() > 1);
   CHECK(found.reasons.size() == found.design.edits.size());
@@ -81,11 +82,20 @@ TEST_CASE("a pursuit frees every contact of one height, where one edit alone wou
   CHECK(again.design.shape.vertices == found.design.shape.vertices);
 
   PursuitOptions options;
+  options.evaluations = result.evaluations;
+  CHECK(pursued(checker, start, options).candidate.design.shape.vertices == found.design.shape.vertices);
+  for (const std::int64_t limit : {std::int64_t{0}, result.evaluations - 1}) {
+    options.evaluations = limit;
+    const PursuitResult less = pursued(checker, start, options);
+    CHECK(less.evaluations <= limit);
+    CHECK(less.candidate.design.edits.size() < found.design.edits.size());
+  }
+  options = {};
   options.steps = 1;
-  CHECK(pursued(checker, start, options).design.edits.size() == 1);
+  CHECK(pursued(checker, start, options).candidate.design.edits.size() == 1);
   options.cancelled = [] { return true; };
-  CHECK(pursued(checker, start, options).design.edits.empty());
+  CHECK(pursued(checker, start, options).candidate.design.edits.empty());
   Requirements met = wanted;
   met.target = -1;
-  CHECK(pursued(RequirementChecker(*space, met), start).design.edits.empty());
+  CHECK(pursued(RequirementChecker(*space, met), start).candidate.design.edits.empty());
 }

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "stackabilization/shape/direction.h"
+#include "stackabilization/shape/direction_text.h"
 #include "stackabilization/shape/errors.h"
 #include "support/catch.h"
 
@@ -44,4 +45,18 @@ TEST_CASE("the frame of -z is the half turn about x") {
   CHECK(frame.u == Eigen::Vector3d(1, 0, 0));
   CHECK(frame.v == Eigen::Vector3d(0, -1, 0));
   CHECK(frame.w == Eigen::Vector3d(0, 0, -1));
+}
+
+TEST_CASE("directions are told by their axis, or by a unit vector in few digits") {
+  const auto told = [](double x, double y, double z) { return direction_text({x, y, z}); };
+  CHECK(told(0, 0, 1) == "along z");
+  CHECK(told(0, 0, 7e100) == "along z");
+  CHECK(told(-0.1, 0, 0) == "along -x");
+  CHECK(told(1e-8, 2, -1e-8) == "along y");
+  CHECK(told(0.3, 0, -0.4) == "along (0.6, 0, -0.8)");
+  CHECK(told(0.1234, 0, 0.99236) == "along (0.123, 0, 0.992)");
+  CHECK(told(1, 1, 1) == "along (0.577, 0.577, 0.577)");
+  // Not to be taken for the axis.
+  CHECK(told(0.0002, 0, 1) == "along (0.0002, 0, 1)");
+  CHECK(told(-3e-6, 0, 1) == "along (-0.000003, 0, 1)");
 }

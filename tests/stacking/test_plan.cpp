@@ -26,6 +26,16 @@ TEST_CASE("ten chairs within two metres") {
   CHECK(*plan.copies_now == 7);
 }
 
+TEST_CASE("the stackability of a plan counts air as part of every copy") {
+  const StackPlan plan = plan_within(chair(), {10, 2, 0.01});
+  CHECK(*plan.f_max == Approx(1.2 / 9 - 0.01));
+  CHECK(*plan.stackability == *plan_within(chair(), {10, 2, 0}).stackability);
+  CHECK(*plan.stackability == stackability_within(chair(), 10, 2));
+  // Boxes count as in Eq. 3.
+  const Stackability leaning{{0, 0, 1}, 0.2, 0.8, 0.4, 0.6, 0.625};
+  CHECK(stackability_within(leaning, 10, 2) == Approx(1 - 1.2 / 9 / 0.8 * 1.5));
+}
+
 TEST_CASE("what a plan demands is just enough") {
   Stackability better = chair();
   const StackWish wish{10, 2, 0.01};

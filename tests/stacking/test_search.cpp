@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -245,6 +246,33 @@ TEST_CASE("a search can be ended between the steps of its last climbs") {
   CHECK(ended.best.value <= whole.best.value + 1e-12);
 }
 
+TEST_CASE("a search tries no more directions than it may, the same ones on any number of threads") {
+  for (const Shape& shape : {small_cup(), irregular()}) {
+    const StackabilitySolver solver(shape);
+    const SearchResult whole = best_direction(solver);
+    CHECK(!whole.limited);
+    double before = -std::numeric_limits<double>::infinity();
+    for (const std::int64_t limit : {std::int64_t{1}, std::int64_t{7}, std::int64_t{300}, std::int64_t{1500},
+                                     whole.evaluated / 2, 100 * whole.evaluated}) {
+      INFO("at most " << limit << " of " << whole.evaluated);
+      SearchOptions options;
+      options.max_directions = limit;
+      std::vector<SearchResult> results;
+      for (const std::size_t threads : {1, 3}) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        results.push_back(best_direction(solver, options));
+      }
+      CHECK(results[0].evaluated <= limit);
+      CHECK(results[0].evaluated == results[1].evaluated);
+      CHECK(results[0].best.direction == results[1].best.direction);
+      CHECK(!results[0].cancelled);
+      if (limit >= 300) CHECK(results[0].best.value >= before - 0.2);
+      before = results[0].best.value;
+      if (limit > whole.evaluated) CHECK(results[0].best.direction == whole.best.direction);
+    }
+  }
+}
+
 TEST_CASE("a search refuses options that make no sense") {
   const StackabilitySolver solver(small_cup());
   const auto refused = [&](const SearchOptions& options) {
@@ -253,6 +281,7 @@ TEST_CASE("a search refuses options that make no sense") {
   refused({.spacing = 0});
   refused({.spacing = std::nan("")});
   refused({.climbs = 0});
+  refused({.max_directions = 0});
   refused({.cone = DirectionCone{{0, 0, 1}, 0}});
   refused({.cone = DirectionCone{{0, 0, 1}, 2}});
   refused({.cone = DirectionCone{{0, 0, 0}, 0.1}});

@@ -10,7 +10,8 @@ namespace {
 void validate(const RequirementChecker& checker, const BestFirstOptions& options) {
   if (options.solutions < 1) throw UsageError("a search looks for one solution at least");
   if (options.expansions < 1) throw UsageError("a search expands one candidate at least");
-  if (!(options.seconds > 0)) throw UsageError("the time limit of a search must be positive");
+  if (options.trials < 0) throw UsageError("the number of edits that a search tries must not be negative");
+  if (!(options.seconds > 0)) throw UsageError("the deadline of a search must be positive");
   if (!(options.cone_degrees >= 0) || options.cone_degrees > 90)
     throw UsageError("the cone in which a direction is searched again must be within 0 and 90 degrees");
   if (options.cone_degrees > 0 && checker.space().kind() == DeformationKind::gap_scaling)
@@ -23,17 +24,18 @@ void validate(const RequirementChecker& checker, const BestFirstOptions& options
 
 BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOptions& options) {
   validate(checker, options);
-  const int queues = static_cast<int>(options.directions.size());
-  detail::SearchState state(detail::task_fingerprint(checker, options), queues);
-  return detail::BestFirstSearch(checker, options, std::move(state)).run();
+  return detail::BestFirstSearch(checker, options, detail::new_state(checker, options)).run();
 }
 
 BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
-                                   const std::string& state) {
+                                   const SavedSearch& state) {
   validate(checker, options);
-  const std::uint64_t task = detail::task_fingerprint(checker, options);
-  const int queues = static_cast<int>(options.directions.size());
-  return detail::BestFirstSearch(checker, options, detail::read_state(state, task, queues)).run();
+  return detail::BestFirstSearch(checker, options, detail::read_state(state, checker, options)).run();
+}
+
+std::string search_at_start(const RequirementChecker& checker, const BestFirstOptions& options) {
+  validate(checker, options);
+  return detail::BestFirstSearch(checker, options, detail::new_state(checker, options)).state_text();
 }
 
 }  // namespace stackabilization

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "stackabilization/improvement/contact_edits.h"
 #include "stackabilization/improvement/energy.h"
 #include "stackabilization/improvement/requirements.h"
+#include "stackabilization/shape/errors.h"
 
 namespace stackabilization {
 
@@ -17,10 +19,10 @@ struct ImprovementProgress {
   double best_stackability = 0;  ///< of all candidates seen
   double best_energy = 0;        ///< least E of all candidates seen
   std::int64_t expanded = 0;     ///< candidates whose successors were made
-  std::int64_t evaluated = 0;    ///< candidates measured
+  std::int64_t evaluated = 0;    ///< designs measured
   std::int64_t queued = 0;       ///< candidates that wait, over all starting directions
   int solutions = 0;             ///< found so far
-  double seconds_left = 0;       ///< of the time limit; infinite without one
+  double seconds_left = 0;       ///< until the deadline; infinite without one
 };
 
 /// Options of `best_first`.
@@ -29,8 +31,14 @@ struct BestFirstOptions {
   ContactEditOptions edits;       ///< what contacts suggest
   int solutions = 1;              ///< different ones wanted, >= 1
   std::int64_t expansions = 100;  ///< limit, >= 1
-  double seconds = 40;            ///< limit, > 0, of one call; what it ends depends on the machine
-  double cone_degrees = 10;  ///< the direction is searched again within this of the previous one; 0: never
+  /// Limit, >= 0: edits tried in all, whatever comes of them. A candidate whose edits would be more than are
+  /// left ends the search.
+  std::int64_t trials = std::numeric_limits<std::int64_t>::max();
+  /// Deadline of one call, > 0. Only a finite one makes what is found depend on the machine.
+  double seconds = std::numeric_limits<double>::infinity();
+  /// The direction is searched again within this angle of the previous one. 0: candidates keep the direction
+  /// that they start from.
+  double cone_degrees = 0;
   /// Directions to start from, the first preferred; not empty.
   std::vector<Eigen::Vector3d> directions = {{0, 0, 1}};
   std::function<void(const ImprovementProgress&)> progress = {};  ///< called from the calling thread
@@ -55,8 +63,9 @@ struct RefusalCount {
   std::int64_t count = 0;  ///< how often
 };
 
-/// Why a search ended: enough solutions, nothing left to expand, a limit, or the caller.
-enum class SearchEnd { solved, exhausted, expansion_limit, time_limit, cancelled };
+/// Why a search ended: enough solutions, nothing left to expand, a limit (of expansions, of trials, of time),
+/// or the caller.
+enum class SearchEnd { solved, exhausted, expansion_limit, trial_limit, time_limit, cancelled };
 
 /// What `best_first` found.
 struct BestFirstResult {
@@ -65,7 +74,21 @@ struct BestFirstResult {
   std::vector<Candidate> nearest;
   std::vector<RefusalCount> refusals;    ///< most frequent first
   ImprovementProgress progress;          ///< counts at the end
+  std::int64_t trials = 0;               ///< edits tried, see BestFirstOptions::trials
   SearchEnd end = SearchEnd::exhausted;  ///< why it ended
+};
+
+/// A text given to BestFirstOptions::save.
+struct SavedSearch {
+  std::string text;                   ///< as it was given
+  std::string name = "saved search";  ///< what messages call it, such as a path
+};
+
+/// A saved search cannot be gone on with: it is damaged, or belongs to another task. The message names the
+/// search, the place and what was expected.
+class SavedSearchError : public InputError {
+ public:
+  using InputError::InputError;
 };
 
 /// Algorithm 1 of the paper: of all candidates that of least E (ties: made first) is taken; one that reaches
@@ -80,16 +103,21 @@ struct BestFirstResult {
 /// of their changes from rest; a tenth is enough when their edits take hold of different handles (symmetric
 /// parts counted as one) or move them otherwise.
 ///
-/// The same result for any number of threads, and after any interruption, unless the time limit ends it.
+/// The same result for any number of threads, and after any interruption, unless the deadline ends it.
 /// Throws UsageError for options out of range, and for gap scaling with a cone: it keeps its direction.
 BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOptions& options);
 
-/// Goes on from a text given to `save` by a search with the same checker and options; only its limits, of
-/// expansions and seconds, may be others. The expansions it made count, the seconds it used do not: they are
-/// of no state, so that the same search saves the same bytes. Throws InputError when the text is none, or
-/// belongs to another shape, other requirements or other options.
+/// Goes on from a text given to `save` by a search with the same checker and options; only its limits may be
+/// others. The expansions and trials that it made count, the seconds it used do not: they are of no state, so
+/// that the same search saves the same bytes. Throws SavedSearchError.
 BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
-                                   const std::string& state);
+                                   const SavedSearch& state);
+
+/// What a search saves before its first step.
+std::string search_at_start(const RequirementChecker& checker, const BestFirstOptions& options);
+
+/// The starting directions of a saved search, to the bit. Throws SavedSearchError.
+std::vector<Eigen::Vector3d> directions_of(const SavedSearch& state);
 
 /// Is it a text given to `save`, of whatever search and version?
 bool is_search_state(const std::string& text);

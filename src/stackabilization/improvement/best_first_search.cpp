@@ -12,6 +12,9 @@ namespace {
 /// Candidates that are shown when the target was not reached.
 constexpr std::size_t most_nearest = 8;
 
+/// The look around in a cone costs about as much as so many edits.
+constexpr std::int64_t cone_trials = 8;
+
 /// Seconds between two saves, and the most that saving may take of all time.
 constexpr double save_every = 1;
 constexpr double save_share = 0.05;
@@ -57,9 +60,12 @@ void BestFirstSearch::notice(const SearchNode& node) {
 }
 
 BestFirstResult BestFirstSearch::run() {
+  save();
   std::optional<SearchEnd> ended = end();
-  for (; !ended; ended = end()) {
-    step(*state_.tree.next());
+  while (!ended) {
+    ended = step(*state_.tree.next());
+    if (ended) break;
+    ended = end();
     if (options().progress) options().progress(progress());
     if (seconds_since(last_save_) >= std::max(save_every, save_seconds_ / save_share)) save();
   }
@@ -75,7 +81,7 @@ std::optional<SearchEnd> BestFirstSearch::end() {
   return std::nullopt;
 }
 
-void BestFirstSearch::step(int id) {
+std::optional<SearchEnd> BestFirstSearch::step(int id) {
   const SearchNode node = state_.tree.node(id);
   const std::shared_ptr<const Design> design = designs_.of(id);
   Stackability measured = node.measured;
@@ -85,8 +91,13 @@ void BestFirstSearch::step(int id) {
   const Verdict verdict = this->verdict(*design, measured);
   std::vector<Successor> made;
   if (!verdict.state) {
-    made = successors(tools_, {*design, measured.direction, node.queue}, state_.tree, interruption_);
-    if (interruption_.why()) return;
+    const Standpoint from{*design, measured.direction, node.queue};
+    std::vector<ContactEdit> edits = suggestions(tools_, from);
+    const auto trials = static_cast<std::int64_t>(edits.size()) + turning_trials();
+    if (trials > options().trials - state_.trials) return SearchEnd::trial_limit;
+    made = successors(tools_, from, std::move(edits), state_.tree, interruption_);
+    if (interruption_.why()) return interruption_.why();
+    state_.trials += trials;
     ++state_.expanded;
   }
   state_.tree.settle(id, verdict.state.value_or(NodeState::expanded));
@@ -95,6 +106,11 @@ void BestFirstSearch::step(int id) {
   if (verdict.state == NodeState::solution) solutions_.emplace_back(id, design);
   for (const std::string& check : verdict.broken) ++state_.refusals[check];
   add_successors(id, made);
+  return std::nullopt;
+}
+
+std::int64_t BestFirstSearch::turning_trials() const {
+  return options().cone_degrees > 0 ? cone_trials : 0;
 }
 
 BestFirstSearch::Verdict BestFirstSearch::verdict(const Design& design, const Stackability& measured) const {
@@ -210,6 +226,7 @@ BestFirstResult BestFirstSearch::result(SearchEnd end) {
   result.nearest = nearest();
   result.refusals = refusals();
   result.progress = progress();
+  result.trials = state_.trials;
   return result;
 }
 

@@ -23,6 +23,7 @@ class BestFirstSearch {
   BestFirstSearch(const RequirementChecker& checker, const BestFirstOptions& options, SearchState state);
 
   BestFirstResult run();
+  std::string state_text() const { return text_of(state_); }
 
  private:
   /// What is known of a candidate once it is looked at.
@@ -36,7 +37,10 @@ class BestFirstSearch {
 
   void add_roots();
   std::optional<SearchEnd> end();
-  void step(int id);
+  /// Why the step is not done, if it is not.
+  std::optional<SearchEnd> step(int id);
+  /// What the search for another direction counts as.
+  std::int64_t turning_trials() const;
   Verdict verdict(const Design& design, const Stackability& measured) const;
   void add_successors(int parent, const std::vector<Successor>& made);
   void notice(const SearchNode& node);

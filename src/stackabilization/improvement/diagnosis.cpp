@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <map>
 #include <utility>
 
 #include "stackabilization/improvement/contact_symmetry.h"
 #include "stackabilization/improvement/refusal_reason.h"
 #include "stackabilization/improvement/removal.h"
+#include "stackabilization/shape/direction_text.h"
 #include "stackabilization/stacking/search.h"
 
 namespace stackabilization {
@@ -39,12 +42,6 @@ std::string number_unlike(double value, double other) {
   return number(value, digits);
 }
 
-std::string text_of(const Eigen::Vector3d& v) {
-  std::string text = "(";
-  for (int k = 0; k < 3; ++k) text += (k > 0 ? ", " : "") + number(v(k));
-  return text + ")";
-}
-
 std::string names(const std::vector<int>& parts, const Shape& shape) {
   std::string text;
   for (std::size_t k = 0; k < parts.size(); ++k) {
@@ -58,6 +55,13 @@ bool contains(const std::vector<int>& parts, int part) {
   return std::find(parts.begin(), parts.end(), part) != parts.end();
 }
 
+/// A limit of directions, at least 1.
+std::int64_t whole_directions(double count) {
+  constexpr auto most = std::numeric_limits<std::int64_t>::max();
+  if (!(count < static_cast<double>(most))) return most;
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(count));
+}
+
 /// What became of the edits that would separate regions.
 struct Trial {
   double best = 0;  ///< largest S; the S before where no edit was made
@@ -68,10 +72,10 @@ struct Trial {
 class Diagnostician {
  public:
   Diagnostician(const RequirementChecker& checker, const BestFirstResult& result,
-                const std::function<bool()>& cancelled)
+                const DiagnosisOptions& options)
       : checker_(checker),
         result_(result),
-        cancelled_(cancelled),
+        options_(options),
         best_(result.nearest.front()),
         rest_(checker.space().rest()),
         direction_(best_.direction),
@@ -81,6 +85,7 @@ class Diagnostician {
   Diagnosis run() {
     diagnosis_.target = checker_.needed(best_.measured);
     diagnosis_.reached = best_.measured.value;
+    diagnosis_.direction = best_.direction;
     find_blockers();
     for (const RefusalCount& refusal : result_.refusals) {
       if (diagnosis_.constraints.size() == most_constraints) break;
@@ -99,7 +104,9 @@ class Diagnostician {
  private:
   const std::string& name(int part) const { return rest_.shape.part_names[static_cast<std::size_t>(part)]; }
 
-  bool stopped() const { return cancelled_ && cancelled_(); }
+  double designs_left() const { return options_.designs - static_cast<double>(designs_); }
+
+  bool stopped() const { return designs_left() <= 0 || (options_.cancelled && options_.cancelled()); }
 
   bool helps(double stackability) const { return stackability > diagnosis_.reached + worth_saying; }
 
@@ -118,7 +125,7 @@ class Diagnostician {
                      [](const Blocker& a, const Blocker& b) { return a.f > b.f; });
   }
 
-  Blocker blocker(const ContactRegion& region) const {
+  Blocker blocker(const ContactRegion& region) {
     Blocker blocker;
     blocker.upper_part = region.upper_part;
     blocker.lower_part = region.lower_part;
@@ -132,7 +139,8 @@ class Diagnostician {
     blocker.f = apart.blocked ? apart.length : measured.f_max;
     blocker.stackability =
         1 - blocker.f / measured.extent * (measured.stack_box_volume / measured.box_volume);
-    blocker.reason = reason_of(tried({region}, constraints(checker_.requirements())));
+    if (const auto trial = tried({region}, constraints(checker_.requirements())))
+      blocker.reason = reason_of(*trial);
     return blocker;
   }
 
@@ -140,11 +148,15 @@ class Diagnostician {
     return deformation_constraints(requirements, rest_, direction_);
   }
 
-  /// All edits that these regions suggest, each by itself.
-  Trial tried(const std::vector<ContactRegion>& regions, const DeformationConstraints& constraints) const {
+  /// All edits that these regions suggest, each by itself; nothing when that is too many, or cancelled.
+  std::optional<Trial> tried(const std::vector<ContactRegion>& regions,
+                             const DeformationConstraints& constraints) {
+    if (stopped()) return std::nullopt;
     const DesignSpace& space = checker_.space();
     const std::vector<ContactEdit> edits =
         contact_edits({rest_, space.kind(), handles_, best_.design, regions, direction_, space.centres()});
+    if (static_cast<double>(edits.size()) > designs_left()) return std::nullopt;
+    designs_ += static_cast<std::int64_t>(edits.size());
     std::vector<std::optional<std::string>> refusals(edits.size());
     std::vector<double> reached(edits.size(), best_.measured.value);
     tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
@@ -181,12 +193,13 @@ class Diagnostician {
   void look_elsewhere() {
     const StackabilitySolver rest(rest_.shape, checker_.requirements().measure);
     SearchOptions options;
-    options.cancelled = cancelled_;
+    options.cancelled = options_.cancelled;
+    options.max_directions = whole_directions(designs_left() * options_.directions_per_design);
     for (const Symmetry& symmetry : rest_.structure.symmetries) options.candidates.push_back(symmetry.axis);
     const Stackability best = best_direction(rest, options).best;
     if (!helps(best.value)) return;
     add({Remedy::Kind::other_direction,
-         "stack along " + text_of(best.direction) + ", without any edit",
+         "stack " + direction_text(best.direction) + ", without any edit",
          {},
          best.direction,
          best.value});
@@ -228,14 +241,17 @@ class Diagnostician {
   /// A remedy when one edit helps that is refused without it.
   void offer(Remedy::Kind kind, const std::string& what, const Requirements& instead,
              const std::vector<int>& parts) {
-    const Trial trial = tried(regions_, constraints(instead));
-    if (helps(trial.best) && trial.best > best_as_asked() + worth_saying)
-      add({kind, what, parts, best_.direction, trial.best});
+    const std::optional<Trial> trial = tried(regions_, constraints(instead));
+    if (!trial || !helps(trial->best)) return;
+    const std::optional<double> as_asked = best_as_asked();
+    if (as_asked && trial->best > *as_asked + worth_saying)
+      add({kind, what, parts, best_.direction, trial->best});
   }
 
-  double best_as_asked() {
-    if (!as_asked_) as_asked_ = tried(regions_, constraints(checker_.requirements())).best;
-    return *as_asked_;
+  std::optional<double> best_as_asked() {
+    if (!as_asked_)
+      if (const auto trial = tried(regions_, constraints(checker_.requirements()))) as_asked_ = trial->best;
+    return as_asked_;
   }
 
   void remove_parts() {
@@ -259,7 +275,7 @@ class Diagnostician {
 
   const RequirementChecker& checker_;
   const BestFirstResult& result_;
-  const std::function<bool()>& cancelled_;
+  const DiagnosisOptions& options_;
   const Candidate& best_;
   const StructuredShape& rest_;
   Direction direction_;
@@ -267,6 +283,7 @@ class Diagnostician {
   StackabilitySolver solver_;
   std::vector<ContactRegion> regions_;  ///< one of each class of symmetric ones
   std::optional<double> as_asked_;      ///< best S after one more edit
+  std::int64_t designs_ = 0;            ///< made so far
   Diagnosis diagnosis_;
 };
 
@@ -276,19 +293,21 @@ std::string sentence(const Blocker& blocker, const Shape& shape) {
                     : blocker.type == ContactType::line ? " along a line"
                                                         : "";
   return above + " of each copy comes down on " + below + " of the copy below" + how +
-         ". These two alone leave S = " + number(blocker.stackability) + ": " + blocker.reason + ".\n";
+         ". These two alone leave S = " + number(blocker.stackability) +
+         (blocker.reason.empty() ? "" : ": " + blocker.reason) + ".\n";
 }
 
 }  // namespace
 
 Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& result,
-                    const std::function<bool()>& cancelled) {
-  return Diagnostician(checker, result, cancelled).run();
+                    const DiagnosisOptions& options) {
+  return Diagnostician(checker, result, options).run();
 }
 
 std::string text(const Diagnosis& diagnosis, const StructuredShape& rest) {
   std::string text = "S = " + number(diagnosis.target) + " was not reached; the best is S = " +
-                     number_unlike(diagnosis.reached, diagnosis.target) + ".\n";
+                     number_unlike(diagnosis.reached, diagnosis.target) + " " +
+                     direction_text(diagnosis.direction) + ".\n";
   for (const Blocker& blocker : diagnosis.blockers) text += sentence(blocker, rest.shape);
   if (!diagnosis.constraints.empty()) text += "What stood against edits most often:\n";
   for (const std::string& constraint : diagnosis.constraints) text += "  " + constraint + "\n";

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +16,7 @@ struct Blocker {
   ContactType type = ContactType::dot;   ///< of the region
   double f = 0;                          ///< what this pair alone asks for, model units
   double stackability = 0;               ///< S if it were the only one
-  std::string reason;  ///< why the edits that would separate it were refused, or did not help
+  std::string reason;  ///< why the edits that would separate it were refused, or did not help; may be empty
 };
 
 /// Something that would help, with the S that it gives without further edits or, for a constraint, allows.
@@ -31,18 +32,26 @@ struct Remedy {
 
 /// Why a target was not reached.
 struct Diagnosis {
-  double target = 0, reached = 0;        ///< S asked for; largest S met
-  std::vector<Blocker> blockers;         ///< largest f first
+  double target = 0, reached = 0;                        ///< S asked for; largest S met
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< along which that is
+  std::vector<Blocker> blockers;                         ///< largest f first
   std::vector<std::string> constraints;  ///< requirements and relations that refused edits, most often first
   std::vector<Remedy> remedies;          ///< largest S first
 };
 
+/// Options of `diagnosed`.
+struct DiagnosisOptions {
+  double designs =
+      std::numeric_limits<double>::infinity();  ///< made at most to find reasons and remedies, >= 0
+  double directions_per_design = 8;      ///< what a direction costs, for the look for other directions, > 0
+  std::function<bool()> cancelled = {};  ///< asked from the calling thread
+};
+
 /// What blocks the best candidate of a search that did not reach its target, and what would help: another
 /// direction, freeing a part that had to stay, removing one (removal.h). Precondition: `result.nearest` is
-/// not empty. What blocks is always found; what would help is looked for until `cancelled`, which is asked
-/// from the calling thread and by the search for directions.
+/// not empty. What blocks is always found; why, and what would help, is looked for within the limits.
 Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& result,
-                    const std::function<bool()>& cancelled = {});
+                    const DiagnosisOptions& options = {});
 
 /// The diagnosis as text, a few lines for people.
 std::string text(const Diagnosis& diagnosis, const StructuredShape& rest);

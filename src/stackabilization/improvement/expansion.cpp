@@ -27,22 +27,6 @@ bool takes_back(const Edit& edit, const Edit& earlier) {
          scale->along->cross(*before->along).norm() < tolerance::same_symmetry * before->along->norm();
 }
 
-std::vector<ContactEdit> suggestions(const SearchTools& tools, const Standpoint& from) {
-  const DesignSpace& space = tools.checker.space();
-  const Direction direction(from.direction);
-  const std::vector<ContactRegion> regions =
-      contacts_of(tools.checker, from.design.shape, direction, tools.options.edits.contacts);
-  std::vector<ContactEdit> edits = contact_edits(
-      {space.rest(), space.kind(), tools.handles, from.design, regions, direction, space.centres()},
-      tools.options.edits);
-  // Back and forth leads to places that steps of the same kind reach as well, or near them.
-  std::erase_if(edits, [&](const ContactEdit& suggestion) {
-    return std::any_of(from.design.edits.begin(), from.design.edits.end(),
-                       [&](const Edit& earlier) { return takes_back(suggestion.edit, earlier); });
-  });
-  return edits;
-}
-
 void make(Successor& successor, const SearchTools& tools, const Standpoint& from, const SearchTree& tree) {
   const DesignSpace& space = tools.checker.space();
   const Direction direction(from.direction);
@@ -77,9 +61,25 @@ SearchTools::SearchTools(const RequirementChecker& the_checker, const BestFirstO
           the_checker.measured(the_checker.space().rest().shape, Direction(the_options.directions.front()))
               .value) {}
 
-std::vector<Successor> successors(const SearchTools& tools, const Standpoint& from, const SearchTree& tree,
+std::vector<ContactEdit> suggestions(const SearchTools& tools, const Standpoint& from) {
+  const DesignSpace& space = tools.checker.space();
+  const Direction direction(from.direction);
+  const std::vector<ContactRegion> regions =
+      contacts_of(tools.checker, from.design.shape, direction, tools.options.edits.contacts);
+  std::vector<ContactEdit> edits = contact_edits(
+      {space.rest(), space.kind(), tools.handles, from.design, regions, direction, space.centres()},
+      tools.options.edits);
+  // Back and forth leads to places that steps of the same kind reach as well, or near them.
+  std::erase_if(edits, [&](const ContactEdit& suggestion) {
+    return std::any_of(from.design.edits.begin(), from.design.edits.end(),
+                       [&](const Edit& earlier) { return takes_back(suggestion.edit, earlier); });
+  });
+  return edits;
+}
+
+std::vector<Successor> successors(const SearchTools& tools, const Standpoint& from,
+                                  std::vector<ContactEdit> edits, const SearchTree& tree,
                                   Interruption& interruption) {
-  std::vector<ContactEdit> edits = suggestions(tools, from);
   std::vector<Successor> made(edits.size());
   for (std::size_t k = 0; k < made.size(); ++k) made[k].suggestion = std::move(edits[k]);
   tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t k) {

@@ -45,9 +45,13 @@ struct Standpoint {
   int queue = 0;
 };
 
-/// Its successors, in the order of contact_edits; those whose configuration is known in the queue are only
+/// What its contacts suggest, but for edits that take back earlier ones.
+std::vector<ContactEdit> suggestions(const SearchTools& tools, const Standpoint& from);
+
+/// Its successors by these edits, in their order; those whose configuration is known in the queue are only
 /// named. Made in parallel, each in its own slot. When interrupted, some are missing: look at `interruption`.
-std::vector<Successor> successors(const SearchTools& tools, const Standpoint& from, const SearchTree& tree,
+std::vector<Successor> successors(const SearchTools& tools, const Standpoint& from,
+                                  std::vector<ContactEdit> edits, const SearchTree& tree,
                                   Interruption& interruption);
 
 }  // namespace stackabilization::detail

@@ -3,7 +3,9 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <thread>
 #include <utility>
 
 #include "stackabilization/improvement/proportions.h"
@@ -170,7 +172,15 @@ MagnitudeProblem::Measured MagnitudeProblem::measured(const Magnitudes& x) const
 std::vector<MagnitudeProblem::Measured> MagnitudeProblem::measured(
     const std::vector<Magnitudes>& points) const {
   std::vector<Measured> made(points.size());
-  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t k) { made[k] = measured(points[k]); });
+  std::atomic<bool> cancelled = false;
+  const auto ask = [&, caller = std::this_thread::get_id()] {
+    if (points.size() > 1 && std::this_thread::get_id() == caller && limits_.cancelled && limits_.cancelled())
+      cancelled = true;
+    return cancelled.load();
+  };
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t k) {
+    if (!ask()) made[k] = measured(points[k]);
+  });
   return made;
 }
 
@@ -218,6 +228,13 @@ MagnitudeSlopes MagnitudeProblem::slopes(const Magnitudes& x) {
     points.push_back(neighbour(k, steps[k]));
   }
   std::vector<Measured> made = measured(points);
+  if (!made.front().sample.made) {  // cancelled
+    const auto columns = static_cast<Eigen::Index>(size());
+    return {Eigen::MatrixXd::Zero(at(x).changes.size(), columns),
+            Eigen::MatrixXd::Zero(at(x).shortfalls.size(), columns),
+            {},
+            std::vector<bool>(size())};
+  }
   std::vector<std::size_t> refused;
   std::vector<Magnitudes> others;
   for (std::size_t k = 0; k < size(); ++k) {

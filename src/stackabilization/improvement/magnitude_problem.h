@@ -68,9 +68,10 @@ class MagnitudeProblem {
   void constrain_pairs(const Magnitudes& x);
 
   const MagnitudeSample& at(const Magnitudes& x);
-  /// By differences over a step of each magnitude, see step_by.
+  /// By differences over a step of each magnitude, see step_by. Zero, with no neighbour made, when it is
+  /// cancelled meanwhile. Precondition: what is at `x` can be made.
   MagnitudeSlopes slopes(const Magnitudes& x);
-  /// Measures several at once, so that at() has them.
+  /// Measures several at once, so that at() has them. Those left when it is cancelled count as not made.
   void prepare(const std::vector<Magnitudes>& points);
 
   /// The edits with these magnitudes; those with 0 are left out.

@@ -36,10 +36,10 @@ class Pursuit {
     now_.excess = excess(now_.candidate);
   }
 
-  Candidate run() {
+  PursuitResult run() {
     for (int step = 0; step < options_.steps && now_.excess > 0; ++step)
-      if (!advance()) break;
-    return std::move(now_.candidate);
+      if (stopped_here() || !advance()) break;
+    return {std::move(now_.candidate), evaluations_};
   }
 
  private:
@@ -93,6 +93,8 @@ class Pursuit {
 
   bool advance() {
     const std::vector<ContactEdit> edits = suggestions();
+    if (static_cast<std::int64_t>(edits.size()) > options_.evaluations - evaluations_) return false;
+    evaluations_ += static_cast<std::int64_t>(edits.size());
     std::vector<std::optional<State>> made(edits.size());
     tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
       if (!stopped_here()) made[k] = after(edits[k]);
@@ -122,11 +124,13 @@ class Pursuit {
   detail::BlockSeparations blocks_;
   double at_rest_;
   State now_;
+  std::int64_t evaluations_ = 0;
 };
 
 }  // namespace
 
-Candidate pursued(const RequirementChecker& checker, const Candidate& start, const PursuitOptions& options) {
+PursuitResult pursued(const RequirementChecker& checker, const Candidate& start,
+                      const PursuitOptions& options) {
   return Pursuit(checker, start, options).run();
 }
 

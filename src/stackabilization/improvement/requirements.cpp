@@ -11,6 +11,7 @@
 #include "stackabilization/improvement/requirement_checks.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/stacking/clearance.h"
+#include "stackabilization/stacking/plan.h"
 
 namespace stackabilization {
 
@@ -172,9 +173,7 @@ bool RequirementChecker::reaches(const Stackability& measured) const {
 
 double RequirementChecker::needed(const Stackability& measured) const {
   const std::optional<StackRoom>& room = data_->requirements.room;
-  if (!room) return data_->requirements.target;
-  const double translation = (room->length - measured.extent) / (room->copies - 1);
-  return 1 - translation * measured.stack_box_volume / (measured.extent * measured.box_volume);
+  return room ? stackability_within(measured, room->copies, room->length) : data_->requirements.target;
 }
 
 std::optional<std::string> RequirementChecker::out_of_proportion(const Design& design) const {

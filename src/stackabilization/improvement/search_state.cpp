@@ -1,13 +1,16 @@
 #include "stackabilization/improvement/search_state.h"
 
-#include <array>
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 #include <variant>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/structure/formats/json_node.h"
 
 namespace stackabilization::detail {
 
@@ -16,32 +19,42 @@ namespace {
 using nlohmann::json;
 
 constexpr std::string_view format_name = "stackabilization search";
-constexpr int format_version = 1;
+constexpr int format_version = 2;
+constexpr std::int64_t max_count = std::numeric_limits<std::int64_t>::max();
 
-constexpr std::array<std::string_view, 4> state_names = {"queued", "expanded", "solution", "repeated"};
-constexpr std::array<std::string_view, 7> handle_names = {"part",  "face", "corner", "section",
-                                                          "point", "wire", "shape"};
-
-template <std::size_t count>
-int index_in(const std::array<std::string_view, count>& names, const std::string& name) {
-  for (std::size_t k = 0; k < count; ++k)
-    if (names[k] == name) return static_cast<int>(k);
-  throw InputError("a saved search has something unknown: '" + name + "'");
-}
+const std::vector<std::string> state_names = {"queued", "expanded", "solution", "repeated"};
+const std::vector<std::string> handle_names = {"part", "face", "corner", "section", "point", "wire", "shape"};
 
 json json_of(const Eigen::Vector3d& vector) {
   return json::array({vector.x(), vector.y(), vector.z()});
 }
 
-double finite(const json& value) {
-  const double number = value.get<double>();
-  if (!std::isfinite(number)) throw InputError("a saved search has a number out of range");
-  return number;
+Eigen::Vector3d vector_of(const JsonNode& node) {
+  node.expect_size(3);
+  return {node[0].finite(), node[1].finite(), node[2].finite()};
 }
 
-Eigen::Vector3d vector_of(const json& value) {
-  if (value.size() != 3) throw InputError("a saved search has a vector without three components");
-  return {finite(value.at(0)), finite(value.at(1)), finite(value.at(2))};
+Eigen::Vector3d direction_of(const JsonNode& node) {
+  const Eigen::Vector3d vector = vector_of(node);
+  try {
+    return Direction(vector).vector();
+  } catch (const UsageError& error) {
+    node.fail(error.what());
+  }
+}
+
+/// 64 bits as a text: JSON numbers of that size are not safe everywhere.
+std::uint64_t word_of(const JsonNode& node) {
+  const std::string text = node.text();
+  std::uint64_t word = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), word);
+  if (error != std::errc() || end != text.data() + text.size())
+    node.fail_expected("a whole number in quotes");
+  return word;
+}
+
+int row_of(const JsonNode& node, int low, int high) {
+  return static_cast<int>(node.integer(low, high));
 }
 
 json json_of(const Edit& edit) {
@@ -61,22 +74,30 @@ json json_of(const Edit& edit) {
   return text;
 }
 
-Edit edit_of(const json& text) {
+Edit edit_of(const JsonNode& node) {
+  constexpr int largest = std::numeric_limits<int>::max();
+  node.expect_keys({"handle", "falloff", "move", "axis", "radians", "factor", "along"}, 6);
   Edit edit;
-  const json& handle = text.at("handle");
-  edit.handle = {static_cast<HandleKind>(index_in(handle_names, handle.at(0).get<std::string>())),
-                 handle.at(1).get<int>(), handle.at(2).get<int>()};
-  if (text.contains("falloff")) edit.falloff = Falloff::linear;
-  if (text.contains("move")) {
-    edit.operation = Move{vector_of(text.at("move"))};
-  } else if (text.contains("axis")) {
-    edit.operation = Rotate{vector_of(text.at("axis")), finite(text.at("radians"))};
+  node["handle"].expect_size(3);
+  edit.handle = {static_cast<HandleKind>(node["handle"][0].one_of(handle_names)),
+                 row_of(node["handle"][1], 0, largest), row_of(node["handle"][2], 0, largest)};
+  if (node.has("falloff")) edit.falloff = Falloff::linear;
+  if (node.has("move")) {
+    edit.operation = Move{vector_of(node["move"])};
+  } else if (node.has("axis")) {
+    node.expect_keys({"handle", "axis", "radians", "falloff"}, 1);
+    edit.operation = Rotate{vector_of(node["axis"]), node["radians"].finite()};
   } else {
-    Scale scale{finite(text.at("factor")), std::nullopt};
-    if (text.contains("along")) scale.along = vector_of(text.at("along"));
+    node.expect_keys({"handle", "factor", "falloff", "along"}, 2);
+    Scale scale{node["factor"].finite(), std::nullopt};
+    if (node.has("along")) scale.along = vector_of(node["along"]);
     edit.operation = scale;
   }
-  validate(edit);
+  try {
+    validate(edit);
+  } catch (const UsageError& error) {
+    node.fail(error.what());
+  }
   return edit;
 }
 
@@ -90,81 +111,156 @@ json json_of(const SearchNode& node) {
                {"measured", {at.f_max, at.extent, at.box_volume, at.stack_box_volume, at.value}},
                {"distortion", {change.volume, change.proximity, change.box, change.symmetry}},
                {"energy", {node.energy.gain, node.energy.value}},
-               {"key", node.key}};
+               {"key", std::to_string(node.key)}};
   if (node.parent < 0) return text;
   text["edit"] = json_of(node.edit);
   text["why"] = node.why;
   return text;
 }
 
-SearchNode node_of(const json& text, int id, int queues) {
-  SearchNode node;
-  node.parent = text.at("parent").get<int>();
-  node.queue = text.at("queue").get<int>();
-  const bool is_root = id < queues;
-  if (node.parent < -1 || node.parent >= id || node.queue < 0 || node.queue >= queues ||
-      is_root != (node.parent < 0) || (is_root && node.queue != id))
-    throw InputError("candidate " + std::to_string(id) + " of a saved search has no such parent or queue");
-  node.state = static_cast<NodeState>(index_in(state_names, text.at("state").get<std::string>()));
-  node.direction = Direction(vector_of(text.at("direction"))).vector();
-  const json& at = text.at("measured");
-  node.measured = {node.direction,   finite(at.at(0)), finite(at.at(1)),
-                   finite(at.at(2)), finite(at.at(3)), finite(at.at(4))};
-  const json& change = text.at("distortion");
-  node.energy.distortion = {finite(change.at(0)), finite(change.at(1)), finite(change.at(2)),
-                            finite(change.at(3))};
-  node.energy.gain = finite(text.at("energy").at(0));
-  node.energy.value = finite(text.at("energy").at(1));
-  node.key = text.at("key").get<std::uint64_t>();
-  if (node.parent < 0) return node;
-  node.edit = edit_of(text.at("edit"));
-  node.why = text.at("why").get<std::string>();
-  return node;
+/// What a candidate of a saved search has to fit to.
+struct Expected {
+  int queues = 0;
+  const std::vector<Handle>& handles;
+};
+
+void read_measures(const JsonNode& node, SearchNode& result) {
+  const JsonNode at = node["measured"], change = node["distortion"], energy = node["energy"];
+  at.expect_size(5);
+  change.expect_size(4);
+  energy.expect_size(2);
+  result.measured = {result.direction, at[0].finite(), at[1].finite(),
+                     at[2].finite(),   at[3].finite(), at[4].finite()};
+  result.energy.distortion = {change[0].finite(), change[1].finite(), change[2].finite(), change[3].finite()};
+  result.energy.gain = energy[0].finite();
+  result.energy.value = energy[1].finite();
 }
 
-SearchState state_of(const json& text, std::uint64_t task, int queues) {
-  if (text.at("format").get<std::string>() != format_name || text.at("version").get<int>() != format_version)
-    throw InputError("this is no saved search of this version of the program");
-  if (text.at("task").get<std::uint64_t>() != task)
-    throw InputError("the saved search belongs to another shape, other requirements or other options");
-  SearchState state(task, queues);
-  int id = 0;
-  for (const json& node : text.at("candidates")) state.tree.add(node_of(node, id++, queues));
-  const int turn = text.at("turn").get<int>();
-  if (turn < 0 || turn >= queues) throw InputError("a saved search names a queue that does not exist");
-  state.tree.set_turn(turn);
-  state.refusals = text.at("refusals").get<std::map<std::string, std::int64_t>>();
-  state.expanded = text.at("expanded").get<std::int64_t>();
-  state.evaluated = text.at("evaluated").get<std::int64_t>();
+/// Candidate `id`: the roots come first, one per queue, and every other one after its parent.
+SearchNode node_of(const JsonNode& node, int id, const Expected& expected) {
+  node.expect_keys(
+      {"parent", "queue", "state", "direction", "measured", "distortion", "energy", "key", "edit", "why"}, 2);
+  const bool is_root = id < expected.queues;
+  SearchNode result;
+  result.parent = row_of(node["parent"], is_root ? -1 : 0, is_root ? -1 : id - 1);
+  result.queue = row_of(node["queue"], is_root ? id : 0, is_root ? id : expected.queues - 1);
+  result.state = static_cast<NodeState>(node["state"].one_of(state_names));
+  result.direction = direction_of(node["direction"]);
+  read_measures(node, result);
+  result.key = word_of(node["key"]);
+  if (is_root) return result;
+  if (!node.has("edit") || !node.has("why")) node.fail("the key 'edit' or 'why' is missing");
+  result.edit = edit_of(node["edit"]);
+  if (std::find(expected.handles.begin(), expected.handles.end(), result.edit.handle) ==
+      expected.handles.end())
+    node["edit"]["handle"].fail("expected something that can be edited in this shape");
+  result.why = node["why"].text();
+  return result;
+}
+
+std::vector<Eigen::Vector3d> directions_at(const JsonNode& node) {
+  std::vector<Eigen::Vector3d> directions;
+  for (std::size_t k = 0; k < node.list_size(); ++k) directions.push_back(direction_of(node[k]));
+  if (directions.empty()) node.fail_expected("at least one direction");
+  return directions;
+}
+
+/// The root, when it is of this format.
+JsonNode checked_root(const nlohmann::ordered_json& document, const std::string& name) {
+  JsonNode root(document, name);
+  if (!document.is_object() || !root.has("format") || document.at("format") != std::string(format_name) ||
+      !root.has("version") || document.at("version") != format_version)
+    root.fail("this is no saved search of this version of the program");
+  root.expect_keys({"format", "version", "task", "directions", "turn", "expanded", "evaluated", "trials",
+                    "refusals", "candidates"});
+  return root;
+}
+
+std::map<std::string, std::int64_t> refusals_of(const nlohmann::ordered_json& document,
+                                                const JsonNode& node) {
+  std::map<std::string, std::int64_t> refusals;
+  if (!document.is_object()) node.fail_expected("an object");
+  for (const auto& [reason, count] : document.items()) refusals[reason] = node[reason].integer(0, max_count);
+  return refusals;
+}
+
+SearchState state_of(const SavedSearch& saved, const RequirementChecker& checker,
+                     const BestFirstOptions& options) {
+  const nlohmann::ordered_json document = parse_json(saved.text, saved.name);
+  const JsonNode root = checked_root(document, saved.name);
+  SearchState state = new_state(checker, options);
+  if (word_of(root["task"]) != state.task || directions_at(root["directions"]) != options.directions)
+    root.fail("the saved search belongs to another shape, other requirements or other options");
+  const std::vector<Handle> handles = checker.space().handles();
+  const Expected expected{static_cast<int>(options.directions.size()), handles};
+  const JsonNode candidates = root["candidates"];
+  if (candidates.list_size() < options.directions.size())
+    candidates.fail_expected("a candidate for each direction");
+  for (std::size_t id = 0; id < candidates.list_size(); ++id)
+    state.tree.add(node_of(candidates[id], static_cast<int>(id), expected));
+  state.tree.set_turn(row_of(root["turn"], 0, expected.queues - 1));
+  state.refusals = refusals_of(document.at("refusals"), root["refusals"]);
+  state.expanded = root["expanded"].integer(0, max_count);
+  state.evaluated = root["evaluated"].integer(0, max_count);
+  state.trials = root["trials"].integer(0, max_count);
   return state;
+}
+
+/// `read()`, with errors of the text as those of a saved search.
+template <class Read>
+auto as_saved_search(const Read& read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    throw SavedSearchError(error.what());
+  }
 }
 
 }  // namespace
 
+SearchState new_state(const RequirementChecker& checker, const BestFirstOptions& options) {
+  SearchState state(task_fingerprint(checker, options), static_cast<int>(options.directions.size()));
+  state.directions = options.directions;
+  return state;
+}
+
 std::string text_of(const SearchState& state) {
-  json candidates = json::array();
+  json candidates = json::array(), directions = json::array();
   for (const SearchNode& node : state.tree.nodes()) candidates.push_back(json_of(node));
-  const json text = {{"format", format_name},      {"version", format_version},
-                     {"task", state.task},         {"turn", state.tree.turn()},
-                     {"expanded", state.expanded}, {"evaluated", state.evaluated},
-                     {"refusals", state.refusals}, {"candidates", std::move(candidates)}};
+  for (const Eigen::Vector3d& direction : state.directions) directions.push_back(json_of(direction));
+  const json text = {{"format", format_name},
+                     {"version", format_version},
+                     {"task", std::to_string(state.task)},
+                     {"directions", std::move(directions)},
+                     {"turn", state.tree.turn()},
+                     {"expanded", state.expanded},
+                     {"evaluated", state.evaluated},
+                     {"trials", state.trials},
+                     {"refusals", state.refusals},
+                     {"candidates", std::move(candidates)}};
   return text.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-SearchState read_state(const std::string& text, std::uint64_t task, int queues) {
-  try {
-    return state_of(json::parse(text), task, queues);
-  } catch (const json::exception& error) {
-    throw InputError(std::string("a saved search cannot be read: ") + error.what());
-  } catch (const UsageError& error) {
-    throw InputError(std::string("a saved search cannot be read: ") + error.what());
-  }
+SearchState read_state(const SavedSearch& saved, const RequirementChecker& checker,
+                       const BestFirstOptions& options) {
+  return as_saved_search([&] { return state_of(saved, checker, options); });
 }
 
 }  // namespace stackabilization::detail
 
-bool stackabilization::is_search_state(const std::string& text) {
+namespace stackabilization {
+
+bool is_search_state(const std::string& text) {
   using nlohmann::json;
   const json state = json::parse(text, nullptr, false);
   return state.is_object() && state.value("format", json()) == detail::format_name;
 }
+
+std::vector<Eigen::Vector3d> directions_of(const SavedSearch& state) {
+  return detail::as_saved_search([&] {
+    const nlohmann::ordered_json document = detail::parse_json(state.text, state.name);
+    return detail::directions_at(detail::checked_root(document, state.name)["directions"]);
+  });
+}
+
+}  // namespace stackabilization

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "stackabilization/improvement/best_first.h"
 #include "stackabilization/improvement/search_tree.h"
@@ -16,8 +17,12 @@ struct SearchState {
   std::uint64_t task;  ///< see task_fingerprint
   SearchTree tree;
   std::map<std::string, std::int64_t> refusals;  ///< by reason
-  std::int64_t expanded = 0, evaluated = 0;
+  std::int64_t expanded = 0, evaluated = 0, trials = 0;
+  std::vector<Eigen::Vector3d> directions;  ///< that it starts from
 };
+
+/// The state of a search that has not begun, without its roots.
+SearchState new_state(const RequirementChecker& checker, const BestFirstOptions& options);
 
 /// Of the shape at rest with its structure, the requirements and the options, but for the limits: a search
 /// may go on with other ones.
@@ -26,7 +31,8 @@ std::uint64_t task_fingerprint(const RequirementChecker& checker, const BestFirs
 /// As JSON: numbers round-trip, the same bytes for the same state.
 std::string text_of(const SearchState& state);
 
-/// Throws InputError when the text is no state, or that of another task.
-SearchState read_state(const std::string& text, std::uint64_t task, int queues);
+/// Throws SavedSearchError when the text is no state, or that of another task.
+SearchState read_state(const SavedSearch& saved, const RequirementChecker& checker,
+                       const BestFirstOptions& options);
 
 }  // namespace stackabilization::detail

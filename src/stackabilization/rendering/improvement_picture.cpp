@@ -7,6 +7,7 @@
 #include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/scene.h"
 #include "stackabilization/rendering/stacking_scene.h"
+#include "stackabilization/shape/direction_text.h"
 #include "stackabilization/shape/errors.h"
 
 namespace stackabilization {
@@ -43,7 +44,8 @@ detail::Elements caption(const Side& side, const Rectangle& place, double size) 
   if (!side.what.contacts.empty())
     entries.push_back({LegendMark::swatch, palette::contact, "where copies touch"});
   detail::Elements elements = detail::legend(entries, {place.x, place.y, place.width, 2 * size}, size);
-  const std::string numbers = "S = " + detail::fixed_text(measured.value) +
+  const std::string numbers = "S = " + detail::fixed_text(measured.value) + " " +
+                              direction_text(measured.direction) +
                               "     f_max = " + detail::length_text(measured.f_max, unit) +
                               "     h = " + detail::length_text(measured.extent, unit);
   elements.emplace_back(

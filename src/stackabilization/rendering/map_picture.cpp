@@ -1,6 +1,7 @@
 #include "stackabilization/rendering/map_panel.h"
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/rendering/plot_parts.h"
+#include "stackabilization/shape/direction_text.h"
 
 namespace stackabilization {
 
@@ -10,7 +11,7 @@ Drawing map_picture(const StackabilityMap& map, const MapPictureOptions& options
   const double size = options.width / 48.0, margin = 1.5 * size;
   const detail::Heading heading = detail::heading(
       options.title.empty() ? "Stackability S over all directions" : options.title,
-      {"best S = " + detail::fixed_text(best.stackability) + " along " + detail::vector_text(best.direction) +
+      {"best S = " + detail::fixed_text(best.stackability) + " " + direction_text(best.direction) +
        " (red ring), of " + std::to_string(map.samples.size()) + " directions"},
       options.width, size);
   drawing.add(heading.elements);

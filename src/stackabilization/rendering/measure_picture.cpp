@@ -7,6 +7,7 @@
 #include "stackabilization/rendering/scene.h"
 #include "stackabilization/rendering/scene_overlay.h"
 #include "stackabilization/rendering/stacking_scene.h"
+#include "stackabilization/shape/direction_text.h"
 
 namespace stackabilization {
 namespace {
@@ -108,12 +109,13 @@ Elements number_table(const Subject& s, const Rectangle& place) {
       {"contact regions", contact_summary(s.contacts)}};
   const double line = 1.75 * s.text_size;
   double y = place.y + 1.5 * s.text_size;
-  Elements elements{Text{{place.x, y},
-                         "Stackability  S = " + detail::fixed_text(m.value),
-                         1.6 * s.text_size,
-                         palette::ink,
-                         Anchor::left,
-                         true}};
+  Elements elements{
+      Text{{place.x, y},
+           "Stackability  S = " + detail::fixed_text(m.value) + " " + direction_text(m.direction),
+           1.6 * s.text_size,
+           palette::ink,
+           Anchor::left,
+           true}};
   y += 1.5 * s.text_size;
   elements.emplace_back(
       Text{{place.x, y},

@@ -15,9 +15,10 @@ namespace stackabilization {
 
 namespace {
 
-constexpr int most_rounds = 120;         ///< trials per climb
-constexpr std::size_t most_planes = 12;  ///< of the latest trials
-constexpr double widest_chart = 0.1;     ///< tangent coordinates beyond this start a new chart
+constexpr int most_rounds = 120;                 ///< trials per climb
+constexpr std::int64_t directions_per_step = 3;  ///< a trial, and two for its slopes
+constexpr std::size_t most_planes = 12;          ///< of the latest trials
+constexpr double widest_chart = 0.1;             ///< tangent coordinates beyond this start a new chart
 
 /// One of the smooth functions whose least is S, near a point of the chart.
 struct Plane {
@@ -89,8 +90,10 @@ class Climber {
 
   Climb run(const ClimbOptions& options) {
     radius_ = options.first_step;
+    if (options.max_directions < directions_per_step) return climb_;
     start_chart();
     for (int round = 0; round < most_rounds && radius_ > options.last_step; ++round) {
+      if (climb_.evaluated + directions_per_step > options.max_directions) break;
       if (options.cancelled && options.cancelled()) break;
       improve();
     }

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <limits>
 
 #include "stackabilization/stacking/direction_region.h"
 #include "stackabilization/stacking/stackability.h"
@@ -14,6 +15,8 @@ struct ClimbOptions {
   double first_step = 0;                 ///< radius of the first trust region, radians, > 0
   double last_step = 0;                  ///< ends below this radius, radians, > 0
   std::function<bool()> cancelled = {};  ///< asked before each step; true ends the climb where it is
+  /// Ends before a step that would try more directions than that in all, >= 0.
+  std::int64_t max_directions = std::numeric_limits<std::int64_t>::max();
 };
 
 /// A direction with its S, and what it took to find it.

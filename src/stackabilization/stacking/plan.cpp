@@ -8,6 +8,11 @@
 
 namespace stackabilization {
 
+double stackability_within(const Stackability& measured, int copies, double length) {
+  const double translation = (length - measured.extent) / (copies - 1);
+  return 1 - translation * measured.stack_box_volume / (measured.extent * measured.box_volume);
+}
+
 StackPlan plan_within(const Stackability& measured, const StackWish& wish) {
   if (wish.copies < 1) throw UsageError("a plan needs at least one copy");
   if (!std::isfinite(wish.length) || wish.length <= 0)
@@ -25,7 +30,7 @@ StackPlan plan_within(const Stackability& measured, const StackWish& wish) {
   if (gaps > 0) {
     plan.translation = room / gaps;
     plan.f_max = *plan.translation - wish.clearance;
-    plan.stackability = 1 - *plan.f_max / measured.extent * (measured.stack_box_volume / measured.box_volume);
+    plan.stackability = stackability_within(measured, wish.copies, wish.length);
   }
   if (room < -slack) {
     plan.copies_now = 0;

@@ -23,7 +23,8 @@ struct StackPlan {
   std::optional<double> translation;
   /// Largest f_max that fits: `translation` minus the clearance, model units; negative when impossible.
   std::optional<double> f_max;
-  /// Least S that fits, 1 - (f_max / h) V(M, r) / V(M); above 1 when impossible.
+  /// Least S that fits, with the air counted as part of each copy: stackability_within; above 1 when not even
+  /// one copy fits.
   std::optional<double> stackability;
   /// Whether the shape as it is fits.
   bool met = false;
@@ -33,6 +34,11 @@ struct StackPlan {
   /// clearance = 0).
   std::optional<std::int64_t> copies_now;
 };
+
+/// S with the translation (length - h) / (copies - 1) from copy to copy: 1 - (translation / h) V(M, r) /
+/// V(M). Copies fit into the length when S, with the air between them counted in the translation, is at least
+/// that. Preconditions: copies >= 2, V(M) > 0.
+double stackability_within(const Stackability& measured, int copies, double length);
 
 /// From a wish to numbers, for a shape measured along r (StackabilitySolver::measure or stackability()).
 /// Lengths are compared within tolerance::relative of L, in favour of the shape. Throws UsageError on wishes

@@ -43,6 +43,7 @@ constexpr double climbing_range = 0.05;
 constexpr int most_new_climbs = 20;
 constexpr int circle_points = 24;
 constexpr int circle_halvings = 10;
+constexpr std::int64_t max_circle_trials = circle_points + 4 * circle_halvings;  ///< two peaks, two sides
 
 /// A direction to try, with the normal of the great circle it was taken from, or zero.
 struct Trial {
@@ -67,13 +68,25 @@ std::vector<int> circle_peaks(const std::vector<double>& values) {
   return peaks;
 }
 
+/// The spacing asked for or, over the whole sphere, one that leaves half of the directions for a closer look.
+double affordable_spacing(const SearchOptions& options) {
+  if (options.cone || options.plane_normal) return options.spacing;
+  // The hemisphere has 2 pi square radians.
+  const double least = std::sqrt(4 * std::numbers::pi / static_cast<double>(options.max_directions));
+  return std::max(options.spacing, std::min(1.0, least));
+}
+
 class DirectionSearch {
  public:
   DirectionSearch(const StackabilitySolver& solver, const SearchOptions& options)
-      : solver_(solver), options_(options), region_(options.cone, options.plane_normal) {
+      : solver_(solver),
+        options_(options),
+        region_(options.cone, options.plane_normal),
+        spacing_(affordable_spacing(options)) {
     if (!(options.spacing > 0) || options.spacing > 1)
       throw UsageError("the spacing of sampled directions must be above 0 and at most 1 radian");
     if (options.climbs < 1) throw UsageError("a search needs at least one climb");
+    if (options.max_directions < 1) throw UsageError("a search tries at least one direction");
     if (!(solver.box_volume() > 0)) throw UsageError("a search needs a shape whose stackability is defined");
   }
 
@@ -85,6 +98,7 @@ class DirectionSearch {
     climb_to_peaks();
     report(1);
     result_.separation = solver_.separation(Direction(result_.best.direction));
+    result_.limited = left() == 0;
     return result_;
   }
 
@@ -105,7 +119,10 @@ class DirectionSearch {
   /// No copy of a shape goes lower than the first, so that S is at most 1: sheets reach it in many
   /// directions.
   bool perfect() const { return best_ >= 1 - tolerance::stackability; }
+  /// Directions that may still be tried.
+  std::int64_t left() const { return std::max<std::int64_t>(0, options_.max_directions - result_.evaluated); }
   bool ended() {
+    if (left() == 0) return true;
     if (!result_.cancelled && options_.cancelled) result_.cancelled = options_.cancelled();
     return result_.cancelled;
   }
@@ -113,6 +130,7 @@ class DirectionSearch {
   const StackabilitySolver& solver_;
   const SearchOptions& options_;
   DirectionRegion region_;
+  double spacing_;               ///< of even samples, radians
   std::vector<Sample> samples_;  ///< measured trials in their order
   std::size_t first_trials_ = 0;
   double best_ = -std::numeric_limits<double>::infinity();
@@ -144,11 +162,10 @@ std::vector<Trial> DirectionSearch::trials() const {
       for (const Eigen::Vector3d& direction : *directions)
         for (const Eigen::Vector3d& line : lines_in_plane(*options_.plane_normal, direction))
           if (const auto member = region_.member(line)) trials.push_back({*member, none});
-  for (const Eigen::Vector3d& direction : region_.samples(options_.spacing))
-    trials.push_back({direction, none});
+  for (const Eigen::Vector3d& direction : region_.samples(spacing_)) trials.push_back({direction, none});
   if (!options_.plane_normal)
     for (const Eigen::Vector3d& normal : candidates.main)
-      for (const Eigen::Vector3d& direction : half_circle(normal, options_.spacing / 2))
+      for (const Eigen::Vector3d& direction : half_circle(normal, spacing_ / 2))
         if (const auto member = region_.member(direction)) trials.push_back({*member, normal});
   if (trials.empty()) throw UsageError("the cone and the plane of directions have no direction in common");
   return trials;
@@ -158,7 +175,7 @@ std::vector<Trial> DirectionSearch::trials() const {
 void DirectionSearch::measure(const std::vector<Trial>& trials, double range) {
   for (std::size_t begin = 0; begin < trials.size(); begin += batch_size) {
     if (!samples_.empty() && (ended() || perfect())) return;
-    const std::size_t count = std::min(batch_size, trials.size() - begin);
+    const std::size_t count = std::min({batch_size, trials.size() - begin, static_cast<std::size_t>(left())});
     std::vector<std::optional<Stackability>> measured(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       measured[i] = solver_.measure_if_above(Direction(trials[begin + i].direction), best_ - range);
@@ -176,7 +193,7 @@ void DirectionSearch::measure(const std::vector<Trial>& trials, double range) {
 }
 
 void DirectionSearch::look_closer() {
-  double spacing = options_.spacing, range = promising_range;
+  double spacing = spacing_, range = promising_range;
   std::size_t begin = 0;
   for (int level = 0; level < halvings; ++level) {
     report(0.3 + 0.2 * level);
@@ -251,8 +268,8 @@ std::vector<Sample> DirectionSearch::peaks(const std::vector<Sample>& samples, d
 
 /// Many starts lead to the same peak: they climb a little way, and what has come together goes on as one.
 void DirectionSearch::climb_to_peaks() {
-  const double step = options_.spacing / (1 << halvings), small_step = step / 32;
-  std::vector<Sample> tops = peaks(samples_, options_.spacing / 2);
+  const double step = spacing_ / (1 << halvings), small_step = step / 32;
+  std::vector<Sample> tops = peaks(samples_, spacing_ / 2);
   std::erase_if(tops, [&](const Sample& top) { return top.at.value < best_ - climbing_range; });
   if (!perfect()) {
     tops = peaks(climb_from(std::move(tops), step, small_step), step);
@@ -268,10 +285,14 @@ void DirectionSearch::climb_to_peaks() {
 std::vector<Sample> DirectionSearch::climb_from(std::vector<Sample> starts, double first_step,
                                                 double last_step) {
   std::atomic<bool> end_climbs = ended();
-  const ClimbOptions climbing{first_step, last_step, [&, caller = std::this_thread::get_id()] {
+  // Of what is left every climb gets the same, so that none depends on the others.
+  const std::int64_t each = left() / static_cast<std::int64_t>(std::max<std::size_t>(1, starts.size()));
+  const ClimbOptions climbing{first_step, last_step,
+                              [&, caller = std::this_thread::get_id()] {
                                 if (std::this_thread::get_id() == caller && ended()) end_climbs = true;
                                 return end_climbs.load();
-                              }};
+                              },
+                              each};
   std::vector<std::int64_t> evaluated(starts.size(), 0);
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
     const Climb end = climb(solver_, region_, starts[i].at, climbing);
@@ -285,9 +306,10 @@ std::vector<Sample> DirectionSearch::climb_from(std::vector<Sample> starts, doub
 /// S has cliffs, where walls begin to pass each other, and creases; a climb may end on one short of the peak.
 /// What is better nearby, at any distance down to the last step, is climbed from anew.
 void DirectionSearch::look_around(Sample& top) {
-  const double widest = options_.spacing / (1 << halvings);
+  const double widest = spacing_ / (1 << halvings);
   int climbs_left = most_new_climbs;
-  for (double radius = widest; radius > tolerance::direction_step && !ended();) {
+  for (double radius = widest;
+       radius > tolerance::direction_step && !ended() && left() >= max_circle_trials;) {
     const Sample best = best_on_circle(top, radius);
     if (best.at.value <= top.at.value + tolerance::stackability || climbs_left == 0) {
       radius /= 4;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct SearchOptions {
   std::vector<Eigen::Vector3d> candidates = {};
   double spacing = 0.04;  ///< radians between samples, in (0, 1]
   int climbs = 12;        ///< distinct local maxima that are refined at most, at least 1
+  /// Directions tried at most, at least 1; a fixed amount of work whatever the machine. Over the whole sphere
+  /// the spacing is widened until even samples take half of them. Default: no limit.
+  std::int64_t max_directions = std::numeric_limits<std::int64_t>::max();
   /// Called with the fraction done, in [0, 1], from the calling thread.
   std::function<void(double)> progress = {};
   /// Asked from the calling thread, between batches of samples and steps of a climb; true ends the search
@@ -47,6 +51,7 @@ struct SearchResult {
   /// Of these left out because S is certainly too far below the best (0.2 at first, then ever less) to be the
   /// start of a climb, most of them before S was known.
   std::int64_t abandoned = 0;
+  bool limited = false;    ///< all of `max_directions` were tried: the best of these
   bool cancelled = false;  ///< ended early: the best of what was seen
 };
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/part_names.h"
 #include "stackabilization/structure/bounding_diagonal.h"
 #include "stackabilization/structure/idealise.h"
 #include "stackabilization/structure/joint_symmetry.h"
@@ -33,8 +34,7 @@ class Analysis {
       : options_(options), result_{segmented(shape, options.segmentation), {}} {
     for (const auto& [name, kind] : options.kinds)
       if (std::count(names().begin(), names().end(), name) == 0)
-        throw UsageError("a kind of primitive is given for part '" + name +
-                         "', which the shape does not have");
+        throw UsageError("a kind of primitive is given for a part, and " + unknown_part(names(), name));
   }
 
   StructuredShape run() {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <utility>
 
+#include "stackabilization/shape/edit_distance.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/formats/text.h"
 #include "stackabilization/shape/tolerances.h"
@@ -16,23 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Deeper nesting is no project, and would only cost memory.
+/// Deeper nesting is no document of ours, and would only cost memory.
 constexpr int deepest = 16;
-
-/// Levenshtein's distance.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i + 1);
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
 
 std::string shown(const Json& value) {
   if (value.is_array()) return "a list of " + std::to_string(value.size());
@@ -47,7 +32,7 @@ nlohmann::ordered_json parse_json(std::string_view text, const std::string& name
   std::vector<std::set<std::string>> keys;
   const auto check = [&](int depth, Json::parse_event_t event, Json& value) {
     if (depth > deepest)
-      throw InputError(name + ": expected a project, found JSON that is nested too deeply");
+      throw InputError(name + ": expected a document, found JSON that is nested too deeply");
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
@@ -100,6 +85,11 @@ JsonNode JsonNode::operator[](std::size_t row) const {
 
 void JsonNode::expect_size(std::size_t size) const {
   if (!value_->is_array() || value_->size() != size) fail_expected("a list of " + std::to_string(size));
+}
+
+double JsonNode::finite() const {
+  if (!value_->is_number() || !std::isfinite(value_->get<double>())) fail_expected("a finite number");
+  return value_->get<double>();
 }
 
 double JsonNode::number() const {

@@ -32,6 +32,7 @@ class JsonNode {
   /// Demands a list of `size` entries.
   void expect_size(std::size_t size) const;
 
+  double finite() const;  ///< demands a finite number
   double number() const;  ///< of magnitude at most tolerance::largest_coordinate
   std::int64_t integer(std::int64_t low, std::int64_t high) const;
   bool boolean() const;
