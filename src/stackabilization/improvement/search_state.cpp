@@ -253,7 +253,7 @@ namespace stackabilization {
 bool is_search_state(const std::string& text) {
   using nlohmann::json;
   const json state = json::parse(text, nullptr, false);
-  return state.is_object() && state.value("format", json()) == detail::format_name;
+  return state.is_object() && state.value("format", json()) == std::string(detail::format_name);
 }
 
 std::vector<Eigen::Vector3d> directions_of(const SavedSearch& state) {
