@@ -24,8 +24,7 @@ constexpr const char* list_name = "stackabilize-files.json";
 constexpr const char* format_name = "stackabilization files";
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
-  throw OutputError(file.string() + " is in the way: " + reason +
-                    "; take it away, or choose another folder");
+  throw OutputError(file.string() + " is in the way: " + reason + "; take it away, or choose another folder");
 }
 
 /// Hexadecimal; empty for a file that cannot be read.

@@ -98,7 +98,8 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
 
 /// A folder with the files of one command line.
 struct Scene : TemporaryFolder {
-  explicit Scene(const Output& output) : what(output), bytes(bytes_of(model("in.obj", solids::box({1, 1, 1})))) {}
+  explicit Scene(const Output& output)
+      : what(output), bytes(bytes_of(model("in.obj", solids::box({1, 1, 1})))) {}
 
   /// The command line that reads `mesh`, and by `input` the file `read`, and writes `written`.
   Arguments line(const std::string& mesh, const std::string& written, const std::string& input = "",
@@ -176,7 +177,8 @@ const std::map<std::string, Same>& ways_to_be_the_same() {
          return std::pair(scene / ("own" + ending), scene / ("link" + ending));
        }},
       {"a temporary name of what is written", [](const Scene& scene, const std::string& ending) {
-         return std::pair(scene.file("own" + ending + ".999999999.tmp", scene.bytes), scene / ("own" + ending));
+         return std::pair(scene.file("own" + ending + ".999999999.tmp", scene.bytes),
+                          scene / ("own" + ending));
        }}};
   return ways;
 }
@@ -359,22 +361,26 @@ TEST_CASE("standard input and output are files as well") {
   CHECK(status(program + " inspect " + model + " --json - >>" + model + " 2>/dev/null") == 2);
   CHECK(bytes_of(model) == scene.bytes);
   CHECK(status(program + " inspect " + model + " --json /dev/null >/dev/null") == 0);
-  CHECK(status("cat " + model + " | " + program + " inspect - --format obj --json /dev/stdout >/dev/null") == 0);
+  CHECK(status("cat " + model + " | " + program + " inspect - --format obj --json /dev/stdout >/dev/null") ==
+        0);
 }
 
 TEST_CASE("files that the model refers to are read too") {
   const TemporaryFolder folder;
-  const std::string chair = folder.file("chair.obj", "mtllib my paint.json\nmtllib a.json b.json\n" +
-                                                         bytes_of(folder.model("in.obj", solids::box({1, 1, 1}))));
+  const std::string chair =
+      folder.file("chair.obj", "mtllib my paint.json\nmtllib a.json b.json\n" +
+                                   bytes_of(folder.model("in.obj", solids::box({1, 1, 1}))));
   for (const char* name : {"my paint.json", "a.json", "b.json"}) {
     CHECK(!folder.file(name, "precious").empty());
-    check_refused(folder, {"inspect", chair, "--json", folder / name}, 2, "would replace a file of the model");
+    check_refused(folder, {"inspect", chair, "--json", folder / name}, 2,
+                  "would replace a file of the model");
   }
   const std::string scene = folder.file("scene.gltf", R"({"asset": {"version": "2.0"},
       "buffers": [{"uri": "my%20buffer.json", "byteLength": 8}], "images": [{"uri": "wood.json"}]})");
   for (const char* name : {"my buffer.json", "wood.json"}) {
     CHECK(!folder.file(name, "precious").empty());
-    check_refused(folder, {"inspect", scene, "--json", folder / name}, 2, "would replace a file of the model");
+    check_refused(folder, {"inspect", scene, "--json", folder / name}, 2,
+                  "would replace a file of the model");
     check_refused(folder, {"stack", folder / "in.obj", "--into", scene, "--json", folder / name}, 2,
                   "would replace a file of the container");
   }
@@ -400,7 +406,8 @@ TEST_CASE("a session updates its project in place, but for a protected one") {
   const std::string table = folder.model("table.obj", solids::table({})), project = folder / "table.json";
   REQUIRE(run_program({"structure", table, "--save", project}).status == 0);
   const std::string before = bytes_of(project);
-  check_refused(folder, {"suggest", project, "--apply", "1", "--json", project}, 2, "would replace the model");
+  check_refused(folder, {"suggest", project, "--apply", "1", "--json", project}, 2,
+                "would replace the model");
   fs::permissions(project, fs::perms::owner_read);
   check_refused(folder, {"suggest", project, "--apply", "1"}, 2, "write-protected");
   fs::permissions(project, fs::perms::owner_read | fs::perms::owner_write);
@@ -416,14 +423,14 @@ TEST_CASE("a full device is found before anything is computed") {
   const std::string model = folder.model("in.obj", solids::box({1, 1, 1})), full = folder / "full";
   fs::create_directory(full);
   // A device of one page, filled, in a name space of its own.
-  const std::string filled = "mount -t tmpfs -o size=4k tmpfs '" + full + "' && head -c 4096 /dev/zero >'" +
-                             full + "/all' && ";
+  const std::string filled =
+      "mount -t tmpfs -o size=4k tmpfs '" + full + "' && head -c 4096 /dev/zero >'" + full + "/all' && ";
   if (std::system(("unshare -rm sh -c \"" + filled + "true\" 2>/dev/null").c_str()) != 0) {
     std::cout << "SKIPPED: no name space for a device of one page\n";
     return;
   }
-  const std::string line = filled + std::string(STACKABILIZATION_PROGRAM) + " inspect '" + model + "' --json '" +
-                           full + "/out.json' 2>'" + folder.path().string() + "/err'";
+  const std::string line = filled + std::string(STACKABILIZATION_PROGRAM) + " inspect '" + model +
+                           "' --json '" + full + "/out.json' 2>'" + folder.path().string() + "/err'";
   CHECK(std::system(("unshare -rm sh -c \"" + line + "\"").c_str()) / 256 == 2);
   CHECK(bytes_of(folder / "err").find("no room left") != std::string::npos);
 }

@@ -46,8 +46,8 @@ std::string model_of(const std::string& bytes) {
 TEST_CASE("copies as one shape are the shape in each place, its parts named after the copy") {
   const Copies copies = turned(3, two_parts());
   const Shape all = as_one_shape(copies);
-  CHECK(all.part_names == std::vector<std::string>{"copy1/leg", "copy1/seat <&>", "copy2/leg", "copy2/seat <&>",
-                                                   "copy3/leg", "copy3/seat <&>"});
+  CHECK(all.part_names == std::vector<std::string>{"copy1/leg", "copy1/seat <&>", "copy2/leg",
+                                                   "copy2/seat <&>", "copy3/leg", "copy3/seat <&>"});
   for (std::size_t k = 0; k < 3; ++k) {
     const Shape moved = transformed(copies.shape, copies.placed[k].rotation, copies.placed[k].translation);
     CHECK(all.vertices.middleRows(static_cast<Eigen::Index>(8 * k), 8) == moved.vertices);

@@ -1,8 +1,7 @@
-#include "stackabilization/shape/file_plan.h"
-
 #include <fstream>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/file_plan.h"
 #include "stackabilization/shape/write_file.h"
 #include "support/catch.h"
 

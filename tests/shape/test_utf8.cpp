@@ -1,8 +1,7 @@
-#include "stackabilization/shape/utf8.h"
-
 #include "shape/meshes.h"
 #include "stackabilization/shape/formats/zip.h"
 #include "stackabilization/shape/labels.h"
+#include "stackabilization/shape/utf8.h"
 #include "support/catch.h"
 
 using namespace stackabilization;
@@ -17,18 +16,21 @@ std::string triangle_of(Format format, const std::string& name) {
   if (format == Format::obj) return "v 0 0 0\nv 1 0 0\nv 0 1 0\ng " + name + "\nf 1 2 3\n";
   if (format == Format::stl)
     return "solid " + name +
-           "\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n";
+           "\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+           "0\nendloop\nendfacet\nendsolid\n";
   if (format == Format::ply)
     return "ply\nformat ascii 1.0\ncomment part " + name +
            "\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\nelement face 1\n"
-           "property list uchar int vertex_indices\nproperty int part\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0\n";
+           "property list uchar int vertex_indices\nproperty int part\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 "
+           "1 2 0\n";
   if (format == Format::three_mf)
     return zip({{"3D/3dmodel.model",
                  "<model><resources><object id='1' name='" + name +
                      "'><mesh><vertices><vertex x='0' y='0' z='0'/><vertex x='1' y='0' z='0'/>"
                      "<vertex x='0' y='1' z='0'/></vertices><triangles><triangle v1='0' v2='1' v3='2'/>"
                      "</triangles></mesh></object></resources><build><item objectid='1'/></build></model>"}});
-  return R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0, "name": ")" + name + R"("}], "meshes": [{"primitives":
+  return R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0, "name": ")" + name +
+         R"("}], "meshes": [{"primitives":
       [{"attributes": {"POSITION": 0}}]}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3,
       "type": "VEC3"}], "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
       "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
@@ -49,8 +51,9 @@ std::string message_of(const Work& work) {
 TEST_CASE("UTF-8 is what RFC 3629 says") {
   for (const char* text : {"", "plain", "\xc3\xa8", "\xe2\x82\xac", "\xf0\x9f\xaa\x91", "\xf4\x8f\xbf\xbf"})
     CHECK(is_utf8(text));
-  for (const char* text : {"\xe8", "\x80", "\xc3", "\xc3(", "\xe2\x82", "\xf0\x9f\xaa", "\xc0\xaf", "\xe0\x80\xaf",
-                           "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xf8\x88\x80\x80\x80", "\xff", "a\xfe"})
+  for (const char* text :
+       {"\xe8", "\x80", "\xc3", "\xc3(", "\xe2\x82", "\xf0\x9f\xaa", "\xc0\xaf", "\xe0\x80\xaf",
+        "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xf8\x88\x80\x80\x80", "\xff", "a\xfe"})
     CHECK(!is_utf8(text));
 }
 
@@ -66,7 +69,8 @@ TEST_CASE("part names in other encodings are refused where they are read, with t
     INFO(words);
     CHECK(words.starts_with("bad.file"));
     CHECK(words.find(place) != std::string::npos);
-    if (format != Format::gltf) CHECK(words.find("expected a name in UTF-8, found 'si?ge'") != std::string::npos);
+    if (format != Format::gltf)
+      CHECK(words.find("expected a name in UTF-8, found 'si?ge'") != std::string::npos);
   }
 }
 

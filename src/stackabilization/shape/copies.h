@@ -17,8 +17,8 @@ struct PlacedCopy {
 
 /// Copies of one shape.
 struct Copies {
-  Shape shape;                      ///< one of them, where it is by itself
-  std::vector<PlacedCopy> placed;   ///< names differ from each other
+  Shape shape;                     ///< one of them, where it is by itself
+  std::vector<PlacedCopy> placed;  ///< names differ from each other
 };
 
 /// All copies as one shape, in their order. Throws InputError when `copies.shape` is invalid or names repeat,

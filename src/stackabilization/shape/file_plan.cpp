@@ -109,7 +109,8 @@ bool is_full(const fs::path& folder) {
 }
 
 void check_around(const fs::path& path, const fs::path& folder) {
-  if (is_protected(folder) || access(folder.c_str(), X_OK) != 0) refuse(path, "the folder " + folder.string() + " is write-protected");
+  if (is_protected(folder) || access(folder.c_str(), X_OK) != 0)
+    refuse(path, "the folder " + folder.string() + " is write-protected");
   if (is_full(folder)) refuse(path, "there is no room left on the device of " + folder.string());
 }
 
@@ -132,9 +133,9 @@ fs::path normal(const fs::path& path) {
 
 /// Would somebody who types it expect a file? A folder may be called "v1.2".
 bool looks_like_file(const fs::path& path) {
-  constexpr std::array<const char*, 20> endings = {
-      ".3mf", ".csv", ".dot", ".glb", ".gltf", ".htm", ".html", ".jpeg", ".jpg", ".json",
-      ".md",  ".obj", ".off", ".pdf", ".ply",  ".png", ".stl",  ".svg",  ".txt", ".vtp"};
+  constexpr std::array<const char*, 20> endings = {".3mf",  ".csv", ".dot",  ".glb", ".gltf", ".htm", ".html",
+                                                   ".jpeg", ".jpg", ".json", ".md",  ".obj",  ".off", ".pdf",
+                                                   ".ply",  ".png", ".stl",  ".svg", ".txt",  ".vtp"};
   const std::string extension = lower_case(path.extension().string());
   for (const char* const ending : endings)
     if (extension == ending) return true;
@@ -263,7 +264,8 @@ class FilePlanCheck {
       if (same_file(place, inputs_[k]))
         throw UsageError(would + plan_.inputs_[k].what + " " + plan_.inputs_[k].path.string());
     for (std::size_t k = 0; k < outputs_.size(); ++k)
-      if (same_file(place, outputs_[k])) throw UsageError(would + "what " + plan_.outputs_[k].option + " writes");
+      if (same_file(place, outputs_[k]))
+        throw UsageError(would + "what " + plan_.outputs_[k].option + " writes");
     std::error_code error;
     if (entry.is_symlink(error)) refuse(file, "it is a link: take it away, or choose another folder");
     if (entry.is_directory(error)) refuse(file, "it is a folder: take it away, or choose another folder");

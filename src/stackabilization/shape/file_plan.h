@@ -20,8 +20,8 @@ class FilePlan {
   void reads(std::string what, std::filesystem::path path);
   /// A file, or every file in a folder and the folders in it. Nothing where nothing is.
   void reads_all(const std::string& what, const std::filesystem::path& path);
-  /// A file that is written; "-" is standard output. `option` is what asked for it: "--json". Throws UsageError
-  /// for an empty path.
+  /// A file that is written; "-" is standard output. `option` is what asked for it: "--json". Throws
+  /// UsageError for an empty path.
   void writes(std::string option, std::filesystem::path path);
   /// The same for a file that is read first, and is meant to be replaced by what is made of it.
   void updates(std::string option, std::filesystem::path path);

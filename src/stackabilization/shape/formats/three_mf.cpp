@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -26,6 +27,18 @@ Transform compose(const Transform& outer, const Transform& inner) {
   if (!outer) return inner;
   if (!inner) return outer;
   return *outer * *inner;
+}
+
+/// Rounded as `transformed` does it, so that a file of placements has the vertices that were meant.
+Points placed_vertices(const Object& object, const Transform& transform) {
+  Shape shape;
+  shape.vertices.resize(static_cast<Eigen::Index>(object.vertices.size()), 3);
+  for (std::size_t v = 0; v < object.vertices.size(); ++v)
+    shape.vertices.row(static_cast<Eigen::Index>(v)) = object.vertices[v].transpose();
+  if (!transform) return shape.vertices;
+  if (!transform->matrix().allFinite())
+    return Points::Constant(shape.vertices.rows(), 3, std::numeric_limits<double>::infinity());
+  return transformed(shape, transform->linear(), transform->translation()).vertices;
 }
 
 /// Expands the build items of a model into a Shape. Models of other entries (production extension) are read
@@ -92,8 +105,9 @@ class Assembler {
   void add_mesh(const Object& object, const Transform& transform, const std::string& item) {
     builder_.begin_part(item.empty() ? object.name : item + "/" + object.name);
     const std::int64_t first = builder_.vertex_count();
-    for (const Eigen::Vector3d& vertex : object.vertices) {
-      const Eigen::Vector3d point = transform ? *transform * vertex : vertex;
+    const Points vertices = placed_vertices(object, transform);
+    for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+      const Eigen::Vector3d point = vertices.row(v).transpose();
       if (!point.allFinite())
         throw InputError(name_ + ": a transform takes vertices of " + in_quotes(object.name) +
                          " out of range");
