@@ -33,8 +33,11 @@ constexpr int first_evaluations = 300;
 constexpr int least_solutions = 3;
 constexpr std::size_t more_extended = 4;
 
+/// The end of time where the clock does not count so far.
 Clock::time_point after(Clock::time_point start, double seconds) {
-  return start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  const std::chrono::duration<double> wanted(seconds);
+  if (wanted >= Clock::time_point::max() - start) return Clock::time_point::max();
+  return start + std::chrono::duration_cast<Clock::duration>(wanted);
 }
 
 bool more_stackable(const Candidate& a, const Candidate& b) {
