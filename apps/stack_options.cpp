@@ -25,7 +25,6 @@ void check(const StackCommandOptions& options) {
   refuse(options.picture && options.copy_count() > most_drawn_copies, "--picture",
          "draws at most 200 copies");
   refuse(options.best_twist && options.period, "--twist-degrees auto", "cannot be combined with --period");
-  refuse(options.within && options.within->value <= 0, "--within", "expects a length above 0");
   if (!options.into) return;
   const char* const reason = "makes no sense with --into, which puts one MODEL into one container";
   refuse(options.copies.has_value(), "-n", reason);
@@ -37,8 +36,7 @@ void check(const StackCommandOptions& options) {
 }
 
 Play play_of(const StackCommandOptions& options, Unit unit) {
-  return {length_in("--clearance", options.clearance, unit),
-          length_in("--lateral-clearance", options.lateral_clearance, unit)};
+  return {length_in(options.clearance, unit), length_in(options.lateral_clearance, unit)};
 }
 
 StackOptions stack_options(const StackCommandOptions& options, Unit unit) {

@@ -59,17 +59,11 @@ void add_segmentation_options(CLI::App& command, AnalysisArguments& arguments) {
       ->type_name("FILE");
 }
 
-double fraction(const std::string& option, double value) {
-  if (value > 0 && value <= 1) return value;
-  throw UsageError(option + " expects a fraction above 0 and up to 1, found " + exact_digits(value));
-}
-
 /// The options of the library: those that are left out keep its defaults.
 AnalysisOptions analysis_options(const AnalysisArguments& arguments) {
   AnalysisOptions options = arguments.options;
-  if (arguments.symmetry_tolerance)
-    options.symmetry.tolerance = fraction("--symmetry-tolerance", *arguments.symmetry_tolerance);
-  if (arguments.joint_reach) options.joints.reach = fraction("--joint-reach", *arguments.joint_reach);
+  options.symmetry.tolerance = arguments.symmetry_tolerance.value_or(options.symmetry.tolerance);
+  options.joints.reach = arguments.joint_reach.value_or(options.joints.reach);
   return options;
 }
 
@@ -115,10 +109,14 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
       ->type_name("PART=cuboid|cylinder");
   add_count(command, {"--sections", "Cross-sections of a generalized cylinder (default: 24)", 4, 1000},
             arguments.options.fit.sections);
-  add_number(command, "--symmetry-tolerance", arguments.symmetry_tolerance,
-             "Largest deviation of a symmetry, fraction of the diagonal (default: 0.01)");
-  add_number(command, "--joint-reach", arguments.joint_reach,
-             "Parts that come nearer than this meet, fraction of the diagonal (default: 0.01)");
+  add_number(command,
+             {"--symmetry-tolerance",
+              "Largest deviation of a symmetry, fraction of the diagonal (default: 0.01)", 0, 1, true},
+             arguments.symmetry_tolerance);
+  add_number(command,
+             {"--joint-reach",
+              "Parts that come nearer than this meet, fraction of the diagonal (default: 0.01)", 0, 1, true},
+             arguments.joint_reach);
   command
       .add_option("--ctrl", arguments.controllers,
                   "Primitives from a .ctrl file of the paper's authors; the structure is not analysed")

@@ -12,7 +12,6 @@ namespace {
 
 void check(const SuggestCommandOptions& options) {
   check(options.requirements);
-  check_target(options.target);
   CommandFiles files{{}, analysis_inputs(options.analysis)};
   const bool updates = !options.save && options.destination();
   files.outputs = {{updates ? "MODEL" : "--save", options.destination(), OutputKind::project, updates}};
@@ -68,8 +67,8 @@ void add_wishes(CLI::App& command, SuggestCommandOptions& options) {
              "Which edits contacts suggest: those of the paper, or further ones too (default: extended)");
   command.add_flag("--bend", options.bends,
                    "Let straight parts bend and walls bulge, as in the paper (default: they stay straight)");
-  add_number(command, "--alpha", options.alpha, "Weight of distortion in the energy (default: 0.2)");
-  add_number(command, "--target", options.target, "Say which suggestions reach this stackability");
+  add_number(command, alpha_option(), options.alpha);
+  add_number(command, target_option("Say which suggestions reach this stackability"), options.target);
   add_requirement_options(command, options.requirements);
 }
 

@@ -81,7 +81,8 @@ Eigen::Vector3d ControllerModel::centre(const Handle& handle) const {
 
 EditOutcome ControllerModel::edited(const std::vector<Primitive>& now, const Edit& edit,
                                     const DeformationConstraints& constraints) const {
-  validate(edit);
+  validate(edit, data_->rest.structure.diagonal);
+  validate(constraints, data_->rest.shape);
   data_->check(now);
   detail::EditTask task{data_->rest.shape, now, {}, constraints};
   if (edit.handle.kind == HandleKind::shape) {
