@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/extract_parts.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization {

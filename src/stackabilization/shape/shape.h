@@ -63,9 +63,6 @@ Range range_along(const Shape& shape, const Eigen::Vector3d& axis);
 /// `shape`.
 Shape extract_part(const Shape& shape, Eigen::Index part);
 
-/// Every part as `extract_part` gives it, in order, in one pass over the triangles.
-std::vector<Shape> extract_parts(const Shape& shape);
-
 /// All triangles of both, parts of `b` renamed "NAME_2" and so on where a name is taken already.
 Shape concatenate(const Shape& a, const Shape& b);
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/extract_parts.h"
 #include "stackabilization/structure/bounding_diagonal.h"
 #include "stackabilization/structure/idealise.h"
 #include "stackabilization/structure/joint_symmetry.h"

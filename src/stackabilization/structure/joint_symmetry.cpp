@@ -19,12 +19,12 @@ constexpr double same_joint = 0.05;
 
 /// Orders symmetries by all that they are.
 struct ByValue {
-  bool operator()(const Symmetry& a, const Symmetry& b) const { return values(a) < values(b); }
-
   static auto values(const Symmetry& s) {
     return std::tuple(s.kind, s.order, s.point.x(), s.point.y(), s.point.z(), s.axis.x(), s.axis.y(),
                       s.axis.z());
   }
+
+  bool operator()(const Symmetry& a, const Symmetry& b) const { return values(a) < values(b); }
 };
 
 /// A symmetry and where it takes the parts that it is known to take somewhere.

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/extract_parts.h"
 #include "stackabilization/shape/tolerances.h"
 #include "stackabilization/structure/contact_spots.h"
 #include "stackabilization/structure/file_axes.h"

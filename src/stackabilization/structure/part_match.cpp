@@ -13,6 +13,8 @@
 #include <cmath>
 #include <utility>
 
+#include "stackabilization/shape/extract_parts.h"
+
 namespace stackabilization::detail {
 
 namespace {
