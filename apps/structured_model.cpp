@@ -2,7 +2,9 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 
+#include "apps/progress.h"
 #include "apps/values.h"
 #include "stackabilization/shape/part_names.h"
 #include "stackabilization/structure/authors_files.h"
@@ -81,6 +83,32 @@ StructuredShape authored(const Shape& shape, const AnalysisArguments& arguments)
   return {shape, read_authors_structure(shape, files)};
 }
 
+const char* words_for(AnalysisStep step) {
+  switch (step) {
+    case AnalysisStep::parts:
+      return "Finding parts";
+    case AnalysisStep::primitives:
+      return "Fitting primitives";
+    case AnalysisStep::symmetries:
+      return "Looking for symmetries";
+    case AnalysisStep::joints:
+      break;
+  }
+  return "Looking for joints";
+}
+
+/// The analysis, with a bar for each of its steps.
+StructuredShape analysed_with_bar(const Shape& shape, AnalysisOptions options) {
+  std::optional<ProgressBar> bar;
+  options.progress = [&bar, shown = std::optional<AnalysisStep>()](AnalysisStep step,
+                                                                   double fraction) mutable {
+    if (shown != step) bar.emplace(words_for(step));
+    shown = step;
+    bar->show(fraction);
+  };
+  return analyse_structure(shape, options);
+}
+
 StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& arguments) {
   if (arguments.seeds && arguments.options.segmentation.method != SegmentationMethod::automatic)
     throw UsageError("--seeds says what the parts are, so it does not go with --segmentation");
@@ -94,7 +122,7 @@ StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& a
   }
   result.structured = arguments.controllers || arguments.relations
                           ? authored(shape, arguments)
-                          : named(result.model, [&] { return analyse_structure(shape, options); });
+                          : named(result.model, [&] { return analysed_with_bar(shape, options); });
   shape = result.structured.shape;
   return result;
 }
