@@ -109,12 +109,17 @@ StructuredShape analysed_with_bar(const Shape& shape, AnalysisOptions options) {
   return analyse_structure(shape, options);
 }
 
-StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& arguments) {
+StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& arguments,
+                         const std::optional<PartBounds>& bounds) {
   if (arguments.seeds && arguments.options.segmentation.method != SegmentationMethod::automatic)
     throw UsageError("--seeds says what the parts are, so it does not go with --segmentation");
   StructuredModel result;
   result.model = load_model(common);
   AnalysisOptions options = analysis_options(arguments);
+  if (bounds) {
+    options.max_parts = bounds->max_parts;
+    options.joints.max_pairs = bounds->max_pairs;
+  }
   Shape& shape = result.model.shape;
   if (arguments.seeds) {
     shape = segmented(shape, read_seeds(*arguments.seeds, shape));
@@ -171,8 +176,9 @@ bool is_project(const std::string& path) {
 }
 
 StructuredModel load_structured(const CLI::App& command, const CommonOptions& common,
-                                const AnalysisArguments& arguments) {
-  if (!is_project(common.model)) return analysed(common, arguments);
+                                const AnalysisArguments& arguments,
+                                const std::optional<PartBounds>& bounds) {
+  if (!is_project(common.model)) return analysed(common, arguments, bounds);
   for (const char* option : mesh_options)
     if (command.count(option) > 0)
       throw UsageError(std::string(option) +
