@@ -34,7 +34,7 @@ void check(const DeformCommandOptions& options) {
 }
 
 int list_handles(const CLI::App& command, const DeformCommandOptions& options, const Stopwatch& watch) {
-  const StructuredModel input = load_structured(command, options.common, options.analysis);
+  const StructuredModel input = load_structured(command, options.common, options.analysis, bounds_of_deform);
   const auto model = make_deformation_model(options, input.structured);
   Json document = document_head(command, input.model);
   document["deformation"] = name_of(options.kind);
@@ -57,7 +57,7 @@ int run(const CLI::App& command, const DeformCommandOptions& options) {
   check(options);
   const ThreadLimit limit(options.common);
   if (options.list_handles) return list_handles(command, options, watch);
-  const StructuredModel input = load_structured(command, options.common, options.analysis);
+  const StructuredModel input = load_structured(command, options.common, options.analysis, bounds_of_deform);
   const DeformRun run = run_deform(options, input);
   const bool refused = run.result.refusal.has_value();
 

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 
+#include "apps/progress.h"
 #include "apps/values.h"
 #include "stackabilization/shape/part_names.h"
 #include "stackabilization/structure/authors_files.h"
@@ -75,12 +77,43 @@ StructuredShape authored(const Shape& shape, const AnalysisArguments& arguments)
   return {shape, read_authors_structure(shape, files)};
 }
 
-StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& arguments) {
+const char* words_for(AnalysisStep step) {
+  switch (step) {
+    case AnalysisStep::parts:
+      return "Finding parts";
+    case AnalysisStep::primitives:
+      return "Fitting primitives";
+    case AnalysisStep::symmetries:
+      return "Looking for symmetries";
+    case AnalysisStep::joints:
+      break;
+  }
+  return "Looking for joints";
+}
+
+/// The analysis, with a bar for each of its steps.
+StructuredShape analysed_with_bar(const Shape& shape, AnalysisOptions options) {
+  std::optional<ProgressBar> bar;
+  options.progress = [&bar, shown = std::optional<AnalysisStep>()](AnalysisStep step,
+                                                                   double fraction) mutable {
+    if (shown != step) bar.emplace(words_for(step));
+    shown = step;
+    bar->show(fraction);
+  };
+  return analyse_structure(shape, options);
+}
+
+StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& arguments,
+                         const std::optional<PartBounds>& bounds) {
   if (arguments.seeds && arguments.options.segmentation.method != SegmentationMethod::automatic)
     throw UsageError("--seeds says what the parts are, so it does not go with --segmentation");
   StructuredModel result;
   result.model = load_model(common);
   AnalysisOptions options = analysis_options(arguments);
+  if (bounds) {
+    options.max_parts = bounds->max_parts;
+    options.joints.max_pairs = bounds->max_pairs;
+  }
   Shape& shape = result.model.shape;
   if (arguments.seeds) {
     shape = segmented(shape, read_seeds(*arguments.seeds, shape));
@@ -88,7 +121,7 @@ StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& a
   }
   result.structured = arguments.controllers || arguments.relations
                           ? authored(shape, arguments)
-                          : named(result.model, [&] { return analyse_structure(shape, options); });
+                          : named(result.model, [&] { return analysed_with_bar(shape, options); });
   shape = result.structured.shape;
   return result;
 }
@@ -141,8 +174,9 @@ bool is_project(const std::string& path) {
 }
 
 StructuredModel load_structured(const CLI::App& command, const CommonOptions& common,
-                                const AnalysisArguments& arguments) {
-  if (!is_project(common.model)) return analysed(common, arguments);
+                                const AnalysisArguments& arguments,
+                                const std::optional<PartBounds>& bounds) {
+  if (!is_project(common.model)) return analysed(common, arguments, bounds);
   for (const char* option : mesh_options)
     if (command.count(option) > 0)
       throw UsageError(std::string(option) +

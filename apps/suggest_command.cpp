@@ -37,7 +37,7 @@ int run(const CLI::App& command, const SuggestCommandOptions& options) {
   const Stopwatch watch;
   check(options);
   const ThreadLimit limit(options.common);
-  const StructuredModel input = load_structured(command, options.common, options.analysis);
+  const StructuredModel input = load_structured(command, options.common, options.analysis, bounds_of_designs);
   const SuggestRun result = run_suggest(options, input);
 
   Json document = document_head(command, input.model);

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -67,6 +68,7 @@ struct Trial {
   double best = 0;  ///< largest S; the S before where no edit was made
   std::map<std::string, int> refusals;
   int made = 0;
+  bool stopped = false;  ///< before all of them were tried
 };
 
 class Diagnostician {
@@ -159,7 +161,12 @@ class Diagnostician {
     designs_ += static_cast<std::int64_t>(edits.size());
     std::vector<std::optional<std::string>> refusals(edits.size());
     std::vector<double> reached(edits.size(), best_.measured.value);
+    std::atomic<bool> cut_short = false;
     tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
+      if (cut_short || stopped()) {
+        cut_short = true;
+        return;
+      }
       const DesignOutcome outcome = space.edited(best_.design, edits[k].edit, constraints);
       if (outcome.refusal)
         refusals[k] = detail::without_amounts(outcome.refusal->reason);
@@ -167,6 +174,7 @@ class Diagnostician {
         reached[k] = std::max(reached[k], better->value);
     });
     Trial trial;
+    trial.stopped = cut_short;
     trial.best = best_.measured.value;
     for (std::size_t k = 0; k < edits.size(); ++k) {
       trial.best = std::max(trial.best, reached[k]);
@@ -179,6 +187,7 @@ class Diagnostician {
   }
 
   std::string reason_of(const Trial& trial) const {
+    if (trial.stopped && !helps(trial.best)) return "time was up before every edit that may separate it was tried";
     if (trial.made == 0 && trial.refusals.empty())
       return "no edit would separate it: symmetries and the height that is kept leave none";
     if (trial.made > 0)
@@ -258,6 +267,7 @@ class Diagnostician {
     RemovalOptions options;
     options.measure = checker_.requirements().measure;
     options.directions = {best_.direction};
+    options.cancelled = cancelled_;
     std::size_t offered = 0;
     for (const Removal& removal : removals(rest_, options)) {
       if (offered == most_removals || !helps(removal.stackability)) break;
