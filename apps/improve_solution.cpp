@@ -168,7 +168,7 @@ std::vector<ContactRegion> contacts_along(const Shape& shape, const Direction& d
   if (!answer.blocked) return {};
   ContactOptions contacts;
   contacts.semantics = semantics;
-  return contact_regions({shape, tree, direction, answer}, contacts);
+  return contact_regions({shape, tree, direction, answer}, contacts).regions;
 }
 
 }  // namespace stackabilization::apps

@@ -117,7 +117,8 @@ class Diagnostician {
     if (!separation.blocked) return;
     ContactOptions contacts;
     contacts.semantics = checker_.requirements().measure.semantics;
-    const auto all = contact_regions({best_.design.shape, solver_.tree(), direction_, separation}, contacts);
+    const std::vector<ContactRegion> all =
+        contact_regions({best_.design.shape, solver_.tree(), direction_, separation}, contacts).regions;
     const detail::ContactSymmetry symmetry(rest_.structure);
     for (const int row : detail::different_regions(all, symmetry, most_blockers)) {
       regions_.push_back(all[static_cast<std::size_t>(row)]);
