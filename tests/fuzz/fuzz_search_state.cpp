@@ -12,7 +12,7 @@ using namespace stackabilization;
 /// and writing.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto read = [](const std::string& text) {
-    return detail::read_state(text, fuzz::search_task, fuzz::search_queues);
+    return detail::read_state({text, "state"}, fuzz::search_task());
   };
   try {
     const std::string text = detail::text_of(read({reinterpret_cast<const char*>(data), size}));

@@ -1,7 +1,6 @@
 #include "fuzz/seeds.h"
 
 #include "stackabilization/improvement/history.h"
-#include "stackabilization/improvement/search_state.h"
 #include "stackabilization/shape/formats/zip.h"
 #include "stackabilization/shape/write.h"
 #include "stackabilization/structure/project_file.h"
@@ -93,11 +92,12 @@ Project two_designs() {
 }
 
 detail::SearchState two_candidates() {
-  detail::SearchState state(search_task, search_queues);
-  for (int queue = 0; queue < search_queues; ++queue) {
+  const detail::SearchTask task = search_task();
+  detail::SearchState state(task.fingerprint, task.directions);
+  for (std::size_t queue = 0; queue < task.directions.size(); ++queue) {
     detail::SearchNode root;
-    root.queue = queue;
-    root.direction = Eigen::Vector3d(0, queue, 1);
+    root.queue = static_cast<int>(queue);
+    root.direction = task.directions[queue];
     state.tree.add(root);
   }
   detail::SearchNode child;
@@ -116,6 +116,12 @@ detail::SearchState two_candidates() {
 }
 
 }  // namespace
+
+detail::SearchTask search_task() {
+  return {7,
+          {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 1, 1)},
+          {{HandleKind::section, 0, 2}, {HandleKind::part, 1, 0}}};
+}
 
 std::vector<Seed> seeds() {
   std::vector<Seed> all;

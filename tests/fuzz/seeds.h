@@ -1,8 +1,9 @@
 #pragma once
 
-#include <cstdint>
 #include <string>
 #include <vector>
+
+#include "stackabilization/improvement/search_state.h"
 
 namespace stackabilization::fuzz {
 
@@ -17,7 +18,6 @@ struct Seed {
 std::vector<Seed> seeds();
 
 /// What the saved searches of the target search_state belong to.
-inline constexpr std::uint64_t search_task = 7;
-inline constexpr int search_queues = 2;
+detail::SearchTask search_task();
 
 }  // namespace stackabilization::fuzz

@@ -112,7 +112,7 @@ tinygltf::Model parse_gltf(const Source& source, const Folder& folder) {
     throw InputError(source.name + ": glTF files hold at most 4 GiB");
   if (is_deeply_nested(gltf_json(source.bytes)))
     throw InputError(source.name + ": its JSON is nested without end");
-  check_gltf_numbers(json_of(source.bytes), source.name);
+  check_gltf_numbers(gltf_json(source.bytes), source.name);
   const std::string padded = needs_padding(source.bytes) ? padded_glb(source.bytes) : "";
   const std::string_view bytes = padded.empty() ? source.bytes : padded;
   tinygltf::TinyGLTF loader;
