@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -181,10 +182,6 @@ bool inside(const Corners& t, const detail::SolidLocator& solid) {
     if (sides(solid.corners(found.triangle), t) == std::array<int, 3>{0, 0, 0}) return false;
   }
 }
-
-}  // namespace
-
-namespace {
 
 /// Six times the signed volume, about a corner of the shape.
 double signed_volume(const Shape& shape) {
