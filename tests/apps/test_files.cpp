@@ -1,11 +1,8 @@
-#include <algorithm>
-#include <functional>
 #include <iostream>
-#include <map>
 #include <regex>
 #include <set>
 
-#include "apps/run_program.h"
+#include "apps/file_scenes.h"
 #include "support/catch.h"
 #include "support/solids.h"
 
@@ -15,59 +12,29 @@ using namespace stackabilization::apps;
 namespace {
 
 namespace fs = std::filesystem;
-using Arguments = std::vector<std::string>;
-
-Arguments joined(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-/// An option that names what is written, and the rest of a command line that gets as far as looking at files.
-struct Output {
-  std::string command, option, extension;  ///< of a file; empty: a folder
-  Arguments further = {};
-};
 
 /// Options that name what is read.
 const std::set<std::string> inputs = {"--labels", "--seeds", "--ctrl", "--grp", "--into"};
 
-const std::vector<Output>& outputs() {
-  static const std::vector<Output> all = {
-      {"inspect", "--json", ".json"},
-      {"measure", "--json", ".json"},
-      {"measure", "--picture", ".png"},
-      {"search", "--json", ".json"},
-      {"search", "--picture", ".png"},
-      {"map", "--json", ".json"},
-      {"map", "--output", ".csv"},
-      {"map", "--picture", ".svg"},
-      {"stack", "--json", ".json"},
-      {"stack", "--output", ".3mf"},
-      {"stack", "--picture", ".png"},
-      {"validate", "--json", ".json"},
-      {"structure", "--json", ".json"},
-      {"structure", "--save", ".json"},
-      {"structure", "--graph", ".dot"},
-      {"structure", "--picture", ".png"},
-      {"deform", "--json", ".json", {"--edit", "shape scale 0.9"}},
-      {"deform", "--output", ".obj", {"--edit", "shape scale 0.9"}},
-      {"deform", "--save", ".json", {"--edit", "shape scale 0.9"}},
-      {"deform", "--picture", ".png", {"--edit", "shape scale 0.9"}},
-      {"suggest", "--json", ".json"},
-      {"suggest", "--save", ".json"},
-      {"suggest", "--pictures", ""},
-      {"improve", "--json", ".json", {"--target", "0.6", "--output", "elsewhere"}},
-      {"improve", "--output", "", {"--target", "0.6"}}};
-  return all;
+/// Kinds of values of options that are files or folders, and that are none; in choices there are no capitals.
+const std::set<std::string> kinds_of_files = {"FILE", "FOLDER", "PROJECT", "CONTAINER"};
+const std::set<std::string> other_kinds = {"N", "NUMBER", "LENGTH", "FRACTION", "X", "A", "PART", "EDIT"};
+
+/// Options of a command by the kind of their value, by its help.
+std::map<std::string, std::set<std::string>> options_by_kind(const std::string& command) {
+  const std::string help = run_program({command, "--help"}).out;
+  const std::regex pattern("\n  (?:-[a-z],)?(--?[a-z-]+) ([A-Z]+)");
+  std::map<std::string, std::set<std::string>> options;
+  for (std::sregex_iterator match(help.begin(), help.end(), pattern), end; match != end; ++match)
+    options[(*match)[2]].insert((*match)[1]);
+  return options;
 }
 
-/// Options of a command whose value is a file or a folder, by its help.
+/// Those whose value is a file or a folder.
 std::set<std::string> file_options(const std::string& command) {
-  const std::string help = run_program({command, "--help"}).out;
-  const std::regex pattern("\n  (?:-[a-z],)?(--[a-z-]+) (?:FILE|FOLDER|PROJECT|CONTAINER)");
   std::set<std::string> options;
-  for (std::sregex_iterator match(help.begin(), help.end(), pattern), end; match != end; ++match)
-    options.insert((*match)[1]);
+  for (const auto& [kind, names] : options_by_kind(command))
+    if (kinds_of_files.contains(kind)) options.insert(names.begin(), names.end());
   return options;
 }
 
@@ -79,151 +46,6 @@ std::vector<std::string> commands() {
   std::vector<std::string> names;
   for (std::sregex_iterator match(list.begin(), list.end(), pattern), end; match != end; ++match)
     names.push_back((*match)[1]);
-  return names;
-}
-
-/// All that is below a folder: what links lead to, rights and bytes.
-std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> all;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    std::string& what = all[entry.path().string()];
-    if (entry.is_symlink())
-      what = "link to " + fs::read_symlink(entry.path()).string();
-    else
-      what = std::to_string(static_cast<int>(entry.status().permissions())) +
-             (entry.is_directory() ? " folder" : bytes_of(entry.path().string()));
-  }
-  return all;
-}
-
-/// A folder with the files of one command line.
-struct Scene : TemporaryFolder {
-  explicit Scene(const Output& output)
-      : what(output), bytes(bytes_of(model("in.obj", solids::box({1, 1, 1})))) {}
-
-  /// The command line that reads `mesh`, and by `input` the file `read`, and writes `written`.
-  Arguments line(const std::string& mesh, const std::string& written, const std::string& input = "",
-                 const std::string& read = "") const {
-    Arguments arguments = {what.command, mesh, what.option, written};
-    // Whatever it is called; a name that ends in .json is that of a project all the same.
-    if (!mesh.ends_with(".json")) arguments = joined(arguments, {"--format", "obj"});
-    arguments = joined(arguments, what.further);
-    for (std::string& argument : arguments)
-      if (argument == "elsewhere") argument = *this / "elsewhere";
-    return input.empty() ? arguments : joined(arguments, {input, read});
-  }
-
-  void check_refused(const Arguments& arguments, const std::string& words) const {
-    std::string text;
-    for (const std::string& argument : arguments) text += argument + " ";
-    INFO(text);
-    const auto before = contents(path());
-    const Outcome outcome = run_program(arguments);
-    INFO(outcome.err);
-    CHECK(outcome.status == 2);
-    CHECK(outcome.out.empty());
-    CHECK(is_one_sentence(outcome.err));
-    CHECK(std::regex_search(outcome.err, std::regex(words)));
-    CHECK(contents(path()) == before);
-  }
-
-  Output what;
-  std::string bytes;
-};
-
-/// Ways in which a file that is read and one that is written can be the same. Each makes files in the folder,
-/// of which `own` is a name with this ending, and returns what is read and what is written.
-using Same = std::function<std::pair<std::string, std::string>(const Scene&, const std::string& ending)>;
-const std::map<std::string, Same>& ways_to_be_the_same() {
-  static const std::map<std::string, Same> ways = {
-      {"the same name",
-       [](const Scene& scene, const std::string& ending) {
-         const std::string file = scene.file("own" + ending, scene.bytes);
-         return std::pair(file, file);
-       }},
-      {"through ..",
-       [](const Scene& scene, const std::string& ending) {
-         const std::string file = scene.file("own" + ending, scene.bytes);
-         fs::create_directory(scene / "sub");
-         return std::pair(file, scene / ("sub/../own" + ending));
-       }},
-      {"a symbolic link to what is read",
-       [](const Scene& scene, const std::string& ending) {
-         const std::string file = scene.file("own" + ending, scene.bytes);
-         fs::create_symlink("own" + ending, scene / ("link" + ending));
-         return std::pair(file, scene / ("link" + ending));
-       }},
-      {"a symbolic link to what is written",
-       [](const Scene& scene, const std::string& ending) {
-         const std::string file = scene.file("own" + ending, scene.bytes);
-         fs::create_symlink("own" + ending, scene / ("link" + ending));
-         return std::pair(scene / ("link" + ending), file);
-       }},
-      {"a hard link",
-       [](const Scene& scene, const std::string& ending) {
-         const std::string file = scene.file("own" + ending, scene.bytes);
-         fs::create_hard_link(file, scene / ("link" + ending));
-         return std::pair(file, scene / ("link" + ending));
-       }},
-      {"through a folder that is a link",
-       [](const Scene& scene, const std::string& ending) {
-         const std::string file = scene.file("own" + ending, scene.bytes);
-         fs::create_directory_symlink(".", scene / "alias");
-         return std::pair(file, scene / ("alias/own" + ending));
-       }},
-      {"a dangling link, and the name that it leads to",
-       [](const Scene& scene, const std::string& ending) {
-         fs::create_symlink("own" + ending, scene / ("link" + ending));
-         return std::pair(scene / ("own" + ending), scene / ("link" + ending));
-       }},
-      {"a temporary name of what is written", [](const Scene& scene, const std::string& ending) {
-         return std::pair(scene.file("own" + ending + ".999999999.tmp", scene.bytes),
-                          scene / ("own" + ending));
-       }}};
-  return ways;
-}
-
-/// The same for files in a folder that a command fills, one of whose names is `name`.
-const std::map<std::string, Same>& ways_to_lie_in_a_folder() {
-  static const std::map<std::string, Same> ways = {
-      {"a name of the command",
-       [](const Scene& scene, const std::string& name) {
-         return std::pair(scene.file("filled/" + name, scene.bytes), scene / "filled");
-       }},
-      {"a link to what is read, there",
-       [](const Scene& scene, const std::string& name) {
-         fs::create_symlink("../in.obj", scene / ("filled/" + name));
-         return std::pair(scene / "in.obj", scene / "filled");
-       }},
-      {"a hard link there",
-       [](const Scene& scene, const std::string& name) {
-         fs::create_hard_link(scene / "in.obj", scene / ("filled/" + name));
-         return std::pair(scene / "in.obj", scene / "filled");
-       }},
-      {"a link to a name of the command",
-       [](const Scene& scene, const std::string& name) {
-         CHECK(!scene.file("filled/" + name, scene.bytes).empty());
-         fs::create_symlink("filled/" + name, scene / "link.obj");
-         return std::pair(scene / "link.obj", scene / "filled");
-       }},
-      {"through a folder that is a link",
-       [](const Scene& scene, const std::string& name) {
-         fs::create_directory_symlink("filled", scene / "alias");
-         return std::pair(scene.file("filled/" + name, scene.bytes), scene / "alias");
-       }},
-      {"a temporary name", [](const Scene& scene, const std::string& name) {
-         return std::pair(scene.file("filled/" + name + ".999999999.tmp", scene.bytes), scene / "filled");
-       }}};
-  return ways;
-}
-
-const std::map<std::string, std::vector<std::string>>& names_in_folders() {
-  static const std::map<std::string, std::vector<std::string>> names = {
-      {"improve",
-       {"index.html", "result.json", "solutions.stackabilize.json", "search-state.json", "solution_1.obj",
-        "solution_12.3mf", "nearest.json", "nearest.stackabilize.json", "solution_3_stack.png",
-        "solution_2_before_after.png", "stackabilize-files.json"}},
-      {"suggest", {"suggestions.png", "suggestion_1.png", "suggestion_40.png", "stackabilize-files.json"}}};
   return names;
 }
 
@@ -239,6 +61,10 @@ TEST_CASE("the table of outputs has every option of every command that names a f
     std::set<std::string> options = file_options(command);
     std::erase_if(options, [](const std::string& option) { return inputs.contains(option); });
     CHECK(options == known[command]);
+    for (const auto& [kind, names] : options_by_kind(command)) {
+      INFO(kind);
+      CHECK((kinds_of_files.contains(kind) || other_kinds.contains(kind)));
+    }
   }
 }
 
