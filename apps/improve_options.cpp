@@ -75,13 +75,14 @@ void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
       command, "--least", options.least, measures,
       "What refinement makes small: the distortion D of the primitives, the displacement of the vertices "
       "(root mean square), or the sum of both (default: both)");
+  add_number(
+      command,
+      {"--effort", "How much work to do at most: 1 takes up to about 40 seconds on two cores (default: 1)", 0,
+       max_effort, true},
+      options.effort);
   add_number(command,
-             {"--effort", "How much work to do at most: 1 takes up to about 40 seconds on two cores (default: 1)", 0,
-              max_effort, true},
-             options.effort);
-  add_number(command,
-             {"--time", "Seconds after which to end with the best so far (default: no such limit)", 0, max_seconds,
-              true},
+             {"--time", "Seconds after which to end with the best so far (default: no such limit)", 0,
+              max_seconds, true},
              options.seconds);
   add_count(command, {"--expansions", "Candidates to expand at most (default: 100)", 1}, options.expansions);
   add_number(command, alpha_option(), options.alpha);

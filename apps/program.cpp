@@ -41,7 +41,8 @@ std::string unknown_command(const CLI::App& program) {
 void check_encoding(const std::vector<std::string>& arguments) {
   for (std::size_t i = 0; i < arguments.size(); ++i)
     if (!is_utf8(arguments[i]))
-      throw UsageError("argument " + std::to_string(i + 1) + " expects UTF-8, found " + in_quotes(arguments[i]));
+      throw UsageError("argument " + std::to_string(i + 1) + " expects UTF-8, found " +
+                       in_quotes(arguments[i]));
 }
 
 }  // namespace

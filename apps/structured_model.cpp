@@ -174,8 +174,7 @@ bool is_project(const std::string& path) {
 }
 
 StructuredModel load_structured(const CLI::App& command, const CommonOptions& common,
-                                const AnalysisArguments& arguments,
-                                const std::optional<PartBounds>& bounds) {
+                                const AnalysisArguments& arguments, const std::optional<PartBounds>& bounds) {
   if (!is_project(common.model)) return analysed(common, arguments, bounds);
   for (const char* option : mesh_options)
     if (command.count(option) > 0)

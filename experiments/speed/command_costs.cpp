@@ -2,9 +2,9 @@
 //
 //     command_costs [--largest-parts N] [--largest-triangles N] [--limit SECONDS] [--threads N] [-o FOLDER]
 //
-// Parts: grids of touching cubes, racks of bars between two posts, and cubes that are all in one place, of 10,
-// 100, 1,000 ... parts. Triangles: a thin-walled cup with a wavy wall of 1,000, 10,000 ... triangles. Every
-// command of the program is run on every one of them as a user would run it, in a process of its own.
+// Parts: grids of touching cubes, racks of bars between two posts, and cubes that are all in one place, of
+// 10, 100, 1,000 ... parts. Triangles: a thin-walled cup with a wavy wall of 1,000, 10,000 ... triangles.
+// Every command of the program is run on every one of them as a user would run it, in a process of its own.
 //
 // One row per model and command: exit status, processor and elapsed seconds, and most megabytes held at once.
 // `said` is what the program answered when it did not end with status 0 or 1. A command that uses more
@@ -79,15 +79,16 @@ const std::vector<CommandLine>& command_lines() {
       {"deform", {"--edit", "FIRST scale 1.01"}},
       {"suggest", {"--direction", "0", "0", "1"}},
       {"improve",
-       {"--direction", "0", "0", "1", "--target", "0.5", "--time", "10", "--no-pictures", "-o", "FOLDER/designs"}},
+       {"--direction", "0", "0", "1", "--target", "0.5", "--time", "10", "--no-pictures", "-o",
+        "FOLDER/designs"}},
   };
   return lines;
 }
 
 /// `word` with what stands in it for the folder and for the first part of the model.
 std::string filled(std::string word, const fs::path& folder, const Shape& shape) {
-  for (const auto& [mark, text] : {std::pair<std::string, std::string>{"FOLDER", folder.string()},
-                                   {"FIRST", shape.part_names.front()}})
+  for (const auto& [mark, text] :
+       {std::pair<std::string, std::string>{"FOLDER", folder.string()}, {"FIRST", shape.part_names.front()}})
     if (const std::size_t place = word.find(mark); place != std::string::npos)
       word.replace(place, mark.size(), text);
   return word;
@@ -110,10 +111,11 @@ class CommandCosts {
 
   void run() {
     constexpr int fewest_parts = 10, fewest_triangles = 1000;
-    for (const Family& family : {Family{"cubes", cube_grid, fewest_parts, settings_.largest_parts},
-                                 Family{"rack", rack, fewest_parts, settings_.largest_parts},
-                                 Family{"coincident cubes", coincident_cubes, fewest_parts, settings_.largest_parts},
-                                 Family{"cup", wavy_cup, fewest_triangles, settings_.largest_triangles}})
+    for (const Family& family :
+         {Family{"cubes", cube_grid, fewest_parts, settings_.largest_parts},
+          Family{"rack", rack, fewest_parts, settings_.largest_parts},
+          Family{"coincident cubes", coincident_cubes, fewest_parts, settings_.largest_parts},
+          Family{"cup", wavy_cup, fewest_triangles, settings_.largest_triangles}})
       measure(family);
   }
 
@@ -156,8 +158,8 @@ class CommandCosts {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Experiment experiment("command_costs",
-                        "What does each command cost on many parts and on many triangles?", Inputs::none);
+  Experiment experiment("command_costs", "What does each command cost on many parts and on many triangles?",
+                        Inputs::none);
   Settings settings;
   experiment.app()
       .add_option("--largest-parts", settings.largest_parts, "parts of the largest models")
@@ -168,6 +170,6 @@ int main(int argc, char** argv) {
   experiment.app()
       .add_option("--limit", settings.limit, "processor seconds after which a command is stopped")
       ->check(CLI::Range(1, 86400));
-  return experiment.run(
-      argc, argv, [&](Report& report) { CommandCosts(settings, experiment.threads(), report).run(); });
+  return experiment.run(argc, argv,
+                        [&](Report& report) { CommandCosts(settings, experiment.threads(), report).run(); });
 }

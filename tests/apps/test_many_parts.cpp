@@ -20,7 +20,8 @@ std::string cubes(std::size_t count, const Eigen::Vector3d& step) {
     text << "g cube_" << k << '\n';
     for (const auto& v : cube.vertices.rowwise())
       text << "v " << v(0) + static_cast<double>(k) * step.x() << ' '
-           << v(1) + static_cast<double>(k) * step.y() << ' ' << v(2) + static_cast<double>(k) * step.z() << '\n';
+           << v(1) + static_cast<double>(k) * step.y() << ' ' << v(2) + static_cast<double>(k) * step.z()
+           << '\n';
     for (const auto& t : cube.triangles.rowwise())
       text << "f " << t(0) + 8 * static_cast<int>(k) + 1 << ' ' << t(1) + 8 * static_cast<int>(k) + 1 << ' '
            << t(2) + 8 * static_cast<int>(k) + 1 << '\n';
@@ -56,19 +57,19 @@ TEST_CASE("a project file of more parts than designs are made of is refused") {
   const std::string mesh = folder.file("apart.obj", cubes(max_design_parts + 1, {2, 0, 0}));
   const std::string project = folder / "apart.json";
   REQUIRE(run_program({"structure", mesh, "--save", project, "--quiet"}).status == 0);
-  check_refused(folder, {"suggest", project}, 3, "apart.json: it has 501 parts, and designs are made of at most 500");
+  check_refused(folder, {"suggest", project}, 3,
+                "apart.json: it has 501 parts, and designs are made of at most 500");
 }
 
 TEST_CASE("validate passes a shape with a part inside out and says what it did not check") {
   const TemporaryFolder folder;
-  const Shape shape = concatenate(solids::box({1, 1, 1}),
-                                  solids::flipped(solids::box({3, 0, 0}, {4, 1, 2})));
+  const Shape shape = concatenate(solids::box({1, 1, 1}), solids::flipped(solids::box({3, 0, 0}, {4, 1, 2})));
   const Outcome outcome = run_program({"validate", folder.model("mixed.obj", shape), "--json", "-"});
   CHECK(outcome.status == 0);
   bool skipped = false;
   for (const nlohmann::json& check : outcome.json()["checks"])
     if (check["name"] == "overlap of interiors")
-      skipped = check["verdict"] == "skipped" && check["note"].get<std::string>().find("inside out") !=
-                                                     std::string::npos;
+      skipped = check["verdict"] == "skipped" &&
+                check["note"].get<std::string>().find("inside out") != std::string::npos;
   CHECK(skipped);
 }

@@ -85,7 +85,8 @@ TEST_CASE("triangles with the same three points are one, named by the first") {
   for (const TriangleCopy& copy : tree.data().copies) CHECK(copy.first == copy.copy % 12);
   for (const Semantics semantics : {Semantics::solid, Semantics::closed})
     for (const Direction& r : directions()) {
-      const Separation a = separation(tree, tree, r, {semantics, {}}), b = separation(one, one, r, {semantics, {}});
+      const Separation a = separation(tree, tree, r, {semantics, {}}),
+                       b = separation(one, one, r, {semantics, {}});
       check_same_answer(a, b);
       CHECK(a.witness.upper_triangle == b.witness.upper_triangle);
       CHECK(a.witness.lower_triangle == b.witness.lower_triangle);
@@ -95,7 +96,7 @@ TEST_CASE("triangles with the same three points are one, named by the first") {
 
 TEST_CASE("triangles are the same however their corners are listed, and with zeros of either sign") {
   Points points(9, 3);
-  points << 0, 0, 0, 1, 0, 0, 0, 1, 0,  //
+  points << 0, 0, 0, 1, 0, 0, 0, 1, 0,        //
       -0.0, 1, 0, 0, -0.0, 0, 1, -0.0, -0.0,  //
       0, 1, 0, 1, 0, 0, 0, 0, 1e-300;
   Triangles triangles(3, 3);
@@ -119,7 +120,8 @@ TEST_CASE("a shape and some of its triangles twice are measured alike") {
     const SeparationTree a(shape), b(twice);
     for (const Semantics semantics : {Semantics::solid, Semantics::closed})
       for (const Direction& r : directions()) {
-        const Separation once = separation(a, a, r, {semantics, {}}), doubled = separation(b, b, r, {semantics, {}});
+        const Separation once = separation(a, a, r, {semantics, {}}),
+                         doubled = separation(b, b, r, {semantics, {}});
         REQUIRE(once.blocked == doubled.blocked);
         if (!once.blocked) continue;
         CHECK(once.value == doubled.value);

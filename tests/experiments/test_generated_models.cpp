@@ -19,8 +19,7 @@ TEST_CASE("boxes of a generated model are closed parts of twelve triangles") {
 
 TEST_CASE("a grid of cubes fills its box where its count is a cube, and stands on its lowest layer") {
   const Shape full = cube_grid(27), partial = cube_grid(20);
-  for (int axis = 0; axis < 3; ++axis)
-    CHECK(range_along(full, Eigen::Vector3d::Unit(axis)).length() == 3);
+  for (int axis = 0; axis < 3; ++axis) CHECK(range_along(full, Eigen::Vector3d::Unit(axis)).length() == 3);
   CHECK(inspect(full).volume.value_or(0) == Approx(27));
   CHECK(range_along(partial, {0, 0, 1}).length() == 3);
   CHECK(range_along(cube_grid(9), {0, 0, 1}).length() == 1);

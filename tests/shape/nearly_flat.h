@@ -74,7 +74,8 @@ inline std::vector<NearlyFlat> nearly_flat_sets() {
         const bool exact = p < 3 && (unit == 1 || unit == 0x1p-490 || unit == 0x1p490);
         sets.push_back({name + ", " + pose + ", unit " + std::to_string(std::log10(unit)),
                         moved(points, rotation, Eigen::Vector3d::Zero()) * unit, exact ? dimension : -1});
-        if (p > 3) sets.push_back({name + ", away, " + pose, moved(points, rotation, {10, -7, 3}) * unit, -1});
+        if (p > 3)
+          sets.push_back({name + ", away, " + pose, moved(points, rotation, {10, -7, 3}) * unit, -1});
       }
   };
   for (const double thickness : thicknesses()) {

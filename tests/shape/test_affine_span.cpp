@@ -39,7 +39,8 @@ void check_closed(const TriangulatedHull& hull) {
     CHECK(count == 1);
     CHECK(sides.count({side[1], side[0]}) == 1);
   }
-  CHECK(hull.points.rows() + hull.triangles.rows() == static_cast<Eigen::Index>(sides.size()) / 2 + 2);  // Euler
+  CHECK(hull.points.rows() + hull.triangles.rows() ==
+        static_cast<Eigen::Index>(sides.size()) / 2 + 2);  // Euler
 }
 
 /// Largest distance of a point above a hull face, as a fraction of the largest coordinate.
@@ -142,7 +143,8 @@ TEST_CASE("sets a thousandth thick are solid, thinner than rounding they are fla
   for (const auto& [pose, rotation] : point_sets::poses()) {
     INFO(pose);
     const auto dimension = [&](double thickness) {
-      return HullSupport(point_sets::moved(point_sets::lifted_lattice(thickness), rotation, {0, 0, 0})).dimension();
+      return HullSupport(point_sets::moved(point_sets::lifted_lattice(thickness), rotation, {0, 0, 0}))
+          .dimension();
     };
     CHECK(dimension(1e-3) == 3);
     CHECK(dimension(1e-11) == 3);

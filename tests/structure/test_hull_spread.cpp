@@ -29,8 +29,8 @@ TEST_CASE("the spread of a plate tends to that of its rectangle as it gets thinn
       INFO(pose << ", " << thickness);
       const Points plate = point_sets::moved(point_sets::box({3, 2, thickness}), rotation, {1, 2, 3});
       const HullSpread spread = hull_spread(plate, tolerance::relative);
-      CHECK((spread.centre - rotation * Eigen::Vector3d(1.5, 1, thickness / 2) - Eigen::Vector3d(1, 2, 3)).norm() <
-            1e-9);
+      CHECK((spread.centre - rotation * Eigen::Vector3d(1.5, 1, thickness / 2) - Eigen::Vector3d(1, 2, 3))
+                .norm() < 1e-9);
       // Its sides add to the moments what they have of the area.
       CHECK(spread.deviations(0) == Approx(3 / std::sqrt(12.0)).epsilon(2 * thickness + 1e-8));
       CHECK(spread.deviations(1) == Approx(2 / std::sqrt(12.0)).epsilon(2 * thickness + 1e-8));

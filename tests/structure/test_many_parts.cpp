@@ -60,8 +60,8 @@ Shape random_boxes(std::uint64_t seed, int count, double side) {
   std::vector<Shape> boxes;
   for (int k = 0; k < count; ++k) {
     const Eigen::Vector3d size = 0.6 * (random.in_cube() + Eigen::Vector3d::Constant(1.1));
-    boxes.push_back(transformed(solids::box(size), solids::random_rotation(random.next()),
-                                side * random.in_cube()));
+    boxes.push_back(
+        transformed(solids::box(size), solids::random_rotation(random.next()), side * random.in_cube()));
   }
   return joined(boxes);
 }
@@ -82,7 +82,8 @@ std::vector<Eigen::AlignedBox3d> boxes_of(const Shape& shape) {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Shape& part : extract_parts(shape)) {
     boxes.emplace_back();
-    for (Eigen::Index v = 0; v < part.vertex_count(); ++v) boxes.back().extend(part.vertices.row(v).transpose());
+    for (Eigen::Index v = 0; v < part.vertex_count(); ++v)
+      boxes.back().extend(part.vertices.row(v).transpose());
   }
   return boxes;
 }
@@ -110,9 +111,7 @@ TEST_CASE("near boxes are those that a look at every pair finds", "[parts]") {
       std::vector<Eigen::AlignedBox3d> boxes(1);  // an empty one
       for (int k = 0; k < 60; ++k) {
         // Multiples of 1/4: many touch, and many coincide.
-        const auto whole = [&] {
-          return Eigen::Vector3d((8 * random.in_cube()).array().floor() / 4);
-        };
+        const auto whole = [&] { return Eigen::Vector3d((8 * random.in_cube()).array().floor() / 4); };
         const Eigen::Vector3d low = whole();
         boxes.emplace_back(low, low + whole().cwiseAbs() / 4);
       }
@@ -144,7 +143,8 @@ TEST_CASE("parts taken out all at once are those taken out one by one", "[parts]
 }
 
 TEST_CASE("joints are looked for between near parts only, and none is missed", "[parts][joints]") {
-  for (const Shape& shape : {random_boxes(1, 30, 2), random_boxes(2, 30, 4), grid(3, 3, 2, 1), grid(2, 2, 2, 1.5)}) {
+  for (const Shape& shape :
+       {random_boxes(1, 30, 2), random_boxes(2, 30, 4), grid(3, 3, 2, 1), grid(2, 2, 2, 1.5)}) {
     const JointOptions options;
     const std::vector<Part> parts = cuboids(shape);
     const BoxPairs pairs = near_parts(shape, options);
@@ -217,9 +217,10 @@ TEST_CASE("more parts or pairs of parts than are analysed are refused before the
   CHECK_THROWS_WITH(analyse_structure(shape, parts),
                     "it has 9 parts, and the structure of at most 8 is analysed");
   CHECK_THROWS_AS(analyse_structure(shape, pairs), InputError);
-  CHECK_THROWS_WITH(analyse_structure(shape, pairs),
-                    "more than 19 pairs of its parts come near each other, by their boxes: joints are looked for "
-                    "between at most so many");
+  CHECK_THROWS_WITH(
+      analyse_structure(shape, pairs),
+      "more than 19 pairs of its parts come near each other, by their boxes: joints are looked for "
+      "between at most so many");
   CHECK(steps == std::vector<AnalysisStep>(4, AnalysisStep::parts));
   CHECK(analyse_structure(shape, enough).structure.parts.size() == 9);
 }

@@ -120,7 +120,7 @@ class Shares {
   }
 
   const Shape& shape_;
-  std::vector<std::set<int>> owners_;  ///< parts whose triangles use the vertex
+  std::vector<std::set<int>> owners_;                 ///< parts whose triangles use the vertex
   std::vector<std::vector<Eigen::Index>> triangles_;  ///< per part
   std::vector<Eigen::AlignedBox3d> boxes_;            ///< per part
 };

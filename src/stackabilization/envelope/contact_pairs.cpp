@@ -69,7 +69,8 @@ class PairSearch {
     if (static_cast<std::int64_t>(pairs_.size()) + count > max_pairs_) return false;
     for (auto one = upper_copy; one <= upper_end; ++one)
       for (auto other = lower_copy; other <= lower_end; ++other)
-        pairs_.push_back({one == upper_end ? upper : one->copy, other == lower_end ? lower : other->copy, a, b});
+        pairs_.push_back(
+            {one == upper_end ? upper : one->copy, other == lower_end ? lower : other->copy, a, b});
     return true;
   }
 

@@ -26,10 +26,10 @@ struct ContactPairs {
 };
 
 /// All pairs of triangles over whose common columns the height difference may reach `floor` (as a height
-/// difference). If these are more than `max_pairs`, or finding them takes `nodes_per_pair` times as many pairs
-/// of nodes, then instead for each triangle of the tree, as upper and as lower one, the pair with the largest
-/// difference, up to `resolution`, looked for in at most `max_partners` nodes; where several have it, one of
-/// them, the same in every run. Of triangles with the same three points the first stands for all then.
+/// difference). If these are more than `max_pairs`, or finding them takes `nodes_per_pair` times as many
+/// pairs of nodes, then instead for each triangle of the tree, as upper and as lower one, the pair with the
+/// largest difference, up to `resolution`, looked for in at most `max_partners` nodes; where several have it,
+/// one of them, the same in every run. Of triangles with the same three points the first stands for all then.
 ContactPairs contact_pairs(const SeparationTree::Data& tree, const Projection& projection, double floor,
                            std::int64_t max_pairs, double resolution);
 

@@ -34,7 +34,9 @@ BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOpt
 BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
                                    const SavedSearch& state) {
   validate(checker, options);
-  return detail::BestFirstSearch(checker, options, detail::read_state(state, detail::search_task(checker, options))).run();
+  return detail::BestFirstSearch(checker, options,
+                                 detail::read_state(state, detail::search_task(checker, options)))
+      .run();
 }
 
 std::string search_at_start(const RequirementChecker& checker, const BestFirstOptions& options) {

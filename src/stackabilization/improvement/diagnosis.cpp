@@ -188,7 +188,8 @@ class Diagnostician {
   }
 
   std::string reason_of(const Trial& trial) const {
-    if (trial.stopped && !helps(trial.best)) return "time was up before every edit that may separate it was tried";
+    if (trial.stopped && !helps(trial.best))
+      return "time was up before every edit that may separate it was tried";
     if (trial.made == 0 && trial.refusals.empty())
       return "no edit would separate it: symmetries and the height that is kept leave none";
     if (trial.made > 0)

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "stackabilization/stacking/stackability.h"

@@ -14,7 +14,9 @@ namespace stackabilization::detail {
 /// Everything that a search knows between two steps, apart from what follows from it.
 struct SearchState {
   SearchState(std::uint64_t the_task, std::vector<Eigen::Vector3d> the_directions)
-      : task(the_task), tree(static_cast<int>(the_directions.size())), directions(std::move(the_directions)) {}
+      : task(the_task),
+        tree(static_cast<int>(the_directions.size())),
+        directions(std::move(the_directions)) {}
 
   std::uint64_t task;  ///< see task_fingerprint
   SearchTree tree;

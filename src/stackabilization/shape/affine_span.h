@@ -8,7 +8,7 @@ namespace stackabilization {
 
 /// The smallest flat that holds a set of points: a point, a line, a plane or all of space.
 struct AffineSpan {
-  int dimension = 0;  ///< 0: one point, 1: straight, 2: flat, 3: solid
+  int dimension = 0;                                 ///< 0: one point, 1: straight, 2: flat, 3: solid
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< a point of the set
   Eigen::Vector3d axis = Eigen::Vector3d::Zero();    ///< unit; along the line, or in the plane; else zero
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit; across the plane, from dimension 2 on
@@ -23,8 +23,8 @@ AffineSpan affine_span(const Points& points, double resolution);
 /// The exact dimension of the smallest flat that holds the points, 0 to 3. Same precondition.
 int affine_dimension(const Points& points);
 
-/// The exponent e for which no square or cube of the points' coordinates times 2^e, and no product of a few of
-/// them, overflows, and none that matters underflows. 0 unless the largest coordinate is beyond 1e60 or
+/// The exponent e for which no square or cube of the points' coordinates times 2^e, and no product of a few
+/// of them, overflows, and none that matters underflows. 0 unless the largest coordinate is beyond 1e60 or
 /// below 1e-60; then 2^e brings it to between 1/2 and 1.
 int working_exponent(const Points& points);
 

@@ -188,8 +188,8 @@ double signed_volume(const Shape& shape) {
   const Eigen::Vector3d origin = shape.corner(0, 0);
   double volume = 0;
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-    volume += (shape.corner(t, 0) - origin)
-                  .dot((shape.corner(t, 1) - origin).cross(shape.corner(t, 2) - origin));
+    volume +=
+        (shape.corner(t, 0) - origin).dot((shape.corner(t, 1) - origin).cross(shape.corner(t, 2) - origin));
   return volume;
 }
 
@@ -236,8 +236,7 @@ struct CollisionTester::Data {
       if (found) return;
       const std::int32_t in_above = above_rows[k];
       const Corners t = lifted.corners(in_above);
-      for (const std::int32_t in_below :
-           below_solid.triangles_in(t[0].bbox() + t[1].bbox() + t[2].bbox())) {
+      for (const std::int32_t in_below : below_solid.triangles_in(t[0].bbox() + t[1].bbox() + t[2].bbox())) {
         const Corners s = fixed.corners(in_below);
         if (!CGAL::do_intersect(Exact::Triangle_3(s[0], s[1], s[2]), Exact::Triangle_3(t[0], t[1], t[2])))
           continue;

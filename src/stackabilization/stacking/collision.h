@@ -45,8 +45,8 @@ class CollisionTester {
   /// Do `below` and `above` + lift * r have a point in common?
   bool closed_contact(const Direction& direction, const Rational& lift) const;
 
-  /// Why `interiors_overlap` is no answer for these shapes; nothing when it is exact. Looks at winding numbers
-  /// beside one point of every triangle; a shape that is inside out as a whole is no defect.
+  /// Why `interiors_overlap` is no answer for these shapes; nothing when it is exact. Looks at winding
+  /// numbers beside one point of every triangle; a shape that is inside out as a whole is no defect.
   std::optional<InteriorDefect> interior_defect() const;
 
   /// Do the interiors of `below` and `above` + lift * r have a point in common: is the regularised

@@ -100,7 +100,9 @@ std::vector<std::int32_t> SolidLocator::triangles_in(const CGAL::Bbox_3& box) co
 std::vector<std::int32_t> SolidLocator::along_ray(const Point& p, int slope) const {
   if (rows_.empty()) return {};
   const CGAL::Bbox_3 from = p.bbox(), all = tree_->tree.bbox();
-  const auto end = [&](int k) { return std::max(from.max(k), k == 0 || slope > 0 ? all.max(k) : from.max(k)); };
+  const auto end = [&](int k) {
+    return std::max(from.max(k), k == 0 || slope > 0 ? all.max(k) : from.max(k));
+  };
   return triangles_in({from.xmin(), from.ymin(), from.zmin(), end(0), end(1), end(2)});
 }
 

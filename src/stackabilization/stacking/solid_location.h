@@ -48,8 +48,8 @@ class SolidLocator {
   /// Triangles with area that meet a box, ascending.
   std::vector<std::int32_t> triangles_in(const CGAL::Bbox_3& box) const;
 
-  /// `inside` is where the winding number is not 0. Of several triangles that hold a point on the boundary the
-  /// first.
+  /// `inside` is where the winding number is not 0. Of several triangles that hold a point on the boundary
+  /// the first.
   PointLocation locate(const Point& p) const;
   /// Winding numbers right beside an inner point of a triangle with area, on both sides of all triangles that
   /// hold this point.

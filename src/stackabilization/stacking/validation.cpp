@@ -269,7 +269,8 @@ class Validator {
       case InteriorDefect::no_volume:
         break;
     }
-    return "surfaces of the shape cancel each other, as those of a part without thickness, so they enclose no "
+    return "surfaces of the shape cancel each other, as those of a part without thickness, so they enclose "
+           "no "
            "interior to test";
   }
 

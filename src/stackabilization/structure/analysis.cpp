@@ -34,8 +34,7 @@ double error_of(const PrimitiveFit& fit, PrimitiveKind kind) {
 
 class Analysis {
  public:
-  Analysis(const Shape& shape, const AnalysisOptions& options)
-      : options_(options) {
+  Analysis(const Shape& shape, const AnalysisOptions& options) : options_(options) {
     report(AnalysisStep::parts, 0);
     result_.shape = segmented(shape, options.segmentation);
     if (names().size() > options.max_parts)

@@ -38,8 +38,9 @@ struct AnalysisOptions {
 /// symmetric. Deterministic, the same for any number of threads.
 ///
 /// The work grows near linearly with the parts and with the pairs of them that come near each other. Throws
-/// InputError when there are more of either than AnalysisOptions::max_parts and JointOptions::max_pairs, before
-/// anything is fitted; when `shape` is invalid or a part has no area; UsageError for options out of range or a forced kind for a part that does not exist.
+/// InputError when there are more of either than AnalysisOptions::max_parts and JointOptions::max_pairs,
+/// before anything is fitted; when `shape` is invalid or a part has no area; UsageError for options out of
+/// range or a forced kind for a part that does not exist.
 StructuredShape analyse_structure(const Shape& shape, const AnalysisOptions& options = {});
 
 /// Makes the primitives satisfy all symmetry relations of `structure` exactly, up to rounding: symmetric

@@ -109,8 +109,7 @@ std::vector<ContactMerger::Pair> ContactMerger::candidates() const {
   const double least = std::min(rule_.shared_area, rule_.inside) * contact_samples;
   for (const auto& [first, second] : *near) {
     const auto low = static_cast<std::size_t>(first), high = static_cast<std::size_t>(second);
-    const Pair pair =
-        components_[high].area > components_[low].area ? Pair{low, high} : Pair{high, low};
+    const Pair pair = components_[high].area > components_[low].area ? Pair{low, high} : Pair{high, low};
     const Points& points = components_[pair.small].samples.points;
     const Eigen::AlignedBox3d box = grown(components_[pair.large].box);
     int held = 0;

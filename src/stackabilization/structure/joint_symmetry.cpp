@@ -145,9 +145,9 @@ class JointSymmetry {
   const Structure& structure_;
   std::vector<Relation> joints_;
   std::vector<Action> actions_;
-  std::vector<std::vector<std::size_t>> actions_on_;        ///< rows of the actions per part, ascending
+  std::vector<std::vector<std::size_t>> actions_on_;           ///< rows of the actions per part, ascending
   std::map<std::vector<int>, std::vector<std::size_t>> rows_;  ///< of the joints, per parts, ascending
-  std::vector<Relation> links_;  ///< symmetries between rows of `joints_`
+  std::vector<Relation> links_;                                ///< symmetries between rows of `joints_`
 };
 
 }  // namespace

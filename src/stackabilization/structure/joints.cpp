@@ -160,7 +160,7 @@ class JointFinder {
     tbb::parallel_for(std::size_t{0}, joints.size(), [&](std::size_t k) {
       const auto& [relation, region] = joints[k];
       const std::map<int, double>*few = &shares[static_cast<std::size_t>(relation.parts[0])],
-                 *many = &shares[static_cast<std::size_t>(relation.parts[1])];
+                          *many = &shares[static_cast<std::size_t>(relation.parts[1])];
       if (many->size() < few->size()) std::swap(few, many);
       const double here = region.deviations.norm();
       hidden[k] = std::any_of(few->begin(), few->end(), [&](const auto& third) {
@@ -262,9 +262,10 @@ BoxPairs near_parts(const Shape& shape, const JointOptions& options) {
   }
   auto pairs = near_boxes(boxes, options.reach * size_of(shape), options.max_pairs);
   if (!pairs)
-    throw InputError("more than " + std::to_string(options.max_pairs) +
-                     " pairs of its parts come near each other, by their boxes: joints are looked for between "
-                     "at most so many");
+    throw InputError(
+        "more than " + std::to_string(options.max_pairs) +
+        " pairs of its parts come near each other, by their boxes: joints are looked for between "
+        "at most so many");
   return std::move(*pairs);
 }
 

@@ -45,8 +45,8 @@ BoxPairs near_parts(const Shape& shape, const JointOptions& options);
 /// `parts` are those of `shape`, in its order. Throws UsageError for options out of range, InputError when a
 /// part has no triangle of positive area.
 ///
-/// Throws InputError as well when more than JointOptions::max_pairs pairs of parts come near each other, before
-/// it looks at any of them.
+/// Throws InputError as well when more than JointOptions::max_pairs pairs of parts come near each other,
+/// before it looks at any of them.
 std::vector<Relation> find_joints(const Shape& shape, const std::vector<Part>& parts,
                                   const JointOptions& options = {});
 

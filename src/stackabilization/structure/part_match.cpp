@@ -107,12 +107,12 @@ std::vector<int> PartSurfaces::near_image(int a, const Symmetry& symmetry) const
   const Eigen::Vector3d image = isometry_of(symmetry) * from->centroid;
   const Eigen::Vector3d reach = Eigen::Vector3d::Constant(options_.tolerance * unit_);
   std::vector<int> found;
-  centroids_->tree.query(
-      boost::geometry::index::intersects(
-          boost::geometry::model::box<Place>(place_of(image - reach), place_of(image + reach))),
-      boost::make_function_output_iterator([&](const Centroids::Entry& entry) {
-        if (same_size(a, entry.second) && is_near(image, entry.second)) found.push_back(entry.second);
-      }));
+  centroids_->tree.query(boost::geometry::index::intersects(boost::geometry::model::box<Place>(
+                             place_of(image - reach), place_of(image + reach))),
+                         boost::make_function_output_iterator([&](const Centroids::Entry& entry) {
+                           if (same_size(a, entry.second) && is_near(image, entry.second))
+                             found.push_back(entry.second);
+                         }));
   std::sort(found.begin(), found.end());
   if (found.size() > max_matches) found.resize(max_matches);
   return found;

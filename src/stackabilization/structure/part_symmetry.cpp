@@ -28,9 +28,7 @@ class PartSymmetry {
  public:
   PartSymmetry(const Shape& shape, const std::vector<FoundSymmetry>& symmetries,
                const SymmetryOptions& options)
-      : options_(options),
-        parts_(shape, options),
-        relations_of_(static_cast<std::size_t>(parts_.count())) {
+      : options_(options), parts_(shape, options), relations_of_(static_cast<std::size_t>(parts_.count())) {
     for (const FoundSymmetry& found : symmetries)
       if (found.symmetry.kind == SymmetryKind::reflection) candidates_.push_back(found.symmetry);
     for (const FoundSymmetry& found : symmetries)

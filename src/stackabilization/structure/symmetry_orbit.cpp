@@ -159,8 +159,8 @@ class OrbitFinder {
 
   const Structure& structure_;
   std::vector<std::vector<std::size_t>> relations_of_;  ///< symmetries per part, in their order
-  std::vector<int> place_;     ///< per part, in its orbit
-  std::vector<int> orbit_of_;  ///< per part; -1 without symmetry
+  std::vector<int> place_;                              ///< per part, in its orbit
+  std::vector<int> orbit_of_;                           ///< per part; -1 without symmetry
   std::vector<std::size_t> tree_;
   std::vector<bool> in_tree_;  ///< per relation
   OrbitsOrContradiction result_;
