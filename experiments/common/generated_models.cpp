@@ -26,7 +26,7 @@ class Boxes {
         shape_.vertices(8 * box + v, axis) = (v >> axis & 1 ? high : low)[axis];
     for (int f = 0; f < 12; ++f)
       for (int k = 0; k < 3; ++k) shape_.triangles(12 * box + f, k) = 8 * box + faces[f][k];
-    shape_.triangle_part.insert(shape_.triangle_parts.end(), 12, box);
+    shape_.triangle_part.insert(shape_.triangle_part.end(), 12, box);
     shape_.part_names.push_back(name + "_" + std::to_string(box));
   }
 

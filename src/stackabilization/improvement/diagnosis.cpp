@@ -269,7 +269,7 @@ class Diagnostician {
     RemovalOptions options;
     options.measure = checker_.requirements().measure;
     options.directions = {best_.direction};
-    options.cancelled = cancelled_;
+    options.cancelled = options_.cancelled;
     std::size_t offered = 0;
     for (const Removal& removal : removals(rest_, options)) {
       if (offered == most_removals || !helps(removal.stackability)) break;
