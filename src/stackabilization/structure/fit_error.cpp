@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "stackabilization/shape/direction.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::detail {
 
@@ -16,12 +17,12 @@ namespace {
 /// difference.
 constexpr int sample_count = 768;
 
-/// Distance in a half plane (height, distance from the axis) to the segment from a to b.
-double distance_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+/// Square of the distance in a half plane (height, distance from the axis) to the segment from a to b.
+double square_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d edge = b - a;
   const double length = edge.squaredNorm();
   const double t = length > 0 ? std::clamp((point - a).dot(edge) / length, 0.0, 1.0) : 0.0;
-  return (point - a - t * edge).norm();
+  return (point - a - t * edge).squaredNorm();
 }
 
 /// One frustum of a generalized cylinder.
@@ -111,20 +112,25 @@ std::vector<Frustum> frusta_of(const GeneralizedCylinder& cylinder) {
   return frusta;
 }
 
+/// Frusta that are certainly farther than the nearest so far are passed over: with a margin for rounding, so
+/// that the result is that of looking at all of them.
 double distance_to_frusta(const std::vector<Frustum>& frusta, bool closed, const Eigen::Vector3d& point) {
-  double least = std::numeric_limits<double>::infinity();
+  constexpr double certainly = 1 + tolerance::relative;
+  double least = std::numeric_limits<double>::infinity();  // squared
   for (std::size_t i = 0; i < frusta.size(); ++i) {
     const Frustum& piece = frusta[i];
     const Eigen::Vector3d from = point - piece.base;
     const double along = piece.axis.dot(from);
+    const double beyond = std::max({0.0, -along, along - piece.height});
+    if (beyond * beyond > certainly * least) continue;
     const Eigen::Vector2d place(along, (from - along * piece.axis).norm());
     const Eigen::Vector2d low(0, piece.low), high(piece.height, piece.high);
-    least = std::min(least, distance_to_segment(place, low, high));
-    if (i == 0 && !closed) least = std::min(least, distance_to_segment(place, {0, 0}, low));
+    least = std::min(least, square_to_segment(place, low, high));
+    if (i == 0 && !closed) least = std::min(least, square_to_segment(place, {0, 0}, low));
     if (i + 1 == frusta.size() && !closed)
-      least = std::min(least, distance_to_segment(place, {piece.height, 0}, high));
+      least = std::min(least, square_to_segment(place, {piece.height, 0}, high));
   }
-  return least;
+  return std::sqrt(least);
 }
 
 auto distance_to(const OrientedBox& box) {
@@ -149,15 +155,19 @@ double mean_square_to(const Solid& solid, const Points& points) {
 }
 
 template <class Solid>
-double two_sided(const Solid& solid, const FitSurface& part) {
+double two_sided(const Solid& solid, const FitSurface& part, double enough) {
+  constexpr Eigen::Index points_at_a_time = 64;
+  const double there = mean_square_to(solid, part.samples.points);
   const Points points = surface_points(solid);
   double back = 0;
-  for (const auto& point : points.rowwise()) {
-    const double distance = part.index.nearest(point.transpose()).distance;
+  const auto so_far = [&] { return std::sqrt((there + back / static_cast<double>(points.rows())) / 2); };
+  for (Eigen::Index k = 0; k < points.rows(); ++k) {
+    // Sums only grow, also when they are rounded.
+    if (k % points_at_a_time == 0 && so_far() >= enough) return std::numeric_limits<double>::infinity();
+    const double distance = part.index.nearest(points.row(k).transpose()).distance;
     back += distance * distance;
   }
-  return std::sqrt((mean_square_to(solid, part.samples.points) + back / static_cast<double>(points.rows())) /
-                   2);
+  return so_far();
 }
 
 }  // namespace
@@ -179,11 +189,11 @@ double distance_to_surface(const OrientedBox& box, const FitSurface& part) {
 }
 
 double fit_error(const OrientedBox& box, const FitSurface& part) {
-  return two_sided(box, part);
+  return two_sided(box, part, std::numeric_limits<double>::infinity());
 }
 
-double fit_error(const GeneralizedCylinder& cylinder, const FitSurface& part) {
-  return two_sided(cylinder, part);
+double fit_error(const GeneralizedCylinder& cylinder, const FitSurface& part, double enough) {
+  return two_sided(cylinder, part, enough);
 }
 
 }  // namespace stackabilization::detail

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include <Eigen/Core>
 
 #include "stackabilization/shape/boxes.h"
@@ -31,8 +33,9 @@ double distance_to_surface(const OrientedBox& box, const FitSurface& part);
 
 /// Two-sided distance of the surfaces, model units: root of the mean of both mean squares, part to primitive
 /// and primitive to part, both by area. One side alone would call a frame well held by the box around its
-/// hole.
+/// hole. Of a cylinder that is off by `enough` or more it may be infinite: no more of it was measured.
 double fit_error(const OrientedBox& box, const FitSurface& part);
-double fit_error(const GeneralizedCylinder& cylinder, const FitSurface& part);
+double fit_error(const GeneralizedCylinder& cylinder, const FitSurface& part,
+                 double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace stackabilization::detail

@@ -1,5 +1,6 @@
 #include "stackabilization/structure/fitting.h"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -63,8 +64,9 @@ class CylinderFit {
  private:
   void offer(std::optional<GeneralizedCylinder> cylinder, double share, const std::string& note) {
     if (!cylinder) return;
-    const double error = detail::fit_error(*cylinder, part_);
-    if (best_ && !(error < share * best_->error)) return;
+    const double enough = best_ ? share * best_->error : std::numeric_limits<double>::infinity();
+    const double error = detail::fit_error(*cylinder, part_, enough);
+    if (best_ && !(error < enough)) return;
     best_ = FittedCylinder{std::move(*cylinder), error, note};
   }
 

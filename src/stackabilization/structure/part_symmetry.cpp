@@ -40,11 +40,10 @@ class PartSymmetry {
     planes_ = detail::canonical_reflections(parts_.whole(), parts_.with_area(), candidates_);
     for (const Symmetry& plane : planes_) append(relations_under(plane));
     add_oblique_planes();
-    for (int part = 0; part < parts_.count(); ++part) {
-      if (!parts_.part(part) || has(part, RelationType::symmetry)) continue;
-      const bool alone = !has(part, RelationType::self_symmetry);
-      if (!add_revolution(part) && alone) add_own_planes(part);
-    }
+    std::vector<std::vector<Relation>> own(static_cast<std::size_t>(parts_.count()));
+    tbb::parallel_for(0, parts_.count(),
+                      [&](int part) { own[static_cast<std::size_t>(part)] = own_relations(part); });
+    for (const std::vector<Relation>& relations : own) append(relations);
     std::stable_sort(relations_.begin(), relations_.end(), [](const Relation& a, const Relation& b) {
       return std::pair(a.type, a.parts) < std::pair(b.type, b.parts);
     });
@@ -144,13 +143,21 @@ class PartSymmetry {
     return planes;
   }
 
-  /// The relations of a part of revolution; false when it is none. Bars that the shape mirrors end to end are
+  /// What a part without counterparts has by itself.
+  std::vector<Relation> own_relations(int part) const {
+    if (!parts_.part(part) || has(part, RelationType::symmetry)) return {};
+    std::vector<Relation> relations = revolution(part);
+    if (relations.empty() && !has(part, RelationType::self_symmetry)) relations = own_planes(part);
+    return relations;
+  }
+
+  /// The relations of a part of revolution; none when it is none. Bars that the shape mirrors end to end are
   /// left as bars: their roundness is the business of their primitive, and being straight is none of the
   /// design's.
-  bool add_revolution(int part) {
+  std::vector<Relation> revolution(int part) const {
     const SymmetrySurface& surface = *parts_.part(part);
     const std::vector<Symmetry> axes = detail::revolutions(surface, options_, detail::Roundness::tolerant);
-    if (axes.empty()) return false;
+    if (axes.empty()) return {};
     const std::vector<Symmetry> own = own_reflections(part);
     Symmetry axis = detail::to_model(surface, axes.front());
     std::vector<Symmetry> through;
@@ -162,7 +169,7 @@ class PartSymmetry {
     }
     for (const Symmetry& plane : own)
       if (std::abs(plane.axis.dot(axis.axis)) > nearly_parallel) {
-        if (through.size() < 2) return false;
+        if (through.size() < 2) return {};
         axis.axis = plane.axis;
       }
 
@@ -173,13 +180,14 @@ class PartSymmetry {
       planes = {
           {SymmetryKind::reflection, axis.point, axis.axis.cross(through.front().axis).normalized(), 2}};
     planes.push_back(axis);
+    std::vector<Relation> relations;
     for (const Symmetry& symmetry : planes)
-      append({related({part}, symmetry, parts_.match(part, part, symmetry).value_or(0))});
-    return true;
+      relations.push_back(related({part}, symmetry, parts_.match(part, part, symmetry).value_or(0)));
+    return relations;
   }
 
   /// Planes through the middle of a part that the whole has no symmetry for, along its own box.
-  void add_own_planes(int part) {
+  std::vector<Relation> own_planes(int part) const {
     const SymmetrySurface& surface = *parts_.part(part);
     std::vector<Symmetry> planes;
     for (int k = 0; k < 3; ++k) {
@@ -188,10 +196,12 @@ class PartSymmetry {
       if (detail::verify(surface, plane, options_, detail::Effort::dense).holds)
         planes.push_back(detail::to_model(surface, plane));
     }
+    std::vector<Relation> relations;
     for (const Symmetry& plane : detail::canonical_reflections(surface, {&surface}, planes))
       if (const auto residual = parts_.match(part, part, plane);
           residual && !lies_beside_common(plane, surface))
-        append({related({part}, plane, *residual)});
+        relations.push_back(related({part}, plane, *residual));
+    return relations;
   }
 
   /// A part that a plane of the whole cuts, but not in the middle, has no plane of its own beside that one:
