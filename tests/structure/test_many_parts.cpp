@@ -140,7 +140,8 @@ TEST_CASE("parts taken out all at once are those taken out one by one", "[parts]
   }
 }
 
-TEST_CASE("joints are those that a look at every pair of parts finds, but for hidden ones", "[parts][joints]") {
+TEST_CASE("joints are those that a look at every pair of parts finds, but for hidden ones",
+          "[parts][joints]") {
   for (const Shape& shape :
        {random_boxes(1, 20, 1.5), random_boxes(2, 30, 4), grid(3, 2, 2, 1), grid(2, 2, 2, 1.5)}) {
     const std::vector<Part> parts = cuboids(shape);
@@ -153,7 +154,8 @@ TEST_CASE("joints are those that a look at every pair of parts finds, but for hi
         const Shape two = joined({pieces[static_cast<std::size_t>(a)], pieces[static_cast<std::size_t>(b)]});
         JointOptions options;
         options.reach *= size_of(shape) / size_of(two);  // the same length
-        if (!find_joints(two, {parts[static_cast<std::size_t>(a)], parts[static_cast<std::size_t>(b)]}, options)
+        if (!find_joints(two, {parts[static_cast<std::size_t>(a)], parts[static_cast<std::size_t>(b)]},
+                         options)
                  .empty())
           alone.insert({a, b});
       }
