@@ -1,21 +1,23 @@
 """All commands on every mesh of outside data: test_every_mesh.py PROGRAM [COUNT].
 
 The folders are those that STACKABILIZATION_PAPER_DATA and STACKABILIZATION_CORPORA name; with COUNT an evenly spread
-sample of so many files. Whatever is in a file, a command ends within a minute and its memory, with a status from 0 to 3:
-with a result that is JSON without NaN, or with one sentence and no result. Every other run is listed with its command
-line, and then the status of this script is 1.
+sample of so many files. Whatever is in a file, a command ends within a minute of computing on one core and within its
+memory, with a status from 0 to 3: with a result that is JSON without NaN, or with one sentence and no result. Every
+other run is listed with its command line, and then the status of this script is 1.
 """
 
 import json
 import os
 import resource
 import shlex
+import signal
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
-SECONDS = 60
+CPU_SECONDS = 60
+GUARD_SECONDS = 20 * CPU_SECONDS  # of the clock, for what waits for ever
 ADDRESS_SPACE = 6 << 30
 SUFFIXES = {".obj", ".off", ".ply", ".stl", ".3mf", ".glb", ".gltf"}
 FOLDERS = ("STACKABILIZATION_PAPER_DATA", "STACKABILIZATION_CORPORA")
@@ -48,8 +50,9 @@ def spread(files, count):
     return [files[(2 * k + 1) * len(files) // (2 * count)] for k in range(count)]
 
 
-def limit_memory():
+def limit():
     resource.setrlimit(resource.RLIMIT_AS, (ADDRESS_SPACE, ADDRESS_SPACE))
+    resource.setrlimit(resource.RLIMIT_CPU, (CPU_SECONDS, CPU_SECONDS + 5))
 
 
 def refuse_constant(name):
@@ -59,9 +62,11 @@ def refuse_constant(name):
 def complaint(line, result):
     """What is wrong with this run, or None."""
     try:
-        ran = subprocess.run(line, capture_output=True, timeout=SECONDS, preexec_fn=limit_memory)
+        ran = subprocess.run(line, capture_output=True, timeout=GUARD_SECONDS, preexec_fn=limit)
     except subprocess.TimeoutExpired:
-        return f"runs for more than {SECONDS} s"
+        return f"does not end within {GUARD_SECONDS} s"
+    if ran.returncode == -signal.SIGXCPU:
+        return f"computes for more than {CPU_SECONDS} s"
     words = ran.stderr.decode(errors="replace")
     if ran.returncode not in range(4):
         return f"ends with {ran.returncode}: {words[-300:]}"
@@ -92,7 +97,7 @@ def main():
             with tempfile.TemporaryDirectory() as folder:
                 result = Path(folder) / "result.json"
                 options = [word.replace("OUT", f"{folder}/out") for word in command[1:]]
-                line = [program, command[0], str(path), *options, "--threads", "2", "--quiet", "--json", str(result)]
+                line = [program, command[0], str(path), *options, "--threads", "1", "--quiet", "--json", str(result)]
                 if wrong := complaint(line, result):
                     offenders += 1
                     print(f"{shlex.join(line)}\n    {wrong}", flush=True)

@@ -77,10 +77,11 @@ std::string name_of(const Handle& handle, const std::vector<std::string>& part_n
 }
 
 void check_axis(const Eigen::Vector3d& axis, const std::string& of) {
+  if (axis.isZero(0)) throw UsageError(of + " needs an axis that is not zero");
   try {
     static_cast<void>(Direction(axis));
   } catch (const UsageError& error) {
-    throw UsageError(of + " needs an axis that is not zero: " + error.what() + ", found " + text(axis));
+    throw UsageError(of + " needs an axis of another size: " + error.what() + ", found " + text(axis));
   }
 }
 
