@@ -371,10 +371,10 @@ TEST_CASE("a direction that is given is kept, one that is free may turn, and eac
   const std::string model =
       (fs::path(STACKABILIZATION_SOURCE_DIR) / "data" / "models" / "chair.obj").string();
   const auto directions_of = [&](const Arguments& further) {
-    const Outcome outcome = run_program(joined(
-        {"improve", model, "--target", "0.99", "--preset", "paper", "--expansions", "1", "--no-pictures",
-         "--json", "-", "-o", folder / "out"},
-        further));
+    const Outcome outcome =
+        run_program(joined({"improve", model, "--target", "0.99", "--preset", "paper", "--expansions", "1",
+                            "--no-pictures", "--json", "-", "-o", folder / "out"},
+                           further));
     INFO(outcome.err);
     REQUIRE(outcome.status == 1);
     const json nearest = outcome.json()["nearest"];
@@ -403,10 +403,10 @@ TEST_CASE("stack and improve name the same stackability for the same copies in t
     CHECK(wished == folder.document("result.json")["target"]["stackability"].get<double>());
     CHECK(wished == Approx(1 - 0.8 * (1 - now.value)).epsilon(1e-5));
   }
-  check_refused(folder,
-                {"improve", folder.cup, "--copies", "5", "--within", room, "--clearance", "100", "-o",
-                 folder.out},
-                2, "of air between them");
+  check_refused(
+      folder,
+      {"improve", folder.cup, "--copies", "5", "--within", room, "--clearance", "100", "-o", folder.out}, 2,
+      "of air between them");
 }
 
 TEST_CASE("a part that is not there is answered with those that are, in every option") {
@@ -414,16 +414,15 @@ TEST_CASE("a part that is not there is answered with those that are, in every op
   const std::string table =
                         (fs::path(STACKABILIZATION_SOURCE_DIR) / "data" / "models" / "chair.obj").string(),
                     cup = folder.model("cup.obj", solids::frustum_shell(coarse())), out = folder / "out";
-  for (const Arguments& arguments : std::vector<Arguments>{
-           {"improve", table, "--target", "0.5", "-o", out, "--keep", "Seat"},
-           {"improve", table, "--target", "0.5", "-o", out, "--only", "Seat"},
-           {"improve", table, "--target", "0.5", "-o", out, "--remove", "Seat"},
-           {"suggest", table, "--keep", "Seat"},
-           {"deform", table, "--edit", "seat move 0 0 0.01", "--fix", "Seat"},
-           {"deform", table, "--edit", "Seat move 0 0 0.01"},
-           {"structure", table, "--primitive", "Seat=cuboid"}})
-    check_refused(folder, arguments, 2,
-                  "there is no part 'Seat', only 'seat', ");
+  for (const Arguments& arguments :
+       std::vector<Arguments>{{"improve", table, "--target", "0.5", "-o", out, "--keep", "Seat"},
+                              {"improve", table, "--target", "0.5", "-o", out, "--only", "Seat"},
+                              {"improve", table, "--target", "0.5", "-o", out, "--remove", "Seat"},
+                              {"suggest", table, "--keep", "Seat"},
+                              {"deform", table, "--edit", "seat move 0 0 0.01", "--fix", "Seat"},
+                              {"deform", table, "--edit", "Seat move 0 0 0.01"},
+                              {"structure", table, "--primitive", "Seat=cuboid"}})
+    check_refused(folder, arguments, 2, "there is no part 'Seat', only 'seat', ");
   check_refused(folder, {"improve", cup, "--target", "0.5", "-o", out, "--keep", "handle"}, 2,
                 "there is no part 'handle', only ");
 }

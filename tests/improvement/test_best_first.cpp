@@ -298,7 +298,8 @@ TEST_CASE("a damaged state is named with the place and what was expected there")
            {"\"directions\":[[0.0,0.0,1.0]]", "\"directions\":[]", "/directions: expected at least one"},
            {"\"directions\":[[0.0,0.0,1.0]]", "\"directions\":[[0.0,0.0,0.0]]", "/directions/0: a direction"},
            {"\"version\":2", "\"version\":1", "/: this is no saved search of this version"},
-           {"\"refusals\":{", "\"refusals\":{\"x\":-1,", "/refusals/x: expected an integer"}}) {
+           {"\"refusals\":{}", "\"refusals\":{\"x\":-1}", "/refusals/x: expected an integer"},
+           {"\"refusals\":{}", "\"refusals\":[]", "/refusals: expected an object"}}) {
     INFO(damage.from << " -> " << damage.to);
     std::string damaged = state;
     const auto at = damaged.find(damage.from);

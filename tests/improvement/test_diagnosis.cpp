@@ -80,7 +80,8 @@ TEST_CASE("what came very near to the target is told from it") {
   Diagnosis diagnosis;
   diagnosis.target = 0.4;
   diagnosis.reached = 0.39988;
-  CHECK(says(text(diagnosis, structures::table()), "S = 0.400 was not reached; the best is S = 0.3999."));
+  CHECK(says(text(diagnosis, structures::table()),
+             "S = 0.400 was not reached; the best is S = 0.3999 along z."));
 }
 
 TEST_CASE("freeing the legs is what lets a table sink deeper") {

@@ -24,7 +24,7 @@ TEST_CASE("a name that no part has is answered with the parts that there are, th
   }
   CHECK(refusal == "there is no part 'Leg_', only 'leg', 'seat', 'back'");
   CHECK(unknown_part({"back", "seat"}, "SEAT") == "there is no part 'SEAT', only 'seat', 'back'");
-  CHECK(unknown_part({"a\nb", "\xc3\xa4"}, "c") == "there is no part 'c', only 'a?b', '\xc3\xa4'");
+  CHECK(unknown_part({"a\nb", "\xc3\xa4"}, "c") == "there is no part 'c', only '\xc3\xa4', 'a?b'");
 }
 
 TEST_CASE("of many parts some are listed, of parts without names it is said how to see them",

@@ -92,7 +92,7 @@ std::optional<SearchEnd> BestFirstSearch::step(int id) {
   std::vector<Successor> made;
   if (!verdict.state) {
     const Standpoint from{*design, measured.direction, node.queue};
-    std::vector<ContactEdit> edits = suggestions(tools_, from);
+    std::vector<ContactEdit> edits = suggested_edits(tools_, from);
     const auto trials = static_cast<std::int64_t>(edits.size()) + turning_trials();
     if (trials > options().trials - state_.trials) return SearchEnd::trial_limit;
     made = successors(tools_, from, std::move(edits), state_.tree, interruption_);

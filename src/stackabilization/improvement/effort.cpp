@@ -10,9 +10,9 @@ namespace stackabilization {
 
 namespace {
 
-/// Designs of a shape without triangles and parts, and directions of a shape without triangles, that an effort
-/// of 1 pays for; and with how many triangles and parts each costs twice as much. Measured on the shipped
-/// models and on chairs of 1,000 to 60,000 triangles, by `improve` with two threads.
+/// Designs of a shape without triangles and parts, and directions of a shape without triangles, that an
+/// effort of 1 pays for; and with how many triangles and parts each costs twice as much. Measured on the
+/// shipped models and on chairs of 1,000 to 60,000 triangles, by `improve` with two threads.
 constexpr double cheapest_designs = 12000, cheapest_directions = 120000;
 constexpr double design_triangles = 1000, design_parts = 12, direction_triangles = 2000;
 

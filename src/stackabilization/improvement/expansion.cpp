@@ -61,7 +61,7 @@ SearchTools::SearchTools(const RequirementChecker& the_checker, const BestFirstO
           the_checker.measured(the_checker.space().rest().shape, Direction(the_options.directions.front()))
               .value) {}
 
-std::vector<ContactEdit> suggestions(const SearchTools& tools, const Standpoint& from) {
+std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const Standpoint& from) {
   const DesignSpace& space = tools.checker.space();
   const Direction direction(from.direction);
   const std::vector<ContactRegion> regions =

@@ -46,7 +46,7 @@ struct Standpoint {
 };
 
 /// What its contacts suggest, but for edits that take back earlier ones.
-std::vector<ContactEdit> suggestions(const SearchTools& tools, const Standpoint& from);
+std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const Standpoint& from);
 
 /// Its successors by these edits, in their order; those whose configuration is known in the queue are only
 /// named. Made in parallel, each in its own slot. When interrupted, some are missing: look at `interruption`.
