@@ -7,7 +7,7 @@
 /// result over as text, JSON, meshes and pictures; nothing is computed here.
 namespace stackabilization::apps {
 
-/// Exit statuses of the program; see also `exit_status_of` in main.cpp.
+/// Exit statuses of the program; see also `guarded` in program.h.
 enum ExitStatus {
   status_done = 0,
   status_no = 1,     ///< it ran, but the answer is no: validation failed, a wish is not met

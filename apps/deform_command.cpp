@@ -14,11 +14,10 @@ namespace stackabilization::apps {
 namespace {
 
 void check(const DeformCommandOptions& options) {
-  check_outputs(options.common,
-                {{"--output", options.output, OutputKind::mesh},
-                 {"--picture", options.picture, OutputKind::picture},
-                 {"--save", options.save, OutputKind::project}},
-                analysis_inputs(options.analysis));
+  check_outputs(options.common, {{{"--output", options.output, OutputKind::mesh},
+                                  {"--picture", options.picture, OutputKind::picture},
+                                  {"--save", options.save, OutputKind::project}},
+                                 analysis_inputs(options.analysis)});
   if (options.picture) require_rendering();
   if (options.edits.empty() && !options.list_handles)
     throw UsageError("expected --edit with what to do, or --list-handles");
@@ -35,7 +34,7 @@ void check(const DeformCommandOptions& options) {
 }
 
 int list_handles(const CLI::App& command, const DeformCommandOptions& options, const Stopwatch& watch) {
-  const StructuredModel input = load_structured(command, options.common, options.analysis);
+  const StructuredModel input = load_structured(command, options.common, options.analysis, bounds_of_deform);
   const auto model = make_deformation_model(options, input.structured);
   Json document = document_head(command, input.model);
   document["deformation"] = name_of(options.kind);
@@ -58,7 +57,7 @@ int run(const CLI::App& command, const DeformCommandOptions& options) {
   check(options);
   const ThreadLimit limit(options.common);
   if (options.list_handles) return list_handles(command, options, watch);
-  const StructuredModel input = load_structured(command, options.common, options.analysis);
+  const StructuredModel input = load_structured(command, options.common, options.analysis, bounds_of_deform);
   const DeformRun run = run_deform(options, input);
   const bool refused = run.result.refusal.has_value();
 
@@ -82,25 +81,13 @@ void add_constraint_options(CLI::App& command, DeformCommandOptions& options) {
   const Choices<ExtentEnds> ends = {{"free", ExtentEnds::free}, {"fixed", ExtentEnds::fixed}};
   add_choice(command, "--extent-ends", options.extent_ends, ends,
              "... wherever it lies then, or where it lies at rest, as designs of improve (default: free)");
-  add_number(command, "--box-tolerance", options.box_tolerance,
-             "Fraction by which the sides of the box along x, y and z may change");
+  add_fraction(command, "--box-tolerance", options.box_tolerance,
+               "Fraction by which the sides of the box along x, y and z may change, as 0.05 or 5%");
   command.add_option("--fix", options.fixed_parts, "Part that stays as it is; repeatable")
       ->type_size(1)
       ->allow_extra_args(false)
       ->type_name("PART");
-  const auto take = [&options](const std::vector<std::string>& texts) {
-    for (std::size_t i = 0; i + 2 < texts.size(); i += 3)
-      options.fixed_points.emplace_back(parse_number("--fix-point", texts[i]),
-                                        parse_number("--fix-point", texts[i + 1]),
-                                        parse_number("--fix-point", texts[i + 2]));
-  };
-  command
-      .add_option_function<std::vector<std::string>>("--fix-point", take,
-                                                     "Point of the surface that stays; repeatable")
-      ->type_size(3)
-      ->expected(-1)
-      ->allow_extra_args(false)
-      ->type_name("X Y Z");
+  add_points(command, "--fix-point", options.fixed_points, "Point of the surface that stays; repeatable");
 }
 
 }  // namespace

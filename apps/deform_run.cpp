@@ -17,12 +17,15 @@ DeformationConstraints constraints_of(const DeformCommandOptions& options, const
   DeformationConstraints constraints;
   if (options.keep_extent) constraints.keep_extent = Direction(*options.keep_extent);
   constraints.extent_ends = options.extent_ends.value_or(ExtentEnds::free);
-  if (options.box_tolerance && !(*options.box_tolerance >= 0))
-    throw UsageError("--box-tolerance expects a number from 0 up, found " +
-                     exact_digits(*options.box_tolerance));
   constraints.box_tolerance = options.box_tolerance;
   constraints.fixed_parts = parts_named("--fix", options.fixed_parts, shape);
   constraints.fixed_points = options.fixed_points;
+  try {
+    validate(constraints, shape);
+  } catch (const UsageError& error) {
+    // The other options have been looked at.
+    throw UsageError(std::string("--fix-point: ") + error.what());
+  }
   return constraints;
 }
 
@@ -33,7 +36,7 @@ DeformRun run_deform(const DeformCommandOptions& options, const StructuredModel&
   run.kind = options.kind;
   run.rest = input.structured;
   for (const std::string& text : options.edits)
-    run.edits.push_back(parse_edit(text, run.rest.shape.part_names));
+    run.edits.push_back(parse_edit(text, run.rest.shape.part_names, run.rest.structure.diagonal));
   run.constraints = constraints_of(options, run.rest.shape);
   const std::unique_ptr<DeformationModel> model = make_deformation_model(options, run.rest);
   run.result = model->deformed(run.edits, run.constraints);

@@ -60,10 +60,14 @@ std::string quoted_name(const std::string& name) {
   return text + "'";
 }
 
+std::string place_of(const std::string& edit) {
+  return "the edit \"" + edit + "\": ";
+}
+
 class Parser {
  public:
   Parser(const std::string& text, const std::vector<std::string>& part_names)
-      : place_("the edit \"" + text + "\": "), words_(words_of(text)), part_names_(part_names) {}
+      : place_(place_of(text)), words_(words_of(text)), part_names_(part_names) {}
 
   Edit parse() {
     if (words_.empty())
@@ -74,11 +78,6 @@ class Parser {
     edit.falloff = falloff(edit);
     if (next_ < words_.size())
       fail("expected nothing after " + words_[next_ - 1] + ", found '" + words_[next_] + "'");
-    try {
-      validate(edit);
-    } catch (const UsageError& error) {
-      fail(error.what());
-    }
     return edit;
   }
 
@@ -220,8 +219,14 @@ std::string degrees_text(double radians) {
 
 }  // namespace
 
-Edit parse_edit(const std::string& text, const std::vector<std::string>& part_names) {
-  return Parser(text, part_names).parse();
+Edit parse_edit(const std::string& text, const std::vector<std::string>& part_names, double diagonal) {
+  Edit edit = Parser(text, part_names).parse();
+  try {
+    validate(edit, diagonal);
+  } catch (const UsageError& error) {
+    throw UsageError(place_of(text) + error.what());
+  }
+  return edit;
 }
 
 std::string handle_text(const Handle& handle, const std::vector<std::string>& part_names) {

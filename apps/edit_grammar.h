@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,10 @@
 /// a quote in it is doubled.
 namespace stackabilization::apps {
 
-/// Throws UsageError naming the edit, the word and what was expected there.
-Edit parse_edit(const std::string& text, const std::vector<std::string>& part_names);
+/// An edit of a shape with these parts, whose bounding box has this diagonal. Throws UsageError naming the
+/// edit, the word and what was expected there, also for numbers that `validate(edit, diagonal)` refuses.
+Edit parse_edit(const std::string& text, const std::vector<std::string>& part_names,
+                double diagonal = std::numeric_limits<double>::infinity());
 
 /// The edit in that grammar: `parse_edit` gives it back, numbers to the last bit (angles to rounding, unless
 /// they were parsed). Precondition: its part, where it has one, is a row of `part_names`.

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <system_error>
 #include <utility>
 
 #include "apps/command.h"
@@ -37,17 +36,26 @@ std::vector<std::string> shortened(std::vector<std::string> lines) {
 /// summaries say nothing wrong, and until the last one is there the state to go on from.
 class Writer {
  public:
-  explicit Writer(ImproveReport& report) : report_(report), folder_(report.options.folder) {
-    remove_summaries(folder_);
+  explicit Writer(ImproveReport& report) : report_(report), owned_(improve_folder(report.options)) {}
+
+  /// Before anything is written. What was there before the search may be something else by now.
+  void begin() {
+    std::vector<std::string> names = summary_names();
+    for (const SolutionReport* solution : report_.shown()) {
+      const std::vector<std::string> files = solution_files(solution->name);
+      names.insert(names.end(), files.begin(), files.end());
+    }
+    owned_.begin(names);
+    for (const std::string& name : summary_names()) owned_.remove(name);
   }
 
   void write_summaries(const Json& document) {
-    remove_other_files(folder_, written_);
+    owned_.remove_others(written_);
     write(project_name, project_text(improvement_project(report_)));
     write("result.json", json_text(document));
     write("index.html", improvement_page(report_));
-    std::error_code error;
-    if (ended_by_itself(report_.run)) fs::remove(state_file(folder_), error);
+    if (ended_by_itself(report_.run)) owned_.remove(state_file(folder_).filename().string());
+    owned_.finish(written_);
   }
 
   /// Everything that is drawn or asked of the mesh of a solution belongs to its report.
@@ -109,7 +117,8 @@ class Writer {
   }
 
   ImproveReport& report_;
-  fs::path folder_;
+  OwnedFolder owned_;
+  fs::path folder_ = owned_.path();
   std::vector<std::string> written_;
 };
 
@@ -135,6 +144,7 @@ void write_solutions(ImproveReport& report, Writer& writer) {
     writer.write_pictures(solution);
     writer.write_report(solution);
   };
+  writer.begin();
   for (SolutionReport& solution : report.solutions) write(solution);
   if (report.nearest) write(*report.nearest);
 }
@@ -151,7 +161,7 @@ int run(const CLI::App& command, const ImproveCommandOptions& options) {
   check(options);
   const ThreadLimit limit(options.common);
   const ImproveTask task = improve_task(command, options, watch);
-  make_folder(options.folder);
+  improve_folder(options).make();
   const ImproveRun found = run_improve(options, task, watch);
 
   ImproveReport report{options, task, found, {}, {}, {}};

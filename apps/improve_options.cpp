@@ -11,7 +11,9 @@ namespace stackabilization::apps {
 
 namespace {
 
-constexpr double most_degrees = 90;
+constexpr double max_degrees = 90;
+constexpr double max_seconds = 1e9;  ///< some thirty years
+constexpr double max_effort = 1e6;   ///< about a year
 /// A direction that nobody gave may turn by so much at each edit.
 constexpr double free_cone_degrees = 10;
 constexpr int most_solutions = 20, most_copies = 10000;
@@ -27,8 +29,6 @@ void check_wish(const ImproveCommandOptions& options) {
     throw UsageError("--copies and --within go together: how many copies within what length");
   if (!options.target && !options.copies)
     throw UsageError("expected --target S, or --copies N with --within LENGTH");
-  check_target(options.target);
-  refuse(options.within && options.within->value <= 0, "--within", "expects a length above 0");
   refuse(options.copies && options.directions.size() > 1, "--direction",
          "is given once with --copies and --within: the room is along it");
 }
@@ -42,18 +42,11 @@ void check_gap_scaling(const ImproveCommandOptions& options) {
          "is given once with --model gap-scaling, which scales along it");
 }
 
-void check_numbers(const ImproveCommandOptions& options) {
-  check_range("--cone-degrees", options.cone_degrees, 0, most_degrees);
-  check_range("--alpha", options.alpha, 0, 1);
-  refuse(options.seconds && !(*options.seconds > 0), "--time", "expects a number of seconds above 0");
-  refuse(options.effort && !(*options.effort > 0), "--effort", "expects a number above 0");
-}
-
 void add_wish_options(CLI::App& command, ImproveCommandOptions& options) {
-  add_number(command, "--target", options.target, "Stackability to be reached, below 1");
+  add_number(command, target_option("Stackability to be reached, below 1"), options.target);
   add_count(command, {"--copies", "Instead: so many copies are to fit ...", 2, most_copies}, options.copies);
-  add_length(command, "--within", options.within,
-             "... into this length along the direction, as 1.5 or 150cm");
+  add_length(command, {"--within", "... into this length along the direction, as 1.5 or 150cm", true},
+             options.within);
   add_directions(
       command, "--direction", options.directions,
       "Direction to stack along; repeatable, the first is preferred (default: 0 0 1, then the best "
@@ -82,17 +75,25 @@ void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
       command, "--least", options.least, measures,
       "What refinement makes small: the distortion D of the primitives, the displacement of the vertices "
       "(root mean square), or the sum of both (default: both)");
-  add_number(command, "--effort", options.effort,
-             "How much work to do at most: 1 takes up to about 40 seconds on two cores (default: 1)");
-  add_number(command, "--time", options.seconds,
-             "Seconds after which to end with the best so far (default: no such limit)");
+  add_number(
+      command,
+      {"--effort", "How much work to do at most: 1 takes up to about 40 seconds on two cores (default: 1)", 0,
+       max_effort, true},
+      options.effort);
+  add_number(command,
+             {"--time", "Seconds after which to end with the best so far (default: no such limit)", 0,
+              max_seconds, true},
+             options.seconds);
   add_count(command, {"--expansions", "Candidates to expand at most (default: 100)", 1}, options.expansions);
-  add_number(command, "--alpha", options.alpha, "Weight of the distortion in the energy (default: 0.2)");
+  add_number(command, alpha_option(), options.alpha);
   command.add_flag("--bend", options.bends,
                    "Let straight parts bend and walls bulge, as in the paper (default: they stay straight)");
-  add_number(command, "--cone-degrees", options.cone_degrees,
-             "The direction may turn by this angle at each edit, 0: never (default: 0 with --direction, "
-             "--copies or --model gap-scaling, else 10)");
+  add_number(command,
+             {"--cone-degrees",
+              "The direction may turn by this angle at each edit, 0: never (default: 0 with --direction, "
+              "--copies or --model gap-scaling, else 10)",
+              0, max_degrees},
+             options.cone_degrees);
 }
 
 }  // namespace
@@ -115,11 +116,10 @@ void add_improve_options(CLI::App& command, ImproveCommandOptions& options) {
 
 void check(const ImproveCommandOptions& options) {
   check_wish(options);
-  check_numbers(options);
   check_gap_scaling(options);
   check(options.requirements);
-  check_outputs(options.common, {}, analysis_inputs(options.analysis));
-  check_folder(options);
+  check_outputs(options.common,
+                {{}, analysis_inputs(options.analysis), {{"--output", improve_folder(options)}}});
 }
 
 ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) {

@@ -151,10 +151,8 @@ std::string verdict(const ImproveReport& report) {
 }  // namespace
 
 std::string escaped(const std::string& text) {
-  // Through JSON, which replaces what is not UTF-8.
-  const std::string valid = Json::parse(Json(text).dump(-1, ' ', false, Json::error_handler_t::replace));
   std::string result;
-  for (const char c : valid) {
+  for (const char c : text) {
     const bool is_control = static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t';
     if (is_control || c == '\x7f')
       result += "&#xFFFD;";

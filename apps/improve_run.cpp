@@ -133,7 +133,7 @@ std::string status_text(const ImprovementProgress& progress) {
 
 ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& options,
                          const Stopwatch& watch) {
-  StructuredModel input = load_structured(command, options.common, options.analysis);
+  StructuredModel input = load_structured(command, options.common, options.analysis, bounds_of_designs);
   ImproveTask task;
   task.model = std::move(input.model);
   task.saved = saved_search(options);

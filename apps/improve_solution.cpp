@@ -57,10 +57,12 @@ class CollisionChecks {
       : shape_(shape), direction_(direction), tree_(shape), tester_(shape, shape) {}
 
   std::vector<WrittenCheck> run(Semantics semantics) const {
-    if (semantics == Semantics::solid && tester_.solids()) return around(Semantics::solid);
+    if (semantics == Semantics::solid && !tester_.interior_defect()) return around(Semantics::solid);
     std::vector<WrittenCheck> checks = around(Semantics::closed);
     if (semantics == Semantics::solid)
-      for (WrittenCheck& check : checks) check.note += ", of surfaces: an open mesh has no interior";
+      for (WrittenCheck& check : checks)
+        check.note += tester_.solids() ? ", of surfaces: it is partly inside out or without volume"
+                                       : ", of surfaces: an open mesh has no interior";
     return checks;
   }
 
@@ -166,7 +168,7 @@ std::vector<ContactRegion> contacts_along(const Shape& shape, const Direction& d
   if (!answer.blocked) return {};
   ContactOptions contacts;
   contacts.semantics = semantics;
-  return contact_regions({shape, tree, direction, answer}, contacts);
+  return contact_regions({shape, tree, direction, answer}, contacts).regions;
 }
 
 }  // namespace stackabilization::apps

@@ -11,17 +11,28 @@ namespace stackabilization::apps {
 namespace {
 
 std::atomic<bool> deferred{false};
-std::atomic<bool> remembered{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "signal handlers may only touch lock-free atomics");
+std::atomic<int> remembered{0};  ///< the first signal that came
+static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free,
+              "signal handlers may only touch lock-free atomics");
 
-void on_signal(int) {
-  if (deferred && !remembered.exchange(true)) return;
+int status_after(int signal) {
+  constexpr int first = 128;
+  return first + signal;
+}
+
+void on_signal(int signal) {
+  int none = 0;
+  if (remembered.compare_exchange_strong(none, signal) && deferred) return;
   constexpr std::string_view message = "stackabilize: interrupted\n";
   [[maybe_unused]] const auto written = write(STDERR_FILENO, message.data(), message.size());
-  _exit(status_interrupted);
+  _exit(status_after(signal));
 }
 
 }  // namespace
+
+int status_interrupted() {
+  return status_after(remembered);
+}
 
 void install_interrupt_handler() {
   struct sigaction action = {};
@@ -33,14 +44,14 @@ void install_interrupt_handler() {
 }
 
 DeferredInterrupts::DeferredInterrupts()
-    : deferred_before_(deferred.exchange(true)), remembered_before_(remembered) {}
+    : deferred_before_(deferred.exchange(true)), remembered_before_(remembered != 0) {}
 
 DeferredInterrupts::~DeferredInterrupts() {
   deferred = deferred_before_;
 }
 
 bool DeferredInterrupts::requested() const {
-  return remembered && !remembered_before_;
+  return remembered != 0 && !remembered_before_;
 }
 
 }  // namespace stackabilization::apps

@@ -12,7 +12,8 @@ class Interrupted : public std::runtime_error {
   Interrupted() : std::runtime_error("interrupted") {}
 };
 
-inline constexpr int status_interrupted = 130;  ///< as shells report it
+/// As shells report it: 130 after SIGINT, 143 after SIGTERM. Precondition: a signal has come.
+int status_interrupted();
 
 void install_interrupt_handler();
 

@@ -68,7 +68,7 @@ Json to_json(const std::vector<ContactRegion>& regions, const std::vector<std::s
 }
 
 std::string json_text(const Json& document) {
-  return document.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return document.dump(2) + "\n";
 }
 
 }  // namespace stackabilization::apps

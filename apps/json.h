@@ -30,7 +30,8 @@ Json to_json(const std::optional<Value>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-/// The document as indented text with a line end. Names that are not UTF-8 keep what can be shown of them.
+/// The document as indented text with a line end. All text in it is UTF-8: part names are where they are
+/// read, and paths where the command line is.
 std::string json_text(const Json& document);
 
 }  // namespace stackabilization::apps

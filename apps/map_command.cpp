@@ -97,7 +97,7 @@ std::string map_text(const Model& model, const StackabilityMap& map, const Summa
 int run(const CLI::App& command, const Options& options) {
   const Stopwatch watch;
   check_outputs(options.common,
-                {{"--output", options.table}, {"--picture", options.picture, OutputKind::picture}});
+                {{{"--output", options.table}, {"--picture", options.picture, OutputKind::picture}}});
   if (options.picture) require_rendering();
   const ThreadLimit limit(options.common);
   const Model model = load_model(options.common);
@@ -126,8 +126,8 @@ Command make_map_command(CLI::App& program) {
       add_command(program, "map", "Measure the stackability along every direction",
                   "stackabilize map chair.obj --step-degrees 2 -o chair.csv --picture chair.svg");
   add_common_options(*command, options->common);
-  add_number(*command, "--step-degrees", options->step_degrees,
-             "Angle between directions, from 0.1 to 90 (default: 2)");
+  add_number(*command, {"--step-degrees", "Angle between directions, from 0.1 to 90 (default: 2)", 0.1, 90},
+             options->step_degrees);
   add_semantics_option(*command, options->stackability.semantics);
   add_boxes_option(*command, options->stackability.boxes);
   command

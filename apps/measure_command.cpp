@@ -26,7 +26,7 @@ std::string essential(const Stackability& values) {
 
 int run(const CLI::App& command, const Options& options) {
   const Stopwatch watch;
-  check_outputs(options.common, {{"--picture", options.picture, OutputKind::picture}});
+  check_outputs(options.common, {{{"--picture", options.picture, OutputKind::picture}}});
   if (options.picture || options.method == Method::gl_raster) require_rendering();
   const Direction direction(options.direction.value_or(Eigen::Vector3d::UnitZ()));
   const ThreadLimit limit(options.common);

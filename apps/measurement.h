@@ -30,7 +30,7 @@ struct Measurement {
   StackabilityOptions options;
   Stackability values;
   std::optional<Separation> separation;  ///< exact method only
-  std::vector<ContactRegion> contacts;   ///< exact method only
+  Contacts contacts;                     ///< exact method only
   std::optional<Sampling> sampling;      ///< sampled methods only
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/design_json.h"
 #include "apps/measurement.h"
 #include "apps/rendering.h"
 #include "apps/text.h"
@@ -76,17 +77,38 @@ void add_sampling_lines(TextTable& table, const Measurement& measurement, Unit u
                   : "at half the resolution");
 }
 
+/// What the contacts leave out, for people.
+void add_omission_lines(TextTable& table, const Contacts& contacts) {
+  if (contacts.complete) return;
+  table.add("", "not all",
+            "too many pairs of triangles touch: each is listed with its deepest partner alone");
+  if (const std::size_t parts = contacts.coincident_parts.size(); parts > 0)
+    table.add("", counted(static_cast<long long>(parts), "part"),
+              parts == 1 ? "touches too, where another named above lies in the same place"
+                         : "touch too, where others named above lie in the same place");
+}
+
+/// The same for programs; nothing where nothing is left out.
+void add_omissions(Json& document, const Contacts& contacts, const std::vector<std::string>& part_names) {
+  if (contacts.complete) return;
+  Json coincident = Json::array();
+  for (const std::int32_t part : contacts.coincident_parts) coincident.push_back(part_names.at(part));
+  document["contacts_omitted"] = {{"reason", "too many pairs of triangles touch"},
+                                  {"listed", "the deepest partner of each triangle"},
+                                  {"coincident_parts", std::move(coincident)}};
+}
+
 void add_contact_lines(TextTable& table, const Measurement& measurement, const Model& model) {
-  const std::vector<ContactRegion>& regions = measurement.contacts;
+  const std::vector<ContactRegion>& regions = measurement.contacts.regions;
   table.add("Contacts", counted(static_cast<long long>(regions.size()), "region"),
             "where a copy rests on the one below");
-  const Json list = to_json(regions, model.shape.part_names);
   for (std::size_t i = 0; i < std::min(regions.size(), listed_regions); ++i)
-    table.add("", list[i]["type"].get<std::string>() + ", " + quantity(regions[i].area, model.shape.unit, 2),
-              model.shape.part_names[regions[i].lower_part] + " on " +
-                  model.shape.part_names[regions[i].upper_part] + " at " +
-                  point_text(regions[i].upper_centre));
+    table.add(
+        "", std::string(name_of(regions[i].type)) + ", " + quantity(regions[i].area, model.shape.unit, 2),
+        model.shape.part_names[regions[i].lower_part] + " on " +
+            model.shape.part_names[regions[i].upper_part] + " at " + point_text(regions[i].upper_centre));
   if (regions.size() > listed_regions) table.add("", "...", "all of them with --json");
+  add_omission_lines(table, measurement.contacts);
 }
 
 }  // namespace
@@ -129,7 +151,9 @@ void add_measurement(Json& document, const Measurement& measurement, const Model
   const std::optional<Separation>& separation = measurement.separation;
   document["exact"] = separation ? exact_json(*separation) : Json(nullptr);
   document["witness"] = separation && separation->blocked ? to_json(separation->witness) : Json(nullptr);
-  document["contacts"] = separation ? to_json(measurement.contacts, model.shape.part_names) : Json(nullptr);
+  const std::vector<std::string>& names = model.shape.part_names;
+  document["contacts"] = separation ? to_json(measurement.contacts.regions, names) : Json(nullptr);
+  add_omissions(document, measurement.contacts, names);
   if (measurement.sampling) document["sampling"] = sampling_json(*measurement.sampling);
 }
 

@@ -16,12 +16,6 @@ struct Boxes {
   double together = 0;  ///< box of both, nested
 };
 
-double box_volume(const Shape& shape, BoxModel model) {
-  const HullSupport hull(shape);
-  return (model == BoxModel::oriented ? minimal_oriented_box(hull) : axis_aligned_box(hull.points()))
-      .volume();
-}
-
 /// Throws UsageError when the two files state different units.
 void check_units(const Model& content, const Model& container) {
   const Unit a = content.shape.unit, b = container.shape.unit;
@@ -92,8 +86,8 @@ int run_nest(const CLI::App& command, const StackCommandOptions& options) {
       transformed(content.shape, Eigen::Matrix3d::Identity(), result.offset.to_double() * direction.vector());
   const Shape both = concatenate(container.shape, lowered);
   const BoxModel model = options.stackability.boxes;
-  const Boxes boxes{box_volume(container.shape, model) + box_volume(content.shape, model),
-                    box_volume(both, model)};
+  const auto volume = [model](const Shape& shape) { return box_volume(HullSupport(shape), model); };
+  const Boxes boxes{volume(container.shape) + volume(content.shape), volume(both)};
 
   Json document = document_head(command, content);
   document["into"] = container.name;

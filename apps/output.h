@@ -7,6 +7,8 @@
 
 #include "apps/common_options.h"
 #include "apps/json.h"
+#include "apps/owned_folder.h"
+#include "stackabilization/shape/copies.h"
 
 namespace stackabilization::apps {
 
@@ -18,6 +20,7 @@ struct OutputRequest {
   std::string option;               ///< as typed, "--json"
   std::optional<std::string> path;  ///< nothing: not asked for; "-": standard output
   OutputKind kind = OutputKind::text;
+  bool updates_model = false;  ///< MODEL is read, and then replaced by what was made of it
 };
 
 /// A file that the command reads.
@@ -26,12 +29,25 @@ struct InputFile {
   std::string path;
 };
 
-/// Fails before a long computation instead of after it: throws UsageError when two outputs name one file, an
-/// output would replace the model, its labels or one of `further_inputs`, or an extension is not one that can
-/// be written, and OutputError when the folder of a file is missing or closed to us. The JSON of `common` is
-/// checked too.
-void check_outputs(const CommonOptions& common, const std::vector<OutputRequest>& requests = {},
-                   const std::vector<InputFile>& further_inputs = {});
+/// A folder that the command fills.
+struct FolderRequest {
+  std::string option;  ///< as typed, "--pictures"
+  OwnedFolder folder;
+};
+
+/// What a command reads and writes, besides what `CommonOptions` names.
+struct CommandFiles {
+  std::vector<OutputRequest> outputs = {};
+  std::vector<InputFile> inputs = {};
+  std::optional<FolderRequest> folder = {};
+};
+
+/// The one door for files: fails before a long computation instead of after it, with nothing written. Throws
+/// UsageError when an extension is not one that can be written, and what FilePlan::check throws when an
+/// output would replace MODEL, its labels, a file that they refer to, one of the inputs or another output, or
+/// cannot be written; OutputError when a file that is not ours is in the way in the folder. The JSON of
+/// `common` and standard output are among the outputs.
+void check_outputs(const CommonOptions& common, const CommandFiles& files = {});
 
 /// Prints `text`, or writes it to a file, whole or not at all. Throws OutputError.
 void write_output(const std::string& path, std::string_view text);
@@ -39,6 +55,8 @@ void write_output(const std::string& path, std::string_view text);
 /// Writes a mesh file in the format of its extension, and unless quiet says on standard error which unit a
 /// shape without one gets by it. Throws OutputError.
 void write_mesh_output(const CommonOptions& common, const std::string& path, const Shape& shape);
+/// The same for copies of a shape.
+void write_mesh_output(const CommonOptions& common, const std::string& path, const Copies& copies);
 
 /// The last step of every command: the JSON where asked for, then `text` on standard output unless the JSON
 /// is there.

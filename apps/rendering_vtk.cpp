@@ -43,7 +43,7 @@ DepthBufferMaker depth_buffer_maker(const Shape& shape) {
 void write_measurement_picture(const PictureFile& file, const Shape& shape, const Measurement& measurement) {
   PictureOptions options;
   options.title = file.title;
-  write(file, measure_picture(shape, measurement.values, measurement.contacts, options));
+  write(file, measure_picture(shape, measurement.values, measurement.contacts.regions, options));
 }
 
 void write_map_picture(const PictureFile& file, const StackabilityMap& map) {

@@ -9,15 +9,18 @@ namespace stackabilization::apps {
 
 namespace {
 
-constexpr double most_degrees = 90;
+constexpr double max_degrees = 90;
 constexpr int most_copies = 10000;
 
 }  // namespace
 
-void check_range(const char* option, const std::optional<double>& value, double least, double most) {
-  if (value && !(*value >= least && *value <= most))
-    throw UsageError(std::string(option) + " expects a number from " + exact_digits(least) + " to " +
-                     exact_digits(most) + ", found " + exact_digits(*value));
+Number target_option(const std::string& description) {
+  // Copies without any height of their own have S = 1; below the other end nobody wishes for anything.
+  return {.name = "--target", .description = description, .min = -1000, .max = 1, .open_max = true};
+}
+
+Number alpha_option() {
+  return {"--alpha", "Weight of the distortion in the energy (default: 0.2)", 0, 1};
 }
 
 void add_requirement_options(CLI::App& command, RequirementArguments& arguments) {
@@ -28,29 +31,25 @@ void add_requirement_options(CLI::App& command, RequirementArguments& arguments)
                    "The height along the direction need not stay what it is");
   add_fraction(command, "--box-tolerance", arguments.box_tolerance,
                "Fraction by which the sides of the box along x, y and z may change, as 0.05 or 5%");
-  add_length(command, "--thickness", arguments.thickness,
-             "Walls get no thinner than this; what is thinner already may stay so");
-  add_length(command, "--clearance", arguments.clearance,
-             "Air between copies along the direction, as 0.5 or 2mm");
-  add_length(command, "--lateral-clearance", arguments.lateral_clearance,
-             "Sideways play that every contact allows");
-  add_number(command, "--draft-degrees", arguments.draft_degrees,
-             "Least angle between the direction and surfaces that copies touch with");
+  add_length(command, {"--thickness", "Walls get no thinner than this; what is thinner already may stay so"},
+             arguments.thickness);
+  add_length(command, {"--clearance", "Air between copies along the direction, as 0.5 or 2mm"},
+             arguments.clearance);
+  add_length(command, {"--lateral-clearance", "Sideways play that every contact allows"},
+             arguments.lateral_clearance);
+  add_number(command,
+             {"--draft-degrees", "Least angle between the direction and surfaces that copies touch with", 0,
+              max_degrees},
+             arguments.draft_degrees);
   add_count(command, {"--standing", "A stack of so many copies stands by itself", 1, most_copies},
             arguments.standing);
-  add_number(command, "--tilt-degrees", arguments.tilt_degrees,
-             "... also on ground that is tilted by this angle (default: 0)");
-}
-
-void check_target(const std::optional<double>& target) {
-  if (target && *target >= 1)
-    throw UsageError(
-        "--target expects a stackability below 1, which would be copies without any height of their own");
+  add_number(
+      command,
+      {"--tilt-degrees", "... also on ground that is tilted by this angle (default: 0)", 0, max_degrees},
+      arguments.tilt_degrees);
 }
 
 void check(const RequirementArguments& arguments) {
-  check_range("--draft-degrees", arguments.draft_degrees, 0, most_degrees);
-  check_range("--tilt-degrees", arguments.tilt_degrees, 0, most_degrees);
   if (arguments.tilt_degrees && !arguments.standing)
     throw UsageError(
         "--tilt-degrees is the tilt at which the stack of --standing still stands: give that too");
@@ -66,9 +65,9 @@ Requirements requirements_of(const RequirementArguments& arguments, const Shape&
   requirements.kept_parts = parts_named("--keep", arguments.kept, rest);
   requirements.editable_parts = parts_named("--only", arguments.editable, rest);
   requirements.box_tolerance = arguments.box_tolerance;
-  if (arguments.thickness) requirements.least_thickness = length_in("--thickness", arguments.thickness, unit);
-  requirements.clearance = length_in("--clearance", arguments.clearance, unit);
-  requirements.play = length_in("--lateral-clearance", arguments.lateral_clearance, unit);
+  if (arguments.thickness) requirements.least_thickness = length_in(arguments.thickness, unit);
+  requirements.clearance = length_in(arguments.clearance, unit);
+  requirements.play = length_in(arguments.lateral_clearance, unit);
   requirements.least_draft_degrees = arguments.draft_degrees;
   requirements.standing_copies = arguments.standing;
   requirements.least_tilt_degrees = arguments.tilt_degrees.value_or(0);

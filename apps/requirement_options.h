@@ -23,17 +23,16 @@ struct RequirementArguments {
 /// --draft-degrees, --standing, --tilt-degrees.
 void add_requirement_options(CLI::App& command, RequirementArguments& arguments);
 
-/// Throws UsageError naming the option when a number that was given is not in [least, most].
-void check_range(const char* option, const std::optional<double>& value, double least, double most);
+/// --target, a stackability that can be reached.
+Number target_option(const std::string& description);
+/// --alpha.
+Number alpha_option();
 
-/// Throws UsageError for a --target that is no stackability to be reached.
-void check_target(const std::optional<double>& target);
-
-/// Throws UsageError for options that contradict each other or are out of range.
+/// Throws UsageError for options that contradict each other.
 void check(const RequirementArguments& arguments);
 
-/// As the library has them, without target. Throws UsageError for parts that do not exist and lengths that
-/// are negative or in a unit that `rest` cannot be told in.
+/// As the library has them, without target. Throws UsageError for parts that do not exist and lengths in
+/// a unit that `rest` cannot be told in.
 Requirements requirements_of(const RequirementArguments& arguments, const Shape& rest);
 
 }  // namespace stackabilization::apps

@@ -31,13 +31,9 @@ SearchOptions search_options(const Options& options) {
   SearchOptions search;
   if (options.direction && !options.cone_degrees)
     throw UsageError("--direction is the axis of a cone here: give --cone-degrees too");
-  if (options.cone_degrees) {
-    if (!(*options.cone_degrees > 0 && *options.cone_degrees <= 90))
-      throw UsageError("--cone-degrees expects an angle above 0 and up to 90, found " +
-                       exact_digits(*options.cone_degrees));
+  if (options.cone_degrees)
     search.cone = {options.direction.value_or(Eigen::Vector3d::UnitZ()),
                    *options.cone_degrees * std::numbers::pi / 180};
-  }
   search.plane_normal = options.plane;
   return search;
 }
@@ -73,7 +69,7 @@ std::string search_text(const SearchResult& result) {
 
 int run(const CLI::App& command, const Options& options) {
   const Stopwatch watch;
-  check_outputs(options.common, {{"--picture", options.picture, OutputKind::picture}});
+  check_outputs(options.common, {{{"--picture", options.picture, OutputKind::picture}}});
   if (options.picture) require_rendering();
   const SearchOptions search = search_options(options);
   const ThreadLimit limit(options.common);
@@ -106,8 +102,10 @@ Command make_search_command(CLI::App& program) {
   add_common_options(*command, options->common);
   add_semantics_option(*command, options->stackability.semantics);
   add_boxes_option(*command, options->stackability.boxes);
-  add_number(*command, "--cone-degrees", options->cone_degrees,
-             "Look only within this angle around --direction (default: everywhere)");
+  add_number(
+      *command,
+      {"--cone-degrees", "Look only within this angle around --direction (default: everywhere)", 0, 90, true},
+      options->cone_degrees);
   add_direction(*command, "--direction", options->direction, "Axis of the cone (default: 0 0 1)");
   add_direction(*command, "--plane", options->plane, "Look only in the plane with this normal");
   command

@@ -9,6 +9,9 @@ namespace stackabilization::apps {
 
 namespace {
 
+/// Ten turns: more is a typing error.
+constexpr double max_twist_degrees = 3600;
+
 /// Copies in their places, one shape each.
 PlacedCopies placed_copies(const StackRun& run, const Model& model, const Direction& direction) {
   PlacedCopies stack;
@@ -34,7 +37,7 @@ int run(const CLI::App& command, const StackCommandOptions& options) {
   add_stack(document, stack, direction);
   add_document_tail(document, options.common, model, watch);
   if (options.output)
-    write_mesh_output(options.common, *options.output, stacked_shape(model.shape, direction, stack.result));
+    write_mesh_output(options.common, *options.output, stacked_copies(model.shape, direction, stack.result));
   if (options.picture)
     write_stack_picture({*options.picture, title_of(model)}, placed_copies(stack, model, direction));
   deliver(options.common, document,
@@ -44,14 +47,14 @@ int run(const CLI::App& command, const StackCommandOptions& options) {
 }
 
 void add_twist_option(CLI::App& command, StackCommandOptions& options) {
-  const auto take = [&options](const std::string& text) {
+  const Number angle = {"--twist-degrees",
+                        "Turn each copy by this angle about the direction; auto finds the best",
+                        -max_twist_degrees, max_twist_degrees};
+  const auto take = [angle, &options](const std::string& text) {
     options.best_twist = text == "auto";
-    if (!options.best_twist) options.twist_degrees = parse_number("--twist-degrees", text);
+    if (!options.best_twist) options.twist_degrees = parse_number(angle, text);
   };
-  command
-      .add_option_function<std::string>(
-          "--twist-degrees", take, "Turn each copy by this angle about the direction; auto finds the best")
-      ->type_name("A|auto");
+  command.add_option_function<std::string>(angle.name, take, angle.description)->type_name("A|auto");
 }
 
 }  // namespace
@@ -71,12 +74,12 @@ Command make_stack_command(CLI::App& program) {
   add_twist_option(*command, *options);
   add_count(*command, {"--period", "Turn or flip copies in a cycle of this length, the best one found", 1, 5},
             options->period);
-  add_length(*command, "--clearance", options->clearance,
-             "Air between copies along the direction, as 0.5 or 2mm");
-  add_length(*command, "--lateral-clearance", options->lateral_clearance,
-             "Sideways play that every contact allows");
-  add_length(*command, "--within", options->within,
-             "Room along the direction: exit status 1 if the stack is higher");
+  add_length(*command, {"--clearance", "Air between copies along the direction, as 0.5 or 2mm"},
+             options->clearance);
+  add_length(*command, {"--lateral-clearance", "Sideways play that every contact allows"},
+             options->lateral_clearance);
+  add_length(*command, {"--within", "Room along the direction: exit status 1 if the stack is higher", true},
+             options->within);
   command
       ->add_option("-o,--output", options->output,
                    "Write the stack as a mesh (" + std::string(writable_extensions()) + ")")

@@ -18,15 +18,13 @@ void refuse(bool given, const char* option, const char* reason) {
 void check(const StackCommandOptions& options) {
   std::vector<InputFile> container;
   if (options.into) container.push_back({"the container", *options.into});
-  check_outputs(
-      options.common,
-      {{"--output", options.output, OutputKind::mesh}, {"--picture", options.picture, OutputKind::picture}},
-      container);
+  check_outputs(options.common, {{{"--output", options.output, OutputKind::mesh},
+                                  {"--picture", options.picture, OutputKind::picture}},
+                                 container});
   if (options.picture) require_rendering();
   refuse(options.picture && options.copy_count() > most_drawn_copies, "--picture",
          "draws at most 200 copies");
   refuse(options.best_twist && options.period, "--twist-degrees auto", "cannot be combined with --period");
-  refuse(options.within && options.within->value <= 0, "--within", "expects a length above 0");
   if (!options.into) return;
   const char* const reason = "makes no sense with --into, which puts one MODEL into one container";
   refuse(options.copies.has_value(), "-n", reason);
@@ -38,8 +36,7 @@ void check(const StackCommandOptions& options) {
 }
 
 Play play_of(const StackCommandOptions& options, Unit unit) {
-  return {length_in("--clearance", options.clearance, unit),
-          length_in("--lateral-clearance", options.lateral_clearance, unit)};
+  return {length_in(options.clearance, unit), length_in(options.lateral_clearance, unit)};
 }
 
 StackOptions stack_options(const StackCommandOptions& options, Unit unit) {

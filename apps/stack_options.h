@@ -31,7 +31,7 @@ struct StackCommandOptions {
 /// Throws UsageError when options contradict each other.
 void check(const StackCommandOptions& options);
 
-/// Lengths in units of a model, 0 where not given. Throws UsageError when negative or not convertible.
+/// Lengths in units of a model, 0 where not given. Throws UsageError when they cannot be converted.
 struct Play {
   double clearance = 0, lateral = 0;
 };

@@ -21,11 +21,10 @@ struct Options {
 
 int run(const CLI::App& command, const Options& options) {
   const Stopwatch watch;
-  check_outputs(options.common,
-                {{"--picture", options.picture, OutputKind::picture},
-                 {"--save", options.save, OutputKind::project},
-                 {"--graph", options.graph}},
-                analysis_inputs(options.analysis));
+  check_outputs(options.common, {{{"--picture", options.picture, OutputKind::picture},
+                                  {"--save", options.save, OutputKind::project},
+                                  {"--graph", options.graph}},
+                                 analysis_inputs(options.analysis)});
   if (options.picture) require_rendering();
   const ThreadLimit limit(options.common);
   const StructuredModel input = load_structured(command, options.common, options.analysis);

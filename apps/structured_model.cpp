@@ -2,7 +2,9 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 
+#include "apps/progress.h"
 #include "apps/values.h"
 #include "stackabilization/shape/part_names.h"
 #include "stackabilization/structure/authors_files.h"
@@ -59,17 +61,11 @@ void add_segmentation_options(CLI::App& command, AnalysisArguments& arguments) {
       ->type_name("FILE");
 }
 
-double fraction(const std::string& option, double value) {
-  if (value > 0 && value <= 1) return value;
-  throw UsageError(option + " expects a fraction above 0 and up to 1, found " + exact_digits(value));
-}
-
 /// The options of the library: those that are left out keep its defaults.
 AnalysisOptions analysis_options(const AnalysisArguments& arguments) {
   AnalysisOptions options = arguments.options;
-  if (arguments.symmetry_tolerance)
-    options.symmetry.tolerance = fraction("--symmetry-tolerance", *arguments.symmetry_tolerance);
-  if (arguments.joint_reach) options.joints.reach = fraction("--joint-reach", *arguments.joint_reach);
+  options.symmetry.tolerance = arguments.symmetry_tolerance.value_or(options.symmetry.tolerance);
+  options.joints.reach = arguments.joint_reach.value_or(options.joints.reach);
   return options;
 }
 
@@ -81,12 +77,43 @@ StructuredShape authored(const Shape& shape, const AnalysisArguments& arguments)
   return {shape, read_authors_structure(shape, files)};
 }
 
-StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& arguments) {
+const char* words_for(AnalysisStep step) {
+  switch (step) {
+    case AnalysisStep::parts:
+      return "Finding parts";
+    case AnalysisStep::primitives:
+      return "Fitting primitives";
+    case AnalysisStep::symmetries:
+      return "Looking for symmetries";
+    case AnalysisStep::joints:
+      break;
+  }
+  return "Looking for joints";
+}
+
+/// The analysis, with a bar for each of its steps.
+StructuredShape analysed_with_bar(const Shape& shape, AnalysisOptions options) {
+  std::optional<ProgressBar> bar;
+  options.progress = [&bar, shown = std::optional<AnalysisStep>()](AnalysisStep step,
+                                                                   double fraction) mutable {
+    if (shown != step) bar.emplace(words_for(step));
+    shown = step;
+    bar->show(fraction);
+  };
+  return analyse_structure(shape, options);
+}
+
+StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& arguments,
+                         const std::optional<PartBounds>& bounds) {
   if (arguments.seeds && arguments.options.segmentation.method != SegmentationMethod::automatic)
     throw UsageError("--seeds says what the parts are, so it does not go with --segmentation");
   StructuredModel result;
   result.model = load_model(common);
   AnalysisOptions options = analysis_options(arguments);
+  if (bounds) {
+    options.max_parts = bounds->max_parts;
+    options.joints.max_pairs = bounds->max_pairs;
+  }
   Shape& shape = result.model.shape;
   if (arguments.seeds) {
     shape = segmented(shape, read_seeds(*arguments.seeds, shape));
@@ -94,7 +121,7 @@ StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& a
   }
   result.structured = arguments.controllers || arguments.relations
                           ? authored(shape, arguments)
-                          : named(result.model, [&] { return analyse_structure(shape, options); });
+                          : named(result.model, [&] { return analysed_with_bar(shape, options); });
   shape = result.structured.shape;
   return result;
 }
@@ -115,10 +142,14 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
       ->type_name("PART=cuboid|cylinder");
   add_count(command, {"--sections", "Cross-sections of a generalized cylinder (default: 24)", 4, 1000},
             arguments.options.fit.sections);
-  add_number(command, "--symmetry-tolerance", arguments.symmetry_tolerance,
-             "Largest deviation of a symmetry, fraction of the diagonal (default: 0.01)");
-  add_number(command, "--joint-reach", arguments.joint_reach,
-             "Parts that come nearer than this meet, fraction of the diagonal (default: 0.01)");
+  add_number(command,
+             {"--symmetry-tolerance",
+              "Largest deviation of a symmetry, fraction of the diagonal (default: 0.01)", 0, 1, true},
+             arguments.symmetry_tolerance);
+  add_number(command,
+             {"--joint-reach",
+              "Parts that come nearer than this meet, fraction of the diagonal (default: 0.01)", 0, 1, true},
+             arguments.joint_reach);
   command
       .add_option("--ctrl", arguments.controllers,
                   "Primitives from a .ctrl file of the paper's authors; the structure is not analysed")
@@ -143,8 +174,8 @@ bool is_project(const std::string& path) {
 }
 
 StructuredModel load_structured(const CLI::App& command, const CommonOptions& common,
-                                const AnalysisArguments& arguments) {
-  if (!is_project(common.model)) return analysed(common, arguments);
+                                const AnalysisArguments& arguments, const std::optional<PartBounds>& bounds) {
+  if (!is_project(common.model)) return analysed(common, arguments, bounds);
   for (const char* option : mesh_options)
     if (command.count(option) > 0)
       throw UsageError(std::string(option) +

@@ -6,6 +6,7 @@
 
 #include "apps/model.h"
 #include "apps/output.h"
+#include "stackabilization/improvement/design.h"
 #include "stackabilization/improvement/history.h"
 #include "stackabilization/structure/analysis.h"
 
@@ -28,6 +29,14 @@ void add_analysis_options(CLI::App& command, AnalysisArguments& arguments);
 /// The files among them, for check_outputs.
 std::vector<InputFile> analysis_inputs(const AnalysisArguments& arguments);
 
+/// Bounds of the parts of a mesh and of the pairs of them that come near each other, as AnalysisOptions has
+/// them, for commands that edit what they analyse: they say so before the analysis.
+struct PartBounds {
+  std::size_t max_parts;
+  std::size_t max_pairs;
+};
+inline constexpr PartBounds bounds_of_deform{2000, 20'000}, bounds_of_designs{max_design_parts, 2000};
+
 /// A model with its structure; `structured.shape` is `model.shape`.
 struct StructuredModel {
   Model model;
@@ -40,9 +49,11 @@ struct StructuredModel {
 bool is_project(const std::string& path);
 
 /// Reads MODEL: a project file as it is, a mesh by analysing it. Throws InputError, and UsageError when
-/// options that belong to a mesh are given with a project file.
+/// options that belong to a mesh are given with a project file. `bounds`: narrower ones than those of the
+/// analysis.
 StructuredModel load_structured(const CLI::App& command, const CommonOptions& common,
-                                const AnalysisArguments& arguments);
+                                const AnalysisArguments& arguments,
+                                const std::optional<PartBounds>& bounds = {});
 
 /// Rows of parts with these names, ascending, each once. Throws UsageError naming the option and the part.
 std::vector<int> parts_named(const std::string& option, const std::vector<std::string>& names,

@@ -12,10 +12,11 @@ namespace {
 
 void check(const SuggestCommandOptions& options) {
   check(options.requirements);
-  check_target(options.target);
-  check_outputs(options.common, {{"--save", options.save, OutputKind::project}},
-                analysis_inputs(options.analysis));
-  options.destination();
+  CommandFiles files{{}, analysis_inputs(options.analysis)};
+  const bool updates = !options.save && options.destination();
+  files.outputs = {{updates ? "MODEL" : "--save", options.destination(), OutputKind::project, updates}};
+  if (options.pictures) files.folder = {"--pictures", suggestion_folder(*options.pictures)};
+  check_outputs(options.common, files);
   if (options.pictures) require_rendering();
   if (options.show_history && (options.apply || options.roll_back || options.pictures))
     throw UsageError(
@@ -36,7 +37,7 @@ int run(const CLI::App& command, const SuggestCommandOptions& options) {
   const Stopwatch watch;
   check(options);
   const ThreadLimit limit(options.common);
-  const StructuredModel input = load_structured(command, options.common, options.analysis);
+  const StructuredModel input = load_structured(command, options.common, options.analysis, bounds_of_designs);
   const SuggestRun result = run_suggest(options, input);
 
   Json document = document_head(command, input.model);
@@ -66,8 +67,8 @@ void add_wishes(CLI::App& command, SuggestCommandOptions& options) {
              "Which edits contacts suggest: those of the paper, or further ones too (default: extended)");
   command.add_flag("--bend", options.bends,
                    "Let straight parts bend and walls bulge, as in the paper (default: they stay straight)");
-  add_number(command, "--alpha", options.alpha, "Weight of distortion in the energy (default: 0.2)");
-  add_number(command, "--target", options.target, "Say which suggestions reach this stackability");
+  add_number(command, alpha_option(), options.alpha);
+  add_number(command, target_option("Say which suggestions reach this stackability"), options.target);
   add_requirement_options(command, options.requirements);
 }
 

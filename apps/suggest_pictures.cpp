@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 #include "apps/rendering.h"
@@ -10,12 +12,20 @@ namespace stackabilization::apps {
 
 namespace {
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder))
-    throw OutputError("the folder " + folder.string() + " cannot be made" +
-                      (error ? ": " + error.message() : ""));
+constexpr const char* sheet_name = "suggestions.png";
+
+std::string picture_name(std::size_t number) {
+  return "suggestion_" + std::to_string(number) + ".png";
+}
+
+/// Is it a name that this command gives to files?
+bool is_picture(const std::string& name) {
+  const std::string start = "suggestion_", ending = ".png";
+  return name == sheet_name ||
+         (name.size() > start.size() + ending.size() && name.starts_with(start) && name.ends_with(ending) &&
+          std::all_of(name.begin() + static_cast<std::ptrdiff_t>(start.size()),
+                      name.end() - static_cast<std::ptrdiff_t>(ending.size()),
+                      [](unsigned char c) { return std::isdigit(c) != 0; }));
 }
 
 std::string values_text(const Stackability& measured, const Energy& energy) {
@@ -31,10 +41,17 @@ StructuredShape as_rest(const StructuredShape& rest, const Design& design) {
 
 }  // namespace
 
+OwnedFolder suggestion_folder(const std::string& path) {
+  return {path, is_picture};
+}
+
 void write_suggestion_pictures(const SuggestRun& run, const SuggestCommandOptions& options,
                                const Model& model) {
-  const std::filesystem::path folder = *options.pictures;
-  make_folder(folder);
+  const std::size_t count = std::min(run.possible(), static_cast<std::size_t>(options.top));
+  std::vector<std::string> files = {sheet_name};
+  for (std::size_t k = 0; k < count; ++k) files.push_back(picture_name(k + 1));
+  OwnedFolder folder = suggestion_folder(*options.pictures);
+  folder.begin(files);
   const std::vector<std::string>& names = run.project.rest.shape.part_names;
   const StructuredShape before = as_rest(run.project.rest, run.design);
   DesignSheet sheet;
@@ -44,7 +61,6 @@ void write_suggestion_pictures(const SuggestRun& run, const SuggestCommandOption
                          std::nullopt,
                          run.now.contacts,
                          {"now: " + values_text(run.now.measured, run.now.energy)}});
-  const std::size_t count = std::min(run.possible(), static_cast<std::size_t>(options.top));
   for (std::size_t k = 0; k < count; ++k) {
     const Suggestion& one = run.suggestions[k];
     const Edit& edit = one.edit.edit;
@@ -53,11 +69,13 @@ void write_suggestion_pictures(const SuggestRun& run, const SuggestCommandOption
                       values = values_text(one.measured, one.energy);
     const DeformationResult result{std::nullopt, after.shape, after.primitives};
     write_deformation_picture(
-        {(folder / ("suggestion_" + number + ".png")).string(), title_of(model) + ", suggestion " + number},
+        {(folder.path() / files[k + 1]).string(), title_of(model) + ", suggestion " + number},
         {before, result, {edit}, {}, {words, values + "   " + one.edit.why}});
     sheet.tiles.push_back({std::move(after), edit.handle, {}, {number + ": " + values, words, one.edit.why}});
   }
-  write_design_sheet({(folder / "suggestions.png").string(), title_of(model)}, sheet);
+  write_design_sheet({(folder.path() / sheet_name).string(), title_of(model)}, sheet);
+  folder.remove_others(files);
+  folder.finish(files);
 }
 
 }  // namespace stackabilization::apps

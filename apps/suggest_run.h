@@ -60,6 +60,9 @@ std::string history_text(const Project& project);
 /// Per possible suggestion that is shown: its number, S and E.
 std::string essential_suggestions(const SuggestRun& run, const SuggestCommandOptions& options);
 
+/// The folder of --pictures.
+OwnedFolder suggestion_folder(const std::string& path);
+
 /// Makes the folder where it is missing and writes suggestions.png, all that are shown on one sheet, and
 /// suggestion_K.png, the shape before and after each of them. Throws OutputError.
 void write_suggestion_pictures(const SuggestRun& run, const SuggestCommandOptions& options,

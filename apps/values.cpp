@@ -3,6 +3,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "apps/text.h"
+#include "stackabilization/shape/direction.h"
+#include "stackabilization/shape/tolerances.h"
+
 namespace stackabilization::apps {
 
 namespace {
@@ -24,7 +28,7 @@ struct Leading {
 Leading leading_number(const std::string& text) {
   const char* begin = text.data();
   const char* const end = begin + text.size();
-  if (begin != end && *begin == '+') ++begin;
+  if (text.starts_with('+') && !text.starts_with("+-")) ++begin;
   Leading leading;
   const auto [stop, error] = std::from_chars(begin, end, leading.value);
   leading.valid = error == std::errc() && std::isfinite(leading.value);
@@ -41,6 +45,23 @@ double parse_number(const std::string& option, const std::string& text) {
   return leading.value;
 }
 
+double parse_number(const Number& number, const std::string& text) {
+  const double value = parse_number(number.name, text);
+  const bool above = number.open_min ? value > number.min : value >= number.min;
+  const bool below = number.open_max ? value < number.max : value <= number.max;
+  if (above && below) return value;
+  std::string range;
+  if (number.min > std::numeric_limits<double>::lowest())
+    range = (number.open_min ? " above " : " from ") + exact_digits(number.min);
+  if (number.max < std::numeric_limits<double>::max()) {
+    const bool both = !range.empty(), closed = both && !number.open_min && !number.open_max;
+    range += both && !closed ? " and" : "";
+    range += number.open_max ? " below " : closed ? " to " : " up to ";
+    range += exact_digits(number.max);
+  }
+  throw UsageError(number.name + " expects a number" + range + ", found " + text);
+}
+
 double parse_fraction(const std::string& option, const std::string& text) {
   constexpr double hundred = 100;
   const Leading leading = leading_number(text);
@@ -55,13 +76,39 @@ double parse_fraction(const std::string& option, const std::string& text) {
 namespace {
 
 /// Three of `texts`, from the one at `first` on.
+Eigen::Vector3d parse_point(const std::string& option, const std::vector<std::string>& texts,
+                            std::size_t first) {
+  Eigen::Vector3d point;
+  for (std::size_t i = 0; i < 3; ++i)
+    point[static_cast<Eigen::Index>(i)] = parse_number(option, texts.at(first + i));
+  return point;
+}
+
+/// The same, such as a Direction takes.
 Eigen::Vector3d parse_vector(const std::string& option, const std::vector<std::string>& texts,
                              std::size_t first) {
-  Eigen::Vector3d vector;
-  for (std::size_t i = 0; i < 3; ++i)
-    vector[static_cast<Eigen::Index>(i)] = parse_number(option, texts.at(first + i));
+  const Eigen::Vector3d vector = parse_point(option, texts, first);
   if (vector.isZero(0)) throw UsageError(option + " expects a vector that is not zero");
-  return vector;
+  try {
+    return Direction(vector).vector();
+  } catch (const UsageError& error) {
+    throw UsageError(option + ": " + error.what());
+  }
+}
+
+/// An option with three values, any number of times; `parse` makes one vector of them.
+template <class Parse>
+void add_triples(CLI::App& command, const std::string& name, std::vector<Eigen::Vector3d>& target,
+                 const std::string& description, const Parse& parse) {
+  const auto take = [name, &target, parse](const std::vector<std::string>& texts) {
+    target.clear();
+    for (std::size_t i = 0; i + 2 < texts.size(); i += 3) target.push_back(parse(name, texts, i));
+  };
+  command.add_option_function<std::vector<std::string>>(name, take, description)
+      ->type_size(3)
+      ->expected(-1)
+      ->allow_extra_args(false)
+      ->type_name("X Y Z");
 }
 
 }  // namespace
@@ -82,20 +129,22 @@ std::optional<Unit> unit_of_symbol(const std::string& symbol) {
   return std::nullopt;
 }
 
-double length_in(const std::string& option, const std::optional<Length>& length, Unit model_unit) {
-  if (!length) return 0;
-  if (length->value < 0)
-    throw UsageError(option + " expects a length that is not negative, found " + length->text);
-  return length->in(model_unit);
+double length_in(const std::optional<Length>& length, Unit model_unit) {
+  return length ? length->in(model_unit) : 0;
 }
 
-Length parse_length(const std::string& option, const std::string& text) {
+Length parse_length(const LengthOption& option, const std::string& text) {
   const Leading leading = leading_number(text);
   const std::optional<Unit> unit = leading.rest.empty() ? Unit::unknown : unit_of_symbol(leading.rest);
   if (!leading.valid || !unit)
-    throw UsageError(option +
+    throw UsageError(option.name +
                      " expects a length such as 0.5 (model units) or 5mm (um, mm, cm, m, in, ft), found '" +
                      text + "'");
+  if (leading.value < 0 || (option.above_zero && leading.value == 0))
+    throw UsageError(option.name + " expects a length " +
+                     (option.above_zero ? "above 0" : "that is not negative") + ", found " + text);
+  if (leading.value > tolerance::largest_coordinate)
+    throw UsageError(option.name + " expects a length of at most 1e60, found " + text);
   return {leading.value, *unit, text};
 }
 
@@ -103,13 +152,15 @@ double Length::in(Unit model_unit) const {
   if (unit == Unit::unknown || unit == model_unit) return value;
   if (model_unit == Unit::unknown)
     throw UsageError("the length " + text + " has a unit but the model has none: say which with --unit");
-  return value * (metres_per_unit(unit) / metres_per_unit(model_unit));
+  const double converted = value * (metres_per_unit(unit) / metres_per_unit(model_unit));
+  if (converted > tolerance::largest_coordinate)
+    throw UsageError("the length " + text + " is more than 1e60 in the unit of the model");
+  return converted;
 }
 
-void add_number(CLI::App& command, const std::string& name, std::optional<double>& target,
-                const std::string& description) {
-  const auto take = [name, &target](const std::string& text) { target = parse_number(name, text); };
-  command.add_option_function<std::string>(name, take, description)->type_name("NUMBER");
+void add_number(CLI::App& command, const Number& number, std::optional<double>& target) {
+  const auto take = [number, &target](const std::string& text) { target = parse_number(number, text); };
+  command.add_option_function<std::string>(number.name, take, number.description)->type_name("NUMBER");
 }
 
 void add_fraction(CLI::App& command, const std::string& name, std::optional<double>& target,
@@ -118,10 +169,9 @@ void add_fraction(CLI::App& command, const std::string& name, std::optional<doub
   command.add_option_function<std::string>(name, take, description)->type_name("FRACTION");
 }
 
-void add_length(CLI::App& command, const std::string& name, std::optional<Length>& target,
-                const std::string& description) {
-  const auto take = [name, &target](const std::string& text) { target = parse_length(name, text); };
-  command.add_option_function<std::string>(name, take, description)->type_name("LENGTH");
+void add_length(CLI::App& command, const LengthOption& option, std::optional<Length>& target) {
+  const auto take = [option, &target](const std::string& text) { target = parse_length(option, text); };
+  command.add_option_function<std::string>(option.name, take, option.description)->type_name("LENGTH");
 }
 
 void add_direction(CLI::App& command, const std::string& name, std::optional<Eigen::Vector3d>& target,
@@ -138,15 +188,12 @@ void add_direction(CLI::App& command, const std::string& name, std::optional<Eig
 
 void add_directions(CLI::App& command, const std::string& name, std::vector<Eigen::Vector3d>& target,
                     const std::string& description) {
-  const auto take = [name, &target](const std::vector<std::string>& texts) {
-    target.clear();
-    for (std::size_t i = 0; i + 2 < texts.size(); i += 3) target.push_back(parse_vector(name, texts, i));
-  };
-  command.add_option_function<std::vector<std::string>>(name, take, description)
-      ->type_size(3)
-      ->expected(-1)
-      ->allow_extra_args(false)
-      ->type_name("X Y Z");
+  add_triples(command, name, target, description, parse_vector);
+}
+
+void add_points(CLI::App& command, const std::string& name, std::vector<Eigen::Vector3d>& target,
+                const std::string& description) {
+  add_triples(command, name, target, description, parse_point);
 }
 
 void add_parts(CLI::App& command, const std::string& name, std::vector<std::string>& target,

@@ -2,6 +2,7 @@
 
 #include <CLI/App.hpp>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -12,7 +13,8 @@
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/shape.h"
 
-/// Values on the command line. Numbers are read as the nearest doubles, whatever the locale, because
+/// Values on the command line, checked as soon as they are parsed, so that the rest of the program knows them
+/// to be finite and in range. Numbers are read as the nearest doubles, whatever the locale, because
 /// directions are exact: "0.3" means that double. All functions throw UsageError in words that name the
 /// option.
 namespace stackabilization::apps {
@@ -23,18 +25,33 @@ double parse_number(const std::string& option, const std::string& text);
 /// A fraction in [0, 1], as 0.05 or 5%.
 double parse_fraction(const std::string& option, const std::string& text);
 
-/// A length as typed: "0.5" in model units, or with a unit, "5mm".
+/// An option that takes a finite number in [min, max], without the ends that are said to be open.
+struct Number {
+  std::string name, description;
+  double min = std::numeric_limits<double>::lowest(), max = std::numeric_limits<double>::max();
+  bool open_min = false, open_max = false;
+};
+double parse_number(const Number& number, const std::string& text);
+
+/// A length as typed: "0.5" in model units, or with a unit, "5mm". From 0 to tolerance::largest_coordinate.
 struct Length {
   double value = 0;
   Unit unit = Unit::unknown;  ///< unknown: model units
   std::string text;           ///< as typed
 
-  /// In units of a model. Throws UsageError when a unit was typed and the model has none.
+  /// In units of a model. Throws UsageError when a unit was typed and the model has none, or the length is
+  /// beyond tolerance::largest_coordinate in that unit.
   double in(Unit model_unit) const;
 };
-Length parse_length(const std::string& option, const std::string& text);
-/// In units of a model, 0 where none was given. Throws UsageError as `in`, and for a negative one.
-double length_in(const std::string& option, const std::optional<Length>& length, Unit model_unit);
+/// In units of a model, 0 where none was given. Throws UsageError as `in`.
+double length_in(const std::optional<Length>& length, Unit model_unit);
+
+/// An option that takes a length.
+struct LengthOption {
+  std::string name, description;
+  bool above_zero = false;  ///< 0 itself is refused too
+};
+Length parse_length(const LengthOption& option, const std::string& text);
 
 /// Names of the units on the command line: um, mm, cm, m, in, ft.
 std::optional<Unit> unit_of_symbol(const std::string& symbol);
@@ -46,28 +63,31 @@ struct Count {
 };
 std::uint64_t parse_count(const Count& count, const std::string& text);
 
-/// `target` is a whole number or std::optional of one.
+/// `target` is a whole number or std::optional of one; what it cannot hold is refused.
 template <class Target>
-void add_count(CLI::App& command, const Count& count, Target& target) {
+void add_count(CLI::App& command, Count count, Target& target) {
+  using Value = typename decltype(std::optional(target))::value_type;
+  count.most = std::min(count.most, static_cast<std::uint64_t>(std::numeric_limits<Value>::max()));
   const auto take = [count, &target](const std::string& text) {
-    target = static_cast<decltype(std::optional(target))::value_type>(parse_count(count, text));
+    target = static_cast<Value>(parse_count(count, text));
   };
   command.add_option_function<std::string>(count.name, take, count.description)->type_name("N");
 }
 
-void add_number(CLI::App& command, const std::string& name, std::optional<double>& target,
-                const std::string& description);
+void add_number(CLI::App& command, const Number& number, std::optional<double>& target);
 void add_fraction(CLI::App& command, const std::string& name, std::optional<double>& target,
                   const std::string& description);
-void add_length(CLI::App& command, const std::string& name, std::optional<Length>& target,
-                const std::string& description);
-/// Three numbers, not all zero.
+void add_length(CLI::App& command, const LengthOption& option, std::optional<Length>& target);
+/// Three numbers that a Direction takes.
 void add_direction(CLI::App& command, const std::string& name, std::optional<Eigen::Vector3d>& target,
                    const std::string& description);
 
 /// The same, any number of times.
 void add_directions(CLI::App& command, const std::string& name, std::vector<Eigen::Vector3d>& target,
                     const std::string& description);
+/// Three finite numbers, any number of times.
+void add_points(CLI::App& command, const std::string& name, std::vector<Eigen::Vector3d>& target,
+                const std::string& description);
 /// An option with the name of a part, any number of times.
 void add_parts(CLI::App& command, const std::string& name, std::vector<std::string>& target,
                const std::string& description);

@@ -38,3 +38,14 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/StackabilizationConfigVer
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/StackabilizationConfig.cmake
   ${PROJECT_BINARY_DIR}/StackabilizationConfigVersion.cmake DESTINATION ${package_dir})
+
+# What people read, in the folders that the pages link to, and a first project of their own.
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+file(GLOB_RECURSE pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
+  docs/*.md docs/*.png experiments/*.md experiments/*.png experiments/*.svg)
+foreach(page ${pages})
+  get_filename_component(folder ${page} DIRECTORY)
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
+endforeach()
+install(FILES docs/examples/CMakeLists.txt docs/examples/main.cpp data/models/cup.obj data/models/table.obj
+  DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples)

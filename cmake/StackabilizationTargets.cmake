@@ -32,7 +32,7 @@ function(stackabilization_options target)
   endif()
   if(STACKABILIZATION_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${STACKABILIZATION_SANITIZE}
-      -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+      -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${STACKABILIZATION_SANITIZE})
   endif()
 endfunction()

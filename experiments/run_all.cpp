@@ -9,22 +9,19 @@
 // failed, or found that the answer to their question is no; 2: wrong usage, or the folder cannot be written;
 // 3: an input folder cannot be used.
 
-#include <fcntl.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <tbb/info.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
-#include <fstream>
 #include <iostream>
 
+#include "common/child_process.h"
 #include "common/clock.h"
 #include "common/models.h"
 #include "common/resume.h"
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/file_plan.h"
 
 using namespace stackabilization;
 using namespace stackabilization::experiments;
@@ -72,6 +69,10 @@ const std::vector<Entry>& entries() {
        {},
        {"--largest-triangles", "9000", "--largest-parts", "16", "--directions", "10", "--finest-spacing",
         "0.32"}},
+      {"command_costs",
+       {.models = false, .paper_data = false},
+       {},
+       {"--largest-parts", "10", "--largest-triangles", "1000"}},
       {"deformation_speed", {.paper_data = false, .threads = false}, {}, {"--edits", "20"}},
       {"relations_against_lists", {.models = false, .needs_paper_data = true}, {}, {}},
       {"segmentation_quality", {.models = false, .paper_data = false, .needs_benchmark = true}, {}, {}},
@@ -122,36 +123,11 @@ Job job_of(const Entry& entry, const fs::path& programs, const Settings& setting
   return job;
 }
 
-/// Runs the program with its words in a log; its exit status, or 128 and more when it was killed. It ends
-/// with this process.
+/// Runs the program with its words in a log; its exit status.
 int run(const Job& job, const fs::path& folder) {
   std::vector<std::string> words = {job.program.string(), "-o", folder.string()};
   words.insert(words.end(), job.arguments.begin(), job.arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  const std::string log = (folder / (job.name + ".log")).string();
-  const pid_t child = fork();
-  if (child < 0) throw OutputError(job.name + ": no new process can be made");
-  if (child == 0) {
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    if (file < 0 || dup2(file, STDOUT_FILENO) < 0 || dup2(file, STDERR_FILENO) < 0) _exit(126);
-    execv(argv[0], argv.data());
-    _exit(127);
-  }
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-}
-
-/// What it said first: the reason of a refusal.
-std::string first_line(const fs::path& file) {
-  std::ifstream stream(file);
-  std::string line;
-  std::getline(stream, line);
-  return line;
+  return run_child({words, folder / (job.name + ".log")}).status;
 }
 
 /// Runs the job unless that was done before; whether it did what it was for.
@@ -174,15 +150,27 @@ bool settle(const Job& job, const fs::path& folder) {
   return status == 0;
 }
 
-void prepare(const fs::path& folder) {
+/// Is it a name of a file that an experiment, or this program for it, writes?
+bool is_written(const std::string& name) {
+  return std::any_of(entries().begin(), entries().end(), [&name](const Entry& entry) {
+    return is_output_of(entry.name, name) || name == entry.name + ".log" || name == entry.name + ".done";
+  });
+}
+
+void prepare(const Settings& settings) {
+  FilePlan plan;
+  for (const fs::path& folder : {settings.paper_data, settings.benchmark})
+    plan.reads_all("the input", folder);
+  for (const ModelFile& model : shipped_models()) plan.reads("the model", model.path);
+  plan.fills("--output", settings.output, is_written);
+  plan.check();
   std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder) || access(folder.c_str(), W_OK | X_OK) != 0)
-    throw OutputError(folder.string() + ": this folder cannot be made or written to");
+  fs::create_directories(settings.output, error);
+  if (error) throw OutputError(settings.output.string() + " cannot be made: " + error.message());
 }
 
 int run_all(const fs::path& programs, const Settings& settings) {
-  prepare(settings.output);
+  prepare(settings);
   // Fails now rather than once for every experiment.
   if (!settings.paper_data.empty()) paper_models(settings.paper_data);
   if (!settings.benchmark.empty()) files_below(settings.benchmark / "data", ".off");
@@ -195,6 +183,8 @@ int run_all(const fs::path& programs, const Settings& settings) {
       std::cout << entry.name << ": skipped, it needs --paper-data" << std::endl;
     else if (entry.kind.needs_benchmark && settings.benchmark.empty())
       std::cout << entry.name << ": skipped, it needs --segmentation-benchmark" << std::endl;
+    else if (!fs::exists(programs / entry.name))
+      std::cout << entry.name << ": skipped, it was not built" << std::endl;
     else
       good = settle(job_of(entry, programs, settings), settings.output) && good;
   }

@@ -73,6 +73,7 @@ int run(CommandLine& line) {
   line.run.models = line.models;
   line.run.output = line.output;
   if (!line.paper_data.empty()) line.run.paper_data = line.paper_data;
+  check_outputs(line.run, line.page);
   RunReport report;
   if (line.all || !line.run.figures.empty()) report = make_figures(line.run, std::cout);
   for (const std::string& failure : report.failures) complain(failure, status_input);

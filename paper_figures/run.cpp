@@ -3,15 +3,18 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 #include <system_error>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/file_plan.h"
 #include "stackabilization/shape/read_file.h"
 #include "stackabilization/shape/write_file.h"
 
 namespace stackabilization::figures {
 namespace {
 
+constexpr const char* timings_name = "timings.json";
 constexpr const char* own_block = "own";
 constexpr const char* authors_block = "authors";
 
@@ -54,7 +57,7 @@ Json json_of(const Figure& figure, const FigureResult& result, const std::string
 
 /// The seconds of this figure among those of the others that are in the folder already.
 void note_time(const std::filesystem::path& folder, const Figure& figure, double seconds) {
-  const std::filesystem::path path = folder / "timings.json";
+  const std::filesystem::path path = folder / timings_name;
   nlohmann::json timings;  // sorted by key
   std::error_code missing;
   if (std::filesystem::exists(path, missing))
@@ -121,6 +124,20 @@ Prose read_prose(const std::filesystem::path& input, const Figure& figure) {
   const Fields fields = Fields::of_file(input);
   if (fields.whole("figure", 1, 99) != figure.number) fields.refuse("figure", std::to_string(figure.number));
   return prose_of(fields);
+}
+
+void check_outputs(const RunOptions& options, const std::filesystem::path& page) {
+  FilePlan plan;
+  std::set<std::string> outputs = {timings_name};
+  for (const Figure& figure : all_figures()) {
+    plan.reads("the input", input_of(options, figure));
+    for (const char* const ending : {".png", ".svg", ".numbers.json"})
+      outputs.insert(stem_of(figure.number) + ending);
+  }
+  plan.reads_all("the model", options.paper_data ? *options.paper_data : options.models);
+  if (!page.empty()) plan.writes("--page", page);
+  plan.fills("--output", options.output, [&](const std::string& name) { return outputs.contains(name); });
+  plan.check();
 }
 
 RunReport make_figures(const RunOptions& options, std::ostream& log) {

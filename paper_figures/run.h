@@ -38,6 +38,10 @@ struct Prose {
 };
 Prose read_prose(const std::filesystem::path& input, const Figure& figure);
 
+/// Throws UsageError when an output, or the Markdown file `page` (empty: none), would replace an input,
+/// OutputError when one cannot be written.
+void check_outputs(const RunOptions& options, const std::filesystem::path& page);
+
 /// Makes figures into `output`: NN.png and NN.numbers.json each (NN = `stem_of`), NN.svg where it is a plot,
 /// and timings.json. The same input gives the same bytes, but for the timings. A figure that fails does not
 /// stop the others; of all figures, those without an input on the authors' models are passed over when these

@@ -27,7 +27,7 @@ MeasuredShape measured_shape(const Shape& shape, const Direction& direction,
   ContactOptions band;
   band.semantics = options.semantics;
   return {shape, solver.measure(direction),
-          contact_regions({shape, solver.tree(), direction, solver.separation(direction)}, band)};
+          contact_regions({shape, solver.tree(), direction, solver.separation(direction)}, band).regions};
 }
 
 ScenePanel scene_panel(Scene scene, const Direction& direction, const Camera& camera) {

@@ -28,11 +28,11 @@ report "Epsilon outside shape/tolerances.h" \
 report "Small decimal without a name" \
   "$(source_lines '[^0-9A-Za-z_.]0?\.0[0-9]*[1-9]' --include=*.h --include=*.cpp --exclude-dir=rendering \
     --exclude=tolerances.h | grep -vE ':( *constexpr)? *double [a-z_]+ = 0\.0[0-9]+;|return 0\.0[0-9]+;' || true)"
-# Not installed: rational_number.h and half_edge_mesh.h, the doors to GMP and OpenMesh for sources that compute with
-# them, and the formats' own headers.
+# Not installed: rational_number.h, half_edge_mesh.h and solid_location.h, the doors to GMP, OpenMesh and CGAL for
+# sources that compute with them, and the formats' own headers.
 report "Installed header that shows a third-party library other than Eigen" \
   "$(source_lines '#include [<"](CGAL|OpenMesh|boost|vtk|tbb|gmp|mpfr|pugixml|minizip|unzip|zip\.h|tiny_gltf|nlohmann|GL/|EGL/)' \
-    --include=*.h --exclude=rational_number.h --exclude=half_edge_mesh.h --exclude-dir=formats)"
+    --include=*.h --exclude=rational_number.h --exclude=half_edge_mesh.h --exclude=solid_location.h --exclude-dir=formats)"
 report "Output from the library" \
   "$(source_lines '(std::(cout|cerr|clog)|[^a-z_]f?printf *\(|[^a-z_]puts *\()' --include=*.h --include=*.cpp)"
 report "Header without include guard" "$(grep -rLx '#pragma once' --include=*.h src || true)"

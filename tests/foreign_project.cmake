@@ -1,5 +1,7 @@
-# Installs into the build folder, then configures, builds and runs tests/install/ against that, as a user would.
+# Installs into the build folder, then configures, builds and runs the installed example against that, as a user
+# would.
 set(prefix ${PROJECT_BINARY_DIR}/tests/install/prefix)
+set(installed_docs ${prefix}/${CMAKE_INSTALL_DATAROOTDIR}/doc/${PROJECT_NAME})
 add_test(NAME "install: into a prefix"
   COMMAND ${CMAKE_COMMAND} --install ${PROJECT_BINARY_DIR} --prefix ${prefix})
 set_tests_properties("install: into a prefix" PROPERTIES LABELS unit FIXTURES_SETUP installed)
@@ -7,15 +9,23 @@ set_tests_properties("install: into a prefix" PROPERTIES LABELS unit FIXTURES_SE
 if(STACKABILIZATION_SANITIZE)  # A program must carry the sanitizers of the libraries in it.
   set(foreign_flags -DCMAKE_CXX_FLAGS=-fsanitize=${STACKABILIZATION_SANITIZE})
 endif()
-add_test(NAME "install: a foreign project builds and runs"
-  COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${PROJECT_SOURCE_DIR}/tests/install
-    ${PROJECT_BINARY_DIR}/tests/install/foreign
-    --build-generator ${CMAKE_GENERATOR} --build-makeprogram ${CMAKE_MAKE_PROGRAM} --build-project Foreign
+add_test(NAME "install: the installed example builds and runs"
+  COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${installed_docs}/examples
+    ${PROJECT_BINARY_DIR}/tests/install/example
+    --build-generator ${CMAKE_GENERATOR} --build-makeprogram ${CMAKE_MAKE_PROGRAM} --build-project Example
     --build-options -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
       -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} ${foreign_flags}
-    --test-command foreign ${PROJECT_SOURCE_DIR}/tests/install/pyramid.obj)
-set_tests_properties("install: a foreign project builds and runs" PROPERTIES LABELS unit FIXTURES_REQUIRED installed
-  PASS_REGULAR_EXPRESSION "f_max = 2\n" TIMEOUT 600)
+    --test-command example ${installed_docs}/examples/cup.obj)
+set_tests_properties("install: the installed example builds and runs" PROPERTIES LABELS unit FIXTURES_REQUIRED installed
+  PASS_REGULAR_EXPRESSION "f_max = [0-9.]+ of 0[.][0-9]+, S = 0[.][0-9]+\n" TIMEOUT 600)
+
+find_package(Python3 COMPONENTS Interpreter)
+if(Python3_FOUND)
+  add_test(NAME "install: every link of the installed pages leads somewhere"
+    COMMAND ${Python3_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/tests/docs/links.py ${installed_docs})
+  set_tests_properties("install: every link of the installed pages leads somewhere" PROPERTIES LABELS unit
+    FIXTURES_REQUIRED installed)
+endif()
 
 # Inside another project: the libraries only, and that project's own settings left alone.
 add_test(NAME "install: a project that includes this one keeps its settings"

@@ -2,13 +2,15 @@
 
 #include <tbb/global_control.h>
 #include <tbb/info.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <iostream>
 
+#include "common/resume.h"
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/file_plan.h"
 #include "stackabilization/shape/read.h"
+#include "stackabilization/shape/utf8.h"
 #include "stackabilization/shape/write_file.h"
 #ifdef STACKABILIZATION_WITH_RENDERING
 #include "common/plot_drawing.h"
@@ -94,6 +96,11 @@ std::vector<ModelFile> Experiment::models() const {
 }
 
 int Experiment::run(int argc, char** argv, const std::function<void(Report&)>& body) {
+  for (int i = 1; i < argc; ++i)
+    if (!is_utf8(argv[i])) {
+      std::cerr << program_ << ": argument " << i << " is not UTF-8\n";
+      return 2;
+    }
   try {
     app_.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -110,7 +117,7 @@ int Experiment::guarded(const std::function<void(Report&)>& body) {
     return status;
   };
   try {
-    check_output();
+    prepare_output();
     Report report;
     report.program_ = program_;
     body(report);
@@ -127,15 +134,21 @@ int Experiment::guarded(const std::function<void(Report&)>& body) {
   }
 }
 
-/// Fails before a long computation instead of after it.
-void Experiment::check_output() const {
-  if (output_.empty()) return;
+/// Fails before a long computation instead of after it. Whatever an option names and is there is an input.
+void Experiment::prepare_output() const {
+  if (app_.count("--output") == 0) return;
+  FilePlan plan;
+  for (const CLI::Option* option : app_.get_options()) {
+    if (option->get_single_name() == "output") continue;
+    for (const std::string& value : option->results()) plan.reads_all("the input", value);
+  }
+  if (takes_models_)
+    for (const ModelFile& model : models()) plan.reads("the model", model.path);
+  plan.fills("--output", output_, [this](const std::string& name) { return is_output_of(program_, name); });
+  plan.check();
   std::error_code error;
   fs::create_directories(output_, error);
-  if (!fs::is_directory(output_))
-    throw OutputError(output_.string() + ": cannot be made as a folder for the results");
-  if (access(output_.c_str(), W_OK | X_OK) != 0)
-    throw OutputError(output_.string() + ": this folder cannot be written to");
+  if (error) throw OutputError(output_.string() + " cannot be made: " + error.message());
 }
 
 void Experiment::write(const Report& report) const {

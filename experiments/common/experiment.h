@@ -81,7 +81,7 @@ class Experiment {
 
  private:
   int guarded(const std::function<void(Report&)>& body);
-  void check_output() const;
+  void prepare_output() const;
   void write(const Report& report) const;
   Provenance provenance() const;
 

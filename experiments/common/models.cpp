@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/utf8.h"
 
 namespace stackabilization::experiments {
 
@@ -15,6 +16,9 @@ std::vector<fs::path> files_below(const fs::path& folder, const std::string& ext
     if (it->path().extension() == extension) files.push_back(it->path());
   if (error) throw InputError(folder.string() + ": " + error.message());
   std::sort(files.begin(), files.end());
+  for (const fs::path& file : files)
+    if (!is_utf8(file.string()))
+      throw InputError(folder.string() + ": expected file names in UTF-8, found one that is not");
   return files;
 }
 

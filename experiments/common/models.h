@@ -23,7 +23,8 @@ std::vector<ModelFile> shipped_models();
 /// holds none.
 std::vector<ModelFile> paper_models(const std::filesystem::path& folder);
 
-/// Files below a folder with this extension, by path. Throws InputError when the folder cannot be read.
+/// Files below a folder with this extension, by path. Throws InputError when the folder cannot be read or
+/// a name is not UTF-8.
 std::vector<std::filesystem::path> files_below(const std::filesystem::path& folder,
                                                const std::string& extension);
 

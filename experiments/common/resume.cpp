@@ -24,9 +24,7 @@ std::vector<fs::path> outputs(const Job& job, const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
   for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
-    const std::string name = it->path().filename().string(), ending = it->path().extension().string();
-    const bool own = name.starts_with(job.name + ".") || name.starts_with(job.name + "_");
-    if (own && ending != ".done" && ending != ".log") files.push_back(it->path());
+    if (is_output_of(job.name, it->path().filename().string())) files.push_back(it->path());
   }
   std::sort(files.begin(), files.end());
   return files;
@@ -39,6 +37,12 @@ Json hashes(const Job& job, const fs::path& folder) {
 }
 
 }  // namespace
+
+bool is_output_of(const std::string& program, const std::string& name) {
+  const std::string ending = fs::path(name).extension().string();
+  return (name.starts_with(program + ".") || name.starts_with(program + "_")) &&
+         (ending == ".csv" || ending == ".json" || ending == ".svg" || ending == ".png");
+}
 
 std::string fingerprint(const Job& job) {
   std::string text = job.name + "\n" + file_hash(job.program) + "\n";

@@ -15,6 +15,9 @@ struct Job {
   std::vector<std::filesystem::path> inputs;
 };
 
+/// Is it the name of a table or picture that the program of this name writes into the results folder?
+bool is_output_of(const std::string& program, const std::string& name);
+
 /// Hash of the program's bytes, the arguments, and names and bytes of the inputs: equal for equal results.
 /// Throws InputError when a file cannot be read.
 std::string fingerprint(const Job& job);

@@ -19,10 +19,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include "common/clock.h"
 #include "common/experiment.h"
+#include "common/generated_models.h"
 #include "common/lattice.h"
 #include "common/statistics.h"
 #include "stackabilization/envelope/separation.h"
@@ -40,61 +40,6 @@ struct Settings {
   int largest_triangles = 1 << 20, largest_parts = 128, directions = 50;
   double finest_spacing = 0.02;  ///< radians
 };
-
-/// A cup 90 high that widens from radius 30 to 40, walls 2 thick, with 12 waves around and 5 up the wall; a
-/// closed surface of about `triangles` triangles.
-Shape wavy_cup(int triangles) {
-  const int rows = static_cast<int>(std::sqrt(triangles / 2.0)), columns = rows;
-  Points vertices(rows * columns, 3);
-  // The profile runs along a closed curve: up the outer wall, over the rim, down the inner one; a small hole
-  // stays at the axis.
-  for (int i = 0; i < rows; ++i) {
-    const double t = 2.0 * i / rows;
-    const bool outside = t < 1;
-    const double s = outside ? t : 2 - t;  // 0 at the hole, 1 at the rim
-    const double wall = std::clamp((s - 0.25) / 0.75, 0.0, 1.0);
-    const double z = (outside ? 0 : 2 * (1 - wall)) + 90 * wall;
-    const double mean = (s < 0.25 ? 30 * (s + 0.01) / 0.26 : 30 + 10 * wall) - (outside || s < 0.25 ? 0 : 2);
-    for (int j = 0; j < columns; ++j) {
-      const double angle = 2 * std::numbers::pi * j / columns;
-      const double wave = 1 + 0.02 * wall * std::sin(12 * angle) * std::sin(5 * std::numbers::pi * wall);
-      vertices.row(i * columns + j) << mean * wave * std::cos(angle), mean * wave * std::sin(angle), z;
-    }
-  }
-  Triangles faces(2 * rows * columns, 3);
-  for (int i = 0; i < rows; ++i)
-    for (int j = 0; j < columns; ++j) {
-      const int next = (i + 1) % rows * columns, right = (j + 1) % columns, row = i * columns;
-      faces.row(2 * (row + j)) << row + j, row + right, next + right;
-      faces.row(2 * (row + j) + 1) << row + j, next + right, next + j;
-    }
-  return make_shape(vertices, faces);
-}
-
-/// Two upright posts with `count` - 2 bars between them, each a part of its own; closed surfaces that touch.
-Shape rack(int count) {
-  Points vertices(8 * count, 3);
-  Triangles triangles(12 * count, 3);
-  std::vector<std::string> names;
-  std::vector<std::int32_t> parts;
-  const auto add = [&](int b, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-    constexpr int faces[12][3] = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                                  {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-    for (int v = 0; v < 8; ++v)
-      for (int axis = 0; axis < 3; ++axis) vertices(8 * b + v, axis) = (v >> axis & 1 ? high : low)[axis];
-    for (int f = 0; f < 12; ++f)
-      for (int k = 0; k < 3; ++k) triangles(12 * b + f, k) = 8 * b + faces[f][k];
-    parts.insert(parts.end(), 12, b);
-    names.push_back((b < 2 ? "post " : "bar ") + std::to_string(b));
-  };
-  const double height = 10.0 * count;
-  add(0, {0, 0, 0}, {4, 4, height});
-  add(1, {100, 0, 0}, {104, 4, height});
-  for (int b = 2; b < count; ++b) add(b, {4, 1, 10.0 * b - 8}, {100, 3, 10.0 * b - 5});
-  Shape shape{vertices, triangles, names, parts};
-  validate(shape);
-  return shape;
-}
 
 /// What one measurement found and took.
 struct Measurement {

@@ -259,25 +259,58 @@ TEST_CASE("a target out of reach ends with 1, what came nearest and the reason")
 
 TEST_CASE("files of an earlier run go, other files stay") {
   const CupFolder folder;
-  fs::create_directory(folder.out);
-  for (const char* name :
-       {"out/solution_7.obj", "out/solution_7_stack.png", "out/nearest.json", "out/search-state.json",
-        "out/solution_x.obj", "out/notes.txt", "out/solution_.json"})
+  REQUIRE(
+      run_program(folder.along_z({"--target", "0.97", "--preset", "paper", "--expansions", "3"})).status ==
+      1);
+  for (const char* there : {"nearest.obj", "nearest.json", "search-state.json", "stackabilize-files.json"})
+    CHECK(names_in(folder.out).contains(there));
+  for (const char* name : {"out/solution_x.obj", "out/notes.txt", "out/solution_.json"})
     CHECK(!folder.file(name, "old").empty());
   REQUIRE(run_program(folder.more()).status == 0);
   const std::set<std::string> names = names_in(folder.out);
-  for (const char* gone : {"solution_7.obj", "solution_7_stack.png", "nearest.json", "search-state.json"})
-    CHECK(!names.contains(gone));
+  for (const char* gone : {"nearest.obj", "nearest.json", "search-state.json"}) CHECK(!names.contains(gone));
   for (const char* there : {"solution_x.obj", "notes.txt", "solution_.json", "solution_1.obj"})
     CHECK(names.contains(there));
   CHECK(folder.written("notes.txt") == "old");
+  const json list = folder.document("stackabilize-files.json")["files"];
+  for (const auto& [name, hash] : list.items()) {
+    CHECK(names.contains(name));
+    CHECK(hash.is_string());
+  }
+  CHECK(list.size() + 4 == names.size());  // the list itself, and the three others
+}
+
+TEST_CASE("a file of an earlier run that was changed since stays, and is named") {
+  const CupFolder folder;
+  REQUIRE(run_program(folder.more()).status == 0);
+  const std::string project = folder.out + "/solutions.stackabilize.json";
+  REQUIRE(run_program({"suggest", project, "--roll-back", "0"}).status == 0);
+  const std::string changed = bytes_of(project);
+  const auto before = contents(folder.out);
+  check_refused(folder, folder.more(), 2, "solutions.stackabilize.json is in the way: it was changed");
+  CHECK(contents(folder.out) == before);
+  fs::rename(project, folder / "mine.json");
+  CHECK(run_program(folder.more()).status == 0);
+  CHECK(bytes_of(folder / "mine.json") == changed);
+}
+
+TEST_CASE("a folder that has only the state of a search is gone on with, by its content") {
+  const CupFolder folder;
+  const auto far = [&](const char* expansions) {
+    return folder.along_z({"--target", "0.97", "--preset", "paper", "--expansions", expansions});
+  };
+  REQUIRE(run_program(far("3")).status == 1);
+  for (const auto& entry : fs::directory_iterator(folder.out))
+    if (entry.path().filename() != "search-state.json") fs::remove(entry.path());
+  CHECK(run_program(joined(far("4"), {"--resume"})).status == 1);
+  CHECK(folder.document("result.json")["search"]["expanded"] == 4);
 }
 
 TEST_CASE("names that mean something in HTML do not break the page") {
   const CupFolder folder;
   Shape cup = read_shape(folder.cup);
   cup.part_names[0] = "<b>a&b'\"]]>";
-  const std::string model = folder.model("<i>&'\"\xe9.obj", cup);
+  const std::string model = folder.model("<i>&'\"\xc3\xa9.obj", cup);
   Arguments arguments = folder.more();
   arguments[1] = model;
   REQUIRE(run_program(arguments).status == 0);

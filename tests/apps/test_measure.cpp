@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -250,4 +251,41 @@ TEST_CASE("inspect counts, and names what is wrong") {
   CHECK(result["findings"]["volume"].is_null());
   CHECK(result["findings"]["self_intersections"] == 0);
   CHECK(run_program({"inspect", open, "--json", "-"}).json()["findings"]["self_intersections"].is_null());
+}
+
+TEST_CASE("measure takes thousands of parts in one place, and says what it does not list") {
+  const TemporaryFolder folder;
+  const int count = 2000;
+  std::ostringstream file;
+  for (int k = 0; k < count; ++k) {
+    file << "g cube_" << k << "\n";
+    for (int corner = 0; corner < 8; ++corner)
+      file << "v " << (corner & 1) << ' ' << (corner >> 1 & 1) << ' ' << (corner >> 2) << "\n";
+    const int faces[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                             {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    for (const auto& face : faces) {
+      file << "f";
+      for (const int corner : face) file << ' ' << 8 * k + corner + 1;
+      file << "\n";
+    }
+  }
+  const std::string model = folder.file("cubes.obj", file.str());
+  for (const char* const semantics : {"solid", "closed"}) {
+    const Outcome text =
+        run_program({"measure", model, "--direction", "0", "0", "1", "--semantics", semantics});
+    CHECK(text.status == 0);
+    CHECK(std::count(text.out.begin(), text.out.end(), '\n') < 20);
+    CHECK(text.out.find("too many pairs of triangles touch") != std::string::npos);
+    CHECK(text.out.find("1999 parts") != std::string::npos);
+    const Outcome outcome = run_program(
+        {"measure", model, "--direction", "0", "0", "1", "--semantics", semantics, "--json", "-"});
+    const json result = outcome.json();
+    CHECK(result["f_max"] == 1);
+    CHECK(result["contacts"].size() < 20);
+    REQUIRE(result["contacts_omitted"]["coincident_parts"].size() == count - 1);
+    CHECK(result["contacts_omitted"]["coincident_parts"][0] == "cube_1");
+  }
+  const Outcome search = run_program({"search", model, "--semantics", "closed", "--json", "-"});
+  CHECK(search.status == 0);
+  CHECK(search.json()["contacts_omitted"]["coincident_parts"].size() == count - 1);
 }

@@ -88,24 +88,55 @@ TEST_CASE("numbers come back from the text exactly as they were") {
   CHECK(std::stod(quiet.out) == result["stackability"].get<double>());
 }
 
-TEST_CASE("part names that are not UTF-8 do not break the JSON") {
+TEST_CASE("names that are not UTF-8 are refused where they are read, by every command, and UTF-8 is kept") {
   const TemporaryFolder folder;
-  const std::string model = folder.file(
-      "latin.obj", "g caf\xe9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
-  const Outcome outcome = run_program({"measure", model, "--json", "-"});
-  CHECK(outcome.status == 0);
-  CHECK(outcome.json().contains("f_max"));
+  const std::string stairs = bytes_of(folder.model("stairs.obj", solids::stair_plate({})));
+  const auto named = [&](const std::string& name) {
+    return "g " + name + "\n" + stairs.substr(0, stairs.find("g ")) + stairs.substr(stairs.find("f "));
+  };
+  const std::string latin = folder.file("latin.obj", named("caf\xe9")),
+                    good = folder.file("good.obj", named("caf\xc3\xa9"));
+  const std::size_t triangles = solids::stair_plate({}).triangle_part.size();
+  std::string labels;
+  for (std::size_t t = 0; t < triangles; ++t) labels += "caf\xe9\n";
+  const std::string label_file = folder.file("labels.txt", labels);
+  const std::string part_name = "caf\xc3\xa9";
+  Arguments improve = {"improve", "", "--target", "0.6", "-o", folder / "out"};
+  std::vector<Arguments> all = every_command("");
+  all.push_back({"suggest", ""});
+  all.push_back(improve);
+  for (Arguments arguments : all) {
+    arguments[1] = latin;
+    check_refused(folder, joined(arguments, {"--json", folder / "out.json"}), 3,
+                  "latin.obj:1: expected a name in UTF-8");
+    arguments[1] = good;
+    check_refused(folder, joined(arguments, {"--labels", label_file}), 3,
+                  "labels.txt:1: expected names in UTF-8");
+    arguments[1] = folder / "caf\xe9.obj";
+    check_refused(folder, arguments, 2, "argument 2 expects UTF-8, found");
+  }
+  CHECK(run_program({"inspect", good, "--json", "-"}).json()["part_names"] == json({part_name}));
+  CHECK(run_program({"deform", good, "--edit", part_name + " scale 0.9", "--json", "-", "--save",
+                     folder / (part_name + ".json")})
+            .json()["edits"]
+            .size() == 1);
+  CHECK(run_program({"inspect", folder / (part_name + ".json")}).status == 3);
+  CHECK(run_program({"structure", folder / (part_name + ".json"), "--json", "-"}).json()["model"] ==
+        folder / (part_name + ".json"));
+  check_refused(folder, {"structure", good, "--seeds", folder.file("seeds.txt", "caf\xe9 0\n")}, 3,
+                "seeds.txt:1: expected a name in UTF-8");
 }
 
-TEST_CASE("an interrupted run ends with 130 and leaves nothing behind") {
-  const TemporaryFolder folder;
-  const Shape soup = solids::triangle_soup({3, 3000, 0.2, 1, 0});
-  const std::string model = folder.model("soup.obj", soup);
-  const Outcome outcome = run_program(
-      {"map", model, "--step-degrees", "0.1", "-o", folder / "map.csv", "--json", folder / "map.json"}, "",
-      "timeout --foreground --preserve-status -s INT 1");
-  CHECK(outcome.status == 130);
-  CHECK(outcome.out.empty());
-  CHECK(outcome.err == "stackabilize: interrupted\n");
-  CHECK(folder.names() == std::vector<std::string>{"soup.obj"});
+TEST_CASE("an interrupted run ends with 130, a terminated one with 143, and both leave nothing behind") {
+  for (const auto& [signal, status] : {std::pair("INT", 130), std::pair("TERM", 143)}) {
+    const TemporaryFolder folder;
+    const std::string model = folder.model("soup.obj", solids::triangle_soup({3, 3000, 0.2, 1, 0}));
+    const Outcome outcome = run_program(
+        {"map", model, "--step-degrees", "0.1", "-o", folder / "map.csv", "--json", folder / "map.json"}, "",
+        std::string("timeout --foreground --preserve-status -s ") + signal + " 1");
+    CHECK(outcome.status == status);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err == "stackabilize: interrupted\n");
+    CHECK(folder.names() == std::vector<std::string>{"soup.obj"});
+  }
 }

@@ -67,6 +67,29 @@ TEST_CASE("the transforms in the JSON put the copies where the mesh has them") {
   }
 }
 
+TEST_CASE("a stack in 3MF and GLB is one mesh in many places, and in 3MF the same to the bit as in OBJ") {
+  const CupFolder folder;
+  const auto written = [&](const std::string& name, const std::string& copies) {
+    const Outcome outcome = run_program({"stack", folder.cup_file, "-n", copies, "--direction", "0.3", "0",
+                                         "2", "--twist-degrees", "20", "--unit", "mm", "-o", folder / name});
+    REQUIRE(outcome.status == 0);
+    return std::filesystem::file_size(folder / name);
+  };
+  for (const std::string ending : {".3mf", ".glb"})
+    CHECK(written("many" + ending, "9") < 1.2 * written("two" + ending, "2"));
+  CHECK(written("many.obj", "9") > 4 * written("two.obj", "2"));
+  const Shape meant = read_shape(folder / "many.obj"), placed = read_shape(folder / "many.3mf"),
+              single = read_shape(folder / "many.glb");
+  CHECK(placed.vertices == meant.vertices);
+  CHECK(placed.triangles == meant.triangles);
+  CHECK(placed.part_names == meant.part_names);
+  CHECK(single.part_names == meant.part_names);
+  REQUIRE(single.vertex_count() == meant.vertex_count());
+  constexpr double half_float = 6e-8;  // relative
+  const double size = meant.vertices.cwiseAbs().maxCoeff(), metres = metres_per_unit(Unit::millimetre);
+  CHECK((single.vertices - metres * meant.vertices).cwiseAbs().maxCoeff() < 2 * half_float * metres * size);
+}
+
 TEST_CASE("meshes are written in the units of their formats, and a unit that is guessed is named") {
   const CupFolder folder;
   struct Case {

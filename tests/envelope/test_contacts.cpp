@@ -21,7 +21,7 @@ std::vector<ContactRegion> contacts(const Shape& shape, const Direction& directi
   SeparationOptions separation_options;
   separation_options.semantics = options.semantics;
   const Separation result = separation(tree, tree, direction, separation_options);
-  return contact_regions({shape, tree, direction, result}, options);
+  return contact_regions({shape, tree, direction, result}, options).regions;
 }
 
 std::vector<ContactRegion> contacts_along_z(const Shape& shape, double band) {
@@ -162,7 +162,7 @@ TEST_CASE("every polygon lies on both surfaces, one f above the other") {
   const Separation exact = separation(tree, tree, r);
   ContactOptions options;
   options.band = 0.05;
-  const std::vector<ContactRegion> regions = contact_regions({shape, tree, r, exact}, options);
+  const std::vector<ContactRegion> regions = contact_regions({shape, tree, r, exact}, options).regions;
   REQUIRE(!regions.empty());
   const auto distance = [&](std::int32_t triangle, const Eigen::Vector3d& p) {
     const Eigen::Vector3d a = shape.corner(triangle, 0);

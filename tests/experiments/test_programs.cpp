@@ -91,6 +91,36 @@ TEST_CASE("a results folder that cannot be made is refused with status 2 and one
   }
 }
 
+TEST_CASE("no results take the place of what is read, whatever it is called") {
+  const TemporaryFolder folder;
+  const std::string model = folder.model("box.obj", solids::box({1, 2, 3})), bytes = bytes_of(model);
+  std::filesystem::create_directory(folder / "results");
+  for (const std::string& program : with_models) {
+    std::filesystem::create_hard_link(model, folder / ("results/" + program + "_linked.csv"));
+    const Outcome outcome = run(program, {model, "-o", folder / "results"});
+    CHECK(outcome.status == 2);
+    CHECK(says(outcome, program, "would replace"));
+  }
+  std::filesystem::create_directory(folder / "data");
+  CHECK(!folder.file("data/study.csv", "precious").empty());
+  const Outcome all = run("run_all", {"-o", folder / "data", "--paper-data", folder / "data"});
+  CHECK(all.status == 2);
+  CHECK(says(all, "run_all", "would replace"));
+  CHECK(bytes_of(folder / "data/study.csv") == "precious");
+  CHECK(bytes_of(model) == bytes);
+}
+
+TEST_CASE("results folders that are called like files are refused before they are made") {
+  const TemporaryFolder folder;
+  for (const std::string& program :
+       with_models + std::vector<std::string>{"relations_against_lists", "run_all"}) {
+    const Outcome outcome = run(program, {"-o", folder / "relations.csv"});
+    CHECK(outcome.status == 2);
+    CHECK(says(outcome, program, "called like a file"));
+  }
+  CHECK(folder.names().empty());
+}
+
 TEST_CASE("a broken model is named, and the others still have their rows") {
   const TemporaryFolder folder;
   const std::string good = folder.model("good.obj", solids::box({1, 2, 3}));
@@ -163,3 +193,16 @@ TEST_CASE("run_all reports what fails and goes on") {
   CHECK(outcome.out.find("deformation_speed: done") != std::string::npos);
   CHECK(outcome.out.find("scaling: done") != std::string::npos);
 }
+
+#ifdef COMMAND_COSTS_BUILT
+TEST_CASE("the costs of every command are listed for every model") {
+  const Outcome outcome = run("command_costs", {"--largest-parts", "10", "--largest-triangles", "1000"});
+  CHECK(outcome.status == 0);
+  for (const std::string model : {"cubes,10,120,", "rack,10,120,", "coincident cubes,10,120,", "cup,1,968,"})
+    for (const std::string command : {"inspect", "measure", "search", "map", "stack", "validate", "structure",
+                                      "deform", "suggest", "improve"}) {
+      INFO(model + command);
+      CHECK(outcome.out.find("\n" + model + command + ",") != std::string::npos);
+    }
+}
+#endif

@@ -1,136 +1,22 @@
-// Writes a seed corpus for every fuzz target: make_seeds FOLDER.
+// Writes a seed corpus for every fuzz target: make_fuzz_seeds FOLDER.
 #include <filesystem>
 #include <iostream>
-#include <string>
 
-#include "stackabilization/improvement/history.h"
+#include "fuzz/seeds.h"
 #include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/formats/zip.h"
-#include "stackabilization/shape/write.h"
 #include "stackabilization/shape/write_file.h"
-#include "stackabilization/structure/project_file.h"
-
-using namespace stackabilization;
-
-namespace {
-
-Shape two_parts() {
-  Points vertices(4, 3);
-  vertices << 0, 0, 0, 1.5, 0, 0, 0, -2e3, 0, 0, 0, 1;
-  Triangles triangles(4, 3);
-  triangles << 0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2;
-  Shape shape = make_shape(vertices, triangles);
-  shape.part_names = {"a", "b"};
-  shape.triangle_part = {0, 0, 1, 1};
-  return shape;
-}
-
-const char* const obj =
-    "# c\nmtllib m\no a\nv 0 0 0 1 1 1\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .2 0\nvt 0 0\nvn 0 0 1\ng b c\ns 1\n"
-    "f 1 2 3 4\nf -5/1 -4//1 -3/1/1 \\\n-2 -1\ng\nl 1 2\no d\nf 1 2 5\n";
-const char* const off =
-    "COFF # c\n5 2 0\n0 0 0 1 1 1\n1 0 0\n1 1 0\n0 1 0\n.5 .2 0\n4 0 1 2 3 0.5\n5 0 1 2 3 4\n";
-const char* const ply =
-    "ply\r\nformat ascii 1.0\ncomment part a\nobj_info o\nelement vertex 4\nproperty float x\nproperty "
-    "double y\n"
-    "property list uchar short l\nproperty int z\nelement face 1\nproperty list uint8 int32 vertex_index\n"
-    "property int part\nelement edge 1\nproperty uint16 e\nend_header\n0 0 1 7 0\n1 0 0 0\n1 1 2 1 1 0\n0 1 "
-    "0 0\n"
-    "4 0 1 2 3 0\n5\n";
-const char* const three_mf =
-    "<model unit='inch' xmlns:p='urn:/production/'><resources><object id='1' name='a'><mesh><vertices>"
-    "<vertex x='0' y='0' z='0'/><vertex x='1' y='0' z='0'/><vertex x='0' y='1' z='0'/></vertices><triangles>"
-    "<triangle v1='0' v2='1' v3='2'/></triangles></mesh></object><object id='2'><components>"
-    "<component objectid='1' transform='-1 0 0 0 2 0 0 0 3 1 2 3'/><component objectid='1' "
-    "p:path='/3D/3dmodel.model'/>"
-    "</components></object></resources><build><item objectid='2'/></build></model>";
-const char* const gltf =
-    R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"children":[1],"translation":[1,2,3],)"
-    R"("rotation":[0,0,1,0]},{"mesh":0,"scale":[1,-2,3]},{"mesh":0,"matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]}],)"
-    R"("meshes":[{"name":"t","primitives":[{"attributes":{"POSITION":0},"indices":1,"mode":5}]}],"accessors":[)"
-    R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},)"
-    R"({"bufferView":1,"componentType":5121,"count":12,"type":"SCALAR"}],"bufferViews":[)"
-    R"({"buffer":0,"byteLength":48,"byteStride":12},{"buffer":0,"byteOffset":48,"byteLength":12}],"buffers":[)"
-    R"({"byteLength":60,"uri":"data:application/octet-stream;base64,)"
-    R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAIBAAEDAQIDAAMC"}]})";
-
-const char* const controls =
-    "CUBOID\ta\t0 0 0.5\t1 0 0\t0 1 0\t0 0 1\t1\t2\t3\t1\t1\t1\t1\t1\t1\t1\t\r\nFOO 1\r\n"
-    "GC\tb\t1.2\t16\t1.5\t2\t0 0 1\t0 0 -1\t0.1\t1.0e-001\t\r\n";
-const char* const groups =
-    "SYMMETRY\t2\ta\tb\t\r\nPOINTJOINT\t2\ta\tb\t0 0 1\r\nLINEJOINT 2 a b 0 0 0 1 1 1\nJOINT 2 b a 0 0 0\n"
-    "SELF_SYMMETRY\ta\t2\t1 0 0\t0 1 0\t\r\nSELF_SYMMETRY\tb\t1\t-6.27744e+066 1 1\r\n";
-
-StructuredShape two_primitives() {
-  StructuredShape result{two_parts(), {}};
-  Cuboid cuboid = cuboid_of({});
-  result.structure.parts = {{"a", cuboid, {}}, {"b", cuboid, {}}};
-  cuboid.corners(0, 0) = 2;
-  result.structure.parts[1].primitive = cuboid;
-  result.structure.diagonal = 1;
-  const Symmetry symmetry;
-  result.structure.symmetries = {symmetry};
-  result.structure.relations = {
-      {.type = RelationType::self_symmetry, .parts = {0}, .symmetry = symmetry, .points = {}},
-      {.type = RelationType::line_joint,
-       .parts = {0, 1},
-       .symmetry = symmetry,
-       .points = Points::Identity(2, 3)}};
-  return result;
-}
-
-Project two_designs() {
-  Project project{two_primitives(), {}, {}};
-  project.history.nodes.push_back({});
-  HistoryNode node;
-  node.edits = {{{HandleKind::part, 0, 0}, Move{{1, 2, 3}}, {}},
-                {{HandleKind::face, 0, 3}, Scale{0.5, {}}, Falloff::linear},
-                {{HandleKind::shape, 0, 0}, Rotate{{0, 0, 1}, 0.5}, {}}};
-  node.constraints.keep_extent = Direction(0, 0, 1);
-  node.constraints.box_tolerance = 0.5;
-  node.constraints.fixed_parts = {1};
-  node.constraints.fixed_points = {{1, 2, 3}};
-  project.history = apply(project.history, node);
-  return project;
-}
-
-void write_seeds(const std::filesystem::path& folder) {
-  const auto seed = [&folder](const char* target, const char* name, const std::string& bytes) {
-    std::filesystem::create_directories(folder / target);
-    write_file_atomically(folder / target / name, bytes);
-  };
-  const Shape shape = two_parts();
-  seed("obj", "written", shape_bytes(shape, Format::obj));
-  seed("obj", "odd", obj);
-  seed("off", "written", shape_bytes(shape, Format::off));
-  seed("off", "odd", off);
-  seed("ply", "written", shape_bytes(shape, Format::ply));
-  seed("ply", "odd", ply);
-  seed("stl", "binary", shape_bytes(shape, Format::stl));
-  seed("stl", "ascii", shape_bytes(shape, Format::stl, {{}, Encoding::ascii}));
-  seed("three_mf", "written", shape_bytes(shape, Format::three_mf));
-  seed("three_mf", "odd", zip({{"3D/3dmodel.model", three_mf}}));
-  seed("three_mf_model", "odd", three_mf);
-  seed("gltf", "binary", shape_bytes(shape, Format::gltf));
-  seed("gltf", "text", gltf);
-  seed("labels", "seg", "2\nlabels a b\n1 0\n0 1\n2 1\n3 0\n");
-  seed("labels", "names", "leg\nseat\nleg\n# c\nleg\n");
-  seed("labels", "numbers", "0\n3\n3\n1\n");
-  seed("project", "written", project_text(two_primitives()));
-  seed("history", "written", project_text(two_designs()));
-  seed("authors_files", "controls", controls);
-  seed("authors_files", "groups", groups);
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::cerr << "usage: make_seeds FOLDER\n";
+    std::cerr << "usage: make_fuzz_seeds FOLDER\n";
     return 2;
   }
   try {
-    write_seeds(argv[1]);
+    const std::filesystem::path folder = argv[1];
+    for (const stackabilization::fuzz::Seed& seed : stackabilization::fuzz::seeds()) {
+      std::filesystem::create_directories(folder / seed.target);
+      stackabilization::write_file_atomically(folder / seed.target / seed.name, seed.bytes);
+    }
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 2;

@@ -39,7 +39,7 @@ Project rich_project() {
   node.constraints.box_tolerance = 0.1 + 0.2;
   node.constraints.fixed_parts = {4, 0};
   node.constraints.fixed_points = {{1e-5, 2, 3}, {0, -0.0, 1.0 / 3}};
-  node.edits = {{{HandleKind::part, 2, 0}, Move{{0.1, -0.0, 1e59}}, {}},
+  node.edits = {{{HandleKind::part, 2, 0}, Move{{0.1, -0.0, 1.5e-7}}, {}},
                 {{HandleKind::section, 3, 7}, Scale{1.0 / 3, {}}, Falloff::linear},
                 {{HandleKind::corner, 0, 7}, Move{{1, 2, 3}}, {}},
                 {{HandleKind::point, 0, 5}, Move{{1, 2, 3}}, {}},

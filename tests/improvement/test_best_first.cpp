@@ -48,7 +48,8 @@ struct Listed {
 std::vector<ContactEdit> suggested(const Design& design, const ContactEditOptions& how) {
   const Direction up(0, 0, 1);
   const SeparationTree tree(design.shape);
-  const auto regions = contact_regions({design.shape, tree, up, separation(tree, tree, up)}, how.contacts);
+  const auto regions =
+      contact_regions({design.shape, tree, up, separation(tree, tree, up)}, how.contacts).regions;
   const std::vector<Handle> handles = space.handles();
   return contact_edits({space.rest(), space.kind(), handles, design, regions, up}, how);
 }

@@ -18,7 +18,7 @@ const Direction up(0, 0, 1);
 
 std::vector<ContactRegion> regions_of(const Shape& shape, const Direction& direction) {
   const SeparationTree tree(shape);
-  return contact_regions({shape, tree, direction, separation(tree, tree, direction)});
+  return contact_regions({shape, tree, direction, separation(tree, tree, direction)}).regions;
 }
 
 /// The edits of a structured shape at rest.

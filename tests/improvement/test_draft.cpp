@@ -20,7 +20,8 @@ double facet_angle(double out, double up) {
 double draft(const Shape& shape, const Direction& direction, const ContactOptions& options = {}) {
   const SeparationTree tree(shape);
   const Separation found = separation(tree, tree, direction, {options.semantics, std::nullopt});
-  return contact_draft_degrees(shape, contact_regions({shape, tree, direction, found}, options), direction);
+  return contact_draft_degrees(shape, contact_regions({shape, tree, direction, found}, options).regions,
+                               direction);
 }
 
 TEST_CASE("cups with even walls have the half angle of their cone") {

@@ -38,11 +38,38 @@ TEST_CASE("wrong usage is one sentence") {
   CHECK(folder.names().empty());
 }
 
+TEST_CASE("no picture or page takes the place of an input") {
+  namespace fs = std::filesystem;
+  const TemporaryFolder folder;
+  const std::string source = STACKABILIZATION_SOURCE_DIR;
+  fs::copy(source + "/data/models", folder / "models");
+  fs::create_directory(folder / "inputs");
+  fs::create_directory(folder / "out");
+  for (const auto& entry : fs::directory_iterator(source + "/paper_figures"))
+    if (entry.path().extension() == ".json") fs::copy(entry.path(), folder / "inputs");
+  const std::vector<std::string> line = {
+      "--figure", "2", "--inputs", folder / "inputs", "--models", folder / "models", "-o", folder / "out"};
+  const auto paged = [&](const std::string& page) {
+    std::vector<std::string> arguments = line;
+    arguments.insert(arguments.end(), {"--page", page});
+    return arguments;
+  };
+  check_refused(paged(folder / "models/cup.obj"), 2, "--page would replace the model");
+  check_refused(paged(folder / "inputs/figure_02.json"), 2, "--page would replace the input");
+  check_refused(paged(folder / "out/figure_02.png"), 2, "would replace what --page writes");
+  fs::create_symlink("../models/cup.obj", folder / "out/figure_02.png");
+  check_refused(line, 2, "would replace");
+  fs::remove(folder / "out/figure_02.png");
+  fs::create_directory(folder / "out/timings.json");
+  check_refused(line, 2, "it is a folder");
+  check_refused({"--figure", "2", "-o", folder / "figures.md"}, 2, "called like a file");
+}
+
 TEST_CASE("folders that are missing or closed are one sentence") {
   const TemporaryFolder folder;
   check_refused({"--figure", "2", "-o", folder / "out", "--models", folder / "nowhere"}, 3, "nowhere");
   check_refused({"--figure", "2", "-o", folder / "out", "--paper-data", folder / "nowhere"}, 3, "nowhere");
   check_refused({"--figure", "2", "-o", folder / "out", "--inputs", folder / "nowhere"}, 3, "nowhere");
-  check_refused({"--figure", "2", "-o", folder.file("file", "") + "/out"}, 2, "cannot be made");
+  check_refused({"--figure", "2", "-o", folder.file("file", "") + "/out"}, 2, "is not a folder");
   check_refused({"--page", folder / "page.md", "-o", folder / "empty"}, 3, "no figures");
 }

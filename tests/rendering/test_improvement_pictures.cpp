@@ -15,7 +15,7 @@ MeasuredShape measured_cup(const solids::FrustumShell& cup, const Direction& dir
   measured.measured = stackability(measured.shape, direction);
   const SeparationTree tree(measured.shape);
   const Separation answer = separation(tree, tree, direction);
-  measured.contacts = contact_regions({measured.shape, tree, direction, answer});
+  measured.contacts = contact_regions({measured.shape, tree, direction, answer}).regions;
   return measured;
 }
 

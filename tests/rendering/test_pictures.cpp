@@ -16,7 +16,7 @@ TEST_CASE("the sheet of a measurement shows the shape, both envelopes, the conta
   const StackabilitySolver solver(cup);
   const Stackability measured = solver.measure(up);
   const std::vector<ContactRegion> contacts =
-      contact_regions({cup, solver.tree(), up, solver.separation(up)});
+      contact_regions({cup, solver.tree(), up, solver.separation(up)}).regions;
   const PictureOptions options{800, 590, "cup.obj"};
   const Drawing sheet = measure_picture(cup, measured, contacts, options);
   check_nothing_clipped(sheet);
@@ -61,8 +61,8 @@ TEST_CASE("a sheet comes for shapes whose envelopes are flat or cannot be seen, 
     ContactOptions band;
     band.semantics = Semantics::closed;
     const Drawing sheet = measure_picture(
-        shape, solver.measure(up), contact_regions({shape, solver.tree(), up, solver.separation(up)}, band),
-        {800, 590, {}});
+        shape, solver.measure(up),
+        contact_regions({shape, solver.tree(), up, solver.separation(up)}, band).regions, {800, 590, {}});
     check_nothing_clipped(sheet);
     CHECK(says(sheet, "No envelope to show") == (shape.triangle_count() == 8));
   }
@@ -154,9 +154,9 @@ TEST_CASE("contacts cover a plate however thin") {
     const Shape plate = solids::box({1, 1, thickness});
     const Direction up(0, 0, 1);
     const StackabilitySolver solver(plate);
-    const Drawing sheet =
-        measure_picture(plate, solver.measure(up),
-                        contact_regions({plate, solver.tree(), up, solver.separation(up)}), {800, 590, {}});
+    const Drawing sheet = measure_picture(
+        plate, solver.measure(up), contact_regions({plate, solver.tree(), up, solver.separation(up)}).regions,
+        {800, 590, {}});
     CHECK(pixels_of(rasterize(sheet), palette::contact) > 20000);
   }
 }

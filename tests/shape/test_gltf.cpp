@@ -109,7 +109,7 @@ TEST_CASE("GLB is read although its JSON ends off a word") {
 TEST_CASE("glTF refuses what is damaged, with file and place") {
   CHECK(refusal(Format::gltf,
                 gltf(R"([{"mesh":0}])", "data:application/octet-stream;base64," + buffer, "13")) ==
-        "bad.file: accessor 1 states 13 elements, its buffer has room for 12");
+        "bad.file: accessor 1 states 13 elements, its buffer view has room for 12");
   CHECK(refusal(Format::gltf, gltf(R"([{"mesh":1}])")) == "bad.file: expected a mesh below 1, found 1");
   CHECK(refusal(Format::gltf, gltf(R"([{"children":[0]}])")) ==
         "bad.file: node 0 has several parents or is nested without end, expected a tree");
@@ -120,4 +120,68 @@ TEST_CASE("glTF refuses what is damaged, with file and place") {
   const std::string bytes = shape_bytes(cube(), Format::gltf);
   for (std::size_t length = 0; length < bytes.size(); length += 7)
     CHECK(refusal(Format::gltf, bytes.substr(0, length)).starts_with("bad.file"));
+}
+
+TEST_CASE("glTF refuses every number that cannot be one, where it stands") {
+  const std::string good = gltf(R"([{"mesh":0}])");
+  REQUIRE(read_text(Format::gltf, good).triangle_count() == 4);
+  const auto with = [&good](const std::string& old_text, const std::string& new_text) {
+    const std::size_t at = good.find(old_text);
+    REQUIRE(at != std::string::npos);
+    return good.substr(0, at) + new_text + good.substr(at + old_text.size());
+  };
+  // Each place with what is read wrong, or not at all, when it is not looked at.
+  const std::vector<std::pair<std::string, std::string>> places = {
+      {R"("bufferView":1)", R"("bufferView":)"},
+      {R"("componentType":5121)", R"("componentType":)"},
+      {R"("count":12)", R"("count":)"},
+      {R"("byteOffset":48)", R"("byteOffset":)"},
+      {R"("byteLength":12)", R"("byteLength":)"},
+      {R"("byteLength":60)", R"("byteLength":)"},
+      {R"("indices":1)", R"("indices":)"},
+      {R"("POSITION":0)", R"("POSITION":)"},
+      {R"("scene":0)", R"("scene":)"},
+      {R"([{"mesh":0}])", R"([{"mesh":)"},
+      {R"("byteLength":48)", R"("byteLength":48,"byteStride":)"}};
+  for (const auto& [old_text, key] : places)
+    for (const std::string value :
+         {"-4", "1.5", "1e300", "18446744073709551615", "4294967296", "\"1\"", "null", "[0]", "true"}) {
+      INFO(key << value);
+      const std::string text = with(old_text, key + value + (old_text.ends_with("}]") ? "}]" : ""));
+      const std::string words = refusal(Format::gltf, text);
+      INFO(words);
+      if (key.find("byteLength") == std::string::npos || value != "4294967296")
+        CHECK(words.find(": expected a whole number from ") != std::string::npos);
+      CHECK(words.starts_with("bad.file: "));
+    }
+  CHECK(refusal(Format::gltf, with(R"("byteOffset":48)", R"("byteOffset":-4)")) ==
+        "bad.file: /bufferViews/1/byteOffset: expected a whole number from 0 to 9007199254740992, found -4");
+}
+
+TEST_CASE("glTF refuses transforms that are none") {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {R"("matrix":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0])",
+       "/nodes/0/matrix: expected 16 numbers, found a list of 15"},
+      {R"("matrix":[1e300,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1])",
+       "/nodes/0/matrix/0: expected a number of magnitude"},
+      {R"("translation":[0,0])", "/nodes/0/translation: expected 3 numbers"},
+      {R"("translation":[0,0,"NaN"])", "/nodes/0/translation/2: expected a number"},
+      {R"("rotation":[0,0,0,0])", "node 0 has a rotation of no length"},
+      {R"("scale":7)", "/nodes/0/scale: expected 3 numbers, found 7"}};
+  for (const auto& [transform, words] : cases) {
+    const std::string found = refusal(Format::gltf, gltf(R"([{"mesh":0,)" + transform + "}]"));
+    INFO(found);
+    CHECK(found.find(words) != std::string::npos);
+  }
+}
+
+TEST_CASE("glTF accessors stay inside their buffer views") {
+  std::string text = gltf(R"([{"mesh":0}])");
+  text.replace(text.find(R"("byteLength":48)"), 15, R"("byteLength":47)");
+  CHECK(refusal(Format::gltf, text) ==
+        "bad.file: accessor 0 states 4 elements, its buffer view has room for 3");
+  text = gltf(R"([{"mesh":0}])");
+  text.replace(text.find(R"("byteLength":48)"), 15, R"("byteLength":48,"byteStride":8)");
+  CHECK(refusal(Format::gltf, text) ==
+        "bad.file: accessor 0 has elements of 12 bytes, which do not fit the stride of its buffer view");
 }

@@ -145,6 +145,20 @@ TEST_CASE("self-intersections are pairs that meet elsewhere than in what they sh
   }
 }
 
+TEST_CASE("triangles in one place intersect as often as they are there, for the work of one") {
+  const Shape crossing = concatenate(cube(), moved(cube(), 0.25, 0.375, 0.5));
+  const std::int64_t once = self_intersections(crossing);
+  REQUIRE(once > 0);
+  Points vertices(1000 * crossing.vertex_count(), 3);
+  Triangles triangles(1000 * crossing.triangle_count(), 3);
+  for (Eigen::Index k = 0; k < 1000; ++k) {  // a million times as many pairs: seconds each, tested one by one
+    const Eigen::Index v = crossing.vertex_count(), t = crossing.triangle_count();
+    vertices.middleRows(k * v, v) = crossing.vertices;
+    triangles.middleRows(k * t, t) = crossing.triangles.array() + static_cast<std::int32_t>(k * v);
+  }
+  CHECK(self_intersections(make_shape(vertices, triangles)) == 1000000 * once);
+}
+
 TEST_CASE("the up axis is the one with the widest stand") {
   // A tripod: a small top over three feet, so that it stands well on its low z end only.
   Points vertices(4, 3);

@@ -42,6 +42,17 @@ TEST_CASE("n cubes topple at atan(1 / n)") {
   }
 }
 
+TEST_CASE("a blade topples over its ends, whatever rounding makes of its edge") {
+  // Wedges on an edge along x from 0 to 1, their centre of mass beyond it at x = 2.
+  for (const double bend : {0.0, 1e-16, 1e-13, 1e-10}) {
+    const Shape foot = solids::tetrahedron({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0),
+                                            Eigen::Vector3d(0.5, bend, 0), Eigen::Vector3d(3, 0.5, 4)});
+    const Shape head = solids::box({3, -1, 4}, {5, 1, 5});
+    INFO(bend);
+    CHECK(standing(concatenate(foot, head), up, copies(1)).tilt_degrees < -10);
+  }
+}
+
 TEST_CASE("standing does not depend on pose, unit, order or orientation of triangles") {
   const Shape shape = solids::frustum_shell({});
   const Standing expected = standing(shape, up, copies(3));

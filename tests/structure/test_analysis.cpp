@@ -9,6 +9,8 @@
 #include "stackabilization/structure/project_file.h"
 #include "structure/symmetric_solids.h"
 #include "support/catch.h"
+#include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 
@@ -113,4 +115,49 @@ TEST_CASE("the same structure comes out for any number of threads") {
 
 TEST_CASE("what is no shape has no structure") {
   CHECK_THROWS_AS(analyse_structure(Shape{}), InputError);
+}
+
+namespace {
+
+/// A box of which one side is missing, so that its surface is open.
+Shape open_panel(const Eigen::Vector3d& lowest, const Eigen::Vector3d& highest, const std::string& name) {
+  Shape panel = solids::box(lowest, highest);
+  panel.triangles.conservativeResize(10, 3);
+  panel.triangle_part.resize(10);
+  panel.part_names = {name};
+  return panel;
+}
+
+/// Two sides, three boards and a back that touch in faces, all `thickness` thick.
+Shape open_shelf(double thickness) {
+  const double t = thickness;
+  Shape shelf = open_panel({0, 0, 0}, {t, 1, 3}, "left");
+  const auto add = [&](const Eigen::Vector3d& lowest, const Eigen::Vector3d& highest,
+                       const std::string& name) {
+    shelf = concatenate(shelf, open_panel(lowest, highest, name));
+  };
+  add({2 - t, 0, 0}, {2, 1, 3}, "right");
+  for (const int level : {0, 1, 2})
+    add({t, 0, 1.25 * level}, {2 - t, 1, 1.25 * level + t}, "board " + std::to_string(level));
+  add({0, 1, 0}, {2, 1 + t, 3}, "back");
+  return shelf;
+}
+
+}  // namespace
+
+TEST_CASE("a shelf of six thin open panels has a structure, however thin they are and in every pose") {
+  Eigen::Matrix3d cyclic;
+  cyclic << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  const std::vector<Eigen::Matrix3d> poses = {Eigen::Matrix3d::Identity(), cyclic, solids::random_rotation(1),
+                                              solids::random_rotation(2)};
+  for (const double thickness : {0.02, 1e-4, 8e-9, 3e-9, 1e-9, 1e-12, 0.0})
+    for (const Eigen::Matrix3d& pose : poses) {
+      INFO(thickness);
+      const StructuredShape shelf =
+          analyse_structure(transformed(open_shelf(thickness), pose, pose * Eigen::Vector3d(0.1, 0.2, 0.3)));
+      validate(shelf);
+      CHECK(shelf.structure.parts.size() == 6);
+      CHECK(std::count_if(shelf.structure.relations.begin(), shelf.structure.relations.end(),
+                          [](const Relation& relation) { return relation.points.rows() > 0; }) >= 8);
+    }
 }

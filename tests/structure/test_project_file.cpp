@@ -140,7 +140,7 @@ TEST_CASE("boxes in every pose are written as boxes, and the text is a fixed poi
     box.centre = std::pow(10, random.uniform(-3, 3)) * random.in_cube();
     box.axes = Eigen::AngleAxisd(random.uniform(-3, 3), random.on_sphere()).toRotationMatrix();
     box.half_extents =
-        Eigen::Vector3d(random.uniform(), random.uniform(), round % 7 == 0 ? 0 : random.uniform());
+        Eigen::Vector3d(random.uniform(), random.uniform(), round % 7 == 0 ? 1e-6 : random.uniform());
     project.structure.parts[0].primitive = cuboid_of(box);
     const std::string text = project_text(project);
     CHECK(text.find("half_axes") < text.find("left"));
@@ -214,7 +214,27 @@ TEST_CASE("damaged projects are refused with the place and what was expected") {
       {"\"parts\": [\"right\", \"left\"]", "\"parts\": [\"left\", \"left\"]",
        "/relations/0/parts: expected two different parts"},
       {"\"axis\": [1, 0, 0]", "\"axis\": [0, 0, 0]",
-       "/relations/0/symmetry/axis: expected a direction that is not zero"},
+       "/relations/0/symmetry/axis: expected an axis of length 1"},
+      {"\"axis\": [1, 0, 0]", "\"axis\": [1e60, 0, 0]",
+       "/relations/0/symmetry/axis: expected an axis of length 1"},
+      {"\"axis\": [1, 0, 0]", "\"axis\": [null, 0, 0]",
+       "/relations/0/symmetry/axis/0: expected a number, found null"},
+      {"[0.5, 0, 0], [0, 0.5, 0]", "[0.5, 0, 0], [0, 0, 0]",
+       "/parts/0/primitive: the primitive of part 'right' has no volume"},
+      {"[0.5, 0, 0], [0, 0.5, 0]", "[0.5, 0, 0], [0.5, 0, 0]",
+       "/parts/0/primitive: the primitive of part 'right' has no volume"},
+      {"[0.5, 0, 0], [0, 0.5, 0]", "[0.5, 0, 0], [0, 1e400, 0]",
+       "p.json: expected JSON, found a number beyond the range of double"},
+      {"[0.5, 0, 0], [0, 0.5, 0]", "[0.5, 0, 0], [0, NaN, 0]", "p.json:"},
+      {"{\"kind\": \"cuboid\", \"centre\": [1.5, 0.5, 1.5], \"half_axes\": [[0.5, 0, 0], [0, 0.5, 0], [0, 0, "
+       "1.5]]}",
+       "{\"kind\": \"cylinder\", \"closed\": false, \"rotation\": [2, 0, 0, 0], \"sections\": [[0, 0, 0, 1], "
+       "[0, 0, 1, 1]]}",
+       "/parts/0/primitive/rotation: expected a rotation of length 1"},
+      {"{\"kind\": \"cuboid\", \"centre\": [1.5, 0.5, 1.5], \"half_axes\": [[0.5, 0, 0], [0, 0.5, 0], [0, 0, "
+       "1.5]]}",
+       "{\"kind\": \"cylinder\", \"closed\": false, \"sections\": [[0, 0, 0, -1], [0, 0, 1, 1]]}",
+       "/parts/0/primitive: the primitive of part 'right' has a radius that is not positive"},
       {"\"kind\": \"reflection\"", "\"kind\": \"rotation\"",
        "/relations/0/symmetry: the key 'order' is missing"},
       {"\"type\": \"symmetry\"", "\"type\": \"point_joint\"",

@@ -11,12 +11,21 @@
 namespace stackabilization {
 
 struct ControllerModel::Data {
-  explicit Data(StructuredShape structured)
+  Data(StructuredShape structured, const ControllerLimits& limits)
       : rest(std::move(structured)),
-        rig(rest.structure),
+        rig(within(limits, rest.structure)),
         mesh{detail::MeshTransfer(rest.shape, rig), detail::vertices_by_class(rest.shape, rig),
              SurfaceIndex(rest.shape)} {
     for (const Part& part : rest.structure.parts) primitives.push_back(part.primitive);
+  }
+
+  static detail::Rig within(const ControllerLimits& limits, const Structure& structure) {
+    detail::Rig rig(structure);
+    if (rig.distinct_joints.size() > limits.max_joint_points)
+      throw InputError("its parts are joined at " + std::to_string(rig.distinct_joints.size()) +
+                       " points that no symmetry makes the same, and edits keep at most " +
+                       std::to_string(limits.max_joint_points) + " of them");
+    return rig;
   }
 
   const Part& part(const Handle& handle) const {
@@ -51,8 +60,8 @@ StructuredShape validated(StructuredShape structured) {
 
 }  // namespace
 
-ControllerModel::ControllerModel(StructuredShape rest)
-    : data_(std::make_unique<const Data>(validated(std::move(rest)))) {}
+ControllerModel::ControllerModel(StructuredShape rest, const ControllerLimits& limits)
+    : data_(std::make_unique<const Data>(validated(std::move(rest)), limits)) {}
 ControllerModel::ControllerModel(ControllerModel&&) noexcept = default;
 ControllerModel& ControllerModel::operator=(ControllerModel&&) noexcept = default;
 ControllerModel::~ControllerModel() = default;
@@ -81,7 +90,8 @@ Eigen::Vector3d ControllerModel::centre(const Handle& handle) const {
 
 EditOutcome ControllerModel::edited(const std::vector<Primitive>& now, const Edit& edit,
                                     const DeformationConstraints& constraints) const {
-  validate(edit);
+  validate(edit, data_->rest.structure.diagonal);
+  validate(constraints, data_->rest.shape);
   data_->check(now);
   detail::EditTask task{data_->rest.shape, now, {}, constraints};
   if (edit.handle.kind == HandleKind::shape) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -15,6 +16,13 @@ struct EditOutcome {
   std::vector<Primitive> primitives;  ///< one per part
 };
 
+/// What a ControllerModel takes on.
+struct ControllerLimits {
+  /// Points at which parts are joined, those that symmetries copy counted once. A solve takes a time that
+  /// grows with the cube of their number, and memory with its square.
+  std::size_t max_joint_points = 600;
+};
+
 /// Cuboids and generalized cylinders that move the mesh riding on them, with all relations between them kept
 /// (paper, section 4.1). See docs/controllers.md.
 ///
@@ -26,8 +34,8 @@ struct EditOutcome {
 class ControllerModel : public DeformationModel {
  public:
   /// Everything that depends on the rest alone is computed here. Throws InputError when `rest` is invalid or
-  /// its primitives do not satisfy its symmetry relations.
-  explicit ControllerModel(StructuredShape rest);
+  /// its primitives do not satisfy its symmetry relations, or it is beyond `limits`.
+  explicit ControllerModel(StructuredShape rest, const ControllerLimits& limits = {});
   ControllerModel(ControllerModel&&) noexcept;
   ControllerModel& operator=(ControllerModel&&) noexcept;
   ~ControllerModel() override;

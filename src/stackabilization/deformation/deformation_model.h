@@ -40,7 +40,7 @@ class DeformationModel {
   virtual Eigen::Vector3d centre(const Handle& handle) const = 0;
 
   /// The shape at rest with `edits` made one after the other. Throws UsageError for a handle that this model
-  /// does not have, or an operation it cannot take.
+  /// does not have, an operation it cannot take, and as `validate` of edits and constraints does.
   virtual DeformationResult deformed(const std::vector<Edit>& edits,
                                      const DeformationConstraints& constraints = {}) const = 0;
 };

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization {
 
@@ -75,24 +76,79 @@ std::string name_of(const Handle& handle, const std::vector<std::string>& part_n
   return {};
 }
 
-bool is_axis(const Eigen::Vector3d& v) {
-  return v.allFinite() && v.norm() > 0;
+void check_axis(const Eigen::Vector3d& axis, const std::string& of) {
+  if (axis.isZero(0)) throw UsageError(of + " needs an axis that is not zero");
+  try {
+    static_cast<void>(Direction(axis));
+  } catch (const UsageError& error) {
+    throw UsageError(of + " needs an axis of another size: " + error.what() + ", found " + text(axis));
+  }
+}
+
+void check_number(bool holds, const std::string& expected, double found) {
+  if (!holds) throw UsageError(expected + ", found " + text(found));
+}
+
+void check(const Rotate& rotate) {
+  check_axis(rotate.axis, "a rotation");
+  const double degrees = rotate.radians * 180 / std::numbers::pi;
+  // Degrees that were typed come here by way of radians.
+  check_number(std::abs(degrees) <= edit_limits::max_degrees * (1 + tolerance::relative),
+               "a rotation needs an angle from -" + text(edit_limits::max_degrees) + " to " +
+                   text(edit_limits::max_degrees) + " degrees",
+               degrees);
+}
+
+void check(const Scale& scale) {
+  check_number(scale.factor > 0, "a scaling needs a positive factor", scale.factor);
+  check_number(scale.factor >= 1 / edit_limits::max_scale && scale.factor <= edit_limits::max_scale,
+               "a scaling needs a factor from " + text(1 / edit_limits::max_scale) + " to " +
+                   text(edit_limits::max_scale),
+               scale.factor);
+  if (scale.along) check_axis(*scale.along, "a scaling along an axis");
 }
 
 }  // namespace
 
 void validate(const Edit& edit) {
   if (const auto* move = std::get_if<Move>(&edit.operation)) {
-    if (!move->by.allFinite()) throw UsageError("a move needs a finite translation");
+    if (!move->by.allFinite()) throw UsageError("a move needs a finite translation, found " + text(move->by));
   } else if (const auto* rotate = std::get_if<Rotate>(&edit.operation)) {
-    if (!is_axis(rotate->axis)) throw UsageError("a rotation needs a finite axis that is not zero");
-    if (!std::isfinite(rotate->radians)) throw UsageError("a rotation needs a finite angle");
+    check(*rotate);
   } else {
-    const Scale& scale = std::get<Scale>(edit.operation);
-    if (!std::isfinite(scale.factor) || !(scale.factor > 0))
-      throw UsageError("a scaling needs a positive factor, found " + text(scale.factor));
-    if (scale.along && !is_axis(*scale.along))
-      throw UsageError("a scaling along an axis needs one that is not zero");
+    check(std::get<Scale>(edit.operation));
+  }
+}
+
+void validate(const Edit& edit, double diagonal) {
+  validate(edit);
+  const auto* move = std::get_if<Move>(&edit.operation);
+  if (move == nullptr) return;
+  const double most = edit_limits::max_move * diagonal;
+  if (!(move->by.stableNorm() <= most))
+    throw UsageError("a move goes at most " + text(edit_limits::max_move) +
+                     " times the diagonal of the shape, that is " + text(most) + ", found " + text(move->by));
+}
+
+void validate(const DeformationConstraints& constraints, const Shape& rest) {
+  for (const int part : constraints.fixed_parts)
+    if (part < 0 || part >= rest.part_count())
+      throw UsageError("the fixed part " + std::to_string(part) + " does not exist");
+  if (const auto& allowed = constraints.box_tolerance)
+    check_number(std::isfinite(*allowed) && *allowed >= 0,
+                 "the tolerance of the box needs a finite number that is not negative", *allowed);
+  if (constraints.fixed_points.empty()) return;
+  Eigen::Vector3d low, high;
+  for (int a = 0; a < 3; ++a) {
+    const Range range = range_along(rest, Eigen::Vector3d::Unit(a));
+    low(a) = range.low, high(a) = range.high;
+  }
+  const double most = edit_limits::max_fixed_distance * (high - low).norm();
+  for (const Eigen::Vector3d& point : constraints.fixed_points) {
+    const Eigen::Vector3d outside = point - point.cwiseMax(low).cwiseMin(high);
+    if (!point.allFinite() || !(outside.stableNorm() <= most))
+      throw UsageError("a fixed point lies on the surface, or at most " + text(most) +
+                       " outside of its bounding box, found " + text(point));
   }
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "stackabilization/shape/direction.h"
+#include "stackabilization/shape/shape.h"
 
 namespace stackabilization {
 
@@ -31,6 +32,15 @@ struct Handle {
   bool operator==(const Handle&) const = default;
 };
 
+/// Numbers that edits take. What lies beyond is a typing error or a wrong unit, and would leave nothing of
+/// the accuracy that is promised.
+namespace edit_limits {
+inline constexpr double max_move = 1000;          ///< diagonals of the shape's bounding box that a move goes
+inline constexpr double max_scale = 1e6;          ///< factors lie between one over this and this
+inline constexpr double max_degrees = 3600;       ///< of a rotation, either way
+inline constexpr double max_fixed_distance = 10;  ///< diagonals between a fixed point and that box
+}  // namespace edit_limits
+
 /// Translation, model units.
 struct Move {
   Eigen::Vector3d by = Eigen::Vector3d::Zero();  ///< file axes, model units
@@ -38,7 +48,7 @@ struct Move {
 
 /// Rotation about the handle's centre.
 struct Rotate {
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< not zero
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< of any length that a Direction may have
   double radians = 0;                               ///< right-handed about `axis`
 };
 
@@ -46,7 +56,7 @@ struct Rotate {
 /// in all directions or along one.
 struct Scale {
   double factor = 1;                     ///< > 0
-  std::optional<Eigen::Vector3d> along;  ///< not zero; only for parts and shapes
+  std::optional<Eigen::Vector3d> along;  ///< as the axis of a rotation; only for parts and shapes
 };
 
 /// What is done to a handle.
@@ -69,8 +79,14 @@ struct Edit {
   Falloff falloff = Falloff::gaussian;  ///< how it dies out from section to section
 };
 
-/// Throws UsageError unless factors are positive, axes are not zero and every number is finite.
+/// What can be said without the shape. Throws UsageError, in words that say what was found, unless every
+/// number is finite, factors and angles are within `edit_limits`, and axes are such as a Direction takes: not
+/// zero, with a length whose square neither overflows nor underflows.
 void validate(const Edit& edit);
+
+/// The same for an edit of a shape whose bounding box has this diagonal: throws UsageError too for a move
+/// that goes farther than `edit_limits` says.
+void validate(const Edit& edit, double diagonal);
 
 /// Does `falloff` change what the edit does, where the cross-section is one of an open generalized cylinder?
 bool falls_off_linearly(const Edit& edit);
@@ -98,5 +114,9 @@ struct DeformationConstraints {
   std::vector<int> fixed_parts;               ///< parts that stay as they are
   std::vector<Eigen::Vector3d> fixed_points;  ///< points of the surface that stay: the nearest ones to these
 };
+
+/// Throws UsageError unless the fixed parts are parts of the shape, every fixed point lies as near to its
+/// bounding box as `edit_limits` says, and the tolerance of the box is finite and not negative.
+void validate(const DeformationConstraints& constraints, const Shape& rest);
 
 }  // namespace stackabilization

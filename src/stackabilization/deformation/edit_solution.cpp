@@ -77,8 +77,6 @@ class EditSolution {
 
   void fix_parts() {
     for (const int part : task_.constraints.fixed_parts) {
-      if (part < 0 || at(part) >= rig_.rest.parts.size())
-        throw UsageError("there is no part " + std::to_string(part) + " to fix");
       const int c = rig_.space.class_of(part);
       progress_[at(c)] = Progress::settled;
       corrections_.fix(c);
@@ -247,7 +245,6 @@ class EditSolution {
   std::vector<Constraint> fixed_point_constraints() const {
     std::vector<Constraint> constraints;
     for (const Eigen::Vector3d& point : task_.constraints.fixed_points) {
-      if (!point.allFinite()) throw UsageError("a point to be fixed must be finite");
       const SurfacePoint nearest = mesh_.surface.nearest(point);
       Eigen::Matrix3d corners;
       for (int k = 0; k < 3; ++k) corners.col(k) = task_.shape.corner(nearest.triangle, k);

@@ -134,7 +134,7 @@ struct IWiresModel::Data {
   }
 
   void check(const Edit& edit) const {
-    validate(edit);
+    validate(edit, diagonal);
     check(edit.handle);
     if (const auto* scale = std::get_if<Scale>(&edit.operation); scale && scale->along)
       if (edit.handle.kind == HandleKind::wire)

@@ -1,5 +1,6 @@
 #include "stackabilization/deformation/mesh_transfer.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <queue>
@@ -33,17 +34,26 @@ class Shares {
   /// Share of each part that a vertex rides on.
   using PerVertex = std::map<int, double>;
 
-  explicit Shares(const Shape& shape) : shape_(shape), owners_(at(static_cast<int>(shape.vertex_count()))) {
-    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-      for (int k = 0; k < 3; ++k)
-        owners_[at(shape.triangles(t, k))].insert(shape.triangle_part[static_cast<std::size_t>(t)]);
+  explicit Shares(const Shape& shape)
+      : shape_(shape),
+        owners_(at(static_cast<int>(shape.vertex_count()))),
+        triangles_(shape.part_names.size()),
+        boxes_(triangles_.size()) {
+    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+      const std::int32_t part = shape.triangle_part[static_cast<std::size_t>(t)];
+      triangles_[at(part)].push_back(t);
+      for (int k = 0; k < 3; ++k) {
+        owners_[at(shape.triangles(t, k))].insert(part);
+        boxes_[at(part)].extend(shape.corner(t, k));
+      }
+    }
   }
 
   std::vector<PerVertex> all() {
     std::vector<PerVertex> shares(owners_.size());
     for (std::size_t v = 0; v < owners_.size(); ++v)
       for (const int part : owners_[v]) shares[v][part] = 1;
-    for (int part = 0; part < static_cast<int>(shape_.part_count()); ++part) spread_into(part, shares);
+    for (const auto& [part, borders] : borders()) spread_into(part, borders, shares);
     for (PerVertex& shares_of : shares) {
       double sum = 0;
       for (const auto& [part, share] : shares_of) sum += share;
@@ -53,14 +63,21 @@ class Shares {
   }
 
  private:
-  /// Lets the parts that share vertices with `part` reach into it.
-  void spread_into(int part, std::vector<PerVertex>& shares) {
-    std::map<int, std::vector<int>> borders;
+  /// The vertices that a part shares with each other part.
+  using Borders = std::map<int, std::vector<int>>;
+
+  /// Per part that shares any.
+  std::map<int, Borders> borders() const {
+    std::map<int, Borders> borders;
     for (std::size_t v = 0; v < owners_.size(); ++v)
-      if (owners_[v].contains(part))
+      for (const int part : owners_[v])
         for (const int other : owners_[v])
-          if (other != part) borders[other].push_back(static_cast<int>(v));
-    if (borders.empty()) return;
+          if (other != part) borders[part][other].push_back(static_cast<int>(v));
+    return borders;
+  }
+
+  /// Lets the parts that share vertices with `part` reach into it.
+  void spread_into(int part, const Borders& borders, std::vector<PerVertex>& shares) const {
     const std::map<int, std::set<int>> edges = edges_of(part);
     for (const auto& [other, border] : borders) {
       const double reach = reach_of_parts * std::min(diagonal(part), diagonal(other));
@@ -73,21 +90,16 @@ class Shares {
 
   std::map<int, std::set<int>> edges_of(int part) const {
     std::map<int, std::set<int>> edges;
-    for (Eigen::Index t = 0; t < shape_.triangle_count(); ++t) {
-      if (shape_.triangle_part[static_cast<std::size_t>(t)] != part) continue;
+    for (const Eigen::Index t : triangles_[at(part)])
       for (int k = 0; k < 3; ++k) {
         const int a = shape_.triangles(t, k), b = shape_.triangles(t, (k + 1) % 3);
         edges[a].insert(b);
         edges[b].insert(a);
       }
-    }
     return edges;
   }
 
-  double diagonal(int part) const {
-    const Shape piece = extract_part(shape_, part);
-    return (piece.vertices.colwise().maxCoeff() - piece.vertices.colwise().minCoeff()).norm();
-  }
+  double diagonal(int part) const { return boxes_[at(part)].diagonal().norm(); }
 
   /// Dijkstra's algorithm along the edges, up to `most`.
   std::map<int, double> distances(const std::map<int, std::set<int>>& edges, const std::vector<int>& from,
@@ -108,7 +120,9 @@ class Shares {
   }
 
   const Shape& shape_;
-  std::vector<std::set<int>> owners_;  ///< parts whose triangles use the vertex
+  std::vector<std::set<int>> owners_;                 ///< parts whose triangles use the vertex
+  std::vector<std::vector<Eigen::Index>> triangles_;  ///< per part
+  std::vector<Eigen::AlignedBox3d> boxes_;            ///< per part
 };
 
 }  // namespace

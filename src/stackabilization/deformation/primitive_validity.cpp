@@ -11,6 +11,12 @@ namespace stackabilization::detail {
 
 namespace {
 
+/// So far within the range of coordinates that the surface, which goes beyond the controls, is in it too.
+template <class Numbers>
+bool in_range(const Numbers& numbers) {
+  return (numbers.array().abs() <= tolerance::collapse * tolerance::largest_coordinate).all();
+}
+
 /// Columns: the edges of the corner along the three axes of the box, all in their positive direction.
 Eigen::Matrix3d edges_at(const Cuboid& cuboid, int corner) {
   Eigen::Matrix3d edges;
@@ -38,7 +44,7 @@ double measure_ratio(const Eigen::Matrix3d& rest, const Eigen::Matrix3d& now, co
 }
 
 std::optional<std::string> defect_of(const Cuboid& rest, const Cuboid& now) {
-  if (!now.corners.allFinite()) return "has a corner that is not finite";
+  if (!in_range(now.corners)) return "would leave the range of numbers";
   const std::vector<int> axes = extended_axes(rest);
   Eigen::Vector3d side = Eigen::Vector3d::Zero();
   if (axes.size() == 2)
@@ -54,8 +60,8 @@ std::optional<std::string> defect_of(const Cuboid& rest, const Cuboid& now) {
 }
 
 std::optional<std::string> defect_of(const GeneralizedCylinder& rest, const GeneralizedCylinder& now) {
-  if (!now.centres.allFinite() || !now.radii.allFinite() || !now.rotation.coeffs().allFinite())
-    return "has a cross-section that is not finite";
+  if (!in_range(now.centres) || !in_range(now.radii) || !now.rotation.coeffs().allFinite())
+    return "would leave the range of numbers";
   const int n = static_cast<int>(rest.centres.rows());
   const Eigen::Quaterniond whole = now.rotation * rest.rotation.inverse();
   const Points tangents = section_tangents(now), rest_tangents = section_tangents(rest);

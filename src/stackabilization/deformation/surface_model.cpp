@@ -164,7 +164,7 @@ Targets SurfaceModel::targets(const std::vector<Edit>& edits) const {
   Targets targets{places_.points, {places_.points, {}}, std::vector<bool>(count)};
   targets.held.rotations.assign(count, Eigen::Matrix3d::Identity());
   for (const Edit& edit : edits) {
-    validate(edit);
+    validate(edit, diagonal_);
     const Scale* scale = std::get_if<Scale>(&edit.operation);
     if (scale && scale->along && edit.handle.kind != HandleKind::part &&
         edit.handle.kind != HandleKind::shape)

@@ -169,20 +169,17 @@ std::optional<Refusal> Check::box_stays(const Points& vertices) const {
 }  // namespace
 
 std::vector<std::int32_t> fixed_vertices(const Shape& rest, const DeformationConstraints& constraints) {
+  validate(constraints, rest);
   std::vector<std::int32_t> rows;
   for (const int part : constraints.fixed_parts) {
-    if (part < 0 || part >= rest.part_count())
-      throw UsageError("the fixed part " + std::to_string(part) + " does not exist");
     for (Eigen::Index t = 0; t < rest.triangle_count(); ++t)
       if (rest.triangle_part[static_cast<std::size_t>(t)] == part)
         for (int k = 0; k < 3; ++k) rows.push_back(rest.triangles(t, k));
   }
   if (!constraints.fixed_points.empty()) {
     const SurfaceIndex surface(rest);
-    for (const Eigen::Vector3d& point : constraints.fixed_points) {
-      if (!point.allFinite()) throw UsageError("a fixed point needs three finite coordinates");
+    for (const Eigen::Vector3d& point : constraints.fixed_points)
       for (const std::int32_t v : carriers(rest, surface.nearest(point))) rows.push_back(v);
-    }
   }
   if (rows.empty()) return rows;
   const std::vector<std::int32_t> place = detail::places_of(rest).of_vertex;
@@ -198,9 +195,7 @@ std::vector<std::int32_t> fixed_vertices(const Shape& rest, const DeformationCon
 
 ConstrainedVertices constrained(const Shape& rest, Points vertices, const DeformationConstraints& constraints,
                                 const std::vector<std::int32_t>& fixed) {
-  if (constraints.box_tolerance &&
-      !(std::isfinite(*constraints.box_tolerance) && *constraints.box_tolerance >= 0))
-    throw UsageError("the tolerance of the box needs a finite number that is not negative");
+  validate(constraints, rest);
   const Check check(rest, constraints, fixed);
   std::optional<Refusal> refusal = check.finite(vertices);
   if (!refusal) refusal = check.fixed_stay(vertices);

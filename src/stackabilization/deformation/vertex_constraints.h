@@ -14,8 +14,7 @@ namespace stackabilization {
 /// Ascending rows of the vertices of `rest` that `constraints` fix: those of the fixed parts; for each fixed
 /// point the corners of the triangle that its nearest point of the surface lies on (the two of the edge, the
 /// one corner, where it lies there); and every vertex with the coordinates of one of these. Throws UsageError
-/// for a part that does not exist or a point that is not finite, InputError when points are to be fixed on a
-/// shape without area.
+/// as `validate(constraints, rest)` does, InputError when points are to be fixed on a shape without area.
 std::vector<std::int32_t> fixed_vertices(const Shape& rest, const DeformationConstraints& constraints);
 
 /// Vertices that satisfy constraints, or why there are none.
@@ -35,7 +34,7 @@ struct ConstrainedVertices {
 ///
 /// Refuses when a fixed vertex has moved, the box has changed too much, a vertex is not finite, or fixed
 /// vertices leave the extent no room. Extent and box hold up to rounding, fixed vertices exactly. Throws
-/// UsageError when the tolerance of the box is negative or not finite.
+/// UsageError as `validate(constraints, rest)` does.
 ConstrainedVertices constrained(const Shape& rest, Points vertices, const DeformationConstraints& constraints,
                                 const std::vector<std::int32_t>& fixed);
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "stackabilization/envelope/contact_pairs.h"
 #include "stackabilization/envelope/exact_pair.h"
-#include "stackabilization/envelope/node_pair.h"
 
 namespace stackabilization::detail {
 namespace {
@@ -65,66 +65,31 @@ std::vector<Corner> common_polygon(const ProjectedTriangle& upper, const Project
   return polygon;
 }
 
-/// All pairs of triangles that may reach the floor, by descending the tree against itself.
-class ContactSearch {
+/// The polygon of each pair of triangles that may have one.
+class ContactClipper {
  public:
-  ContactSearch(const SeparationTree::Data& tree, const Direction& direction, Semantics semantics,
-                double floor)
+  ContactClipper(const SeparationTree::Data& tree, const Direction& direction, const ContactBand& band)
       : tree_(tree),
-        projection_(direction, tree.magnitude, semantics),
-        bound_(tree.magnitude),
-        nodes_(tree.nodes),
-        floor_(floor * std::abs(projection_.shear.r[projection_.shear.k])),
+        projection_(direction, tree.magnitude, band.semantics),
+        scale_(std::abs(projection_.shear.r[projection_.shear.k])),
+        floor_(band.floor * scale_),
         cut_{std::nextafter(floor_, -infinity), 0} {}
 
-  std::vector<ContactPolygon> run() {
-    std::vector<std::pair<std::int32_t, std::int32_t>> open{{0, 0}};
-    while (!open.empty()) {
-      const auto [a, b] = open.back();
-      open.pop_back();
-      if (bound_(nodes_.get(a, projection_), nodes_.get(b, projection_), cut_) <= cut_) continue;
-      const TreeNode &upper = tree_.nodes[a], &lower = tree_.nodes[b];
-      if (upper.count > 0 && lower.count > 0) {
-        collect(upper, lower);
-      } else if (lower.count > 0 || (upper.count == 0 && a <= b)) {
-        open.push_back({upper.first, b});
-        open.push_back({upper.first + 1, b});
-      } else {
-        open.push_back({a, lower.first});
-        open.push_back({a, lower.first + 1});
-      }
-    }
-    return polygons();
-  }
-
- private:
-  struct Pair {
-    std::int32_t upper, lower;        ///< triangles of the shape
-    std::int32_t upper_at, lower_at;  ///< the same in tree order
-
-    friend bool operator<(const Pair& a, const Pair& b) {
-      return a.upper != b.upper ? a.upper < b.upper : a.lower < b.lower;
-    }
-  };
-
-  void collect(const TreeNode& upper, const TreeNode& lower) {
-    for (std::int32_t a = upper.first; a < upper.first + upper.count; ++a)
-      for (std::int32_t b = lower.first; b < lower.first + lower.count; ++b)
-        pairs_.push_back({tree_.triangles[a].index, tree_.triangles[b].index, a, b});
-  }
-
-  std::vector<ContactPolygon> polygons() {
-    std::sort(pairs_.begin(), pairs_.end());
-    std::vector<std::optional<ContactPolygon>> found(pairs_.size());
-    tbb::parallel_for(std::size_t{0}, pairs_.size(),
-                      [&](std::size_t p) { found[p] = polygon_of(pairs_[p]); });
-    std::vector<ContactPolygon> result;
-    for (std::optional<ContactPolygon>& polygon : found)
-      if (polygon) result.push_back(std::move(*polygon));
+  ContactPolygons run(const ContactBand& band) {
+    const ContactPairs found =
+        contact_pairs(tree_, projection_, floor_, band.max_pairs, band.resolution * scale_);
+    std::vector<std::optional<ContactPolygon>> clipped(found.pairs.size());
+    tbb::parallel_for(std::size_t{0}, clipped.size(),
+                      [&](std::size_t p) { clipped[p] = polygon_of(found.pairs[p]); });
+    ContactPolygons result;
+    result.complete = found.complete;
+    for (std::optional<ContactPolygon>& polygon : clipped)
+      if (polygon) result.polygons.push_back(std::move(*polygon));
     return result;
   }
 
-  std::optional<ContactPolygon> polygon_of(const Pair& pair) const {
+ private:
+  std::optional<ContactPolygon> polygon_of(const ContactPair& pair) const {
     const ProjectedTriangle upper(tree_.triangles[pair.upper_at], projection_);
     const ProjectedTriangle lower(tree_.triangles[pair.lower_at], projection_);
     const PairBounds bounds = bound_pair(upper, lower, projection_, cut_);
@@ -141,7 +106,7 @@ class ContactSearch {
     return lift(pair, polygon);
   }
 
-  ContactPolygon lift(const Pair& pair, const std::vector<Corner>& polygon) const {
+  ContactPolygon lift(const ContactPair& pair, const std::vector<Corner>& polygon) const {
     ContactPolygon result{pair.upper, pair.lower, Points(polygon.size(), 3), Points(polygon.size(), 3)};
     for (std::size_t c = 0; c < polygon.size(); ++c) {
       result.upper_points.row(static_cast<Eigen::Index>(c)) = lift(polygon[c], polygon[c].upper);
@@ -162,18 +127,16 @@ class ContactSearch {
 
   const SeparationTree::Data& tree_;
   Projection projection_;
-  NodePairBound bound_;
-  ProjectedNodes nodes_;
+  double scale_;      ///< heights per unit of r
   double floor_;      ///< as a height difference
   DoubleDouble cut_;  ///< just below the floor
-  std::vector<Pair> pairs_;
 };
 
 }  // namespace
 
-std::vector<ContactPolygon> contact_polygons(const SeparationTree::Data& tree, const Direction& direction,
-                                             Semantics semantics, double floor) {
-  return ContactSearch(tree, direction, semantics, floor).run();
+ContactPolygons contact_polygons(const SeparationTree::Data& tree, const Direction& direction,
+                                 const ContactBand& band) {
+  return ContactClipper(tree, direction, band).run(band);
 }
 
 }  // namespace stackabilization::detail

@@ -158,34 +158,60 @@ bool comes_first(const ContactRegion& a, const ContactRegion& b) {
                                       b.upper_centre.data() + 3);
 }
 
+/// By pairs of parts: of the upper triangle, of the lower one.
+using PatchesByParts = std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Patch>>;
+
+/// Parts whose triangles have the same points as those of the polygons, other than the parts named there.
+std::vector<std::int32_t> coincident_parts(const PatchesByParts& by_parts, const Shape& shape,
+                                           const std::vector<TriangleCopy>& copies) {
+  std::vector<char> touches(static_cast<std::size_t>(shape.triangle_count()), 0);
+  std::vector<char> named(static_cast<std::size_t>(shape.part_count()), 0), unnamed = named;
+  for (const auto& [parts, patches] : by_parts) {
+    named[parts.first] = named[parts.second] = 1;
+    for (const Patch& patch : patches)
+      touches[patch.polygon.upper_triangle] = touches[patch.polygon.lower_triangle] = 1;
+  }
+  for (const TriangleCopy& copy : copies)
+    if (touches[copy.first]) unnamed[shape.triangle_part[copy.copy]] = 1;
+  std::vector<std::int32_t> parts;
+  for (std::size_t part = 0; part < named.size(); ++part)
+    if (unnamed[part] && !named[part]) parts.push_back(static_cast<std::int32_t>(part));
+  return parts;
+}
+
 }  // namespace
 
-std::vector<ContactRegion> contact_regions(const ContactQuery& query, const ContactOptions& options) {
+Contacts contact_regions(const ContactQuery& query, const ContactOptions& options) {
   const auto& [shape, tree, direction, separation] = query;
   if (!(options.band >= 0 && options.band <= 1))
     throw UsageError("the contact band must lie between 0 and 1");
   if (!separation.blocked) return {};
   const Setting setting{frame_of(direction), options, tolerance::relative * diagonal(shape)};
-  const double band = options.band * range_along(shape, setting.frame.w).length() / direction.length();
-  std::vector<ContactPolygon> polygons =
-      contact_polygons(tree.data(), direction, options.semantics, separation.value.to_double() - band);
-  if (polygons.empty()) polygons.push_back(witness_polygon(separation.witness));
+  const double extent = range_along(shape, setting.frame.w).length() / direction.length();
+  constexpr std::int64_t pairs_per_triangle = 8;
+  ContactPolygons found = contact_polygons(
+      tree.data(), direction,
+      {options.semantics, separation.value.to_double() - options.band * extent,
+       options.max_pairs + pairs_per_triangle * shape.triangle_count(), tolerance::relative * extent});
+  if (found.polygons.empty()) found.polygons.push_back(witness_polygon(separation.witness));
 
-  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Patch>> by_parts;
-  for (ContactPolygon& polygon : polygons) {
+  PatchesByParts by_parts;
+  for (ContactPolygon& polygon : found.polygons) {
     Outline outline = outline_of(polygon.upper_points, setting.frame);
     by_parts[{shape.triangle_part[polygon.upper_triangle], shape.triangle_part[polygon.lower_triangle]}]
         .push_back({std::move(polygon), std::move(outline)});
   }
-  std::vector<ContactRegion> regions;
+  Contacts contacts;
+  contacts.complete = found.complete;
+  if (!found.complete) contacts.coincident_parts = coincident_parts(by_parts, shape, tree.data().copies);
   for (auto& [parts, patches] : by_parts)
     for (ContactRegion& region : regions_of(patches, shape, setting)) {
       region.upper_part = parts.first;
       region.lower_part = parts.second;
-      regions.push_back(std::move(region));
+      contacts.regions.push_back(std::move(region));
     }
-  std::stable_sort(regions.begin(), regions.end(), comes_first);
-  return regions;
+  std::stable_sort(contacts.regions.begin(), contacts.regions.end(), comes_first);
+  return contacts;
 }
 
 }  // namespace stackabilization

@@ -40,6 +40,21 @@ struct ContactOptions {
   double band = tolerance::contact_band;   ///< eps as a fraction of the extent h(M, r); in [0, 1]
   double line_aspect = 4;                  ///< a region at least this many times longer than wide is a line
   double least_hole = 0.01;  ///< a ring's hole takes at least this share of the rectangle around the region
+  /// Pairs of triangles that are looked at one by one: at most this many, and eight more per triangle of the
+  /// shape. Coincident parts touch each other in quadratically many.
+  std::int64_t max_pairs = std::int64_t{1} << 16;
+};
+
+/// Where a shape touches its copy.
+struct Contacts {
+  std::vector<ContactRegion> regions;  ///< largest area first, ties by position
+  /// All pairs of triangles that touch are in the regions. If not, because they are too many
+  /// (ContactOptions::max_pairs), each triangle that touches is there with its deepest partner alone, of
+  /// triangles with the same three points the first for all: areas are lower bounds then.
+  bool complete = true;
+  /// Parts, ascending, that touch but are named by no region, because their triangles coincide with those of
+  /// parts that are. None where `complete`.
+  std::vector<std::int32_t> coincident_parts;
 };
 
 /// A shape stacked on itself.
@@ -51,9 +66,8 @@ struct ContactQuery {
 };
 
 /// The contact regions { q : f(q) >= f_max - eps } of a shape stacked on itself along r, as
-/// polygons lifted to both surfaces, grouped into connected regions per pair of parts, largest area first
-/// (ties by position). Constructions in double precision, within tolerance::relative of the diagonal. Throws
-/// UsageError for a band outside [0, 1].
-std::vector<ContactRegion> contact_regions(const ContactQuery& query, const ContactOptions& options = {});
+/// polygons lifted to both surfaces, grouped into connected regions per pair of parts. Constructions in
+/// double precision, within tolerance::relative of the diagonal. Throws UsageError for a band outside [0, 1].
+Contacts contact_regions(const ContactQuery& query, const ContactOptions& options = {});
 
 }  // namespace stackabilization

@@ -26,6 +26,7 @@ class CoverageBitmap {
 
   /// Area of the largest set of free cells that does not reach the border.
   double largest_hole() {
+    if (!has_gaps()) return 0;
     flood(0);
     std::size_t largest = 0;
     for (std::size_t cell = 0; cell < covered_.size(); ++cell)
@@ -53,8 +54,19 @@ class CoverageBitmap {
       }
     }
     if (left > right) return;
-    for (int column = index_of(left - low_.x()); column <= index_of(right - low_.x()); ++column)
-      covered_[static_cast<std::size_t>(row) * side + static_cast<std::size_t>(column)] = 1;
+    const auto cells = covered_.begin() + static_cast<std::ptrdiff_t>(row) * side;
+    std::fill(cells + index_of(left - low_.x()), cells + index_of(right - low_.x()) + 1, char{1});
+  }
+
+  /// Whether some row is covered in several runs. Where none is, all free cells reach the border along
+  /// theirs.
+  bool has_gaps() const {
+    for (auto row = covered_.begin(); row != covered_.end(); row += side) {
+      const auto first = std::find(row, row + side, 1);
+      const auto end = std::find(first, row + side, 0);
+      if (std::find(end, row + side, 1) != row + side) return true;
+    }
+    return false;
   }
 
   /// Covers all free cells connected with `start` by sides; returns their number.

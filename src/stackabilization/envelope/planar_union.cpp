@@ -65,28 +65,76 @@ Eigen::VectorXd outline_centroid(const Outline& outline) {
   return weights / total;
 }
 
-std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outline>& outlines, double reach) {
-  std::vector<OutlineBounds> bounds(outlines.size());
-  std::vector<std::size_t> order(outlines.size());
-  std::iota(order.begin(), order.end(), 0);
-  for (std::size_t o = 0; o < outlines.size(); ++o) bounds[o].add(outlines[o]);
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return bounds[a].low.x() != bounds[b].low.x() ? bounds[a].low.x() < bounds[b].low.x() : a < b;
-  });
-  DisjointSets components(outlines.size());
-  std::vector<std::size_t> active;
-  for (const std::size_t o : order) {
-    std::erase_if(active,
-                  [&](std::size_t other) { return bounds[other].high.x() + reach < bounds[o].low.x(); });
-    for (const std::size_t other : active) {
-      if (bounds[other].high.y() + reach < bounds[o].low.y() ||
-          bounds[o].high.y() + reach < bounds[other].low.y())
-        continue;
-      if (components.root(o) == components.root(other)) continue;
-      if (separating_distance(outlines[o], outlines[other]) <= reach) components.join(o, other);
-    }
-    active.push_back(o);
+namespace {
+
+/// Outlines in the order of their left ends, and of each component those that the sweep may still meet: one
+/// that touches is enough, so outlines that lie many deep cost no more than those side by side.
+class OutlineSweep {
+ public:
+  OutlineSweep(const std::vector<Outline>& outlines, double reach)
+      : outlines_(outlines), reach_(reach), bounds_(outlines.size()), components_(outlines.size()) {
+    for (std::size_t o = 0; o < outlines.size(); ++o) bounds_[o].add(outlines[o]);
   }
+
+  DisjointSets run() {
+    std::vector<std::size_t> order(outlines_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+      return bounds_[a].low.x() != bounds_[b].low.x() ? bounds_[a].low.x() < bounds_[b].low.x() : a < b;
+    });
+    for (const std::size_t o : order) take(o);
+    return std::move(components_);
+  }
+
+ private:
+  using Members = std::vector<std::size_t>;
+
+  void take(std::size_t o) {
+    Members own{o};
+    for (std::size_t k = 0; k < active_.size();) {
+      const bool touching = touches(o, active_[k]);
+      if (touching) {
+        components_.join(o, active_[k].front());
+        if (own.size() < active_[k].size()) own.swap(active_[k]);
+        own.insert(own.end(), active_[k].begin(), active_[k].end());
+      }
+      if (touching || active_[k].empty()) {
+        active_[k] = std::move(active_.back());
+        active_.pop_back();
+      } else {
+        ++k;
+      }
+    }
+    active_.push_back(std::move(own));
+  }
+
+  /// Whether one of the members does; drops those that end before `o` begins.
+  bool touches(std::size_t o, Members& members) const {
+    for (std::size_t m = members.size(); m-- > 0;) {
+      const OutlineBounds& other = bounds_[members[m]];
+      if (other.high.x() + reach_ < bounds_[o].low.x()) {
+        members[m] = members.back();
+        members.pop_back();
+        continue;
+      }
+      if (other.high.y() + reach_ < bounds_[o].low.y() || bounds_[o].high.y() + reach_ < other.low.y())
+        continue;
+      if (separating_distance(outlines_[o], outlines_[members[m]]) <= reach_) return true;
+    }
+    return false;
+  }
+
+  const std::vector<Outline>& outlines_;
+  double reach_;
+  std::vector<OutlineBounds> bounds_;
+  DisjointSets components_;
+  std::vector<Members> active_;  ///< per component
+};
+
+}  // namespace
+
+std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outline>& outlines, double reach) {
+  DisjointSets components = OutlineSweep(outlines, reach).run();
   std::vector<std::vector<std::size_t>> result;
   std::vector<std::size_t> place(outlines.size());
   for (std::size_t o = 0; o < outlines.size(); ++o) {

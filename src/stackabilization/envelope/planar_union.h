@@ -21,7 +21,8 @@ Eigen::VectorXd outline_centroid(const Outline& outline);
 std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outline>& outlines, double reach);
 
 /// Area of the union of the outlines: up to 4096 of them on a grid of 2^30 cells across; of more by
-/// 2048 lines across, to within about a thousandth of the rectangle around them.
+/// 2048 lines across, to within about a thousandth of the rectangle around them, or by fewer where so many
+/// lie above each other that more than 2^24 cuts would be needed.
 double union_area(const std::vector<Outline>& outlines);
 
 /// Area of the largest hole of the union, on a bitmap of 254 cells across in which every touched cell is

@@ -56,6 +56,7 @@ class SeparationQuery {
         node_bound_(std::max(upper.magnitude, lower.magnitude)),
         upper_nodes_(upper.nodes),
         lower_nodes_(&upper == &lower ? no_nodes : lower.nodes) {
+    max_queue_ = static_cast<std::size_t>(std::max(options.max_queue, std::int64_t{0}));
     if (options.abandon_above) abandon_above_ = *options.abandon_above * scale_;
     push(bounded(0, 0));
   }
@@ -63,20 +64,22 @@ class SeparationQuery {
   /// Runs until the bounds differ by at most `width` (heights). With width 0, until the exact value is known.
   void run(double width) {
     width_ = width;
-    while (!tasks_.empty()) {
+    while (!tasks_.empty() || !excess_.empty()) {
       if (floor_.high > abandon_above_) {
         abandoned_ = true;
         return;
+      }
+      if (!excess_.empty()) {
+        const Task task = excess_.back();
+        excess_.pop_back();
+        if (!hopeless(task.high)) work_on(task);
+        continue;
       }
       const Task task = tasks_.front();
       if (hopeless(task.high)) return;
       std::pop_heap(tasks_.begin(), tasks_.end());
       tasks_.pop_back();
-      if (task.triangles) {
-        decide(task);
-      } else {
-        descend(task);
-      }
+      work_on(task);
     }
   }
 
@@ -87,17 +90,21 @@ class SeparationQuery {
   }
 
   Enclosure enclosure() const {
-    if (floor_.high == -infinity) return {};
+    Enclosure result;
+    result.work = work_;
+    if (floor_.high == -infinity) return result;
     const auto widened = [this](double height, double towards) {
       return std::nextafter(std::nextafter(height, towards) / scale_, towards);
     };
-    const double low = widened(floor_.high, -infinity);
-    if (abandoned_) return {low, infinity, true};
-    return {low, widened(std::max(floor_.high, dropped_), infinity), false};
+    result.lower = widened(floor_.high, -infinity);
+    result.upper = abandoned_ ? infinity : widened(std::max(floor_.high, dropped_), infinity);
+    result.abandoned = abandoned_;
+    return result;
   }
 
   Separation separation() const {
     Separation result;
+    result.work = work_;
     if (!best_) return result;
     const TreeTriangle upper = upper_.in_file_axes(best_upper_), lower = lower_.in_file_axes(best_lower_);
     const ExactPoints points = exact_points(upper, lower, projection_.shear, projection_.semantics);
@@ -136,8 +143,22 @@ class SeparationQuery {
 
   void push(const Task& task) {
     if (hopeless(task.high)) return;
-    tasks_.push_back(task);
-    std::push_heap(tasks_.begin(), tasks_.end());
+    if (tasks_.size() < max_queue_) {
+      tasks_.push_back(task);
+      std::push_heap(tasks_.begin(), tasks_.end());
+    } else {
+      excess_.push_back(task);
+    }
+    work_.largest_queue =
+        std::max(work_.largest_queue, static_cast<std::int64_t>(tasks_.size() + excess_.size()));
+  }
+
+  void work_on(const Task& task) {
+    if (task.triangles) {
+      decide(task);
+    } else {
+      descend(task);
+    }
   }
 
   static double width(const ProjectedNode& node) {
@@ -148,6 +169,7 @@ class SeparationQuery {
   /// pairs never enter the heap.
   void descend(Task task) {
     for (;;) {
+      ++work_.node_pairs;
       const TreeNode& upper = upper_.nodes[task.upper];
       const TreeNode& lower = lower_.nodes[task.lower];
       if (upper.count > 0 && lower.count > 0) {
@@ -171,6 +193,7 @@ class SeparationQuery {
   }
 
   void test_triangles(const TreeNode& upper, const TreeNode& lower) {
+    work_.triangle_pairs += upper.count * lower.count;
     std::array<ProjectedTriangle, leaf_size> lower_triangles;
     for (std::int32_t b = 0; b < lower.count; ++b)
       lower_triangles[b] = ProjectedTriangle(lower_.triangles[lower.first + b], projection_);
@@ -185,6 +208,7 @@ class SeparationQuery {
   }
 
   void decide(const Task& task) {
+    ++work_.exact_pairs;
     std::optional<Rational> value = exact_maximum(upper_.triangles[task.upper], lower_.triangles[task.lower],
                                                   projection_.shear, projection_.semantics);
     if (!value || (best_ && *value <= *best_)) return;
@@ -206,7 +230,10 @@ class SeparationQuery {
   double width_ = 0;                  ///< of the enclosure asked for; 0: the exact value
   double dropped_ = -infinity;        ///< largest bound left out within that width
   bool abandoned_ = false;
-  std::vector<Task> tasks_;                   ///< binary heap
+  std::size_t max_queue_ = 0;
+  std::vector<Task> tasks_;   ///< binary heap
+  std::vector<Task> excess_;  ///< what it had no room for; the last is next, so what is below it waits
+  SeparationWork work_;
   ProjectedNodes upper_nodes_, lower_nodes_;  ///< the second is empty where both shapes are one
   std::optional<Rational> best_;
   std::int32_t best_upper_ = -1, best_lower_ = -1;  ///< in tree order

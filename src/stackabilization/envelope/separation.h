@@ -22,14 +22,22 @@ enum class Semantics {
 
 /// Where a separation is attained: `lower_point` lies on triangle `lower_triangle` of the upper copy,
 /// `upper_point` on triangle `upper_triangle` of the lower copy, straight above each other along r before the
-/// lift. The exact value is the maximum of (a - b).r / r.r over the points a, b of these two triangles on a
-/// common line along r, which anyone can recompute in rational arithmetic; the points are the exact ones
-/// rounded to double.
+/// lift. Of triangles with the same three points the first is named. The exact value is the maximum of (a -
+/// b).r / r.r over the points a, b of these two triangles on a common line along r, which anyone can
+/// recompute in rational arithmetic; the points are the exact ones rounded to double.
 struct Witness {
   std::int32_t upper_triangle = -1;  ///< triangle of the copy below, on its upper envelope
   std::int32_t lower_triangle = -1;  ///< triangle of the copy above, on its lower envelope
   Eigen::Vector3d upper_point = Eigen::Vector3d::Zero();  ///< on `upper_triangle`, file axes, model units
   Eigen::Vector3d lower_point = Eigen::Vector3d::Zero();  ///< on `lower_triangle`, before the lift
+};
+
+/// What a query did, in counts that depend on the input alone.
+struct SeparationWork {
+  std::int64_t node_pairs = 0;      ///< pairs of nodes that were split, or whose triangles were looked at
+  std::int64_t triangle_pairs = 0;  ///< pairs of triangles bounded in double precision
+  std::int64_t exact_pairs = 0;     ///< pairs of triangles decided in rational arithmetic
+  std::int64_t largest_queue = 0;   ///< most pairs that waited at a time, in the queue and beside it
 };
 
 /// Result of an exact separation query.
@@ -40,6 +48,7 @@ struct Separation {
   Rational value;     ///< in units of r: the translation is value * r
   double length = 0;  ///< value * |r|, model units, within 4 ulp
   Witness witness;    ///< where the value is attained
+  SeparationWork work;
 };
 
 /// A certified enclosure of a separation, in units of r: lower <= sep <= upper. Empty (lower = upper = -inf)
@@ -48,6 +57,7 @@ struct Enclosure {
   double lower = -std::numeric_limits<double>::infinity();  ///< certainly at most sep, units of r
   double upper = -std::numeric_limits<double>::infinity();  ///< certainly at least sep, units of r
   bool abandoned = false;  ///< stopped early: only `lower` > abandon_above is known, upper is +inf
+  SeparationWork work;
 };
 
 /// Options of `separation` and `separation_enclosure`.
@@ -55,10 +65,15 @@ struct SeparationOptions {
   Semantics semantics = Semantics::solid;  ///< what counts as a collision
   /// Stop as soon as the separation is certainly greater than this many units of r (enclosure queries only).
   std::optional<double> abandon_above;
+  /// Most pairs that wait in the queue of the best-first search (of 32 bytes each). Once it is full, further
+  /// pairs are followed depth first: no more than some hundred wait beside it, and the value is the same, of
+  /// several witnesses perhaps another.
+  std::int64_t max_queue = std::int64_t{1} << 20;
 };
 
 /// Bounding-volume tree of a shape's triangles, built once and queried for any number of directions, by any
 /// number of threads at the same time. It keeps its own copy of the coordinates. O(m log m) to build.
+/// Triangles with the same three points are one in it, named by the first of them.
 /// Two trees of which one lies far from the file's origin (several times its size) are built again for every
 /// query between them.
 class SeparationTree {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "stackabilization/envelope/shear.h"
+#include "stackabilization/envelope/triangle_copies.h"
 
 namespace stackabilization {
 namespace {
@@ -24,7 +25,7 @@ constexpr std::int32_t smallest_task = 8192;
 /// Where the box of a triangle has its centre, for splitting: little that is moved about.
 struct Place {
   std::array<double, 3> centre;
-  std::int32_t triangle;
+  std::int32_t triangle;  ///< row of the list that the tree is built from
 };
 
 /// Builds the tree top down by median splits, in parallel, into nodes whose places depend on the counts
@@ -36,15 +37,15 @@ class TreeBuilder {
       : triangles_(triangles), data_(data), rounding_(16 * unit_roundoff * data.magnitude) {
     const auto count = static_cast<std::int32_t>(triangles.size());
     places_.reserve(triangles.size());
-    for (const TreeTriangle& triangle : triangles) places_.push_back(place_of(triangle));
+    for (std::int32_t t = 0; t < count; ++t) places_.push_back(place_of(triangles[t], t));
     data_.triangles.resize(triangles.size());
     data_.nodes.resize(node_count(count));
     build(0, 1, 0, count);
   }
 
  private:
-  static Place place_of(const TreeTriangle& triangle) {
-    Place place{{}, triangle.index};
+  static Place place_of(const TreeTriangle& triangle, std::int32_t row) {
+    Place place{{}, row};
     const auto& [a, b, c] = triangle.corners;
     for (int axis = 0; axis < 3; ++axis) {
       const auto [low, high] = std::minmax({a[axis], b[axis], c[axis]});
@@ -200,9 +201,11 @@ std::array<double, 3> exact_origin(const std::vector<TreeTriangle>& triangles) {
   return {exact_origin(low[0], high[0]), exact_origin(low[1], high[1]), exact_origin(low[2], high[2])};
 }
 
-/// Takes triangles in the file's axes, each in the row that is its index.
-SeparationTree::Data build(std::vector<TreeTriangle> triangles, const std::array<double, 3>& origin) {
+/// Takes triangles in the file's axes, in the order of their indices.
+SeparationTree::Data build(std::vector<TreeTriangle> triangles, std::vector<TriangleCopy> copies,
+                           const std::array<double, 3>& origin) {
   SeparationTree::Data data;
+  data.copies = std::move(copies);
   data.origin = origin;
   for (TreeTriangle& triangle : triangles)
     for (auto& corner : triangle.corners)
@@ -225,16 +228,18 @@ TreeTriangle SeparationTree::Data::in_file_axes(std::int32_t triangle) const {
 
 SeparationTree::Data SeparationTree::Data::in_file_axes() const {
   std::vector<TreeTriangle> in_order(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    in_order[static_cast<std::size_t>(triangles[t].index)] = in_file_axes(static_cast<std::int32_t>(t));
-  return build(std::move(in_order), {});
+  for (std::size_t t = 0; t < triangles.size(); ++t) in_order[t] = in_file_axes(static_cast<std::int32_t>(t));
+  std::sort(in_order.begin(), in_order.end(),
+            [](const TreeTriangle& a, const TreeTriangle& b) { return a.index < b.index; });
+  return build(std::move(in_order), copies, {});
 }
 
 SeparationTree::SeparationTree(const Shape& shape) {
   validate(shape);
   std::vector<TreeTriangle> triangles = triangles_of(shape);
+  std::vector<TriangleCopy> copies = take_copies(triangles);
   const std::array<double, 3> origin = exact_origin(triangles);
-  data_ = std::make_unique<const Data>(build(std::move(triangles), origin));
+  data_ = std::make_unique<const Data>(build(std::move(triangles), std::move(copies), origin));
 }
 
 SeparationTree::SeparationTree(SeparationTree&&) noexcept = default;

@@ -14,6 +14,15 @@ struct TreeTriangle {
   std::int32_t index;                            ///< row of Shape::triangles
 };
 
+/// A triangle with the same three points as an earlier one; rows of Shape::triangles.
+struct TriangleCopy {
+  std::int32_t first, copy;
+
+  friend bool operator<(const TriangleCopy& a, const TriangleCopy& b) {
+    return a.first != b.first ? a.first < b.first : a.copy < b.copy;
+  }
+};
+
 /// Axis-aligned box plus one slab  slab_low <= normal . p <= slab_high  holding all points of the node.
 /// `normal` is zero where no slab is kept. Leaves have count > 0.
 struct TreeNode {
@@ -32,7 +41,8 @@ struct SeparationTree::Data {
   /// Subtracted from all coordinates without rounding any: where a shape lies far from the file's origin, the
   /// error bounds of the filters, which grow with the coordinates, would drown its features.
   std::array<double, 3> origin{};
-  std::vector<TreeTriangle> triangles;  ///< in tree order
+  std::vector<TreeTriangle> triangles;  ///< in tree order, of those with the same points the first
+  std::vector<TriangleCopy> copies;     ///< the others, sorted
   std::vector<TreeNode> nodes;          ///< nodes[0] is the root
   double magnitude = 0;                 ///< largest absolute coordinate, relative to the origin
 

@@ -39,25 +39,55 @@ double covered_length(std::vector<std::pair<double, double>>& intervals) {
   return length;
 }
 
-/// Area of the union by the midpoint rule: what of evenly spaced lines is covered.
-double area_by_lines(const std::vector<Outline>& outlines, const OutlineBounds& bounds) {
-  constexpr int lines = 2048;
+/// The lines of the midpoint rule that an outline reaches: first, last.
+using LineRange = std::pair<int, int>;
+
+std::vector<LineRange> line_ranges(const std::vector<Outline>& outlines, const OutlineBounds& bounds,
+                                   int lines) {
   const double step = (bounds.high.y() - bounds.low.y()) / lines;
-  if (!(step > 0)) return 0;
   const auto line_at = [&](double y) {
     return std::clamp(static_cast<int>((y - bounds.low.y()) / step), 0, lines - 1);
   };
-  std::vector<std::vector<std::pair<double, double>>> intervals(lines);
+  std::vector<LineRange> ranges;
   for (const Outline& outline : outlines) {
     OutlineBounds own;
     own.add(outline);
-    const int last = line_at(own.high.y());
-    for (int line = line_at(own.low.y()); line <= last; ++line)
-      if (const auto cut = cut_at(outline, bounds.low.y() + (line + 0.5) * step))
-        intervals[static_cast<std::size_t>(line)].push_back(*cut);
+    ranges.emplace_back(line_at(own.low.y()), line_at(own.high.y()));
   }
+  return ranges;
+}
+
+/// As many lines as most_cuts allows.
+int line_count(const std::vector<Outline>& outlines, const OutlineBounds& bounds) {
+  constexpr int most_lines = 2048, fewest_lines = 16;
+  constexpr std::int64_t most_cuts = std::int64_t{1} << 24;
+  std::int64_t cuts = 0;
+  for (const auto& [first, last] : line_ranges(outlines, bounds, most_lines)) cuts += last - first + 1;
+  if (cuts <= most_cuts) return most_lines;
+  return std::max(fewest_lines, static_cast<int>(most_lines * most_cuts / cuts));
+}
+
+/// Area of the union by the midpoint rule: what of evenly spaced lines is covered.
+double area_by_lines(const std::vector<Outline>& outlines, const OutlineBounds& bounds) {
+  if (!(bounds.high.y() > bounds.low.y())) return 0;
+  const int lines = line_count(outlines, bounds);
+  const double step = (bounds.high.y() - bounds.low.y()) / lines;
+  const std::vector<LineRange> ranges = line_ranges(outlines, bounds, lines);
+  std::vector<std::vector<std::size_t>> beginning(static_cast<std::size_t>(lines));
+  for (std::size_t o = 0; o < outlines.size(); ++o)
+    beginning[static_cast<std::size_t>(ranges[o].first)].push_back(o);
+  std::vector<std::size_t> open;
+  std::vector<std::pair<double, double>> covered;
   double length = 0;
-  for (auto& line : intervals) length += covered_length(line);
+  for (int line = 0; line < lines; ++line) {
+    const std::vector<std::size_t>& more = beginning[static_cast<std::size_t>(line)];
+    std::erase_if(open, [&](std::size_t o) { return ranges[o].second < line; });
+    open.insert(open.end(), more.begin(), more.end());
+    covered.clear();
+    for (const std::size_t o : open)
+      if (const auto cut = cut_at(outlines[o], bounds.low.y() + (line + 0.5) * step)) covered.push_back(*cut);
+    length += covered_length(covered);
+  }
   return length * step;
 }
 

@@ -20,22 +20,28 @@ void validate(const RequirementChecker& checker, const BestFirstOptions& options
   for (const Eigen::Vector3d& direction : options.directions) static_cast<void>(Direction(direction));
 }
 
+detail::SearchState at_start(const RequirementChecker& checker, const BestFirstOptions& options) {
+  return {detail::task_fingerprint(checker, options), options.directions};
+}
+
 }  // namespace
 
 BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOptions& options) {
   validate(checker, options);
-  return detail::BestFirstSearch(checker, options, detail::new_state(checker, options)).run();
+  return detail::BestFirstSearch(checker, options, at_start(checker, options)).run();
 }
 
 BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
                                    const SavedSearch& state) {
   validate(checker, options);
-  return detail::BestFirstSearch(checker, options, detail::read_state(state, checker, options)).run();
+  return detail::BestFirstSearch(checker, options,
+                                 detail::read_state(state, detail::search_task(checker, options)))
+      .run();
 }
 
 std::string search_at_start(const RequirementChecker& checker, const BestFirstOptions& options) {
   validate(checker, options);
-  return detail::BestFirstSearch(checker, options, detail::new_state(checker, options)).state_text();
+  return detail::BestFirstSearch(checker, options, at_start(checker, options)).state_text();
 }
 
 }  // namespace stackabilization

@@ -119,4 +119,7 @@ std::string search_at_start(const RequirementChecker& checker, const BestFirstOp
 /// The starting directions of a saved search, to the bit. Throws SavedSearchError.
 std::vector<Eigen::Vector3d> directions_of(const SavedSearch& state);
 
+/// Is it a text given to `save`, of whatever search and version?
+bool is_search_state(const std::string& text);
+
 }  // namespace stackabilization

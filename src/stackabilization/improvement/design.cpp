@@ -19,7 +19,7 @@ std::vector<Edit> with(std::vector<Edit> edits, const Edit& edit) {
 /// Goes on from the primitives that a design has.
 class ControllerDesigns : public DesignSpace {
  public:
-  explicit ControllerDesigns(StructuredShape rest) : model_(std::move(rest)) {}
+  explicit ControllerDesigns(StructuredShape rest) : model_(std::move(rest), {max_design_joint_points}) {}
 
   const StructuredShape& rest() const override { return model_.rest(); }
   DeformationKind kind() const override { return DeformationKind::controllers; }
@@ -136,6 +136,9 @@ DesignOutcome DesignSpace::replayed(const std::vector<Edit>& edits,
 }
 
 std::unique_ptr<DesignSpace> design_space(StructuredShape rest, const DesignSpaceOptions& options) {
+  if (rest.structure.parts.size() > max_design_parts)
+    throw InputError("it has " + std::to_string(rest.structure.parts.size()) +
+                     " parts, and designs are made of at most " + std::to_string(max_design_parts));
   if (options.kind == DeformationKind::controllers)
     return std::make_unique<ControllerDesigns>(std::move(rest));
   validate(rest);

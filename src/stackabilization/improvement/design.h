@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -68,7 +69,12 @@ struct DesignSpaceOptions {
   Direction direction{0, 0, 1};
 };
 
-/// Throws as the constructor of the model does.
+/// What a search for designs takes on: it makes hundreds of edits, and every energy compares all pairs of
+/// parts.
+inline constexpr std::size_t max_design_parts = 500, max_design_joint_points = 200;
+
+/// Throws as the constructor of the model does, and InputError for a shape of more than `max_design_parts`
+/// parts, or with controllers more than `max_design_joint_points` (ControllerLimits).
 std::unique_ptr<DesignSpace> design_space(StructuredShape rest, const DesignSpaceOptions& options = {});
 
 }  // namespace stackabilization

@@ -8,7 +8,7 @@ std::vector<ContactRegion> contacts_of(const RequirementChecker& checker, const 
   const SeparationTree tree(shape);
   const Separation apart = separation(tree, tree, direction, {options.semantics, std::nullopt});
   if (!apart.blocked) return {};
-  return contact_regions({shape, tree, direction, apart}, options);
+  return contact_regions({shape, tree, direction, apart}, options).regions;
 }
 
 }  // namespace stackabilization::detail

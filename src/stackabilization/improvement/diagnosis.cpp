@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -67,6 +68,7 @@ struct Trial {
   double best = 0;  ///< largest S; the S before where no edit was made
   std::map<std::string, int> refusals;
   int made = 0;
+  bool stopped = false;  ///< before all of them were tried
 };
 
 class Diagnostician {
@@ -115,7 +117,8 @@ class Diagnostician {
     if (!separation.blocked) return;
     ContactOptions contacts;
     contacts.semantics = checker_.requirements().measure.semantics;
-    const auto all = contact_regions({best_.design.shape, solver_.tree(), direction_, separation}, contacts);
+    const std::vector<ContactRegion> all =
+        contact_regions({best_.design.shape, solver_.tree(), direction_, separation}, contacts).regions;
     const detail::ContactSymmetry symmetry(rest_.structure);
     for (const int row : detail::different_regions(all, symmetry, most_blockers)) {
       regions_.push_back(all[static_cast<std::size_t>(row)]);
@@ -159,7 +162,12 @@ class Diagnostician {
     designs_ += static_cast<std::int64_t>(edits.size());
     std::vector<std::optional<std::string>> refusals(edits.size());
     std::vector<double> reached(edits.size(), best_.measured.value);
+    std::atomic<bool> cut_short = false;
     tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
+      if (cut_short || stopped()) {
+        cut_short = true;
+        return;
+      }
       const DesignOutcome outcome = space.edited(best_.design, edits[k].edit, constraints);
       if (outcome.refusal)
         refusals[k] = detail::without_amounts(outcome.refusal->reason);
@@ -167,6 +175,7 @@ class Diagnostician {
         reached[k] = std::max(reached[k], better->value);
     });
     Trial trial;
+    trial.stopped = cut_short;
     trial.best = best_.measured.value;
     for (std::size_t k = 0; k < edits.size(); ++k) {
       trial.best = std::max(trial.best, reached[k]);
@@ -179,6 +188,8 @@ class Diagnostician {
   }
 
   std::string reason_of(const Trial& trial) const {
+    if (trial.stopped && !helps(trial.best))
+      return "time was up before every edit that may separate it was tried";
     if (trial.made == 0 && trial.refusals.empty())
       return "no edit would separate it: symmetries and the height that is kept leave none";
     if (trial.made > 0)
@@ -258,6 +269,7 @@ class Diagnostician {
     RemovalOptions options;
     options.measure = checker_.requirements().measure;
     options.directions = {best_.direction};
+    options.cancelled = options_.cancelled;
     std::size_t offered = 0;
     for (const Removal& removal : removals(rest_, options)) {
       if (offered == most_removals || !helps(removal.stackability)) break;

@@ -42,6 +42,7 @@ struct Merge {
     if (a.along.has_value() != b.along.has_value()) return std::nullopt;
     if (a.along && same_line(*a.along, *b.along) == 0) return std::nullopt;
     const double product = a.factor * b.factor;
+    if (product < 1 / edit_limits::max_scale || product > edit_limits::max_scale) return std::nullopt;
     return Scale{std::abs(product - 1) <= tolerance::relative ? 1 : product, a.along};
   }
   template <typename A, typename B>

@@ -131,8 +131,8 @@ class HistoryReader {
     const Eigen::Vector3d result = vector(node);
     try {
       return Direction(result).vector();
-    } catch (const UsageError&) {
-      node.fail_expected("a direction that is not zero");
+    } catch (const UsageError& error) {
+      node.fail(error.what());
     }
   }
 
@@ -177,7 +177,7 @@ class HistoryReader {
     if (node.has("falloff"))
       result.falloff = std::array{Falloff::gaussian, Falloff::linear}[node["falloff"].one_of(falloffs)];
     try {
-      validate(result);
+      validate(result, rest_.structure.diagonal);
     } catch (const UsageError& error) {
       node.fail(error.what());
     }
@@ -235,6 +235,11 @@ class HistoryReader {
     if (node.has("fixed_points"))
       for (std::size_t k = 0; k < node["fixed_points"].list_size(); ++k)
         result.fixed_points.push_back(vector(node["fixed_points"][k]));
+    try {
+      validate(result, rest_.shape);
+    } catch (const UsageError& error) {
+      node.fail(error.what());
+    }
     return result;
   }
 

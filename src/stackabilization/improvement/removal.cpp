@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -106,9 +107,10 @@ StructuredShape selected(const StructuredShape& structured, std::vector<int> par
 }
 
 std::vector<int> all_but(const StructuredShape& structured, const std::vector<int>& parts) {
+  const std::set<int> left_out(parts.begin(), parts.end());
   std::vector<int> others;
   for (int part = 0; part < static_cast<int>(structured.structure.parts.size()); ++part)
-    if (std::find(parts.begin(), parts.end(), part) == parts.end()) others.push_back(part);
+    if (!left_out.contains(part)) others.push_back(part);
   return others;
 }
 
@@ -152,6 +154,7 @@ std::vector<Removal> removals(const StructuredShape& structured, const RemovalOp
   const std::vector<std::vector<int>> classes = symmetric_classes(structured.structure);
   std::vector<std::optional<Removal>> measured(classes.size());
   tbb::parallel_for(std::size_t{0}, classes.size(), [&](std::size_t k) {
+    if (options.cancelled && options.cancelled()) return;
     std::vector<int> others = all_but(structured, classes[k]);
     if (others.empty()) return;
     const Shape rest = selected(structured, std::move(others)).shape;

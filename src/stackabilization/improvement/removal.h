@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,8 @@ struct RemovalOptions {
   StackabilityOptions measure;  ///< `flat_shapes` is not looked at: a rest without volume has no S
   /// That are tried, at least one; the best one counts, among equals the first.
   std::vector<Eigen::Vector3d> directions = {{0, 0, 1}};
+  /// Asked before each class, from any thread; when it returns true, the classes that are left are left out.
+  std::function<bool()> cancelled = {};
 };
 
 /// Every class of symmetric parts whose removal leaves something with a volume, largest S first (ties: by

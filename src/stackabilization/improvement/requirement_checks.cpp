@@ -186,7 +186,8 @@ Check RequirementChecks::draft(const CheckedDesign& checked) const {
   options.semantics = requirements_.measure.semantics;
   check.value = contact_draft_degrees(
       shape,
-      contact_regions({shape, checked.tree, checked.direction, checked.assessment.separation}, options),
+      contact_regions({shape, checked.tree, checked.direction, checked.assessment.separation}, options)
+          .regions,
       checked.direction);
   check.passed = check.value >= least * (1 - tolerance::relative);
   return check;

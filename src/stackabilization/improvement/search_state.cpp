@@ -184,17 +184,15 @@ std::map<std::string, std::int64_t> refusals_of(const nlohmann::ordered_json& do
   return refusals;
 }
 
-SearchState state_of(const SavedSearch& saved, const RequirementChecker& checker,
-                     const BestFirstOptions& options) {
+SearchState state_of(const SavedSearch& saved, const SearchTask& task) {
   const nlohmann::ordered_json document = parse_json(saved.text, saved.name);
   const JsonNode root = checked_root(document, saved.name);
-  SearchState state = new_state(checker, options);
-  if (word_of(root["task"]) != state.task || directions_at(root["directions"]) != options.directions)
+  SearchState state(task.fingerprint, task.directions);
+  if (word_of(root["task"]) != state.task || directions_at(root["directions"]) != task.directions)
     root.fail("the saved search belongs to another shape, other requirements or other options");
-  const std::vector<Handle> handles = checker.space().handles();
-  const Expected expected{static_cast<int>(options.directions.size()), handles};
+  const Expected expected{static_cast<int>(task.directions.size()), task.handles};
   const JsonNode candidates = root["candidates"];
-  if (candidates.list_size() < options.directions.size())
+  if (candidates.list_size() < task.directions.size())
     candidates.fail_expected("a candidate for each direction");
   for (std::size_t id = 0; id < candidates.list_size(); ++id)
     state.tree.add(node_of(candidates[id], static_cast<int>(id), expected));
@@ -218,10 +216,8 @@ auto as_saved_search(const Read& read) {
 
 }  // namespace
 
-SearchState new_state(const RequirementChecker& checker, const BestFirstOptions& options) {
-  SearchState state(task_fingerprint(checker, options), static_cast<int>(options.directions.size()));
-  state.directions = options.directions;
-  return state;
+SearchTask search_task(const RequirementChecker& checker, const BestFirstOptions& options) {
+  return {task_fingerprint(checker, options), options.directions, checker.space().handles()};
 }
 
 std::string text_of(const SearchState& state) {
@@ -241,14 +237,19 @@ std::string text_of(const SearchState& state) {
   return text.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
-SearchState read_state(const SavedSearch& saved, const RequirementChecker& checker,
-                       const BestFirstOptions& options) {
-  return as_saved_search([&] { return state_of(saved, checker, options); });
+SearchState read_state(const SavedSearch& saved, const SearchTask& task) {
+  return as_saved_search([&] { return state_of(saved, task); });
 }
 
 }  // namespace stackabilization::detail
 
 namespace stackabilization {
+
+bool is_search_state(const std::string& text) {
+  using nlohmann::json;
+  const json state = json::parse(text, nullptr, false);
+  return state.is_object() && state.value("format", json()) == std::string(detail::format_name);
+}
 
 std::vector<Eigen::Vector3d> directions_of(const SavedSearch& state) {
   return detail::as_saved_search([&] {

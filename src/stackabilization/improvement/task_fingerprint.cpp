@@ -89,6 +89,7 @@ void add(Fingerprint& print, const ContactEditOptions& options) {
   print.add(options.contacts.band);
   print.add(options.contacts.line_aspect);
   print.add(options.contacts.least_hole);
+  add_count(print, static_cast<std::size_t>(options.contacts.max_pairs));
 }
 
 }  // namespace

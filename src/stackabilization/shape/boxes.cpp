@@ -39,6 +39,7 @@ HullSupport::HullSupport(const Points& points) {
   require_finite(points);
   resolution_ = tolerance::rounding * points.cwiseAbs().maxCoeff();
   HullFaces faces = hull_faces(points, resolution_);
+  dimension_ = faces.dimension;
   points_ = std::move(faces.points);
   face_normals_ = std::move(faces.normals);
   face_areas_ = std::move(faces.areas);

@@ -27,6 +27,9 @@ class HullSupport {
   /// points do not matter: the same set gives the same bits.
   explicit HullSupport(const Points& points);
 
+  /// Of the set up to rounding (tolerance::rounding): 0 one point, 1 straight, 2 flat, 3 solid. The box of a
+  /// solid set, and of no other, has a volume.
+  int dimension() const { return dimension_; }
   /// k x 3 extreme points in lexicographic order. Points that lie on a face or edge of the hull are left out,
   /// also where rounding (tolerance::rounding) lifted them a little above it.
   const Points& points() const { return points_; }
@@ -55,6 +58,7 @@ class HullSupport {
   /// 2 x m counter-clockwise corners of the projection in u, v of `frame`, relative to the centre.
   Eigen::Matrix2Xd projection(const Frame& frame) const;
 
+  int dimension_ = 0;
   Points points_, face_normals_;
   Eigen::VectorXd face_areas_;
   Eigen::Matrix<int, Eigen::Dynamic, 2> edges_, edge_faces_;

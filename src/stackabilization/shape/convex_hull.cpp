@@ -1,14 +1,20 @@
 #include "stackabilization/shape/convex_hull.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Projection_traits_xy_3.h>
+#include <CGAL/Projection_traits_xz_3.h>
+#include <CGAL/Projection_traits_yz_3.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/convex_hull_2.h>
 #include <CGAL/convex_hull_3.h>
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <vector>
 
+#include "stackabilization/shape/affine_span.h"
 #include "stackabilization/shape/disjoint_sets.h"
 
 namespace stackabilization {
@@ -20,13 +26,18 @@ using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 using Vertex = Mesh::Vertex_index;
 
-Mesh quickhull(const Points& points) {
-  std::vector<Point> input;
-  input.reserve(static_cast<std::size_t>(points.rows()));
+std::vector<Point> points_of(const Points& points) {
+  std::vector<Point> result;
+  result.reserve(static_cast<std::size_t>(points.rows()));
   for (Eigen::Index i = 0; i < points.rows(); ++i)
-    input.emplace_back(points(i, 0), points(i, 1), points(i, 2));
+    result.emplace_back(points(i, 0) + 0.0, points(i, 1) + 0.0, points(i, 2) + 0.0);  // no negative zeros
+  return result;
+}
+
+/// Precondition: the points do not lie in a plane.
+Mesh quickhull(const std::vector<Point>& points) {
   Mesh mesh;
-  CGAL::convex_hull_3(input.begin(), input.end(), mesh);
+  CGAL::convex_hull_3(points.begin(), points.end(), mesh);
   return mesh;
 }
 
@@ -58,6 +69,10 @@ std::vector<Border> borders_of(const Mesh& mesh) {
   return result;
 }
 
+void put_smallest_first(std::vector<Point>& corners) {
+  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+}
+
 /// The corners of a facet, the lexicographically least first.
 std::vector<Point> polygon(const Mesh& mesh, const Border& border) {
   std::vector<Point> corners;
@@ -68,22 +83,53 @@ std::vector<Point> polygon(const Mesh& mesh, const Border& border) {
       corners.push_back(mesh.point(here));
     before = here;
   }
-  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+  put_smallest_first(corners);
   return corners;
+}
+
+/// The facets of a body. Quickhull visits facets in the order of their addresses. How it cuts what is flat,
+/// and which points it leaves there that are no corners, is not the same in every run.
+std::vector<std::vector<Point>> facets(const std::vector<Point>& points) {
+  const Mesh mesh = quickhull(points);
+  std::vector<std::vector<Point>> polygons;
+  for (const Border& border : borders_of(mesh)) polygons.push_back(polygon(mesh, border));
+  return polygons;
+}
+
+template <typename Projection>
+std::vector<Point> polygon_seen(const std::vector<Point>& points) {
+  std::vector<Point> corners;
+  CGAL::convex_hull_2(points.begin(), points.end(), std::back_inserter(corners), Projection());
+  return corners;
+}
+
+/// Corners of the hull of points in a plane that do not lie on a line. Along one of the axes at least they
+/// are not seen edge on.
+std::vector<Point> flat_polygon(const std::vector<Point>& points) {
+  std::vector<Point> corners = polygon_seen<CGAL::Projection_traits_xy_3<Kernel>>(points);
+  if (corners.size() < 3) corners = polygon_seen<CGAL::Projection_traits_yz_3<Kernel>>(points);
+  if (corners.size() < 3) corners = polygon_seen<CGAL::Projection_traits_xz_3<Kernel>>(points);
+  put_smallest_first(corners);
+  return corners;
+}
+
+/// Polygons that make up the hull, each with its smallest corner first.
+std::vector<std::vector<Point>> polygons_of(const std::vector<Point>& points, int dimension) {
+  if (dimension == 3) return facets(points);
+  if (dimension == 2) return {flat_polygon(points)};
+  const auto [low, high] = std::minmax_element(points.begin(), points.end());
+  return {{*low, *high}};
 }
 
 }  // namespace
 
 TriangulatedHull triangulated_hull(const Points& points) {
-  // Quickhull visits facets in the order of their addresses. How it cuts what is flat, and which points it
-  // leaves there that are no corners, is not the same in every run.
-  const Mesh mesh = quickhull(points);
-  std::vector<std::vector<Point>> polygons;
+  TriangulatedHull hull;
+  hull.dimension = affine_dimension(points);
+  const std::vector<std::vector<Point>> polygons = polygons_of(points_of(points), hull.dimension);
   std::vector<Point> corners;
-  for (const Border& border : borders_of(mesh)) {
-    polygons.push_back(polygon(mesh, border));
-    corners.insert(corners.end(), polygons.back().begin(), polygons.back().end());
-  }
+  for (const std::vector<Point>& polygon : polygons)
+    corners.insert(corners.end(), polygon.begin(), polygon.end());
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   const auto row = [&](const Point& p) {
@@ -96,7 +142,6 @@ TriangulatedHull triangulated_hull(const Points& points) {
       triangles.push_back({row(polygon[0]), row(polygon[k - 1]), row(polygon[k])});
   std::sort(triangles.begin(), triangles.end());
 
-  TriangulatedHull hull;
   hull.points.resize(static_cast<Eigen::Index>(corners.size()), 3);
   for (std::size_t i = 0; i < corners.size(); ++i)
     hull.points.row(static_cast<Eigen::Index>(i)) << corners[i].x(), corners[i].y(), corners[i].z();

@@ -6,7 +6,6 @@
 namespace stackabilization {
 
 std::string direction_text(const Eigen::Vector3d& direction) {
-  constexpr double negligible = 1e-6;
   constexpr int min_digits = 3, max_digits = 7;
   const Eigen::Vector3d unit = direction.normalized();
   Eigen::Index axis = 0;
@@ -15,7 +14,8 @@ std::string direction_text(const Eigen::Vector3d& direction) {
     v[axis] = 0;
     return v.cwiseAbs().maxCoeff();
   };
-  if (off_axis(unit) <= negligible) return std::string("along ") + (unit[axis] < 0 ? "-" : "") + "xyz"[axis];
+  if (off_axis(unit) <= std::pow(10, 1 - max_digits))
+    return std::string("along ") + (unit[axis] < 0 ? "-" : "") + "xyz"[axis];
   Eigen::Vector3d shown;
   for (int digits = min_digits; digits <= max_digits; ++digits) {
     const double scale = std::pow(10, digits);

@@ -14,7 +14,25 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Corners = std::array<std::int32_t, 3>;
-using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, const Corners*>;
+
+/// Triangles with the same three corners.
+struct Sheaf {
+  Corners corners;
+  std::int64_t count;
+};
+
+using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, const Sheaf*>;
+
+std::vector<Sheaf> sheaves_of(std::vector<Corners> triangles) {
+  for (Corners& corners : triangles) std::sort(corners.begin(), corners.end());
+  std::sort(triangles.begin(), triangles.end());
+  std::vector<Sheaf> sheaves;
+  for (const Corners& corners : triangles) {
+    if (sheaves.empty() || sheaves.back().corners != corners) sheaves.push_back({corners, 0});
+    ++sheaves.back().count;
+  }
+  return sheaves;
+}
 
 Point point_of(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
@@ -84,12 +102,14 @@ std::int64_t count_self_intersections(const std::vector<Eigen::Vector3d>& points
   exact_points.reserve(points.size());
   for (const Eigen::Vector3d& point : points) exact_points.push_back(point_of(point));
 
+  const std::vector<Sheaf> sheaves = sheaves_of(triangles);
   std::vector<Box> boxes;
-  for (const Corners& corners : triangles) {
+  for (const Sheaf& sheaf : sheaves) {
+    const Corners& corners = sheaf.corners;
     const Point& a = exact_points[static_cast<std::size_t>(corners[0])];
     const Point& b = exact_points[static_cast<std::size_t>(corners[1])];
     const Point& c = exact_points[static_cast<std::size_t>(corners[2])];
-    if (!CGAL::collinear(a, b, c)) boxes.emplace_back(a.bbox() + b.bbox() + c.bbox(), &corners);
+    if (!CGAL::collinear(a, b, c)) boxes.emplace_back(a.bbox() + b.bbox() + c.bbox(), &sheaf);
   }
   std::vector<const Box*> pointers;
   for (const Box& box : boxes) pointers.push_back(&box);
@@ -97,7 +117,7 @@ std::int64_t count_self_intersections(const std::vector<Eigen::Vector3d>& points
   std::int64_t count = 0;
   const PairTest test(exact_points);
   CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), [&](const Box* a, const Box* b) {
-    count += test.intersect(*a->info(), *b->info());
+    if (test.intersect(a->info()->corners, b->info()->corners)) count += a->info()->count * b->info()->count;
   });
   return count;
 }

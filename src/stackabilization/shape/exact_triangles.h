@@ -13,7 +13,7 @@ bool are_collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
 /// Number of pairs of triangles (indices into `points`) that meet elsewhere than in the corners and edges
 /// they share: they cross, touch, or overlap in a plane. Exact. Pairs with a degenerate triangle and pairs
 /// with the same three corners are not counted. Precondition: `points` are pairwise different. Cost: O(m
-/// log^2 m + pairs of boxes that meet).
+/// log^2 m + pairs of boxes that meet), where triangles with the same three corners have one box.
 std::int64_t count_self_intersections(const std::vector<Eigen::Vector3d>& points,
                                       const std::vector<std::array<std::int32_t, 3>>& triangles);
 

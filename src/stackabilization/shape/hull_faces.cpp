@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "stackabilization/shape/affine_span.h"
 #include "stackabilization/shape/convex_hull.h"
 #include "stackabilization/shape/planar.h"
 
@@ -34,43 +35,24 @@ Points sorted_rows(const Points& points, std::vector<Eigen::Index> rows) {
   return result;
 }
 
-/// Affine dimension of the points up to a resolution, with a line and a plane through most of them.
-struct Spread {
-  int dimension = 0;
-  Eigen::Vector3d origin, axis, normal;  ///< axis from dimension 1 on, normal from dimension 2 on; unit
-};
-
-Spread spread_of(const Points& points, double resolution) {
-  Spread spread;
-  spread.origin = points.row(0).transpose();
-  const Points offsets = points.rowwise() - points.row(0);
-  Eigen::Index farthest = 0;
-  if (offsets.rowwise().norm().maxCoeff(&farthest) <= resolution) return spread;
-  spread.axis = offsets.row(farthest).transpose().normalized();
-  spread.dimension = 1;
-  const Points across = offsets - (offsets * spread.axis) * spread.axis.transpose();
-  if (across.rowwise().norm().maxCoeff(&farthest) <= resolution) return spread;
-  spread.normal = spread.axis.cross(across.row(farthest).transpose()).normalized();
-  spread.dimension = (offsets * spread.normal).cwiseAbs().maxCoeff() <= resolution ? 2 : 3;
-  return spread;
-}
-
-HullFaces straight_hull(const Points& points, const Spread& spread) {
+HullFaces straight_hull(const Points& points, const AffineSpan& span) {
   HullFaces hull;
-  const Eigen::VectorXd along = points * spread.axis;
+  const Eigen::VectorXd along = points * span.axis;
   Eigen::Index first = 0, last = 0;
   along.minCoeff(&first);
   along.maxCoeff(&last);
   hull.points = sorted_rows(points, {first, last});
+  hull.dimension = static_cast<int>(hull.points.rows()) - 1;
   return hull;
 }
 
-HullFaces flat_hull(const Points& points, const Spread& spread, double resolution) {
+HullFaces flat_hull(const Points& points, const AffineSpan& span, double resolution) {
   Eigen::Matrix2Xd planar(2, points.rows());
-  const Points offsets = points.rowwise() - spread.origin.transpose();
-  planar.row(0) = (offsets * spread.axis).transpose();
-  planar.row(1) = (offsets * spread.normal.cross(spread.axis)).transpose();
+  const Points offsets = points.rowwise() - span.origin.transpose();
+  planar.row(0) = (offsets * span.axis).transpose();
+  planar.row(1) = (offsets * span.normal.cross(span.axis)).transpose();
   const std::vector<int> polygon = convex_polygon(planar, resolution);
+  if (polygon.size() < 3) return straight_hull(points, span);
 
   const auto size = static_cast<int>(polygon.size());
   std::vector<int> order(polygon);
@@ -79,6 +61,7 @@ HullFaces flat_hull(const Points& points, const Spread& spread, double resolutio
     return static_cast<int>(std::lower_bound(order.begin(), order.end(), polygon[corner]) - order.begin());
   };
   HullFaces hull;
+  hull.dimension = 2;
   hull.points = points(order, Eigen::all);
   hull.edges.resize(size, 2);
   hull.edge_faces.resize(size, 2);
@@ -91,7 +74,7 @@ HullFaces flat_hull(const Points& points, const Spread& spread, double resolutio
     doubled_area += a.x() * b.y() - a.y() * b.x();
   }
   hull.normals.resize(2, 3);
-  hull.normals << spread.normal.transpose(), -spread.normal.transpose();
+  hull.normals << span.normal.transpose(), -span.normal.transpose();
   hull.areas = Eigen::Vector2d::Constant(doubled_area / 2);
   return hull;
 }
@@ -232,6 +215,7 @@ std::pair<int, int> FaceMerger::ends(const Border& border) const {
 
 HullFaces FaceMerger::result() const {
   HullFaces faces;
+  faces.dimension = 3;
   list_edges(list_faces(faces), faces);
   return faces;
 }
@@ -281,24 +265,39 @@ void FaceMerger::list_edges(const std::vector<int>& rank, HullFaces& faces) cons
   faces.edges = faces.edges.unaryExpr([&](int i) { return row[i]; }).eval();
 }
 
+/// Faces of a body hardly thicker than the resolution may run together, and with them its corners into a
+/// plane: then it is as flat as they are.
+HullFaces solid_hull(const Points& points, const AffineSpan& span, double resolution) {
+  const TriangulatedHull hull = triangulated_hull(points);
+  const FaceMerger merger(hull, resolution);
+  if (merger.face_count() < 4) return flat_hull(points, span, resolution);
+  HullFaces faces = merger.result();
+  if (affine_span(faces.points, resolution).dimension < 3) return flat_hull(points, span, resolution);
+  return faces;
+}
+
+HullFaces hull_of_distinct(const Points& points, double resolution) {
+  const AffineSpan span = affine_span(points, resolution);
+  if (span.dimension == 3) return solid_hull(points, span, resolution);
+  if (span.dimension == 2) return flat_hull(points, span, resolution);
+  if (span.dimension == 1) return straight_hull(points, span);
+  HullFaces single;
+  single.points = points.topRows(1);
+  return single;
+}
+
 }  // namespace
 
 HullFaces hull_faces(const Points& points, double resolution) {
   std::vector<Eigen::Index> rows(points.rows());
   std::iota(rows.begin(), rows.end(), 0);
   const Points distinct = sorted_rows(points, std::move(rows));
-  const Spread spread = spread_of(distinct, resolution);
-  if (spread.dimension == 1) return straight_hull(distinct, spread);
-  if (spread.dimension == 2) return flat_hull(distinct, spread, resolution);
-  if (spread.dimension == 3) {
-    const TriangulatedHull hull = triangulated_hull(distinct);
-    const FaceMerger merger(hull, resolution);
-    // Faces of a body hardly thicker than the resolution may have run together.
-    return merger.face_count() < 4 ? flat_hull(distinct, spread, resolution) : merger.result();
-  }
-  HullFaces single;
-  single.points = distinct.topRows(1);
-  return single;
+  const int exponent = working_exponent(distinct);
+  if (exponent == 0) return hull_of_distinct(distinct, resolution);
+  HullFaces hull = hull_of_distinct(scaled_by_power(distinct, exponent), std::ldexp(resolution, exponent));
+  hull.points = scaled_by_power(hull.points, -exponent);
+  hull.areas = hull.areas.unaryExpr([exponent](double a) { return std::ldexp(a, -2 * exponent); }).eval();
+  return hull;
 }
 
 }  // namespace stackabilization

@@ -9,6 +9,7 @@
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/formats/text.h"
 #include "stackabilization/shape/read_file.h"
+#include "stackabilization/shape/utf8.h"
 
 namespace stackabilization {
 
@@ -40,6 +41,8 @@ class LabelReader {
   }
 
   Shape apply() {
+    for (const Line& line : lines_)
+      if (!is_utf8(line.text)) fail(line, "expected names in UTF-8, found " + in_quotes(line.text));
     if (is_seg())
       apply_seg();
     else

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "stackabilization/shape/affine_span.h"
 #include "stackabilization/shape/boxes.h"
 #include "stackabilization/shape/tolerances.h"
 
@@ -43,8 +44,9 @@ struct Arc {
   Eigen::Vector3d normal(double angle) const { return start * std::cos(angle) + side * std::sin(angle); }
 };
 
-/// The smallest box at one place of an arc. Turned by a small angle d it grows by a factor of at most
-/// 1 + d * rate, its other sides times d, to hold the shape again.
+/// The smallest box at one place of an arc, its volume up to a factor that is the same for all. Turned by a
+/// small angle d it grows by a factor of at most 1 + d * rate, its other sides times d, to hold the shape
+/// again.
 struct Sample {
   double angle = 0, volume = 0, rate = 0;
 };
@@ -68,7 +70,9 @@ double turning_rate(const OrientedBox& box) {
 class MinimalBoxSearch {
  public:
   explicit MinimalBoxSearch(const HullSupport& hull)
-      : hull_(hull), boxes_left_(static_cast<int>(total_effort / effort_per_box(hull))) {}
+      : hull_(hull),
+        unit_(std::ldexp(1.0, std::min(working_exponent(hull.points()), 1000))),
+        boxes_left_(static_cast<int>(total_effort / effort_per_box(hull))) {}
 
   OrientedBox run() {
     visit_faces();
@@ -89,11 +93,12 @@ class MinimalBoxSearch {
   Sample visit(const Eigen::Vector3d& normal, double angle) {
     --boxes_left_;
     const OrientedBox box = hull_.box_along(Direction(normal));
-    if (box.volume() < best_volume_) {
+    const double volume = (unit_ * box.half_extents).prod();
+    if (volume < best_volume_) {
       best_ = box;
-      best_volume_ = box.volume();
+      best_volume_ = volume;
     }
-    return {angle, box.volume(), turning_rate(box)};
+    return {angle, volume, turning_rate(box)};
   }
 
   bool cannot_win(double bound) const { return bound >= best_volume_ * (1 - tolerance::rounding); }
@@ -112,6 +117,7 @@ class MinimalBoxSearch {
   void minimise_inside(const Interval& interval);
 
   const HullSupport& hull_;
+  double unit_;  ///< lengths times it have volumes that neither overflow nor underflow
   int boxes_left_;
   OrientedBox best_;
   double best_volume_ = std::numeric_limits<double>::infinity();
@@ -197,9 +203,8 @@ Direction direction_of_straight_set(const Points& points) {
 }  // namespace
 
 OrientedBox minimal_oriented_box(const HullSupport& hull) {
-  if (hull.face_normals().rows() == 0) return hull.box_along(direction_of_straight_set(hull.points()));
-  if (hull.face_normals().rows() == 2)
-    return hull.box_along(Direction(hull.face_normals().row(0).transpose()));
+  if (hull.dimension() < 2) return hull.box_along(direction_of_straight_set(hull.points()));
+  if (hull.dimension() == 2) return hull.box_along(Direction(hull.face_normals().row(0).transpose()));
   return MinimalBoxSearch(hull).run();
 }
 

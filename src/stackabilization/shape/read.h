@@ -35,7 +35,8 @@ struct ReadOptions {
 /// orientation, without new vertices. Parts come in the order of their first face: OBJ groups (`g`, inside
 /// `o` objects: "object/group"; several names are one, joined by blanks; a name that opens again goes on),
 /// STL solids, 3MF objects per build item and glTF meshes per node, transforms applied; a file without parts
-/// has one, "part". Empty parts vanish.
+/// has one, "part". Empty parts vanish. Names are UTF-8, or the file is refused: they go on into JSON and
+/// XML, which hold nothing else.
 ///
 /// Throws InputError, one sentence with the file and the line, byte or element, when the file is missing,
 /// unreadable, of unknown kind, damaged, has a number that is not finite in double precision, or has no

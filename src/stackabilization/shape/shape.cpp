@@ -6,7 +6,10 @@
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/extract_parts.h"
+#include "stackabilization/shape/formats/text.h"
 #include "stackabilization/shape/tolerances.h"
+#include "stackabilization/shape/utf8.h"
 
 namespace stackabilization {
 
@@ -28,6 +31,7 @@ void validate_parts(const Shape& shape) {
   std::set<std::string> names;
   for (const std::string& name : shape.part_names) {
     if (name.empty()) throw InputError("a part has an empty name");
+    if (!is_utf8(name)) throw InputError("the part name " + in_quotes(name) + " is not UTF-8");
     if (!names.insert(name).second) throw InputError("the part name '" + name + "' occurs twice");
   }
   for (std::size_t t = 0; t < shape.triangle_part.size(); ++t)
@@ -67,28 +71,28 @@ void validate(const Shape& shape) {
 
 namespace {
 
-/// The listed triangles with the vertices they use, renumbered in their old order; parts are left to the
-/// caller.
-Shape subset(const Shape& shape, const std::vector<Eigen::Index>& triangles) {
-  std::vector<std::int32_t> renumbered(static_cast<std::size_t>(shape.vertex_count()), -1);
+/// The listed triangles with the vertices they use, renumbered in their old order, as one part; takes no more
+/// time than the list is long.
+Shape subset(const Shape& shape, const std::vector<Eigen::Index>& triangles, const std::string& name) {
+  std::vector<std::int32_t> used;
+  used.reserve(3 * triangles.size());
   for (const Eigen::Index t : triangles)
-    for (int corner = 0; corner < 3; ++corner)
-      renumbered[static_cast<std::size_t>(shape.triangles(t, corner))] = 0;
-  std::int32_t used = 0;
-  for (std::int32_t& vertex : renumbered)
-    if (vertex == 0) vertex = used++;
+    for (int corner = 0; corner < 3; ++corner) used.push_back(shape.triangles(t, corner));
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
 
   Shape result;
   result.unit = shape.unit;
-  result.vertices.resize(used, 3);
-  for (std::size_t v = 0; v < renumbered.size(); ++v)
-    if (renumbered[v] >= 0)
-      result.vertices.row(renumbered[v]) = shape.vertices.row(static_cast<Eigen::Index>(v));
+  result.vertices.resize(static_cast<Eigen::Index>(used.size()), 3);
+  for (std::size_t v = 0; v < used.size(); ++v)
+    result.vertices.row(static_cast<Eigen::Index>(v)) = shape.vertices.row(used[v]);
   result.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t i = 0; i < triangles.size(); ++i)
     for (int corner = 0; corner < 3; ++corner)
-      result.triangles(static_cast<Eigen::Index>(i), corner) =
-          renumbered[static_cast<std::size_t>(shape.triangles(triangles[i], corner))];
+      result.triangles(static_cast<Eigen::Index>(i), corner) = static_cast<std::int32_t>(
+          std::lower_bound(used.begin(), used.end(), shape.triangles(triangles[i], corner)) - used.begin());
+  result.part_names = {name};
+  result.triangle_part.assign(triangles.size(), 0);
   return result;
 }
 
@@ -110,10 +114,18 @@ Shape extract_part(const Shape& shape, Eigen::Index part) {
   std::vector<Eigen::Index> members;
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
     if (shape.triangle_part[static_cast<std::size_t>(t)] == part) members.push_back(t);
-  Shape result = subset(shape, members);
-  result.part_names = {shape.part_names[static_cast<std::size_t>(part)]};
-  result.triangle_part.assign(members.size(), 0);
-  return result;
+  return subset(shape, members, shape.part_names[static_cast<std::size_t>(part)]);
+}
+
+std::vector<Shape> extract_parts(const Shape& shape) {
+  std::vector<std::vector<Eigen::Index>> members(shape.part_names.size());
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    members[static_cast<std::size_t>(shape.triangle_part[static_cast<std::size_t>(t)])].push_back(t);
+  std::vector<Shape> parts;
+  parts.reserve(members.size());
+  for (std::size_t part = 0; part < members.size(); ++part)
+    parts.push_back(subset(shape, members[part], shape.part_names[part]));
+  return parts;
 }
 
 Shape concatenate(const Shape& a, const Shape& b) {

@@ -27,7 +27,7 @@ enum class Unit { unknown, micrometre, millimetre, centimetre, metre, inch, foot
 struct Shape {
   Points vertices;                          ///< n x 3, model units.
   Triangles triangles;                      ///< m x 3.
-  std::vector<std::string> part_names;      ///< k names, in file order; unique and non-empty.
+  std::vector<std::string> part_names;      ///< k names in UTF-8, in file order; unique and non-empty.
   std::vector<std::int32_t> triangle_part;  ///< m entries in [0, k).
   Unit unit = Unit::unknown;                ///< Unit of `vertices`.
 

@@ -95,7 +95,16 @@ std::string shape_bytes(const Shape& shape, Format format, const WriteOptions& o
   return write_vtp(shape, options.encoding);
 }
 
-void write_shape(const Shape& shape, const std::filesystem::path& path, const WriteOptions& options) {
+namespace {
+
+/// Can they be read back from placements?
+bool can_be_instanced(const Copies& copies) {
+  const auto count = static_cast<std::int64_t>(copies.placed.size());
+  return count * (copies.shape.part_count() + 1) <= most_placed_objects &&
+         count * copies.shape.triangle_count() <= most_instanced_triangles;
+}
+
+Format format_of_output(const std::filesystem::path& path, const WriteOptions& options) {
   std::optional<Format> format = options.format;
   if (!format) {
     if (path == "-") throw UsageError("writing a mesh to standard output needs a format");
@@ -108,7 +117,25 @@ void write_shape(const Shape& shape, const std::filesystem::path& path, const Wr
       throw UsageError(path.string() +
                        ": glTF is written in its binary form only, expected the extension .glb");
   }
-  write_file_atomically(path, shape_bytes(shape, *format, options));
+  return *format;
+}
+
+}  // namespace
+
+std::string shape_bytes(const Copies& copies, Format format, const WriteOptions& options) {
+  if ((format != Format::three_mf && format != Format::gltf) || !can_be_instanced(copies))
+    return shape_bytes(as_one_shape(copies), format, options);
+  validate(copies.shape);
+  return format == Format::three_mf ? write_three_mf(copies.shape, copies.placed)
+                                    : write_glb(copies.shape, copies.placed);
+}
+
+void write_shape(const Shape& shape, const std::filesystem::path& path, const WriteOptions& options) {
+  write_file_atomically(path, shape_bytes(shape, format_of_output(path, options), options));
+}
+
+void write_shape(const Copies& copies, const std::filesystem::path& path, const WriteOptions& options) {
+  write_file_atomically(path, shape_bytes(copies, format_of_output(path, options), options));
 }
 
 }  // namespace stackabilization

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "stackabilization/shape/copies.h"
 #include "stackabilization/shape/format.h"
 #include "stackabilization/shape/shape.h"
 
@@ -33,5 +34,15 @@ void write_shape(const Shape& shape, const std::filesystem::path& path, const Wr
 
 /// The bytes of that file; `options.format` is not used.
 std::string shape_bytes(const Shape& shape, Format format, const WriteOptions& options = {});
+
+/// The same for copies of a shape. 3MF and GLB hold its meshes once and a placement for each copy, 3MF as
+/// items of the build (`partnumber` is the name), GLB as nodes; the other formats, and these beyond what
+/// `read_shape` takes from placements, hold `as_one_shape(copies)`.
+///
+/// Reading gives `as_one_shape(copies)` again: from 3MF, whose numbers are decimal and bring back each
+/// double, to the bit; from GLB with the vertices of one copy in single precision and placements in double,
+/// so that all copies are the same shape.
+void write_shape(const Copies& copies, const std::filesystem::path& path, const WriteOptions& options = {});
+std::string shape_bytes(const Copies& copies, Format format, const WriteOptions& options = {});
 
 }  // namespace stackabilization

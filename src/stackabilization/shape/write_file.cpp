@@ -85,6 +85,20 @@ std::optional<std::string> target_of_temporary(std::string_view name) {
   return temporary ? std::optional(temporary->target) : std::nullopt;
 }
 
+std::vector<std::filesystem::path> steps_of_links(const std::filesystem::path& path) {
+  constexpr std::size_t most_links = 40;  // as the system
+  std::vector<std::filesystem::path> steps = {path};
+  std::error_code error;
+  while (steps.size() <= most_links) {
+    const std::filesystem::path last = steps.back();
+    if (!std::filesystem::is_symlink(std::filesystem::symlink_status(last, error))) break;
+    const std::filesystem::path next = std::filesystem::read_symlink(last, error);
+    if (error) break;
+    steps.push_back(last.parent_path() / next);
+  }
+  return steps;
+}
+
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes) {
   if (path == "-") {
     const std::string reason = write_all(stdout, bytes);
@@ -97,11 +111,9 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
   if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
     return write_directly(path, bytes);
 
-  // A link keeps pointing to its file, which is what gets replaced.
-  std::filesystem::path target = path;
-  error.clear();
-  if (std::filesystem::exists(status)) target = std::filesystem::canonical(path, error);
-  if (error) fail(path.string(), error.message());
+  const std::filesystem::path target = steps_of_links(path).back();
+  if (std::filesystem::is_symlink(std::filesystem::symlink_status(target, error)))
+    fail(path.string(), "its links lead in a circle");
   std::filesystem::path temporary = target;
   temporary += '.' + std::to_string(getpid());
   temporary += temporary_ending;

@@ -1,12 +1,8 @@
 #include "stackabilization/stacking/collision.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -16,21 +12,17 @@
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/stacking/closed_surface.h"
 #include "stackabilization/stacking/exact_number.h"
+#include "stackabilization/stacking/solid_location.h"
 
 namespace stackabilization {
 
 namespace {
 
-using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel;
-using TriangleIterator = std::vector<Filtered::Triangle_3>::const_iterator;
-using Tree =
-    CGAL::AABB_tree<CGAL::AABB_traits<Filtered, CGAL::AABB_triangle_primitive<Filtered, TriangleIterator>>>;
-
-using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
-using Point = Exact::Point_3;
-using Vector = Exact::Vector_3;
-using Number = Exact::FT;
-using Corners = std::array<Point, 3>;
+using detail::Corners;
+using detail::Exact;
+using detail::Number;
+using detail::Point;
+using detail::Vector;
 
 /// A shape at its place: exact coordinates of all vertices.
 struct Placed {
@@ -178,78 +170,34 @@ bool overlap_near(const Placed& a, std::int32_t in_a, const Placed& b, std::int3
   return enters_at_edges(s, b, in_b) || enters_at_edges(t, a, in_a);
 }
 
-enum class Location { outside, inside, boundary, undecided };
-
-/// Crossing of the ray from p along (1, slope, slope^2) with triangle t: -1, 0, 1; or why it cannot be told:
-/// p lies on the triangle, or the ray meets its outline.
-struct RayCrossing {
-  int winding = 0;
-  Location trouble = Location::outside;
-};
-
-RayCrossing ray_crossing(const Point& p, int slope, const Corners& t) {
-  const auto flat = [slope](const Point& q) {
-    return Exact::Point_2(q.y() - slope * q.x(), q.z() - slope * slope * q.x());
-  };
-  const Exact::Point_2 a = flat(t[0]), b = flat(t[1]), c = flat(t[2]), q = flat(p);
-  const std::array<int, 3> side = {CGAL::orientation(a, b, q), CGAL::orientation(b, c, q),
-                                   CGAL::orientation(c, a, q)};
-  if (on_both_sides(side)) return {};
-  if (side == std::array<int, 3>{0, 0, 0}) return {0, Location::undecided};  // the ray runs in the plane of t
-  const int above_plane = CGAL::orientation(t[0], t[1], t[2], p);
-  if (above_plane == 0) return {0, Location::boundary};
-  if (side[0] * side[1] * side[2] == 0) return {0, Location::undecided};
-  // Seen against the ray the triangle turns counter-clockwise (side = 1): its normal goes along the ray, and
-  // the ray meets it when it starts behind it.
-  return above_plane * side[0] < 0 ? RayCrossing{side[0], Location::outside} : RayCrossing{};
-}
-
-/// The ray never descends along an axis, and along y and z it only ascends when it has a slope.
-bool ray_may_meet(const CGAL::Bbox_3& p, int slope, const CGAL::Bbox_3& box) {
-  for (int k = 0; k < 3; ++k)
-    if (p.min(k) > box.max(k) || (k > 0 && slope == 0 && p.max(k) < box.min(k))) return false;
-  return true;
-}
-
-/// Where a point lies; for `boundary` also a triangle on which it does.
-struct Place {
-  Location location;
-  std::int32_t triangle = -1;
-};
-
-Place locate_along(const Point& p, int slope, const Placed& solid) {
-  const CGAL::Bbox_3 at = p.bbox();
-  int winding = 0;
-  for (std::int32_t t = 0; t < static_cast<std::int32_t>(solid.shape.triangle_count()); ++t) {
-    const Corners corners = solid.corners(t);
-    if (!ray_may_meet(at, slope, corners[0].bbox() + corners[1].bbox() + corners[2].bbox())) continue;
-    if (CGAL::collinear(corners[0], corners[1], corners[2])) continue;
-    const RayCrossing crossed = ray_crossing(p, slope, corners);
-    if (crossed.trouble != Location::outside) return {crossed.trouble, t};
-    winding += crossed.winding;
-  }
-  return {winding == 0 ? Location::outside : Location::inside};
-}
-
-/// Ends: a plane through p and an edge of the solid holds (1, slope, slope^2) for two slopes at most.
-Place locate(const Point& p, const Placed& solid) {
-  for (int slope = 0;; ++slope) {
-    const Place place = locate_along(p, slope, solid);
-    if (place.location != Location::undecided) return place;
-  }
-}
-
 /// Does the relative interior of t, which the solid's surface does not cross, run inside the solid? Looks at
 /// points of t on a parabola. Where t touches the solid without lying on it, it does so along lines and at
 /// points, of which the parabola meets each twice at most: so this ends.
-bool inside(const Corners& t, const Placed& solid) {
+bool inside(const Corners& t, const detail::SolidLocator& solid) {
   for (int attempt = 0;; ++attempt) {
     const Number u = Number(271) / (997 + attempt);  // a weight that no model has by design
     const Point p = t[0] + u * (t[1] - t[0]) + u * u * (t[2] - t[0]);
-    const Place place = locate(p, solid);
-    if (place.location != Location::boundary) return place.location == Location::inside;
-    if (sides(solid.corners(place.triangle), t) == std::array<int, 3>{0, 0, 0}) return false;
+    const detail::PointLocation found = solid.locate(p);
+    if (found.place != detail::PointPlace::boundary) return found.place == detail::PointPlace::inside;
+    if (sides(solid.corners(found.triangle), t) == std::array<int, 3>{0, 0, 0}) return false;
   }
+}
+
+/// Six times the signed volume, about a corner of the shape.
+double signed_volume(const Shape& shape) {
+  const Eigen::Vector3d origin = shape.corner(0, 0);
+  double volume = 0;
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    volume +=
+        (shape.corner(t, 0) - origin).dot((shape.corner(t, 1) - origin).cross(shape.corner(t, 2) - origin));
+  return volume;
+}
+
+/// The shape, its triangles turned around where it is inside out as a whole.
+Shape outward(Shape shape) {
+  validate(shape);
+  if (signed_volume(shape) < 0) shape.triangles.col(1).swap(shape.triangles.col(2));
+  return shape;
 }
 
 }  // namespace
@@ -257,36 +205,15 @@ bool inside(const Corners& t, const Placed& solid) {
 struct CollisionTester::Data {
   Shape below, above;
   ClosedSurface below_surface, above_surface;
-  std::vector<Filtered::Triangle_3> below_triangles;  // those with area
-  std::vector<std::int32_t> below_rows, above_rows;   // rows of the triangles with area
-  Tree tree;
+  detail::SolidLocator below_solid, above_solid;
 
-  Data(const Shape& fixed, const Shape& lifted) : below(fixed), above(lifted) {
-    validate(below);
-    validate(above);
-    below_surface = closed_surface(below);
-    above_surface = closed_surface(above);
-    below_rows = rows_with_area(below, &below_triangles);
-    above_rows = rows_with_area(above, nullptr);
-    tree.insert(below_triangles.cbegin(), below_triangles.cend());
-    tree.build();
-  }
-
-  static std::vector<std::int32_t> rows_with_area(const Shape& shape,
-                                                  std::vector<Filtered::Triangle_3>* kept) {
-    std::vector<std::int32_t> rows;
-    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-      std::array<Filtered::Point_3, 3> p;
-      for (int k = 0; k < 3; ++k) {
-        const Eigen::Vector3d corner = shape.corner(t, k);
-        p[static_cast<std::size_t>(k)] = {corner.x(), corner.y(), corner.z()};
-      }
-      if (CGAL::collinear(p[0], p[1], p[2])) continue;
-      rows.push_back(static_cast<std::int32_t>(t));
-      if (kept) kept->emplace_back(p[0], p[1], p[2]);
-    }
-    return rows;
-  }
+  Data(const Shape& fixed, const Shape& lifted)
+      : below(outward(fixed)),
+        above(outward(lifted)),
+        below_surface(closed_surface(below)),
+        above_surface(closed_surface(above)),
+        below_solid(below),
+        above_solid(above) {}
 
   static Placed place(const Shape& shape, const ClosedSurface& surface, const Vector& translation) {
     Placed placed{shape, surface, std::vector<Point>(static_cast<std::size_t>(shape.vertex_count()))};
@@ -304,16 +231,12 @@ struct CollisionTester::Data {
   template <class Visitor>
   bool any_touching_pair(const Placed& fixed, const Placed& lifted, const Visitor& visit) const {
     std::atomic<bool> found = false;
+    const std::vector<std::int32_t>& above_rows = above_solid.rows();
     tbb::parallel_for(std::size_t{0}, above_rows.size(), [&](std::size_t k) {
       if (found) return;
       const std::int32_t in_above = above_rows[k];
       const Corners t = lifted.corners(in_above);
-      std::vector<Tree::Primitive_id> candidates;
-      tree.all_intersected_primitives(t[0].bbox() + t[1].bbox() + t[2].bbox(),
-                                      std::back_inserter(candidates));
-      for (const Tree::Primitive_id candidate : candidates) {
-        const std::int32_t in_below =
-            below_rows[static_cast<std::size_t>(candidate - below_triangles.cbegin())];
+      for (const std::int32_t in_below : below_solid.triangles_in(t[0].bbox() + t[1].bbox() + t[2].bbox())) {
         const Corners s = fixed.corners(in_below);
         if (!CGAL::do_intersect(Exact::Triangle_3(s[0], s[1], s[2]), Exact::Triangle_3(t[0], t[1], t[2])))
           continue;
@@ -335,11 +258,30 @@ Vector translation_by(const Direction& direction, const Rational& lift) {
   return {t * r.x(), t * r.y(), t * r.z()};
 }
 
-/// Is some triangle among `candidates` inside the solid?
-bool any_inside(const Placed& shape, const std::vector<std::int32_t>& candidates, const Placed& solid) {
+/// Winding numbers beside one point of every triangle: neither of both signs nor 0 on both sides?
+std::optional<InteriorDefect> winding_defect(const detail::SolidLocator& solid) {
+  std::atomic<bool> negative = false, cancelled = false;
+  const std::vector<std::int32_t>& rows = solid.rows();
+  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t k) {
+    if (negative) return;
+    const detail::Windings beside = solid.windings_beside(rows[k]);
+    if (std::min(beside.ahead, beside.behind) < 0) negative = true;
+    if (beside.ahead == 0 && beside.behind == 0) cancelled = true;
+  });
+  if (negative) return InteriorDefect::inside_out;
+  if (cancelled) return InteriorDefect::no_volume;
+  return std::nullopt;
+}
+
+/// Is some triangle among `candidates`, moved by `by`, inside the solid?
+bool any_inside(const Placed& shape, const std::vector<std::int32_t>& candidates, const Vector& by,
+                const detail::SolidLocator& solid) {
   std::atomic<bool> found = false;
   tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t k) {
-    if (!found && inside(shape.corners(candidates[k]), solid)) found = true;
+    if (found) return;
+    Corners t = shape.corners(candidates[k]);
+    for (Point& corner : t) corner = corner + by;
+    if (inside(t, solid)) found = true;
   });
   return found;
 }
@@ -354,6 +296,13 @@ CollisionTester::~CollisionTester() = default;
 
 bool CollisionTester::solids() const {
   return data_->below_surface.closed && data_->above_surface.closed;
+}
+
+std::optional<InteriorDefect> CollisionTester::interior_defect() const {
+  if (!solids()) return InteriorDefect::open;
+  for (const detail::SolidLocator* solid : {&data_->below_solid, &data_->above_solid})
+    if (const auto defect = winding_defect(*solid)) return defect;
+  return std::nullopt;
 }
 
 const Shape& CollisionTester::below() const {
@@ -373,8 +322,9 @@ bool CollisionTester::closed_contact(const Direction& direction, const Rational&
 bool CollisionTester::interiors_overlap(const Direction& direction, const Rational& lift) const {
   if (!solids())
     throw InputError("the interiors of an open or non-manifold shape cannot be tested for overlap");
+  const Vector by = translation_by(direction, lift);
   const Placed fixed = Data::place(data_->below, data_->below_surface, CGAL::NULL_VECTOR);
-  const Placed lifted = Data::place(data_->above, data_->above_surface, translation_by(direction, lift));
+  const Placed lifted = Data::place(data_->above, data_->above_surface, by);
 
   std::vector<std::atomic<bool>> below_touched(static_cast<std::size_t>(data_->below.triangle_count()));
   std::vector<std::atomic<bool>> above_touched(static_cast<std::size_t>(data_->above.triangle_count()));
@@ -394,8 +344,9 @@ bool CollisionTester::interiors_overlap(const Direction& direction, const Ration
       if (touched[t]) rows.push_back(static_cast<std::int32_t>(t));
     return rows;
   };
-  return any_inside(lifted, candidates(data_->above_surface, above_touched), fixed) ||
-         any_inside(fixed, candidates(data_->below_surface, below_touched), lifted);
+  return any_inside(lifted, candidates(data_->above_surface, above_touched), CGAL::NULL_VECTOR,
+                    data_->below_solid) ||
+         any_inside(fixed, candidates(data_->below_surface, below_touched), -by, data_->above_solid);
 }
 
 bool closed_contact(const Shape& below, const Shape& above, const Direction& direction,

@@ -11,6 +11,13 @@
 
 namespace stackabilization {
 
+/// Why the interior of a shape cannot be told by winding numbers.
+enum class InteriorDefect {
+  open,        ///< it is open or non-manifold: there are no winding numbers
+  inside_out,  ///< winding numbers of both signs: some of its parts are inside out
+  no_volume,   ///< surfaces that cancel each other, as of a box without thickness: nothing is inside them
+};
+
 /// Collision tests between a fixed shape and a lifted one, exact for the coordinates as given and any
 /// rational lift: the lifted coordinates p + t r are never rounded. Triangle-triangle tests, sharing nothing
 /// with the separation code (CGAL AABB tree for the candidates, CGAL predicates over rationals for the
@@ -38,10 +45,14 @@ class CollisionTester {
   /// Do `below` and `above` + lift * r have a point in common?
   bool closed_contact(const Direction& direction, const Rational& lift) const;
 
+  /// Why `interiors_overlap` is no answer for these shapes; nothing when it is exact. Looks at winding
+  /// numbers beside one point of every triangle; a shape that is inside out as a whole is no defect.
+  std::optional<InteriorDefect> interior_defect() const;
+
   /// Do the interiors of `below` and `above` + lift * r have a point in common: is the regularised
   /// intersection not empty? The interior of a shape is where its winding number is not zero; the answer is
-  /// exact when both shapes have no winding numbers of both signs (outward oriented shapes; parts may
-  /// overlap). Throws InputError unless `solids()`.
+  /// exact when neither shape has winding numbers of both signs or surfaces that cancel each other (see
+  /// `interior_defect`; parts may overlap and have cavities). Throws InputError unless `solids()`.
   bool interiors_overlap(const Direction& direction, const Rational& lift) const;
 
  private:

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "stackabilization/shape/copies.h"
 #include "stackabilization/shape/rational.h"
 #include "stackabilization/stacking/rigid_transform.h"
 #include "stackabilization/stacking/stackability.h"
@@ -80,8 +81,10 @@ Line box_axis(const Shape& shape, const Direction& direction, BoxModel boxes);
 /// which the shape drowns in rounding, InputError when `validate(shape)` fails or V(M) = 0.
 StackResult stack_copies(const Shape& shape, const Direction& direction, const StackOptions& options);
 
-/// All copies as one shape, the parts of copy k (counted from 1) named "copyK/NAME". Throws UsageError when
-/// it would have more vertices or triangles than can be indexed.
+/// The copies in their places, copy k (counted from 1) named "copyK". Lifts are rounded to double.
+Copies stacked_copies(const Shape& shape, const Direction& direction, const StackResult& stack);
+
+/// The same as one shape, see as_one_shape.
 Shape stacked_shape(const Shape& shape, const Direction& direction, const StackResult& stack);
 
 }  // namespace stackabilization

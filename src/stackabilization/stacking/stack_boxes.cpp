@@ -7,8 +7,7 @@ namespace stackabilization {
 
 StackBoxes::StackBoxes(const Shape& shape, const Direction& direction, BoxModel model)
     : hull_(shape), direction_(direction), model_(model) {
-  shape_volume_ = model == BoxModel::oriented ? minimal_oriented_box(hull_).volume()
-                                              : axis_aligned_box(hull_.points()).volume();
+  shape_volume_ = box_volume(hull_, model);
   if (!(shape_volume_ > 0))
     throw InputError("the box of the shape has no volume, so its stackability is undefined");
 }

@@ -18,11 +18,9 @@ namespace {
 
 constexpr double unlimited = -std::numeric_limits<double>::infinity();
 
-/// Volume of `box`, V(M) of the shape with these extreme points.
-double volume_of(const OrientedBox& box, const Points& points, FlatShapes flat_shapes) {
-  const double thinnest = 2 * box.half_extents.minCoeff(), largest = points.cwiseAbs().maxCoeff();
-  if (thinnest > tolerance::rounding * largest) return box.volume();
-  if (flat_shapes == FlatShapes::measure) return 0;
+/// V(M) > 0, or what the options say of shapes without.
+double checked_volume(double volume, FlatShapes flat_shapes) {
+  if (volume > 0 || flat_shapes == FlatShapes::measure) return volume;
   throw InputError("the shape is flat: its box has no volume, so its stackability is undefined");
 }
 
@@ -58,14 +56,24 @@ Stackability stackability_from(const BoxTerms& boxes, const Direction& direction
   return result;
 }
 
+/// V(M) of the `frame` model: a box is flat when rounding could have made it as thick as it is.
+double frame_volume(const Points& points) {
+  const OrientedBox box = axis_aligned_box(points);
+  const double thinnest = 2 * box.half_extents.minCoeff(), largest = points.cwiseAbs().maxCoeff();
+  return thinnest > tolerance::rounding * largest ? box.volume() : 0;
+}
+
 }  // namespace
+
+double box_volume(const HullSupport& hull, BoxModel model) {
+  if (model == BoxModel::frame) return frame_volume(hull.points());
+  return hull.dimension() == 3 ? minimal_oriented_box(hull).volume() : 0;
+}
 
 struct StackabilitySolver::Data {
   Data(const Shape& given, const StackabilityOptions& chosen) : shape(given), options(chosen) {
     tbb::parallel_invoke([this] { tree.emplace(shape); }, [this] { hull.emplace(shape); });
-    const OrientedBox box =
-        options.boxes == BoxModel::oriented ? minimal_oriented_box(*hull) : axis_aligned_box(hull->points());
-    box_volume = volume_of(box, hull->points(), options.flat_shapes);
+    box_volume = checked_volume(stackabilization::box_volume(*hull, options.boxes), options.flat_shapes);
   }
 
   BoxTerms boxes(const Direction& direction) const {
@@ -154,7 +162,7 @@ class BoxesAlong {
       const OrientedBox along = frame_box(points, direction);
       terms_.extent = 2 * along.half_extents.z();
       terms_.base = 4 * along.half_extents.x() * along.half_extents.y();
-      terms_.volume = volume_of(axis_aligned_box(points), points, options.flat_shapes);
+      terms_.volume = checked_volume(frame_volume(points), options.flat_shapes);
     }
   }
 
@@ -163,7 +171,7 @@ class BoxesAlong {
 
   BoxTerms exact() const {
     BoxTerms terms = terms_;
-    if (hull_) terms.volume = volume_of(minimal_oriented_box(*hull_), hull_->points(), options_.flat_shapes);
+    if (hull_) terms.volume = checked_volume(box_volume(*hull_, options_.boxes), options_.flat_shapes);
     return terms;
   }
 

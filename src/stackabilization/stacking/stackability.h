@@ -16,6 +16,10 @@ enum class BoxModel {
   frame,     ///< V(M) the file's axis-aligned box, V(M, r) axis-aligned after the minimal rotation of z to r
 };
 
+/// V(M), model units cubed: 0 exactly when the shape is flat, straight or a point (`oriented`:
+/// HullSupport::dimension() below 3; `frame`: its box is no thicker than rounding, tolerance::rounding).
+double box_volume(const HullSupport& hull, BoxModel model);
+
 /// What to do with a shape of V(M) = 0: flat, straight or a point.
 enum class FlatShapes {
   refuse,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "stackabilization/envelope/contacts.h"
+#include "stackabilization/shape/affine_span.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/planar.h"
 #include "stackabilization/shape/tolerances.h"
@@ -44,11 +45,20 @@ class StandingTest {
 };
 
 Support StandingTest::support_of(const std::vector<Eigen::Vector3d>& points) const {
-  Eigen::Matrix2Xd seen(2, static_cast<Eigen::Index>(points.size()));
+  Points seen(static_cast<Eigen::Index>(points.size()), 3);
   for (std::size_t k = 0; k < points.size(); ++k)
-    seen.col(static_cast<Eigen::Index>(k)) = points[k].head<2>();
+    seen.row(static_cast<Eigen::Index>(k)) << points[k].x(), points[k].y(), 0;
+  const AffineSpan span = affine_span(seen, negligible_);
+  if (span.dimension < 2) {  // only what lies at the ends carries
+    const Eigen::VectorXd along = seen * span.axis;
+    Eigen::Index low = 0, high = 0;
+    along.minCoeff(&low);
+    along.maxCoeff(&high);
+    if (span.dimension == 0) return {points[0]};
+    return {points[static_cast<std::size_t>(low)], points[static_cast<std::size_t>(high)]};
+  }
   Support support;
-  for (const int corner : convex_polygon(seen, negligible_))
+  for (const int corner : convex_polygon(seen.leftCols<2>().transpose(), negligible_))
     support.push_back(points[static_cast<std::size_t>(corner)]);
   return support;
 }
@@ -69,7 +79,7 @@ Support StandingTest::ground() const {
 Support StandingTest::contacts(const SeparationTree& tree, const Separation& separation) const {
   const ContactOptions options{.semantics = options_.semantics, .band = options_.band};
   std::vector<Eigen::Vector3d> points;
-  for (const ContactRegion& region : contact_regions({shape_, tree, direction_, separation}, options))
+  for (const ContactRegion& region : contact_regions({shape_, tree, direction_, separation}, options).regions)
     for (const ContactPolygon& polygon : region.polygons)
       for (Eigen::Index k = 0; k < polygon.upper_points.rows(); ++k)
         points.push_back(frame_.to_local(polygon.upper_points.row(k).transpose()));

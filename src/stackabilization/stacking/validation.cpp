@@ -249,20 +249,35 @@ class Validator {
     else
       skip("contact at closed f_max",
            "a triangle without area attains it, and collision tests pass those over");
-    if (!tester.solids()) {
-      skip("overlap of interiors", "the shape is open or non-manifold, so it has no interior to test");
+    const std::optional<InteriorDefect> defect = tester.interior_defect();
+    if (defect) {
+      skip("overlap of interiors", reason_of(*defect));
     } else if (report_.solid.blocked) {
       expect("no overlap at solid f_max", lift_at(report_.solid, 0), overlap, Expected::free);
       expect("no overlap above solid f_max", lift_at(report_.solid, 1), overlap, Expected::free);
       expect("overlap below solid f_max", lift_at(report_.solid, -1), overlap, Expected::colliding);
     }
-    bisection(tester);
+    bisection(tester, !defect && report_.solid.blocked ? Semantics::solid : Semantics::closed);
   }
 
-  void bisection(const CollisionTester& tester) {
+  static std::string reason_of(InteriorDefect defect) {
+    switch (defect) {
+      case InteriorDefect::open:
+        return "the shape is open or non-manifold, so it has no interior to test";
+      case InteriorDefect::inside_out:
+        return "some of the shape is inside out and some is not, so winding numbers do not tell its interior";
+      case InteriorDefect::no_volume:
+        break;
+    }
+    return "surfaces of the shape cancel each other, as those of a part without thickness, so they enclose "
+           "no "
+           "interior to test";
+  }
+
+  void bisection(const CollisionTester& tester, Semantics semantics) {
     BisectionOptions options;
     options.steps = options_.bisection_steps;
-    options.semantics = tester.solids() && report_.solid.blocked ? Semantics::solid : Semantics::closed;
+    options.semantics = semantics;
     const Separation& answer = options.semantics == Semantics::solid ? report_.solid : report_.closed;
     const std::string name = options.semantics == Semantics::solid ? "solid" : "closed";
     timed("collision search from the top, " + name, [&](ValidationRow& row) {

@@ -67,9 +67,11 @@ struct ValidationReport {
 /// solids the Minkowski sum, which must be the very same rational number.
 ///
 /// Sampled values are held against the solid f_max; one between it and the closed f_max comes from a sample
-/// on a wall along r and is accepted with a note. For open shapes only "free above the closed f_max" is
-/// demanded of collisions, and contact at it where triangles with area attain it. Throws InputError as
-/// `validate` does, UsageError for an empty or unsorted list of resolutions or a margin that is not positive.
+/// on a wall along r and is accepted with a note. Where winding numbers do not tell the interior (open
+/// shapes, parts inside out among others, surfaces that cancel each other: `InteriorDefect`) only "free above
+/// the closed f_max" is demanded of collisions, and contact at it where triangles with area attain it. Throws
+/// InputError as `validate` does, UsageError for an empty or unsorted list of resolutions or a margin that is
+/// not positive.
 ValidationReport validate_translation(const Shape& shape, const Direction& direction,
                                       const ValidationOptions& options = {});
 

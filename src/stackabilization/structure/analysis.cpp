@@ -3,12 +3,16 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <optional>
+#include <set>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/extract_parts.h"
 #include "stackabilization/shape/part_names.h"
 #include "stackabilization/structure/bounding_diagonal.h"
 #include "stackabilization/structure/idealise.h"
@@ -30,10 +34,17 @@ double error_of(const PrimitiveFit& fit, PrimitiveKind kind) {
 
 class Analysis {
  public:
-  Analysis(const Shape& shape, const AnalysisOptions& options)
-      : options_(options), result_{segmented(shape, options.segmentation), {}} {
+  Analysis(const Shape& shape, const AnalysisOptions& options) : options_(options) {
+    report(AnalysisStep::parts, 0);
+    result_.shape = segmented(shape, options.segmentation);
+    if (names().size() > options.max_parts)
+      throw InputError("it has " + std::to_string(names().size()) + " parts, and the structure of at most " +
+                       std::to_string(options.max_parts) + " is analysed");
+    near_parts(result_.shape, options.joints);
+    parts_ = extract_parts(result_.shape);
+    const std::set<std::string> known(names().begin(), names().end());
     for (const auto& [name, kind] : options.kinds)
-      if (std::count(names().begin(), names().end(), name) == 0)
+      if (!known.contains(name))
         throw UsageError("a kind of primitive is given for a part, and " + unknown_part(names(), name));
   }
 
@@ -59,20 +70,23 @@ class Analysis {
   void fit_part(int row, std::optional<PrimitiveKind> kind) {
     FitOptions options = options_.fit;
     options.kind = kind;
-    FittedPrimitive fitted = fit_primitive(extract_part(result_.shape, row), options);
+    FittedPrimitive fitted = fit_primitive(parts_[static_cast<std::size_t>(row)], options);
     part(row) = {names()[static_cast<std::size_t>(row)], std::move(fitted.primitive), std::move(fitted.fit)};
   }
 
   void fit_parts() {
     structure().diagonal = bounding_diagonal(result_.shape);
     structure().parts.resize(names().size());
+    std::atomic<std::size_t> done = 0;
     tbb::parallel_for(std::size_t{0}, names().size(), [&](std::size_t k) {
       const int row = static_cast<int>(k);
       fit_part(row, forced_kind(row));
+      report(AnalysisStep::primitives, static_cast<double>(++done) / static_cast<double>(names().size()));
     });
   }
 
   void find_relations() {
+    report(AnalysisStep::symmetries, 0);
     const std::vector<FoundSymmetry> found = find_symmetries(result_.shape, options_.symmetry);
     for (const FoundSymmetry& one : found) structure().symmetries.push_back(one.symmetry);
     structure().relations = symmetry_relations(result_.shape, found, options_.symmetry);
@@ -127,6 +141,7 @@ class Analysis {
   }
 
   void add_joints() {
+    report(AnalysisStep::joints, 0);
     std::vector<Relation> joints =
         detail::symmetric_joints(find_joints(result_.shape, structure().parts, options_.joints), structure());
     std::stable_sort(joints.begin(), joints.end(),
@@ -134,7 +149,14 @@ class Analysis {
     structure().relations.insert(structure().relations.end(), joints.begin(), joints.end());
   }
 
+  /// Only the calling thread is heard.
+  void report(AnalysisStep step, double fraction) const {
+    if (options_.progress && std::this_thread::get_id() == caller_) options_.progress(step, fraction);
+  }
+
   const AnalysisOptions& options_;
+  std::thread::id caller_ = std::this_thread::get_id();
+  std::vector<Shape> parts_;  ///< of the shape
   StructuredShape result_;
 };
 

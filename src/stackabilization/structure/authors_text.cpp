@@ -44,11 +44,12 @@ class Reader {
   }
   Eigen::Vector3d point(const char* what) { return frame_(vector(what)); }
 
-  double length(const char* what) {
+  double not_negative(const char* what) {
     const double value = number(what);
     if (value < 0) cursor_.fail(std::string("expected ") + what + " that is not negative");
-    return frame_.scale * value;
+    return value;
   }
+  double length(const char* what) { return frame_.scale * not_negative(what); }
 
   TextCursor& cursor() { return cursor_; }
   std::string place() const { return name_ + ":" + std::to_string(cursor_.line()); }
@@ -76,7 +77,7 @@ Cuboid read_cuboid(Reader& reader) {
   for (int a = 0; a < 3; ++a) half_extents(a) = reader.length("a half extent");
   reader.cursor().number("the flag of alignment");
   std::array<double, 6> face_scales{};  // +X -X +Y -Y +Z -Z
-  for (double& scale : face_scales) scale = reader.number("the scale of a face");
+  for (double& scale : face_scales) scale = reader.not_negative("the scale of a face");
   Cuboid cuboid;
   for (int k = 0; k < 8; ++k) {
     Eigen::Vector3d corner;

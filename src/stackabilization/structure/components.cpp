@@ -6,17 +6,21 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <tuple>
 
+#include "stackabilization/shape/box_pairs.h"
 #include "stackabilization/shape/boxes.h"
 #include "stackabilization/shape/disjoint_sets.h"
+#include "stackabilization/shape/errors.h"
 #include "stackabilization/structure/surface_graph.h"
 #include "stackabilization/structure/surface_index.h"
 
 namespace stackabilization::detail {
 
 namespace {
+
+/// Pairs of components that contact is looked for between.
+constexpr std::size_t max_pairs = 2'000'000;
 
 /// Points at which the contact of one component is measured.
 constexpr int contact_samples = 128;
@@ -93,26 +97,25 @@ class ContactMerger {
 };
 
 std::vector<ContactMerger::Pair> ContactMerger::candidates() const {
-  std::vector<std::size_t> order(components_.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return components_[a].box.min().x() < components_[b].box.min().x();
-  });
+  std::vector<Eigen::AlignedBox3d> boxes;
+  for (const Component& component : components_)
+    boxes.push_back(component.area > 0 ? component.box : Eigen::AlignedBox3d());
+  const auto near = near_boxes(boxes, reach_, max_pairs);
+  if (!near)
+    throw InputError("more than " + std::to_string(max_pairs) +
+                     " pairs of its connected components come near each other, by their boxes: contact is "
+                     "looked for between at most so many pairs");
   std::vector<Pair> pairs;
   const double least = std::min(rule_.shared_area, rule_.inside) * contact_samples;
-  for (std::size_t i = 0; i < order.size(); ++i)
-    for (std::size_t j = i + 1; j < order.size(); ++j) {
-      const auto [first, second] = std::minmax(order[i], order[j]);
-      const Component &a = components_[first], &b = components_[second];
-      if (components_[order[j]].box.min().x() > components_[order[i]].box.max().x() + reach_) break;
-      if (!(a.area > 0) || !(b.area > 0) || !grown(a.box).intersects(b.box)) continue;
-      const Pair pair = b.area > a.area ? Pair{first, second} : Pair{second, first};
-      const Points& points = components_[pair.small].samples.points;
-      const Eigen::AlignedBox3d box = grown(components_[pair.large].box);
-      int held = 0;
-      for (Eigen::Index k = 0; k < points.rows(); ++k) held += box.contains(points.row(k).transpose().eval());
-      if (held >= least) pairs.push_back(pair);
-    }
+  for (const auto& [first, second] : *near) {
+    const auto low = static_cast<std::size_t>(first), high = static_cast<std::size_t>(second);
+    const Pair pair = components_[high].area > components_[low].area ? Pair{low, high} : Pair{high, low};
+    const Points& points = components_[pair.small].samples.points;
+    const Eigen::AlignedBox3d box = grown(components_[pair.large].box);
+    int held = 0;
+    for (Eigen::Index k = 0; k < points.rows(); ++k) held += box.contains(points.row(k).transpose().eval());
+    if (held >= least) pairs.push_back(pair);
+  }
   std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
     return std::tie(a.small, a.large) < std::tie(b.small, b.large);
   });

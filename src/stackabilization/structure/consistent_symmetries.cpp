@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -41,10 +42,13 @@ class SymmetrySet {
   }
 
   void correct() {
+    std::vector<std::vector<std::size_t>> earlier_on(structure_.parts.size());  // members per orbit
     for (std::size_t i = 0; i < members_.size(); ++i) {
       align_with_file(members_[i].symmetry.axis);
-      correct_direction(i);
-      correct_place(i);
+      const std::vector<std::size_t> earlier = meeting(i, earlier_on);
+      correct_direction(i, earlier);
+      correct_place(i, earlier);
+      for (const std::size_t orbit : members_[i].orbits) earlier_on[orbit].push_back(i);
     }
   }
 
@@ -58,7 +62,7 @@ class SymmetrySet {
  private:
   struct Member {
     Symmetry symmetry;
-    std::vector<std::size_t> orbits;  ///< of the parts it relates
+    std::set<std::size_t> orbits;  ///< of the parts it relates
   };
 
   void collect(std::size_t r) {
@@ -81,7 +85,7 @@ class SymmetrySet {
       best = members_.size();
       members_.push_back({relation.symmetry, {}});
     }
-    members_[*best].orbits.push_back(orbits_.root(part));
+    members_[*best].orbits.insert(orbits_.root(part));
     member_of_.resize(structure_.relations.size());
     member_of_[r] = best;
   }
@@ -90,10 +94,13 @@ class SymmetrySet {
     return symmetry.kind == SymmetryKind::rotation ? symmetry.order : 2;
   }
 
-  bool meet(std::size_t i, std::size_t j) const {
-    const std::vector<std::size_t>&a = members_[i].orbits, &b = members_[j].orbits;
-    return std::any_of(a.begin(), a.end(),
-                       [&](std::size_t orbit) { return std::count(b.begin(), b.end(), orbit) > 0; });
+  /// The members before `i` that bear on one of its orbits, ascending.
+  std::vector<std::size_t> meeting(std::size_t i,
+                                   const std::vector<std::vector<std::size_t>>& earlier_on) const {
+    std::set<std::size_t> found;
+    for (const std::size_t orbit : members_[i].orbits)
+      found.insert(earlier_on[orbit].begin(), earlier_on[orbit].end());
+    return {found.begin(), found.end()};
   }
 
   /// Objects are modelled along the axes of their files; what is found by fitting misses them by a hair, and
@@ -106,19 +113,18 @@ class SymmetrySet {
 
   /// Perpendicular to those it is nearly perpendicular to; at the nearest simple angle to the first of the
   /// others.
-  void correct_direction(std::size_t i) {
+  void correct_direction(std::size_t i, const std::vector<std::size_t>& earlier) {
     Eigen::Vector3d& axis = members_[i].symmetry.axis;
     std::vector<Eigen::Vector3d> across;
     std::optional<Eigen::Vector3d> oblique;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!meet(i, j)) continue;
+    for (const std::size_t j : earlier) {
       const Eigen::Vector3d& other = members_[j].symmetry.axis;
       if (std::abs(axis.dot(other)) > angle_tolerance) {
         if (!oblique) oblique = other;
         continue;
       }
       Eigen::Vector3d rest = other;
-      for (const Eigen::Vector3d& earlier : across) rest -= earlier.dot(rest) * earlier;
+      for (const Eigen::Vector3d& taken : across) rest -= taken.dot(rest) * taken;
       if (rest.norm() > angle_tolerance) across.push_back(rest.normalized());
     }
     if (across.size() < 3)
@@ -140,12 +146,11 @@ class SymmetrySet {
 
   /// An axis of rotation in a mirror plane, and the third plane through a line, go exactly there when they
   /// nearly do.
-  void correct_place(std::size_t i) {
+  void correct_place(std::size_t i, const std::vector<std::size_t>& earlier) {
     Symmetry& symmetry = members_[i].symmetry;
     const bool is_plane = symmetry.kind == SymmetryKind::reflection;
     std::optional<std::size_t> first;
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!meet(i, j)) continue;
+    for (const std::size_t j : earlier) {
       const Symmetry& other = members_[j].symmetry;
       const bool other_is_plane = other.kind == SymmetryKind::reflection;
       if (!is_plane && other_is_plane && std::abs(symmetry.axis.dot(other.axis)) < angle_tolerance)

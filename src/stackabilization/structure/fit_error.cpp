@@ -105,11 +105,44 @@ Points surface_points(const OrientedBox& box) {
   return surface_samples(shape, sample_count).points;
 }
 
+std::vector<Frustum> frusta_of(const GeneralizedCylinder& cylinder) {
+  std::vector<Frustum> frusta;
+  for (Eigen::Index i = 0; i < frustum_count(cylinder); ++i) frusta.push_back(frustum(cylinder, i));
+  return frusta;
+}
+
+double distance_to_frusta(const std::vector<Frustum>& frusta, bool closed, const Eigen::Vector3d& point) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < frusta.size(); ++i) {
+    const Frustum& piece = frusta[i];
+    const Eigen::Vector3d from = point - piece.base;
+    const double along = piece.axis.dot(from);
+    const Eigen::Vector2d place(along, (from - along * piece.axis).norm());
+    const Eigen::Vector2d low(0, piece.low), high(piece.height, piece.high);
+    least = std::min(least, distance_to_segment(place, low, high));
+    if (i == 0 && !closed) least = std::min(least, distance_to_segment(place, {0, 0}, low));
+    if (i + 1 == frusta.size() && !closed)
+      least = std::min(least, distance_to_segment(place, {piece.height, 0}, high));
+  }
+  return least;
+}
+
+auto distance_to(const OrientedBox& box) {
+  return [&box](const Eigen::Vector3d& point) { return distance_to_surface(box, point); };
+}
+
+auto distance_to(const GeneralizedCylinder& cylinder) {
+  return [frusta = frusta_of(cylinder), closed = cylinder.closed](const Eigen::Vector3d& point) {
+    return distance_to_frusta(frusta, closed, point);
+  };
+}
+
 template <class Solid>
 double mean_square_to(const Solid& solid, const Points& points) {
+  const auto distance_of = distance_to(solid);
   double sum = 0;
   for (const auto& point : points.rowwise()) {
-    const double distance = distance_to_surface(solid, Eigen::Vector3d(point.transpose()));
+    const double distance = distance_of(Eigen::Vector3d(point.transpose()));
     sum += distance * distance;
   }
   return sum / static_cast<double>(points.rows());
@@ -138,20 +171,7 @@ double distance_to_surface(const OrientedBox& box, const Eigen::Vector3d& point)
 }
 
 double distance_to_surface(const GeneralizedCylinder& cylinder, const Eigen::Vector3d& point) {
-  double least = std::numeric_limits<double>::infinity();
-  const Eigen::Index n = frustum_count(cylinder);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Frustum piece = frustum(cylinder, i);
-    const Eigen::Vector3d from = point - piece.base;
-    const double along = piece.axis.dot(from);
-    const Eigen::Vector2d place(along, (from - along * piece.axis).norm());
-    const Eigen::Vector2d low(0, piece.low), high(piece.height, piece.high);
-    least = std::min(least, distance_to_segment(place, low, high));
-    if (i == 0 && !cylinder.closed) least = std::min(least, distance_to_segment(place, {0, 0}, low));
-    if (i == n - 1 && !cylinder.closed)
-      least = std::min(least, distance_to_segment(place, {piece.height, 0}, high));
-  }
-  return least;
+  return distance_to_frusta(frusta_of(cylinder), cylinder.closed, point);
 }
 
 double distance_to_surface(const OrientedBox& box, const FitSurface& part) {

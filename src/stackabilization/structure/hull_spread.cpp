@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "stackabilization/shape/affine_span.h"
 #include "stackabilization/shape/convex_hull.h"
 #include "stackabilization/shape/hull_faces.h"
 
@@ -24,7 +26,7 @@ struct Triangle {
 /// over the triangles do not depend on how they are cut.
 std::vector<Triangle> triangles_of(const HullFaces& hull) {
   std::vector<Triangle> triangles;
-  if (hull.normals.rows() > 2) {
+  if (hull.dimension == 3) {
     const TriangulatedHull solid = triangulated_hull(hull.points);
     for (const auto& t : solid.triangles.rowwise())
       triangles.push_back({{solid.points.row(t(0)).transpose(), solid.points.row(t(1)).transpose(),
@@ -56,15 +58,38 @@ Eigen::Vector3d oriented(const Eigen::Vector3d& axis) {
   return axis(largest) < 0 ? Eigen::Vector3d(-axis) : axis;
 }
 
+HullSpread straight_spread(HullSpread spread) {
+  spread.centre = spread.hull.colwise().mean().transpose();
+  const Eigen::Vector3d along = (spread.hull.bottomRows(1) - spread.hull.topRows(1)).transpose();
+  spread.axes.col(0) = along.norm() > 0 ? oriented(along.normalized()) : Eigen::Vector3d::UnitX();
+  spread.axes.col(1) = spread.axes.col(0).unitOrthogonal();
+  spread.axes.col(2) = spread.axes.col(0).cross(spread.axes.col(1));
+  spread.deviations.x() = along.norm() / std::sqrt(12.0);
+  return spread;
+}
+
 HullSpread with_ranges(HullSpread spread) {
   const Points along = (spread.hull.rowwise() - spread.centre.transpose()) * spread.axes;
   spread.ranges << along.colwise().minCoeff().transpose(), along.colwise().maxCoeff().transpose();
   return spread;
 }
 
+HullSpread scaled_by_power(HullSpread spread, int exponent) {
+  const auto scale = [exponent](double x) { return std::ldexp(x, exponent); };
+  spread.centre = spread.centre.unaryExpr(scale).eval();
+  spread.ranges = spread.ranges.unaryExpr(scale).eval();
+  spread.deviations = spread.deviations.unaryExpr(scale).eval();
+  spread.hull = spread.hull.unaryExpr(scale).eval();
+  return spread;
+}
+
 }  // namespace
 
 HullSpread hull_spread(const Points& points, double resolution) {
+  if (const int exponent = working_exponent(points); exponent != 0)
+    return scaled_by_power(
+        hull_spread(stackabilization::scaled_by_power(points, exponent), std::ldexp(resolution, exponent)),
+        -exponent);
   const HullFaces hull = hull_faces(points, resolution);
   const std::vector<Triangle> triangles = triangles_of(hull);
   HullSpread spread;
@@ -74,15 +99,7 @@ HullSpread hull_spread(const Points& points, double resolution) {
     area += t.area();
     spread.centre += t.area() / 3 * (t.corners[0] + t.corners[1] + t.corners[2]);
   }
-  if (!(area > 0)) {
-    spread.centre = hull.points.colwise().mean().transpose();
-    const Eigen::Vector3d along = (hull.points.bottomRows(1) - hull.points.topRows(1)).transpose();
-    spread.axes.col(0) = along.norm() > 0 ? oriented(along.normalized()) : Eigen::Vector3d::UnitX();
-    spread.axes.col(1) = spread.axes.col(0).unitOrthogonal();
-    spread.axes.col(2) = spread.axes.col(0).cross(spread.axes.col(1));
-    spread.deviations.x() = along.norm() / std::sqrt(12.0);
-    return with_ranges(spread);
-  }
+  if (!(area > 0)) return with_ranges(straight_spread(std::move(spread)));
   spread.centre /= area;
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   for (const Triangle& t : triangles) sum += moment(t, spread.centre);

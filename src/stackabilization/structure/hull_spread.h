@@ -24,7 +24,7 @@ struct HullSpread {
   double length(int axis) const { return ranges(axis, 1) - ranges(axis, 0); }
 };
 
-/// Points within `resolution` (model units) of a plane, line or point count as flat, straight or single.
+/// Points count as flat, straight or single as in `hull_faces` with that `resolution` (model units).
 /// Precondition: at least one point, all finite.
 HullSpread hull_spread(const Points& points, double resolution);
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "stackabilization/structure/idealise.h"
@@ -16,9 +17,15 @@ namespace {
 /// A joint and the image of another nearer than this, fraction of the diagonal, are meant to be the same.
 constexpr double same_joint = 0.05;
 
-bool equal(const Symmetry& a, const Symmetry& b) {
-  return a.kind == b.kind && a.order == b.order && a.point == b.point && a.axis == b.axis;
-}
+/// Orders symmetries by all that they are.
+struct ByValue {
+  static auto values(const Symmetry& s) {
+    return std::tuple(s.kind, s.order, s.point.x(), s.point.y(), s.point.z(), s.axis.x(), s.axis.y(),
+                      s.axis.z());
+  }
+
+  bool operator()(const Symmetry& a, const Symmetry& b) const { return values(a) < values(b); }
+};
 
 /// A symmetry and where it takes the parts that it is known to take somewhere.
 struct Action {
@@ -28,13 +35,14 @@ struct Action {
 
 std::vector<Action> actions_of(const Structure& structure) {
   std::vector<Action> actions;
+  std::map<Symmetry, std::size_t, ByValue> rows;
   for (const Relation& relation : structure.relations) {
-    auto action = std::find_if(actions.begin(), actions.end(),
-                               [&](const Action& one) { return equal(one.symmetry, relation.symmetry); });
-    if (action == actions.end()) action = actions.insert(actions.end(), {relation.symmetry, {}});
-    action->parts[relation.parts.front()] = relation.parts.back();
+    const auto [row, is_new] = rows.try_emplace(relation.symmetry, actions.size());
+    if (is_new) actions.push_back({relation.symmetry, {}});
+    std::map<int, int>& parts = actions[row->second].parts;
+    parts[relation.parts.front()] = relation.parts.back();
     if (relation.symmetry.kind == SymmetryKind::reflection)
-      action->parts[relation.parts.back()] = relation.parts.front();
+      parts[relation.parts.back()] = relation.parts.front();
   }
   return actions;
 }
@@ -54,13 +62,22 @@ double distance(const Points& a, const Points& b) {
 class JointSymmetry {
  public:
   JointSymmetry(const std::vector<Relation>& joints, const Structure& structure)
-      : structure_(structure), joints_(joints), actions_(actions_of(structure)) {}
+      : structure_(structure),
+        joints_(joints),
+        actions_(actions_of(structure)),
+        actions_on_(structure.parts.size()) {
+    for (std::size_t a = 0; a < actions_.size(); ++a)
+      for (const auto& [part, image] : actions_[a].parts)
+        actions_on_[static_cast<std::size_t>(part)].push_back(a);
+    for (std::size_t k = 0; k < joints_.size(); ++k) rows_[joints_[k].parts].push_back(k);
+  }
 
   std::vector<Relation> run() {
     // Images of images are found as the list grows; a finite group keeps it short.
     const std::size_t most = joints_.size() * largest_growth;
     for (std::size_t k = 0; k < joints_.size() && joints_.size() <= most; ++k)
-      for (std::size_t a = 0; a < actions_.size(); ++a) follow(k, actions_[a]);
+      for (const std::size_t a : actions_on_[static_cast<std::size_t>(joints_[k].parts[0])])
+        follow(k, actions_[a]);
     average();
     return joints_;
   }
@@ -77,7 +94,10 @@ class JointSymmetry {
     image.points = moved(joint.points, isometry_of(action.symmetry));
     const std::optional<std::size_t> found = nearest(image);
     const std::size_t target = found.value_or(joints_.size());
-    if (!found) joints_.push_back(image);
+    if (!found) {
+      joints_.push_back(image);
+      rows_[image.parts].push_back(target);
+    }
     if (joints_[target].type != image.type) {
       joints_[target].type = image.type;
       joints_[target].points = image.points;
@@ -93,8 +113,9 @@ class JointSymmetry {
   std::optional<std::size_t> nearest(const Relation& image) const {
     std::optional<std::size_t> best;
     double least = same_joint * structure_.diagonal;
-    for (std::size_t k = 0; k < joints_.size(); ++k) {
-      if (joints_[k].parts != image.parts) continue;
+    const auto rows = rows_.find(image.parts);
+    if (rows == rows_.end()) return best;
+    for (const std::size_t k : rows->second) {
       const double apart = distance(joints_[k].points, image.points);
       if (apart >= least) continue;
       least = apart;
@@ -124,7 +145,9 @@ class JointSymmetry {
   const Structure& structure_;
   std::vector<Relation> joints_;
   std::vector<Action> actions_;
-  std::vector<Relation> links_;  ///< symmetries between rows of `joints_`
+  std::vector<std::vector<std::size_t>> actions_on_;           ///< rows of the actions per part, ascending
+  std::map<std::vector<int>, std::vector<std::size_t>> rows_;  ///< of the joints, per parts, ascending
+  std::vector<Relation> links_;                                ///< symmetries between rows of `joints_`
 };
 
 }  // namespace

@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/extract_parts.h"
 #include "stackabilization/shape/tolerances.h"
 #include "stackabilization/structure/contact_spots.h"
 #include "stackabilization/structure/file_axes.h"
@@ -69,17 +71,13 @@ class JointFinder {
   JointFinder(const Shape& shape, const std::vector<Part>& parts, const JointOptions& options)
       : options_(options), size_(size_of(shape)), moment_(surface_moment(shape)), surfaces_(parts.size()) {
     for (const Part& part : parts) is_cuboid_.push_back(std::holds_alternative<Cuboid>(part.primitive));
-    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
-      surfaces_[k].emplace(extract_part(shape, static_cast<Eigen::Index>(k)), parts[k]);
-    });
+    const std::vector<Shape> pieces = extract_parts(shape);
+    tbb::parallel_for(std::size_t{0}, parts.size(),
+                      [&](std::size_t k) { surfaces_[k].emplace(pieces[k], parts[k]); });
   }
 
-  std::vector<Relation> run() const {
-    std::vector<std::pair<int, int>> pairs;
-    for (std::size_t a = 0; a < surfaces_.size(); ++a)
-      for (std::size_t b = a + 1; b < surfaces_.size(); ++b)
-        if (may_meet(*surfaces_[a], *surfaces_[b]))
-          pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));
+  /// Looks at `pairs` of parts.
+  std::vector<Relation> run(const BoxPairs& pairs) const {
     std::vector<std::vector<Joint>> found(pairs.size());
     tbb::parallel_for(std::size_t{0}, pairs.size(),
                       [&](std::size_t k) { found[k] = joints_between(pairs[k].first, pairs[k].second); });
@@ -93,12 +91,6 @@ class JointFinder {
     Relation relation;
     detail::HullSpread region;
   };
-
-  bool may_meet(const PartSurface& a, const PartSurface& b) const {
-    const double reach = options_.reach * size_;
-    return (a.lowest().array() - reach <= b.highest().array()).all() &&
-           (b.lowest().array() - reach <= a.highest().array()).all();
-  }
 
   std::vector<Joint> joints_between(int a, int b) const {
     const PartSurface &first = surface(a), &second = surface(b);
@@ -157,21 +149,29 @@ class JointFinder {
   /// Two bars that end in one leg overlap there, but it is the leg that holds them: what they share is
   /// smaller than what each of them shares with the leg, and lies in it.
   std::vector<Relation> without_hidden(const std::vector<Joint>& joints) const {
-    const auto share_more = [&](int a, int b, const detail::HullSpread& region) {
-      return std::any_of(joints.begin(), joints.end(), [&](const Joint& joint) {
-        return joint.relation.parts == std::vector<int>{std::min(a, b), std::max(a, b)} &&
-               joint.region.deviations.norm() > region.deviations.norm();
+    // What each part shares at most with each that it is joined to.
+    std::vector<std::map<int, double>> shares(surfaces_.size());
+    for (const auto& [relation, region] : joints)
+      for (const std::size_t side : {0U, 1U}) {
+        double& most = shares[static_cast<std::size_t>(relation.parts[side])][relation.parts[1 - side]];
+        most = std::max(most, region.deviations.norm());
+      }
+    std::vector<char> hidden(joints.size(), 0);
+    tbb::parallel_for(std::size_t{0}, joints.size(), [&](std::size_t k) {
+      const auto& [relation, region] = joints[k];
+      const std::map<int, double>*few = &shares[static_cast<std::size_t>(relation.parts[0])],
+                          *many = &shares[static_cast<std::size_t>(relation.parts[1])];
+      if (many->size() < few->size()) std::swap(few, many);
+      const double here = region.deviations.norm();
+      hidden[k] = std::any_of(few->begin(), few->end(), [&](const auto& third) {
+        const auto other = many->find(third.first);
+        return third.second > here && other != many->end() && other->second > here &&
+               holds(surface(third.first), region);
       });
-    };
+    });
     std::vector<Relation> kept;
-    for (const auto& [relation, region] : joints) {
-      const int a = relation.parts[0], b = relation.parts[1];
-      bool hidden = false;
-      for (int part = 0; part < static_cast<int>(surfaces_.size()) && !hidden; ++part)
-        hidden = part != a && part != b && share_more(a, part, region) && share_more(b, part, region) &&
-                 holds(surface(part), region);
-      if (!hidden) kept.push_back(relation);
-    }
+    for (std::size_t k = 0; k < joints.size(); ++k)
+      if (!hidden[k]) kept.push_back(joints[k].relation);
     return kept;
   }
 
@@ -251,12 +251,30 @@ class JointFinder {
 
 }  // namespace
 
+BoxPairs near_parts(const Shape& shape, const JointOptions& options) {
+  check(options);
+  std::vector<Eigen::AlignedBox3d> boxes(shape.part_names.size());
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+    const Eigen::Vector3d a = shape.corner(t, 0), b = shape.corner(t, 1), c = shape.corner(t, 2);
+    if (!((b - a).cross(c - a).squaredNorm() > 0)) continue;
+    for (const Eigen::Vector3d& p : {a, b, c})
+      boxes[static_cast<std::size_t>(shape.triangle_part[static_cast<std::size_t>(t)])].extend(p);
+  }
+  auto pairs = near_boxes(boxes, options.reach * size_of(shape), options.max_pairs);
+  if (!pairs)
+    throw InputError(
+        "more than " + std::to_string(options.max_pairs) +
+        " pairs of its parts come near each other, by their boxes: joints are looked for between "
+        "at most so many");
+  return std::move(*pairs);
+}
+
 std::vector<Relation> find_joints(const Shape& shape, const std::vector<Part>& parts,
                                   const JointOptions& options) {
-  check(options);
   if (parts.size() != shape.part_names.size())
     throw UsageError("joints need one primitive for each part of the shape");
-  return JointFinder(shape, parts, options).run();
+  const BoxPairs pairs = near_parts(shape, options);
+  return JointFinder(shape, parts, options).run(pairs);
 }
 
 }  // namespace stackabilization

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "stackabilization/shape/box_pairs.h"
 #include "stackabilization/structure/structure.h"
 
 namespace stackabilization {
@@ -18,7 +20,13 @@ struct JointOptions {
   double line_aspect = 4;
   /// Shortest line joint, fraction of the diameter of the smallest ball around the smaller part.
   double least_line = 0.25;
+  /// Pairs of parts that are looked at; more are refused.
+  std::size_t max_pairs = 200'000;
 };
+
+/// The pairs of parts that `find_joints` looks at: their boxes come within reach of each other. Throws
+/// UsageError for options out of range, InputError when there are more than JointOptions::max_pairs.
+BoxPairs near_parts(const Shape& shape, const JointOptions& options);
 
 /// Point and line joints of every pair of parts. Regions of contact are where the surfaces come within reach
 /// and what one part has inside the other: compact regions give a point joint at their centroid, elongated
@@ -36,6 +44,9 @@ struct JointOptions {
 ///
 /// `parts` are those of `shape`, in its order. Throws UsageError for options out of range, InputError when a
 /// part has no triangle of positive area.
+///
+/// Throws InputError as well when more than JointOptions::max_pairs pairs of parts come near each other,
+/// before it looks at any of them.
 std::vector<Relation> find_joints(const Shape& shape, const std::vector<Part>& parts,
                                   const JointOptions& options = {});
 

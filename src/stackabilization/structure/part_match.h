@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -12,12 +13,21 @@ class PartSurfaces {
  public:
   /// Precondition: `validate(shape)`.
   PartSurfaces(const Shape& shape, const SymmetryOptions& options);
+  ~PartSurfaces();
+  PartSurfaces(const PartSurfaces&) = delete;
+  PartSurfaces& operator=(const PartSurfaces&) = delete;
 
   const SymmetrySurface& whole() const { return whole_; }
   int count() const { return static_cast<int>(parts_.size()); }
   /// Null for parts without area.
   const SymmetrySurface* part(int index) const;
   std::vector<const SymmetrySurface*> with_area() const;
+
+  /// Rows of the parts that `match` has to be asked about for part `a`, ascending: those whose centroid and
+  /// widths are near enough. Of more than `max_matches` such parts, copies of each other in one place, the
+  /// first ones.
+  std::vector<int> near_image(int a, const Symmetry& symmetry) const;
+  static constexpr std::size_t max_matches = 16;
 
   /// Does `symmetry` (model units) take part `a` onto part `b`? If so, the residual as a fraction of the
   /// diagonal of the bounding box of the shape. It does when
@@ -29,12 +39,17 @@ class PartSurfaces {
   std::optional<double> match(int a, int b, const Symmetry& symmetry) const;
 
  private:
+  struct Centroids;
+  bool same_size(int a, int b) const;
+  bool is_near(const Eigen::Vector3d& centroid, int b) const;
   std::vector<double> distances(const SymmetrySurface& from, const SymmetrySurface& to,
                                 const Eigen::Isometry3d& map) const;
 
   SymmetryOptions options_;
   SymmetrySurface whole_;
   std::vector<std::optional<SymmetrySurface>> parts_;
+  std::vector<Eigen::Vector3d> widths_;  ///< per part with area
+  std::unique_ptr<const Centroids> centroids_;
   double unit_;      ///< what tolerances are fractions of, model units
   double diagonal_;  ///< of the axis-aligned box, model units
 };

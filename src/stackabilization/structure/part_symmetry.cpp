@@ -1,3 +1,5 @@
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -26,7 +28,7 @@ class PartSymmetry {
  public:
   PartSymmetry(const Shape& shape, const std::vector<FoundSymmetry>& symmetries,
                const SymmetryOptions& options)
-      : options_(options), parts_(shape, options) {
+      : options_(options), parts_(shape, options), relations_of_(static_cast<std::size_t>(parts_.count())) {
     for (const FoundSymmetry& found : symmetries)
       if (found.symmetry.kind == SymmetryKind::reflection) candidates_.push_back(found.symmetry);
     for (const FoundSymmetry& found : symmetries)
@@ -51,13 +53,17 @@ class PartSymmetry {
 
  private:
   bool has(int part, RelationType type) const {
-    return std::any_of(relations_.begin(), relations_.end(), [&](const Relation& relation) {
-      return relation.type == type && std::count(relation.parts.begin(), relation.parts.end(), part) > 0;
-    });
+    const std::vector<std::size_t>& rows = relations_of_[static_cast<std::size_t>(part)];
+    return std::any_of(rows.begin(), rows.end(),
+                       [&](std::size_t row) { return relations_[row].type == type; });
   }
 
   void append(const std::vector<Relation>& more) {
-    relations_.insert(relations_.end(), more.begin(), more.end());
+    for (const Relation& relation : more) {
+      for (const int part : relation.parts)
+        relations_of_[static_cast<std::size_t>(part)].push_back(relations_.size());
+      relations_.push_back(relation);
+    }
   }
 
   static Relation related(std::vector<int> parts, const Symmetry& symmetry, double residual) {
@@ -68,7 +74,7 @@ class PartSymmetry {
   /// The part that `plane` takes `part` onto best, -1 for none, and the residual.
   std::pair<int, double> counterpart(int part, const Symmetry& plane) const {
     std::pair<int, double> best{-1, 0};
-    for (int other = 0; other < parts_.count(); ++other)
+    for (const int other : parts_.near_image(part, plane))
       if (const auto residual = parts_.match(part, other, plane);
           residual && (best.first < 0 || *residual < best.second))
         best = {other, *residual};
@@ -76,8 +82,10 @@ class PartSymmetry {
   }
 
   std::vector<Relation> relations_under(const Symmetry& plane) const {
-    std::vector<std::pair<int, double>> counterparts;
-    for (int part = 0; part < parts_.count(); ++part) counterparts.push_back(counterpart(part, plane));
+    std::vector<std::pair<int, double>> counterparts(static_cast<std::size_t>(parts_.count()));
+    tbb::parallel_for(0, parts_.count(), [&](int part) {
+      counterparts[static_cast<std::size_t>(part)] = counterpart(part, plane);
+    });
     std::vector<Relation> relations;
     for (int part = 0; part < parts_.count(); ++part) {
       const auto [other, residual] = counterparts[static_cast<std::size_t>(part)];
@@ -131,9 +139,8 @@ class PartSymmetry {
   /// Reflections that take the part onto itself.
   std::vector<Symmetry> own_reflections(int part) const {
     std::vector<Symmetry> planes;
-    for (const Relation& relation : relations_)
-      if (relation.type == RelationType::self_symmetry && relation.parts.front() == part)
-        planes.push_back(relation.symmetry);
+    for (const std::size_t row : relations_of_[static_cast<std::size_t>(part)])
+      if (relations_[row].type == RelationType::self_symmetry) planes.push_back(relations_[row].symmetry);
     return planes;
   }
 
@@ -167,7 +174,7 @@ class PartSymmetry {
           {SymmetryKind::reflection, axis.point, axis.axis.cross(through.front().axis).normalized(), 2}};
     planes.push_back(axis);
     for (const Symmetry& symmetry : planes)
-      relations_.push_back(related({part}, symmetry, parts_.match(part, part, symmetry).value_or(0)));
+      append({related({part}, symmetry, parts_.match(part, part, symmetry).value_or(0))});
     return true;
   }
 
@@ -184,7 +191,7 @@ class PartSymmetry {
     for (const Symmetry& plane : detail::canonical_reflections(surface, {&surface}, planes))
       if (const auto residual = parts_.match(part, part, plane);
           residual && !lies_beside_common(plane, surface))
-        relations_.push_back(related({part}, plane, *residual));
+        append({related({part}, plane, *residual)});
   }
 
   /// A part that a plane of the whole cuts, but not in the middle, has no plane of its own beside that one:
@@ -202,6 +209,7 @@ class PartSymmetry {
   detail::PartSurfaces parts_;
   std::vector<Symmetry> candidates_, planes_;  ///< model units
   std::vector<Relation> relations_;
+  std::vector<std::vector<std::size_t>> relations_of_;  ///< rows per part, ascending
 };
 
 }  // namespace

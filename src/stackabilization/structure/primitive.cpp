@@ -1,9 +1,11 @@
 #include "stackabilization/structure/primitive.h"
 
+#include <cmath>
 #include <numbers>
 #include <type_traits>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization {
 
@@ -51,6 +53,10 @@ void check(bool holds, const std::string& name, const std::string& what) {
 
 void validate_one(const Cuboid& cuboid, const std::string& name) {
   check(cuboid.corners.allFinite(), name, "has a corner that is not finite");
+  const double longest =
+      (cuboid.corners.colwise().maxCoeff() - cuboid.corners.colwise().minCoeff()).maxCoeff();
+  const double rounding = tolerance::product_rounding * std::pow(longest, 3);
+  check(std::abs(volume_of(cuboid)) > rounding, name, "has no volume");
 }
 
 void validate_one(const GeneralizedCylinder& cylinder, const std::string& name) {

@@ -46,6 +46,16 @@ class ProjectReader {
  private:
   static Eigen::Vector3d vector(const JsonNode& node) { return node.numbers(3); }
 
+  /// Numbers that were written by hand to a few digits are made of length 1, those of a program stay.
+  static Eigen::VectorXd unit(const JsonNode& node, std::size_t size, const std::string& what) {
+    constexpr double written_digits = 0.001;
+    Eigen::VectorXd result = node.numbers(size);
+    const double length = result.norm();
+    if (!(std::abs(length - 1) <= written_digits)) node.fail("expected " + what + " of length 1");
+    if (std::abs(length - 1) > tolerance::rounding) result /= length;
+    return result;
+  }
+
   void read_parts(const JsonNode& parts) {
     if (parts.list_size() == 0) parts.fail_expected("at least one part");
     for (std::size_t k = 0; k < parts.list_size(); ++k) {
@@ -111,7 +121,7 @@ class ProjectReader {
     result.centres = sections.leftCols(3);
     result.radii = sections.col(3);
     if (node.has("rotation")) {
-      const Eigen::VectorXd turn = node["rotation"].numbers(4);
+      const Eigen::VectorXd turn = unit(node["rotation"], 4, "a rotation");
       result.rotation = Eigen::Quaterniond(turn(0), turn(1), turn(2), turn(3));
     }
     return result;
@@ -148,10 +158,7 @@ class ProjectReader {
         std::vector{SymmetryKind::reflection, SymmetryKind::rotation,
                     SymmetryKind::revolution}[node["kind"].one_of({"reflection", "rotation", "revolution"})];
     result.point = vector(node["point"]);
-    result.axis = vector(node["axis"]);
-    const double length = result.axis.stableNorm();
-    if (!(length > 0)) node["axis"].fail_expected("a direction that is not zero");
-    if (std::abs(length - 1) > tolerance::rounding) result.axis.stableNormalize();
+    result.axis = unit(node["axis"], 3, "an axis");
     if (result.kind == SymmetryKind::rotation) {
       if (!node.has("order")) node.fail("the key 'order' is missing");
       result.order = static_cast<int>(node["order"].integer(2, std::numeric_limits<int>::max()));

@@ -26,6 +26,7 @@ std::vector<PartSeeds> parse_seeds(std::string_view text, const std::string& nam
   std::vector<bool> seeded(static_cast<std::size_t>(shape.triangle_count()));
   while (cursor.next_content_line()) {
     const std::string part(cursor.token());
+    cursor.require_utf8(part);
     std::string_view token = cursor.token();
     if (token.empty()) cursor.fail("expected a part and its triangles, found " + in_quotes(part) + " alone");
     PartSeeds& seeds = seeds_of(parts, part);

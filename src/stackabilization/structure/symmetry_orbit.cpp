@@ -17,23 +17,29 @@ constexpr std::size_t largest_group = 120;
 class OrbitFinder {
  public:
   explicit OrbitFinder(const Structure& structure)
-      : structure_(structure), place_(structure.parts.size(), -1), orbit_of_(structure.parts.size(), -1) {}
+      : structure_(structure),
+        relations_of_(structure.parts.size()),
+        place_(structure.parts.size(), -1),
+        orbit_of_(structure.parts.size(), -1),
+        in_tree_(structure.relations.size(), false) {
+    for (std::size_t r = 0; r < structure.relations.size(); ++r) {
+      const Relation& relation = structure.relations[r];
+      if (!is_symmetry(relation)) continue;
+      for (const int part : relation.parts) relations_of_[static_cast<std::size_t>(part)].push_back(r);
+    }
+  }
 
   OrbitsOrContradiction run() {
     for (std::size_t part = 0; part < structure_.parts.size(); ++part)
-      if (orbit_of_[part] < 0 && has_symmetry(static_cast<int>(part))) grow(static_cast<int>(part));
+      if (orbit_of_[part] < 0 && !relations_of_[part].empty()) grow(static_cast<int>(part));
     for (Orbit& orbit : result_.orbits)
       if (!close_group(orbit)) break;
     return std::move(result_);
   }
 
  private:
-  bool has_symmetry(int part) const {
-    return std::any_of(
-        structure_.relations.begin(), structure_.relations.end(), [&](const Relation& relation) {
-          return (relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry) &&
-                 std::count(relation.parts.begin(), relation.parts.end(), part) > 0;
-        });
+  static bool is_symmetry(const Relation& relation) {
+    return relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry;
   }
 
   void reach(int part, const Eigen::Isometry3d& from_first) {
@@ -50,15 +56,15 @@ class OrbitFinder {
     for (std::size_t k = 0; k < result_.orbits.back().parts.size(); ++k) {
       const int part = result_.orbits.back().parts[k];
       const Eigen::Isometry3d here = result_.orbits.back().from_first[k];
-      for (std::size_t r = 0; r < structure_.relations.size(); ++r) {
+      for (const std::size_t r : relations_of_[static_cast<std::size_t>(part)]) {
         const Relation& relation = structure_.relations[r];
         if (relation.type != RelationType::symmetry) continue;
         const Eigen::Isometry3d map = isometry_of(relation.symmetry);
         const bool forward = relation.parts[0] == part;
-        if (!forward && relation.parts[1] != part) continue;
         const int other = relation.parts[forward ? 1 : 0];
         if (orbit_of_[static_cast<std::size_t>(other)] >= 0) continue;
         tree_.push_back(r);
+        in_tree_[r] = true;
         reach(other, (forward ? map : map.inverse()) * here);
       }
     }
@@ -86,17 +92,25 @@ class OrbitFinder {
            (a.linear() - b.linear()).norm() <= tolerance::relative;
   }
 
+  /// The symmetries of its parts, in their order.
+  std::vector<std::size_t> relations_of(const Orbit& orbit) const {
+    std::vector<std::size_t> rows;
+    for (const int part : orbit.parts) {
+      const std::vector<std::size_t>& some = relations_of_[static_cast<std::size_t>(part)];
+      rows.insert(rows.end(), some.begin(), some.end());
+    }
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    return rows;
+  }
+
   bool close_group(Orbit& orbit) {
     orbit.group = {Eigen::Isometry3d::Identity()};
     std::vector<Eigen::Isometry3d> generators;
     std::vector<int> relations;
-    for (std::size_t r = 0; r < structure_.relations.size(); ++r) {
+    for (const std::size_t r : relations_of(orbit)) {
       const Relation& relation = structure_.relations[r];
-      const bool is_self = relation.type == RelationType::self_symmetry;
-      if ((!is_self && relation.type != RelationType::symmetry) ||
-          std::count(tree_.begin(), tree_.end(), r) > 0 ||
-          std::count(orbit.parts.begin(), orbit.parts.end(), relation.parts[0]) == 0)
-        continue;
+      if (in_tree_[r]) continue;
       const Eigen::Isometry3d generator = from_first(relation.parts.back()).inverse() *
                                           isometry_of(relation.symmetry) * from_first(relation.parts.front());
       relations.push_back(static_cast<int>(r));
@@ -126,11 +140,12 @@ class OrbitFinder {
 
   void contradict(const std::vector<int>& relations) {
     Contradiction contradiction;
-    const int parts = structure_.relations[static_cast<std::size_t>(relations.back())].parts.front();
-    const Orbit& orbit = result_.orbits[static_cast<std::size_t>(orbit_of_[static_cast<std::size_t>(parts)])];
+    const auto orbit_of = [&](std::size_t r) {
+      return orbit_of_[static_cast<std::size_t>(structure_.relations[r].parts[0])];
+    };
+    const int orbit = orbit_of(static_cast<std::size_t>(relations.back()));
     for (const std::size_t r : tree_)
-      if (std::count(orbit.parts.begin(), orbit.parts.end(), structure_.relations[r].parts[0]) > 0)
-        contradiction.relations.push_back(static_cast<int>(r));
+      if (orbit_of(r) == orbit) contradiction.relations.push_back(static_cast<int>(r));
     contradiction.relations.insert(contradiction.relations.end(), relations.begin(), relations.end());
     for (std::size_t k = 0; k < contradiction.relations.size(); ++k) {
       if (k > 0) contradiction.reason += k + 1 < contradiction.relations.size() ? ", " : " and ";
@@ -143,9 +158,11 @@ class OrbitFinder {
   }
 
   const Structure& structure_;
-  std::vector<int> place_;     ///< per part, in its orbit
-  std::vector<int> orbit_of_;  ///< per part; -1 without symmetry
+  std::vector<std::vector<std::size_t>> relations_of_;  ///< symmetries per part, in their order
+  std::vector<int> place_;                              ///< per part, in its orbit
+  std::vector<int> orbit_of_;                           ///< per part; -1 without symmetry
   std::vector<std::size_t> tree_;
+  std::vector<bool> in_tree_;  ///< per relation
   OrbitsOrContradiction result_;
 };
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "stackabilization/shape/copies.h"
 #include "stackabilization/shape/formats/text.h"
 #include "stackabilization/shape/shape.h"
 #include "stackabilization/shape/write.h"
@@ -36,8 +37,9 @@ std::string write_obj(const Shape& shape);
 std::string write_off(const Shape& shape);
 std::string write_ply(const Shape& shape, Encoding encoding);
 std::string write_stl(const Shape& shape, Encoding encoding);
-std::string write_three_mf(const Shape& shape);
-std::string write_glb(const Shape& shape);
+/// `copies` is empty for the shape itself, without a name of its own.
+std::string write_three_mf(const Shape& shape, const std::vector<PlacedCopy>& copies = {});
+std::string write_glb(const Shape& shape, const std::vector<PlacedCopy>& copies = {});
 std::string write_vtp(const Shape& shape, Encoding encoding);
 
 /// Rows of the triangles of every part, in their order.
@@ -54,6 +56,9 @@ std::vector<PartMesh> split_by_part(const Shape& shape);
 
 /// Instances of formats with instancing may not blow a file up beyond this, unless it stores as many itself.
 inline constexpr std::int64_t most_instanced_triangles = 20000000;
+
+/// A few nested components can multiply without bounds; no real assembly comes near this.
+inline constexpr std::int64_t most_placed_objects = 100000;
 
 /// `name` on one line: control characters become '_'.
 std::string printable_name(const std::string& name);

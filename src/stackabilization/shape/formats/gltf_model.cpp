@@ -6,7 +6,9 @@
 
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/formats/bytes.h"
+#include "stackabilization/shape/formats/gltf_json.h"
 #include "stackabilization/shape/formats/gltf_model.h"
+#include "stackabilization/shape/formats/gltf_numbers.h"
 #include "stackabilization/shape/read_file.h"
 
 namespace stackabilization {
@@ -15,35 +17,11 @@ namespace {
 
 using Folder = std::optional<std::filesystem::path>;
 
-/// tinygltf descends into nested JSON by recursion, so that text without end would overflow its stack.
-bool is_deeply_nested(std::string_view bytes) {
-  constexpr int deepest = 200;
-  int depth = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const char c = bytes[i];
-    if (in_string && c == '\\') ++i;
-    if (c == '"') in_string = !in_string;
-    if (in_string) continue;
-    if (c == '{' || c == '[') ++depth;
-    if (c == '}' || c == ']') --depth;
-    if (depth > deepest) return true;
-  }
-  return false;
-}
-
-/// The JSON text of either kind of file.
-std::string_view json_of(std::string_view bytes) {
-  constexpr std::size_t start = 20;
-  if (!bytes.starts_with("glTF") || bytes.size() < start) return bytes;
-  return bytes.substr(start, load<std::uint32_t>(bytes.data() + 12, std::endian::little));
-}
-
 /// The same GLB with its JSON padded by spaces to whole words, as the standard asks for and newer versions of
 /// tinygltf insist on, but some writers forget.
 std::string padded_glb(std::string_view bytes) {
   constexpr std::size_t start = 20;
-  const std::size_t json = json_of(bytes).size(), missing = (4 - json % 4) % 4;
+  const std::size_t json = gltf_json(bytes).size(), missing = (4 - json % 4) % 4;
   std::string padded(bytes.substr(0, 8));
   append_little(padded, static_cast<std::uint32_t>(bytes.size() + missing));
   append_little(padded, static_cast<std::uint32_t>(json + missing));
@@ -107,11 +85,34 @@ std::string plain_reason(std::string error) {
 
 }  // namespace
 
+bool is_deeply_nested(std::string_view json) {
+  constexpr int deepest = 200;
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
+    if (in_string && c == '\\') ++i;
+    if (c == '"') in_string = !in_string;
+    if (in_string) continue;
+    if (c == '{' || c == '[') ++depth;
+    if (c == '}' || c == ']') --depth;
+    if (depth > deepest) return true;
+  }
+  return false;
+}
+
+std::string_view gltf_json(std::string_view bytes) {
+  constexpr std::size_t start = 20;
+  if (!bytes.starts_with("glTF") || bytes.size() < start) return bytes;
+  return bytes.substr(start, load<std::uint32_t>(bytes.data() + 12, std::endian::little));
+}
+
 tinygltf::Model parse_gltf(const Source& source, const Folder& folder) {
   if (source.bytes.size() > std::numeric_limits<std::uint32_t>::max())
     throw InputError(source.name + ": glTF files hold at most 4 GiB");
-  if (is_deeply_nested(json_of(source.bytes)))
+  if (is_deeply_nested(gltf_json(source.bytes)))
     throw InputError(source.name + ": its JSON is nested without end");
+  check_gltf_numbers(gltf_json(source.bytes), source.name);
   const std::string padded = needs_padding(source.bytes) ? padded_glb(source.bytes) : "";
   const std::string_view bytes = padded.empty() ? source.bytes : padded;
   tinygltf::TinyGLTF loader;

@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
@@ -59,7 +60,8 @@ class Assembler {
     return result;
   }
 
-  static Eigen::Affine3d transform_of(const tinygltf::Node& node) {
+  Eigen::Affine3d transform_of(int index) const {
+    const tinygltf::Node& node = item(model_.nodes, index, "node");
     Eigen::Affine3d transform = Eigen::Affine3d::Identity();
     if (node.matrix.size() == 16) {
       transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data());
@@ -70,7 +72,9 @@ class Assembler {
     if (node.rotation.size() == 4) {
       const Eigen::Quaterniond rotation(node.rotation[3], node.rotation[0], node.rotation[1],
                                         node.rotation[2]);
-      if (rotation.norm() > 0) transform.rotate(rotation.normalized());
+      const double length = rotation.coeffs().stableNorm();
+      if (!std::isnormal(length)) fail("node " + std::to_string(index) + " has a rotation of no length");
+      transform.rotate(Eigen::Quaterniond(rotation.coeffs() / length));
     }
     if (node.scale.size() == 3) transform.scale(Eigen::Vector3d(node.scale.data()));
     return transform;
@@ -82,7 +86,7 @@ class Assembler {
     if (depth > deepest || std::exchange(visited_[static_cast<std::size_t>(index)], 1))
       fail("node " + std::to_string(index) +
            " has several parents or is nested without end, expected a tree");
-    const Eigen::Affine3d transform = outer * transform_of(node);
+    const Eigen::Affine3d transform = outer * transform_of(index);
     if (node.mesh >= 0) add_mesh(node, transform);
     for (const int child : node.children) add_node(child, transform, depth + 1);
   }
@@ -124,22 +128,31 @@ class Assembler {
     const int component_size =
         tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
     if (tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(accessor.type)) != components ||
-        stride <= 0 || component_size <= 0)
+        component_size <= 0)
       fail(what + " is not of the expected type");
     const std::size_t element_size =
         static_cast<std::size_t>(component_size) * static_cast<std::size_t>(components);
-    // Compared by division and subtraction, which a lying header cannot make overflow.
-    const std::size_t size = bytes.size();
-    const bool starts_inside = view.byteOffset <= size && accessor.byteOffset <= size - view.byteOffset;
-    const std::size_t room = starts_inside ? size - view.byteOffset - accessor.byteOffset : 0;
+    if (stride < static_cast<int>(element_size))
+      fail(what + " has elements of " + std::to_string(element_size) +
+           " bytes, which do not fit the stride of its buffer view");
+    const std::size_t room = room_in(view, bytes.size(), accessor);
     const std::size_t fitting =
         room < element_size ? 0 : (room - element_size) / static_cast<std::size_t>(stride) + 1;
     if (accessor.count > fitting)
-      fail(what + " states " + std::to_string(accessor.count) + " elements, its buffer has room for " +
+      fail(what + " states " + std::to_string(accessor.count) + " elements, its buffer view has room for " +
            std::to_string(fitting));
     if (accessor.count == 0) return {nullptr, 0, 0, accessor.componentType, accessor.normalized};
     return {reinterpret_cast<const char*>(bytes.data()) + view.byteOffset + accessor.byteOffset,
             static_cast<std::size_t>(stride), accessor.count, accessor.componentType, accessor.normalized};
+  }
+
+  /// Bytes of the buffer view from where the accessor starts, as far as the buffer goes. Numbers are compared
+  /// by subtraction, which a lying header cannot make overflow.
+  static std::size_t room_in(const tinygltf::BufferView& view, std::size_t buffer_size,
+                             const tinygltf::Accessor& accessor) {
+    if (view.byteOffset > buffer_size) return 0;
+    const std::size_t size = std::min(view.byteLength, buffer_size - view.byteOffset);
+    return accessor.byteOffset <= size ? size - accessor.byteOffset : 0;
   }
 
   template <class Integer>

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <array>
 #include <limits>
 #include <sstream>
@@ -15,7 +16,7 @@ namespace {
 /// Model under construction for writing: one buffer.
 class GlbWriter {
  public:
-  std::string write(const Shape& shape) {
+  std::string write(const Shape& shape, const std::vector<PlacedCopy>& copies) {
     model_.asset.version = "2.0";
     model_.asset.generator = "Stackabilization";
     model_.buffers.emplace_back();
@@ -24,7 +25,9 @@ class GlbWriter {
     const std::vector<PartMesh> meshes = split_by_part(shape);
     for (std::size_t part = 0; part < meshes.size(); ++part)
       if (!meshes[part].triangles.empty())
-        add_part(shape, meshes[part], printable_name(shape.part_names[part]));
+        add_mesh(shape, meshes[part], printable_name(shape.part_names[part]));
+    if (copies.empty()) model_.scenes[0].nodes = add_nodes("");
+    for (const PlacedCopy& copy : copies) add_copy(copy, metres_per_unit(shape.unit));
     model_.buffers[0].data.assign(bytes_.begin(), bytes_.end());
     std::ostringstream stream;
     tinygltf::TinyGLTF writer;
@@ -34,7 +37,7 @@ class GlbWriter {
   }
 
  private:
-  void add_part(const Shape& shape, const PartMesh& part, const std::string& name) {
+  void add_mesh(const Shape& shape, const PartMesh& part, const std::string& name) {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.attributes["POSITION"] = add_positions(shape, part);
@@ -42,11 +45,34 @@ class GlbWriter {
     tinygltf::Mesh mesh;
     mesh.name = name;
     mesh.primitives.push_back(primitive);
-    tinygltf::Node node;
-    node.name = name;
-    node.mesh = static_cast<int>(model_.meshes.size());
-    model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()));
     model_.meshes.push_back(mesh);
+  }
+
+  /// A node for each mesh, `prefix` before its name; their numbers.
+  std::vector<int> add_nodes(const std::string& prefix) {
+    std::vector<int> added;
+    for (std::size_t mesh = 0; mesh < model_.meshes.size(); ++mesh) {
+      tinygltf::Node node;
+      node.name = prefix + model_.meshes[mesh].name;
+      node.mesh = static_cast<int>(mesh);
+      added.push_back(static_cast<int>(model_.nodes.size()));
+      model_.nodes.push_back(node);
+    }
+    return added;
+  }
+
+  /// A node with the placement, the meshes below it.
+  void add_copy(const PlacedCopy& copy, double metres) {
+    Eigen::Matrix3d turn;  // z up becomes y up
+    turn << 1, 0, 0, 0, 0, 1, 0, -1, 0;
+    Eigen::Affine3d placement = Eigen::Affine3d::Identity();
+    placement.linear() = turn * copy.rotation * turn.transpose();
+    placement.translation() = turn * (metres * copy.translation);
+    tinygltf::Node node;
+    node.name = printable_name(copy.name);
+    for (const double entry : placement.matrix().reshaped()) node.matrix.push_back(entry + 0.0);
+    node.children = add_nodes(node.name + "/");
+    model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()));
     model_.nodes.push_back(node);
   }
 
@@ -105,8 +131,8 @@ class GlbWriter {
 
 }  // namespace
 
-std::string write_glb(const Shape& shape) {
-  return GlbWriter().write(shape);
+std::string write_glb(const Shape& shape, const std::vector<PlacedCopy>& copies) {
+  return GlbWriter().write(shape, copies);
 }
 
 }  // namespace stackabilization

@@ -90,6 +90,7 @@ class ObjReader {
 
   void open_object() {
     const std::string name = cursor_.rest_of_line();
+    cursor_.require_utf8(name);
     if (name.empty()) return;
     object_ = name;
     builder_.continue_part(name);
@@ -97,6 +98,7 @@ class ObjReader {
 
   void open_group() {
     const std::string name = cursor_.rest_of_line();
+    cursor_.require_utf8(name);
     if (name.empty()) return;
     builder_.continue_part(object_.empty() || object_ == name ? name : object_ + "/" + name);
   }

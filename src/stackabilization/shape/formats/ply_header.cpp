@@ -45,7 +45,9 @@ class HeaderReader {
     else if (keyword == "property")
       read_property();
     else if (keyword == "comment") {
-      if (cursor_.token() == "part") header_.part_names.push_back(cursor_.rest_of_line());
+      if (cursor_.token() != "part") return;
+      header_.part_names.push_back(cursor_.rest_of_line());
+      cursor_.require_utf8(header_.part_names.back());
     } else if (keyword != "obj_info" && !keyword.empty())
       cursor_.fail_expected("a header keyword of PLY", keyword);
   }

@@ -51,7 +51,9 @@ class AsciiReader {
   Shape read() {
     for (std::string keyword = next_keyword(); !keyword.empty(); keyword = next_keyword()) {
       if (keyword != "solid") cursor_.fail_expected("'solid'", keyword);
-      builder_.parts().begin_part(cursor_.rest_of_line());
+      const std::string name = cursor_.rest_of_line();
+      cursor_.require_utf8(name);
+      builder_.parts().begin_part(name);
       read_facets();
     }
     return builder_.parts().finish();

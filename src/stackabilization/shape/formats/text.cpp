@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/utf8.h"
 
 namespace stackabilization {
 
@@ -164,6 +165,10 @@ std::int64_t TextCursor::integer(const char* what) {
   const std::optional<std::int64_t> value = parse_integer(text);
   if (!value) fail_expected(what, text);
   return *value;
+}
+
+void TextCursor::require_utf8(std::string_view name) const {
+  if (!is_utf8(name)) fail_expected("a name in UTF-8", name);
 }
 
 void TextCursor::fail(const std::string& message) const {

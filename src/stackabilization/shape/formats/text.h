@@ -55,6 +55,9 @@ class TextCursor {
   double number(const char* what);
   std::int64_t integer(const char* what);
 
+  /// Throws InputError unless `name`, which is to be that of a part, is UTF-8.
+  void require_utf8(std::string_view name) const;
+
   /// Bytes not yet walked over; a bound for what a file can still hold.
   std::size_t remaining() const { return static_cast<std::size_t>(end_ - position_); }
   /// First byte after the end of the current line.

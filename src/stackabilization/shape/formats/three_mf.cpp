@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <optional>
 #include <utility>
@@ -17,9 +18,6 @@ namespace {
 
 using namespace three_mf;
 
-/// A few nested components can multiply without bounds; no real assembly comes near this.
-constexpr std::int64_t most_placed_objects = 100000;
-
 constexpr const char* default_model = "3D/3dmodel.model";
 constexpr const char* core_namespace = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
 constexpr const char* relationships_namespace =
@@ -29,6 +27,18 @@ Transform compose(const Transform& outer, const Transform& inner) {
   if (!outer) return inner;
   if (!inner) return outer;
   return *outer * *inner;
+}
+
+/// Rounded as `transformed` does it, so that a file of placements has the vertices that were meant.
+Points placed_vertices(const Object& object, const Transform& transform) {
+  Shape shape;
+  shape.vertices.resize(static_cast<Eigen::Index>(object.vertices.size()), 3);
+  for (std::size_t v = 0; v < object.vertices.size(); ++v)
+    shape.vertices.row(static_cast<Eigen::Index>(v)) = object.vertices[v].transpose();
+  if (!transform) return shape.vertices;
+  if (!transform->matrix().allFinite())
+    return Points::Constant(shape.vertices.rows(), 3, std::numeric_limits<double>::infinity());
+  return transformed(shape, transform->linear(), transform->translation()).vertices;
 }
 
 /// Expands the build items of a model into a Shape. Models of other entries (production extension) are read
@@ -43,8 +53,8 @@ class Assembler {
   Shape assemble() {
     const Model& root = models_.at(root_);
     if (root.items.empty())
-      for (const auto& [id, object] : root.objects) place({root_, id, std::nullopt}, std::nullopt, 0);
-    for (const Placement& item : root.items) place(item, std::nullopt, 0);
+      for (const auto& [id, object] : root.objects) place({root_, id, std::nullopt, ""}, std::nullopt, "", 0);
+    for (const Placement& item : root.items) place(item, std::nullopt, item.name, 0);
     Shape shape = builder_.finish();
     shape.unit = root.unit;
     return shape;
@@ -73,7 +83,8 @@ class Assembler {
     return object->second;
   }
 
-  void place(const Placement& placement, const Transform& outer, int depth) {
+  /// `item` is the name of the build item that it belongs to.
+  void place(const Placement& placement, const Transform& outer, const std::string& item, int depth) {
     constexpr int deepest = 64;
     if (depth > deepest)
       throw InputError(name_ + ": the components of object " + std::to_string(placement.object) +
@@ -87,15 +98,16 @@ class Assembler {
     if (placed_triangles_ > std::max(2 * stored_triangles_, most_instanced_triangles))
       throw InputError(name_ + ": the components make more than " + std::to_string(most_instanced_triangles) +
                        " triangles");
-    if (!object.triangles.empty()) add_mesh(object, transform);
-    for (const Placement& component : object.components) place(component, transform, depth + 1);
+    if (!object.triangles.empty()) add_mesh(object, transform, item);
+    for (const Placement& component : object.components) place(component, transform, item, depth + 1);
   }
 
-  void add_mesh(const Object& object, const Transform& transform) {
-    builder_.begin_part(object.name);
+  void add_mesh(const Object& object, const Transform& transform, const std::string& item) {
+    builder_.begin_part(item.empty() ? object.name : item + "/" + object.name);
     const std::int64_t first = builder_.vertex_count();
-    for (const Eigen::Vector3d& vertex : object.vertices) {
-      const Eigen::Vector3d point = transform ? *transform * vertex : vertex;
+    const Points vertices = placed_vertices(object, transform);
+    for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
+      const Eigen::Vector3d point = vertices.row(v).transpose();
       if (!point.allFinite())
         throw InputError(name_ + ": a transform takes vertices of " + in_quotes(object.name) +
                          " out of range");
@@ -139,43 +151,92 @@ void append_attribute(std::string& text, const char* name, double value) {
   text += '"';
 }
 
-void append_attribute(std::string& text, const char* name, std::int32_t value) {
+void append_attribute(std::string& text, const char* name, std::int64_t value) {
   text += std::string(" ") + name + "=\"" + std::to_string(value) + "\"";
 }
 
-std::string model_xml(const Shape& shape) {
-  const char* unit = "millimeter";
-  for (const UnitName& candidate : unit_names)
-    if (candidate.unit == shape.unit) unit = candidate.name;
-  std::string text = std::string("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"") + unit +
-                     "\" xml:lang=\"en-US\" xmlns=\"" + core_namespace + "\">\n<resources>\n";
-  std::string items;
-  const std::vector<PartMesh> meshes = split_by_part(shape);
-  for (std::size_t part = 0; part < meshes.size(); ++part) {
-    if (meshes[part].triangles.empty()) continue;
-    const std::string id = std::to_string(part + 1);
-    text += "<object id=\"" + id + "\" type=\"model\" name=\"" + escaped_xml(shape.part_names[part]) +
-            "\">\n<mesh>\n<vertices>\n";
-    for (const std::int32_t v : meshes[part].vertices) {
-      text += "<vertex";
-      append_attribute(text, "x", shape.vertices(v, 0));
-      append_attribute(text, "y", shape.vertices(v, 1));
-      append_attribute(text, "z", shape.vertices(v, 2));
-      text += "/>\n";
+/// Composes the XML of a model: an object per part, one of them all, and an item per copy.
+class ModelWriter {
+ public:
+  std::string write(const Shape& shape, const std::vector<PlacedCopy>& copies) {
+    const char* unit = "millimeter";
+    for (const UnitName& candidate : unit_names)
+      if (candidate.unit == shape.unit) unit = candidate.name;
+    text_ = std::string("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"") + unit +
+            "\" xml:lang=\"en-US\" xmlns=\"" + core_namespace + "\">\n<resources>\n";
+    const std::vector<PartMesh> meshes = split_by_part(shape);
+    for (std::size_t part = 0; part < meshes.size(); ++part)
+      if (!meshes[part].triangles.empty())
+        add_object(shape, meshes[part], static_cast<std::int64_t>(part) + 1, shape.part_names[part]);
+    if (!copies.empty() && objects_.size() > 1) add_assembly(static_cast<std::int64_t>(meshes.size()) + 1);
+    text_ += "</resources>\n<build>\n";
+    for (const std::int64_t id : objects_) {
+      if (copies.empty()) add_item(id, nullptr);
+      for (const PlacedCopy& copy : copies) add_item(id, &copy);
     }
-    text += "</vertices>\n<triangles>\n";
-    for (const std::array<std::int32_t, 3>& triangle : meshes[part].triangles) {
-      text += "<triangle";
-      append_attribute(text, "v1", triangle[0]);
-      append_attribute(text, "v2", triangle[1]);
-      append_attribute(text, "v3", triangle[2]);
-      text += "/>\n";
-    }
-    text += "</triangles>\n</mesh>\n</object>\n";
-    items += "<item objectid=\"" + id + "\"/>\n";
+    return text_ + "</build>\n</model>\n";
   }
-  return text + "</resources>\n<build>\n" + items + "</build>\n</model>\n";
-}
+
+ private:
+  void add_object(const Shape& shape, const PartMesh& mesh, std::int64_t id, const std::string& name) {
+    text_ += "<object";
+    append_attribute(text_, "id", id);
+    text_ += " type=\"model\" name=\"" + escaped_xml(name) + "\">\n<mesh>\n<vertices>\n";
+    for (const std::int32_t v : mesh.vertices) {
+      text_ += "<vertex";
+      append_attribute(text_, "x", shape.vertices(v, 0));
+      append_attribute(text_, "y", shape.vertices(v, 1));
+      append_attribute(text_, "z", shape.vertices(v, 2));
+      text_ += "/>\n";
+    }
+    text_ += "</vertices>\n<triangles>\n";
+    for (const std::array<std::int32_t, 3>& triangle : mesh.triangles) {
+      text_ += "<triangle";
+      append_attribute(text_, "v1", std::int64_t{triangle[0]});
+      append_attribute(text_, "v2", std::int64_t{triangle[1]});
+      append_attribute(text_, "v3", std::int64_t{triangle[2]});
+      text_ += "/>\n";
+    }
+    text_ += "</triangles>\n</mesh>\n</object>\n";
+    objects_.push_back(id);
+  }
+
+  /// All objects so far as components of one, which takes their place.
+  void add_assembly(std::int64_t id) {
+    text_ += "<object";
+    append_attribute(text_, "id", id);
+    text_ += " type=\"model\">\n<components>\n";
+    for (const std::int64_t object : objects_) {
+      text_ += "<component";
+      append_attribute(text_, "objectid", object);
+      text_ += "/>\n";
+    }
+    text_ += "</components>\n</object>\n";
+    objects_ = {id};
+  }
+
+  /// `copy` is null for an object where it is, without a name.
+  void add_item(std::int64_t id, const PlacedCopy* copy) {
+    text_ += "<item";
+    append_attribute(text_, "objectid", id);
+    if (copy) {
+      text_ += " partnumber=\"" + escaped_xml(copy->name) + "\" transform=\"";
+      // Row vectors are multiplied from the left: the columns of ours one after the other.
+      for (const double entry : copy->rotation.reshaped()) {
+        append_number(text_, entry);
+        text_ += ' ';
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        append_number(text_, copy->translation[axis]);
+        text_ += axis < 2 ? " " : "\"";
+      }
+    }
+    text_ += "/>\n";
+  }
+
+  std::string text_;
+  std::vector<std::int64_t> objects_;
+};
 
 }  // namespace
 
@@ -191,7 +252,7 @@ Shape read_three_mf(const Source& source) {
   return Assembler(source, &archive, entry, parse_model({*text, source.name}, entry)).assemble();
 }
 
-std::string write_three_mf(const Shape& shape) {
+std::string write_three_mf(const Shape& shape, const std::vector<PlacedCopy>& copies) {
   const std::string types =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
@@ -204,8 +265,9 @@ std::string write_three_mf(const Shape& shape) {
       std::string("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Relationships xmlns=\"") +
       relationships_namespace + "\">\n<Relationship Target=\"/" + default_model + "\" Id=\"rel0\" Type=\"" +
       model_relationship + "\"/>\n</Relationships>\n";
-  return zip(
-      {{"[Content_Types].xml", types}, {"_rels/.rels", relationships}, {default_model, model_xml(shape)}});
+  return zip({{"[Content_Types].xml", types},
+              {"_rels/.rels", relationships},
+              {default_model, ModelWriter().write(shape, copies)}});
 }
 
 }  // namespace stackabilization

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "stackabilization/shape/errors.h"
+#include "stackabilization/shape/utf8.h"
 
 namespace stackabilization::three_mf {
 
@@ -87,10 +88,17 @@ class ModelParser {
     return std::string(local_name(node.name())) + " at byte " + std::to_string(node.offset_debug());
   }
 
+  /// Empty where there is none.
+  std::string name_in(pugi::xml_node node, const char* attribute) const {
+    const std::string name = node.attribute(attribute).value();
+    if (!is_utf8(name)) fail(place(node) + ": expected a name in UTF-8, found " + in_quotes(name));
+    return name;
+  }
+
   void parse_object(pugi::xml_node node, Model& model) const {
     const std::int64_t id = integer(node, "id");
     Object object;
-    object.name = node.attribute("name").value();
+    object.name = name_in(node, "name");
     if (object.name.empty()) object.name = "object_" + std::to_string(id);
     if (const pugi::xml_node mesh = child(node, "mesh")) parse_mesh(mesh, object);
     for (const pugi::xml_node component : child(node, "components").children())
@@ -121,6 +129,7 @@ class ModelParser {
     Placement placement;
     placement.object = integer(node, "objectid");
     placement.model = entry_;
+    placement.name = name_in(node, "partnumber");
     for (const pugi::xml_attribute attribute : node.attributes())
       if (std::strcmp(local_name(attribute.name()), "path") == 0) placement.model = attribute.value();
     if (placement.model.starts_with('/')) placement.model.erase(0, 1);

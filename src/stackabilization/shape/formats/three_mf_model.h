@@ -33,6 +33,7 @@ struct Placement {
   std::string model;  ///< Entry of the archive that holds the object.
   std::int64_t object = 0;
   Transform transform;
+  std::string name;  ///< Part number of a build item; goes before the names of its parts.
 };
 
 struct Object {

@@ -1,0 +1,146 @@
+#include "stackabilization/stacking/solid_location.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace stackabilization::detail {
+
+namespace {
+
+using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel;
+using TriangleIterator = std::vector<Filtered::Triangle_3>::const_iterator;
+
+/// What a ray tells of a triangle.
+enum class Meeting {
+  passed,     ///< not met
+  crossed,    ///< met in its interior
+  starts_on,  ///< the ray starts in its interior, and leaves its plane
+  undecided   ///< the ray runs in its plane or meets its outline
+};
+
+/// The winding is 1 where the normal goes along the ray, -1 where against it.
+struct RayMeeting {
+  Meeting meeting = Meeting::passed;
+  int winding = 0;
+};
+
+/// Of the ray from p along (1, slope, slope^2) with triangle t.
+RayMeeting ray_meeting(const Point& p, int slope, const Corners& t) {
+  const auto flat = [slope](const Point& q) {
+    return Exact::Point_2(q.y() - slope * q.x(), q.z() - slope * slope * q.x());
+  };
+  const Exact::Point_2 a = flat(t[0]), b = flat(t[1]), c = flat(t[2]), q = flat(p);
+  const std::array<int, 3> side = {CGAL::orientation(a, b, q), CGAL::orientation(b, c, q),
+                                   CGAL::orientation(c, a, q)};
+  const auto [least, most] = std::minmax({side[0], side[1], side[2]});
+  if (least < 0 && most > 0) return {};
+  if (least == 0 && most == 0) return {Meeting::undecided, 0};  // the ray runs in the plane of t
+  const int above_plane = CGAL::orientation(t[0], t[1], t[2], p);
+  const bool on_outline = least == 0 || most == 0;
+  if (above_plane == 0) return {Meeting::starts_on, on_outline ? 0 : side[0]};
+  if (on_outline) return {Meeting::undecided, 0};
+  // Seen against the ray the triangle turns counter-clockwise (side = 1): its normal goes along the ray, and
+  // the ray meets it when it starts behind it.
+  return above_plane * side[0] < 0 ? RayMeeting{Meeting::crossed, side[0]} : RayMeeting{};
+}
+
+}  // namespace
+
+struct SolidLocator::Tree {
+  std::vector<Filtered::Triangle_3> triangles;  ///< of SolidLocator::rows
+  CGAL::AABB_tree<CGAL::AABB_traits<Filtered, CGAL::AABB_triangle_primitive<Filtered, TriangleIterator>>>
+      tree;
+};
+
+SolidLocator::SolidLocator(const Shape& solid) : solid_(solid) {
+  auto tree = std::make_unique<Tree>();
+  for (Eigen::Index t = 0; t < solid.triangle_count(); ++t) {
+    std::array<Filtered::Point_3, 3> p;
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d corner = solid.corner(t, k);
+      p[static_cast<std::size_t>(k)] = {corner.x(), corner.y(), corner.z()};
+    }
+    if (CGAL::collinear(p[0], p[1], p[2])) continue;
+    rows_.push_back(static_cast<std::int32_t>(t));
+    tree->triangles.emplace_back(p[0], p[1], p[2]);
+  }
+  tree->tree.insert(tree->triangles.cbegin(), tree->triangles.cend());
+  tree->tree.build();
+  tree_ = std::move(tree);
+}
+
+SolidLocator::~SolidLocator() = default;
+
+Corners SolidLocator::corners(std::int32_t triangle) const {
+  Corners corners;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d p = solid_.corner(triangle, k);
+    corners[static_cast<std::size_t>(k)] = Point(p.x(), p.y(), p.z());
+  }
+  return corners;
+}
+
+std::vector<std::int32_t> SolidLocator::triangles_in(const CGAL::Bbox_3& box) const {
+  std::vector<TriangleIterator> met;
+  tree_->tree.all_intersected_primitives(box, std::back_inserter(met));
+  std::vector<std::int32_t> found;
+  for (const TriangleIterator& triangle : met)
+    found.push_back(rows_[static_cast<std::size_t>(triangle - tree_->triangles.cbegin())]);
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+/// The ray never descends along an axis, and along y and z it only ascends when it has a slope.
+std::vector<std::int32_t> SolidLocator::along_ray(const Point& p, int slope) const {
+  if (rows_.empty()) return {};
+  const CGAL::Bbox_3 from = p.bbox(), all = tree_->tree.bbox();
+  const auto end = [&](int k) {
+    return std::max(from.max(k), k == 0 || slope > 0 ? all.max(k) : from.max(k));
+  };
+  return triangles_in({from.xmin(), from.ymin(), from.zmin(), end(0), end(1), end(2)});
+}
+
+/// Ends: a plane through p and an edge of the solid holds (1, slope, slope^2) for two slopes at most.
+PointLocation SolidLocator::locate(const Point& p) const {
+  for (int slope = 0;; ++slope) {
+    int winding = 0;
+    bool decided = true;
+    for (const std::int32_t t : along_ray(p, slope)) {
+      const RayMeeting met = ray_meeting(p, slope, corners(t));
+      if (met.meeting == Meeting::starts_on) return {PointPlace::boundary, t};
+      if (met.meeting == Meeting::undecided) {
+        decided = false;
+        break;
+      }
+      winding += met.winding;
+    }
+    if (decided) return {winding == 0 ? PointPlace::outside : PointPlace::inside};
+  }
+}
+
+/// Tries points on a parabola in the triangle, each with another ray: an edge of the solid is in the way of
+/// finitely many.
+Windings SolidLocator::windings_beside(std::int32_t triangle) const {
+  const Corners corner = corners(triangle);
+  for (int attempt = 0;; ++attempt) {
+    const Number u = Number(271) / (997 + attempt);  // a weight that no model has by design
+    const Point p = corner[0] + u * (corner[1] - corner[0]) + u * u * (corner[2] - corner[0]);
+    Windings found;
+    bool decided = true;
+    for (const std::int32_t t : along_ray(p, attempt)) {
+      const RayMeeting met = ray_meeting(p, attempt, corners(t));
+      decided = met.meeting != Meeting::undecided && (met.meeting != Meeting::starts_on || met.winding != 0);
+      if (!decided) break;
+      (met.meeting == Meeting::starts_on ? found.behind : found.ahead) += met.winding;
+    }
+    if (decided) return {found.ahead, found.ahead + found.behind};
+  }
+}
+
+}  // namespace stackabilization::detail

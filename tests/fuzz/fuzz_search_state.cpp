@@ -1,0 +1,23 @@
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "fuzz/seeds.h"
+#include "stackabilization/improvement/search_state.h"
+#include "stackabilization/shape/errors.h"
+
+using namespace stackabilization;
+
+/// A saved search is refused with an InputError or is valid, and then its text is a fixed point of reading
+/// and writing.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto read = [](const std::string& text) {
+    return detail::read_state({text, "state"}, fuzz::search_task());
+  };
+  try {
+    const std::string text = detail::text_of(read({reinterpret_cast<const char*>(data), size}));
+    if (detail::text_of(read(text)) != text) std::abort();
+  } catch (const InputError&) {
+  }
+  return 0;
+}
