@@ -135,7 +135,12 @@ class Assembler {
     if (stride < static_cast<int>(element_size))
       fail(what + " has elements of " + std::to_string(element_size) +
            " bytes, which do not fit the stride of its buffer view");
-    const std::size_t room = room_in(view, bytes.size(), accessor);
+    // Compared by subtraction, which a lying header cannot make overflow.
+    if (view.byteOffset > bytes.size() || view.byteLength > bytes.size() - view.byteOffset)
+      fail("buffer view " + std::to_string(accessor.bufferView) + " goes beyond its buffer of " +
+           std::to_string(bytes.size()) + " bytes");
+    const std::size_t room =
+        accessor.byteOffset <= view.byteLength ? view.byteLength - accessor.byteOffset : 0;
     const std::size_t fitting =
         room < element_size ? 0 : (room - element_size) / static_cast<std::size_t>(stride) + 1;
     if (accessor.count > fitting)
@@ -144,15 +149,6 @@ class Assembler {
     if (accessor.count == 0) return {nullptr, 0, 0, accessor.componentType, accessor.normalized};
     return {reinterpret_cast<const char*>(bytes.data()) + view.byteOffset + accessor.byteOffset,
             static_cast<std::size_t>(stride), accessor.count, accessor.componentType, accessor.normalized};
-  }
-
-  /// Bytes of the buffer view from where the accessor starts, as far as the buffer goes. Numbers are compared
-  /// by subtraction, which a lying header cannot make overflow.
-  static std::size_t room_in(const tinygltf::BufferView& view, std::size_t buffer_size,
-                             const tinygltf::Accessor& accessor) {
-    if (view.byteOffset > buffer_size) return 0;
-    const std::size_t size = std::min(view.byteLength, buffer_size - view.byteOffset);
-    return accessor.byteOffset <= size ? size - accessor.byteOffset : 0;
   }
 
   template <class Integer>
