@@ -10,12 +10,12 @@ namespace stackabilization {
 
 namespace {
 
-/// Work of an effort of 1, and what a design and a direction cost, in milliseconds of a processor of 2 GHz: a
+/// Work of an effort of 1, and what a design and a direction cost, in microseconds of a processor of 2 GHz: a
 /// fit to `improve` and `search` on the shipped models, of 4,000 to 5,000 triangles, and on meshes of 20,000.
 /// Next to the triangles it is the hull that counts, whose smallest box is looked for in every design.
-constexpr double work = 97000;
-constexpr double design_cost = 1, triangle_cost = 0.0022, hull_point_cost = 0.16, part_cost = 0.4;
-constexpr double direction_cost = 0.5, direction_triangle_cost = 0.00005;
+constexpr double work = 97e6;
+constexpr double design_cost = 1000, triangle_cost = 2.2, hull_point_cost = 160, part_cost = 400;
+constexpr double direction_cost = 500, direction_triangle_cost = 0.05;
 
 void require_effort(double effort) {
   if (!(effort > 0)) throw UsageError("the effort of a search must be above 0");
