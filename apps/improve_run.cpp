@@ -59,7 +59,7 @@ Stackability upward(const StackabilitySolver& solver, const Structure& structure
 }
 
 /// Shares of the effort and of --time that the look for directions may take.
-constexpr double directions_effort = 0.1;
+constexpr double directions_effort = 0.15;
 constexpr double directions_end = 0.25;
 /// What is left for the search in any case: enough to say where the design stands.
 constexpr double min_seconds = 1e-3;

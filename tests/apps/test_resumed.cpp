@@ -12,6 +12,6 @@ std::filesystem::path shipped(const std::string& name) {
 }  // namespace
 
 TEST_CASE("a run in pieces ends with the files of a run at once, directions looked for") {
-  check_resumed({shipped("mug_with_handle"), {"--target", "0.9", "--effort", "0.02"}});
-  check_resumed({shipped("basket"), {"--target", "0.6", "--effort", "0.02", "--preset", "paper"}});
+  check_resumed({shipped("mug_with_handle"), {"--target", "0.9", "--effort", "0.2"}});
+  check_resumed({shipped("basket"), {"--target", "0.6", "--effort", "0.1", "--preset", "paper"}});
 }

@@ -46,5 +46,5 @@ TEST_CASE("a run in pieces ends with the files of a run at once, for models of t
   if (models.empty()) std::cout << "SKIPPED: there are no outside models\n";
   if (!std::getenv("STACKABILIZATION_EVERY_MODEL") && models.size() > sample) models = spread(models, sample);
   for (const fs::path& model : models)
-    check_resumed({model, {"--up", "y", "--target", "0.8", "--effort", "0.01"}});
+    check_resumed({model, {"--up", "y", "--target", "0.8", "--effort", "0.1"}});
 }

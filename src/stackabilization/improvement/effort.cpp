@@ -1,20 +1,21 @@
 #include "stackabilization/improvement/effort.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
+#include "stackabilization/shape/boxes.h"
 #include "stackabilization/shape/errors.h"
 
 namespace stackabilization {
 
 namespace {
 
-/// Designs of a shape without triangles and parts, and directions of a shape without triangles, that an
-/// effort of 1 pays for; and with how many triangles and parts each costs twice as much. Measured on the
-/// shipped models and on chairs of 1,000 to 60,000 triangles, by `improve` with two threads.
-constexpr double cheapest_designs = 12000, cheapest_directions = 120000;
-constexpr double design_triangles = 1000, design_parts = 12, direction_triangles = 2000;
+/// Work of an effort of 1, and what a design and a direction cost, in microseconds of a processor of 2 GHz: a
+/// fit to `improve` and `search` on the shipped models, of 4,000 to 5,000 triangles, and on meshes of 20,000.
+/// Next to the triangles it is the hull that counts, whose smallest box is looked for in every design.
+constexpr double work = 60e6;
+constexpr double design_cost = 1000, triangle_cost = 2.2, hull_point_cost = 160, part_cost = 400;
+constexpr double direction_cost = 500, direction_triangles = 10000;  ///< that double the cost
 
 void require_effort(double effort) {
   if (!(effort > 0)) throw UsageError("the effort of a search must be above 0");
@@ -25,15 +26,17 @@ void require_effort(double effort) {
 double designs_of_effort(double effort, const StructuredShape& rest) {
   require_effort(effort);
   const auto triangles = static_cast<double>(rest.shape.triangle_count());
+  const auto hull_points = static_cast<double>(HullSupport(rest.shape).points().rows());
   const auto parts = static_cast<double>(rest.structure.parts.size());
-  return effort * cheapest_designs / (1 + triangles / design_triangles + parts / design_parts);
+  return effort * work /
+         (design_cost + triangles * triangle_cost + hull_points * hull_point_cost + parts * part_cost);
 }
 
 std::int64_t directions_of_effort(double effort, const Shape& shape) {
   require_effort(effort);
   constexpr auto most = std::numeric_limits<std::int64_t>::max();
   const auto triangles = static_cast<double>(shape.triangle_count());
-  const double directions = effort * cheapest_directions / (1 + triangles / direction_triangles);
+  const double directions = effort * work / (direction_cost * (1 + triangles / direction_triangles));
   if (!(directions < static_cast<double>(most))) return most;
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(directions));
 }
