@@ -63,7 +63,6 @@ void check_outputs(const CommonOptions& common, const CommandFiles& files) {
       plan.updates(request.option, *request.path);
     else
       plan.writes(request.option, *request.path);
-    check_kind(request);
     prints = prints && *request.path != "-";
   }
   if (prints) plan.writes("standard output", "-");
@@ -71,6 +70,7 @@ void check_outputs(const CommonOptions& common, const CommandFiles& files) {
     plan.fills(files.folder->option, files.folder->folder.path(),
                [&](const std::string& name) { return files.folder->folder.is_written(name); });
   plan.check();
+  for (const OutputRequest& request : asked) check_kind(request);
   if (files.folder) files.folder->folder.check();
 }
 

@@ -116,8 +116,8 @@ TEST_CASE("names that are not UTF-8 are refused where they are read, by every co
     check_refused(folder, arguments, 2, "argument 2 expects UTF-8, found");
   }
   CHECK(run_program({"inspect", good, "--json", "-"}).json()["part_names"] == json({part_name}));
-  CHECK(run_program({"deform", good, "--edit", part_name + " scale 0.9", "--json", "-", "--save",
-                     folder / (part_name + ".json")})
+  CHECK(run_program({"deform", good, "--segmentation", "given", "--edit", part_name + " scale 0.9", "--json",
+                     "-", "--save", folder / (part_name + ".json")})
             .json()["edits"]
             .size() == 1);
   CHECK(run_program({"inspect", folder / (part_name + ".json")}).status == 3);

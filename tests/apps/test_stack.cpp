@@ -76,18 +76,23 @@ TEST_CASE("a stack in 3MF and GLB is one mesh in many places, and in 3MF the sam
     return std::filesystem::file_size(folder / name);
   };
   for (const std::string ending : {".3mf", ".glb"})
-    CHECK(written("many" + ending, "9") < 1.2 * written("two" + ending, "2"));
+    CHECK(written("many" + ending, "9") < 1.5 * written("two" + ending, "2"));
   CHECK(written("many.obj", "9") > 4 * written("two.obj", "2"));
   const Shape meant = read_shape(folder / "many.obj"), placed = read_shape(folder / "many.3mf"),
               single = read_shape(folder / "many.glb");
-  CHECK(placed.vertices == meant.vertices);
-  CHECK(placed.triangles == meant.triangles);
   CHECK(placed.part_names == meant.part_names);
   CHECK(single.part_names == meant.part_names);
-  REQUIRE(single.vertex_count() == meant.vertex_count());
+  REQUIRE(placed.triangle_count() == meant.triangle_count());
+  REQUIRE(single.triangle_count() == meant.triangle_count());
   constexpr double half_float = 6e-8;  // relative
   const double size = meant.vertices.cwiseAbs().maxCoeff(), metres = metres_per_unit(Unit::millimetre);
-  CHECK((single.vertices - metres * meant.vertices).cwiseAbs().maxCoeff() < 2 * half_float * metres * size);
+  // Vertices are numbered anew.
+  for (Eigen::Index t = 0; t < meant.triangle_count(); ++t)
+    for (int corner = 0; corner < 3; ++corner) {
+      CHECK(placed.corner(t, corner) == meant.corner(t, corner));
+      CHECK((single.corner(t, corner) - metres * meant.corner(t, corner)).norm() <
+            2 * half_float * metres * size);
+    }
 }
 
 TEST_CASE("meshes are written in the units of their formats, and a unit that is guessed is named") {

@@ -407,8 +407,8 @@ TEST_CASE("surface: what it cannot do is said") {
                   UsageError);
   CHECK_THROWS_AS(surface_model(Shape{}), InputError);
   // Numbers that run away are refused, not computed with.
-  CHECK(surface->deformed({{{HandleKind::point, 0, 0}, Move{{1e200, 0, 0}}}}).refusal);
-  CHECK(surface->deformed({{whole, Scale{1e300, {}}}, {whole, Scale{1e300, {}}}}).refusal);
+  CHECK_THROWS_AS(surface->deformed({{{HandleKind::point, 0, 0}, Move{{1e200, 0, 0}}}}), UsageError);
+  CHECK_THROWS_AS(surface->deformed({{whole, Scale{1e300, {}}}, {whole, Scale{1e300, {}}}}), UsageError);
 }
 
 TEST_CASE("surface: 1000 random edits each keep the extent and give finite vertices") {

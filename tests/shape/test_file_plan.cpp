@@ -61,6 +61,8 @@ TEST_CASE("a plan does not touch anything") {
   plan.check();
   CHECK(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()) == 1);
   CHECK_THROWS_AS(plan.writes("--picture", ""), UsageError);
+  for (const char* path : {"", "-"})
+    CHECK_THROWS_AS(plan.fills("-o", path, [](const std::string&) { return true; }), UsageError);
 }
 
 TEST_CASE("what links lead to is followed to the end, be it there or not") {

@@ -150,9 +150,11 @@ TEST_CASE("glTF refuses every number that cannot be one, where it stands") {
       const std::string text = with(old_text, key + value + (old_text.ends_with("}]") ? "}]" : ""));
       const std::string words = refusal(Format::gltf, text);
       INFO(words);
-      if (key.find("byteLength") == std::string::npos || value != "4294967296")
-        CHECK(words.find(": expected a whole number from ") != std::string::npos);
-      CHECK(words.starts_with("bad.file: "));
+      // So many bytes could be there; in this file there are not.
+      const bool could_be = key.find("byte") != std::string::npos &&
+                            key.find("Stride") == std::string::npos && value == "4294967296";
+      if (!could_be) CHECK(words.starts_with("bad.file: /"));
+      CHECK((could_be || words.find(": expected a whole number from ") != std::string::npos));
     }
   CHECK(refusal(Format::gltf, with(R"("byteOffset":48)", R"("byteOffset":-4)")) ==
         "bad.file: /bufferViews/1/byteOffset: expected a whole number from 0 to 9007199254740992, found -4");

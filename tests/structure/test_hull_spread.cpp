@@ -34,7 +34,7 @@ TEST_CASE("the spread of a plate tends to that of its rectangle as it gets thinn
       // Its sides add to the moments what they have of the area.
       CHECK(spread.deviations(0) == Approx(3 / std::sqrt(12.0)).epsilon(2 * thickness + 1e-8));
       CHECK(spread.deviations(1) == Approx(2 / std::sqrt(12.0)).epsilon(2 * thickness + 1e-8));
-      CHECK(spread.deviations(2) <= thickness + 1e-8);
+      CHECK(spread.deviations(2) <= thickness + 1e-7);  // the root of a moment of rounding
     }
 }
 

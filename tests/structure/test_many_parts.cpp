@@ -140,7 +140,8 @@ TEST_CASE("parts taken out all at once are those taken out one by one", "[parts]
   }
 }
 
-TEST_CASE("joints are those that a look at every pair of parts finds, but for hidden ones", "[parts][joints]") {
+TEST_CASE("joints are those that a look at every pair of parts finds, but for hidden ones",
+          "[parts][joints]") {
   for (const Shape& shape :
        {random_boxes(1, 20, 1.5), random_boxes(2, 30, 4), grid(3, 2, 2, 1), grid(2, 2, 2, 1.5)}) {
     const std::vector<Part> parts = cuboids(shape);
@@ -153,7 +154,8 @@ TEST_CASE("joints are those that a look at every pair of parts finds, but for hi
         const Shape two = joined({pieces[static_cast<std::size_t>(a)], pieces[static_cast<std::size_t>(b)]});
         JointOptions options;
         options.reach *= size_of(shape) / size_of(two);  // the same length
-        if (!find_joints(two, {parts[static_cast<std::size_t>(a)], parts[static_cast<std::size_t>(b)]}, options)
+        if (!find_joints(two, {parts[static_cast<std::size_t>(a)], parts[static_cast<std::size_t>(b)]},
+                         options)
                  .empty())
           alone.insert({a, b});
       }
@@ -208,14 +210,16 @@ TEST_CASE("of copies of one part in one place a bounded number is compared", "[p
 
 TEST_CASE("more parts or pairs of parts than are analysed are refused before the work", "[parts][analysis]") {
   const Shape shape = grid(3, 3, 1, 1);
-  AnalysisOptions parts, pairs, enough;
+  AnalysisOptions parts, pairs, triangles, enough;
   std::vector<AnalysisStep> steps;
   const auto listen = [&](AnalysisStep step, double) { steps.push_back(step); };
   parts.progress = pairs.progress = listen;
   parts.max_parts = 8;
   pairs.joints.max_pairs = 19;
+  triangles.joints.max_pair_triangles = 479;
   enough.max_parts = 9;
   enough.joints.max_pairs = 20;
+  enough.joints.max_pair_triangles = 480;
   CHECK_THROWS_AS(analyse_structure(shape, parts), InputError);
   CHECK_THROWS_WITH(analyse_structure(shape, parts),
                     "it has 9 parts, and the structure of at most 8 is analysed");
@@ -224,6 +228,10 @@ TEST_CASE("more parts or pairs of parts than are analysed are refused before the
       analyse_structure(shape, pairs),
       "more than 19 pairs of its parts come near each other, by their boxes: joints are looked for "
       "between at most so many");
+  CHECK_THROWS_AS(analyse_structure(shape, triangles), InputError);
+  CHECK_THROWS_WITH(analyse_structure(shape, triangles),
+                    "the 20 pairs of its parts that come near each other have 480 triangles, counted pair by pair: "
+                    "joints are looked for between at most 479");
   CHECK(steps == std::vector<AnalysisStep>(4, AnalysisStep::parts));
   CHECK(analyse_structure(shape, enough).structure.parts.size() == 9);
 }

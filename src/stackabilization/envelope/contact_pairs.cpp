@@ -15,6 +15,12 @@ namespace {
 
 using NodePair = std::pair<std::int32_t, std::int32_t>;
 
+PairBounds bounds_of(const TreeTriangle& upper, const TreeTriangle& lower, const Projection& projection,
+                     const DoubleDouble& cut) {
+  return bound_pair(ProjectedTriangle(upper, projection), ProjectedTriangle(lower, projection), projection,
+                    cut);
+}
+
 /// The pairs by descending the tree against itself, as long as they are not too many.
 class PairSearch {
  public:
@@ -60,8 +66,9 @@ class PairSearch {
     return true;
   }
 
-  /// All pairs of triangles with these points; places in tree order.
+  /// All pairs of triangles with these points, if they may touch; places in tree order.
   bool collect(std::int32_t a, std::int32_t b) {
+    if (bounds_of(tree_.triangles[a], tree_.triangles[b], projection_, cut_).high <= cut_) return true;
     const std::int32_t upper = tree_.triangles[a].index, lower = tree_.triangles[b].index;
     const auto [upper_copy, upper_end] = copies_of(upper);
     const auto [lower_copy, lower_end] = copies_of(lower);
@@ -104,13 +111,20 @@ class DeepestPartners {
         resolution_(resolution) {
     nodes_.reserve(tree.nodes.size());
     for (const TreeNode& node : tree.nodes) nodes_.emplace_back(node, projection);
+    touching_.resize(tree.nodes.size());
+    for (std::size_t n = tree.nodes.size(); n-- > 0;) {  // children come after their parent
+      const TreeNode& node = tree.nodes[n];
+      if (node.count == 0) touching_[n] = touching_[node.first] || touching_[node.first + 1];
+      for (std::int32_t t = node.first; t < node.first + node.count; ++t)
+        touching_[n] = touching_[n] || may_touch(t);
+    }
   }
 
   std::vector<ContactPair> run() const {
     std::array<std::vector<std::int32_t>, 2> partners;
     for (std::vector<std::int32_t>& one : partners) one.assign(tree_.triangles.size(), -1);
     tbb::parallel_for(std::size_t{0}, tree_.nodes.size(), [&](std::size_t leaf) {
-      if (tree_.nodes[leaf].count == 0) return;
+      if (tree_.nodes[leaf].count == 0 || !touching_[leaf]) return;
       for (const Side side : {Side::upper, Side::lower})
         find_partners(static_cast<std::int32_t>(leaf), side, partners[static_cast<std::size_t>(side)]);
     });
@@ -137,7 +151,16 @@ class DeepestPartners {
       pairs.push_back({tree_.triangles[upper].index, tree_.triangles[lower].index, upper, lower});
   }
 
+  /// In solid semantics walls along r touch nothing.
+  bool may_touch(std::int32_t triangle) const {
+    if (projection_.semantics == Semantics::closed) return true;
+    const ProjectedTriangle seen(tree_.triangles[triangle], projection_);
+    return seen.area != 0 || seen.area_error != 0;
+  }
+
+  /// -inf where no triangle of the partner may touch.
   DoubleDouble bound(std::int32_t own, std::int32_t partner, Side side) const {
+    if (!touching_[partner]) return {-infinity, 0};
     return side == Side::upper ? bound_(nodes_[own], nodes_[partner], cut_)
                                : bound_(nodes_[partner], nodes_[own], cut_);
   }
@@ -145,6 +168,8 @@ class DeepestPartners {
   void find_partners(std::int32_t leaf, Side side, std::vector<std::int32_t>& found) const {
     const TreeNode& own = tree_.nodes[leaf];
     Partners best;
+    for (std::int32_t t = 0; t < own.count; ++t)
+      if (!may_touch(own.first + t)) best[t].depth = infinity;
     struct Open {
       DoubleDouble bound;
       std::int32_t node;
@@ -180,8 +205,7 @@ class DeepestPartners {
     const std::int32_t upper = side == Side::upper ? own : partner;
     const std::int32_t lower = side == Side::upper ? partner : own;
     const TreeTriangle &above = tree_.triangles[upper], &beneath = tree_.triangles[lower];
-    const PairBounds bounds = bound_pair(ProjectedTriangle(above, projection_),
-                                         ProjectedTriangle(beneath, projection_), projection_, cut_);
+    const PairBounds bounds = bounds_of(above, beneath, projection_, cut_);
     if (bounds.high <= cut_ || bounds.high.high <= best.depth) return;
     const bool certain = bounds.low.high > -infinity;
     if (!certain && !exact_maximum(above, beneath, projection_.shear, projection_.semantics)) return;
@@ -194,6 +218,7 @@ class DeepestPartners {
   DoubleDouble cut_;  ///< just below the floor
   double resolution_;
   std::vector<ProjectedNode> nodes_;
+  std::vector<char> touching_;  ///< per node: some triangle of it may touch
 };
 
 }  // namespace

@@ -170,13 +170,12 @@ MagnitudeProblem::Measured MagnitudeProblem::measured(const Magnitudes& x) const
 }
 
 std::vector<MagnitudeProblem::Measured> MagnitudeProblem::measured(
-    const std::vector<Magnitudes>& points) const {
+    const std::vector<Magnitudes>& points, const std::function<bool()>& cancelled) const {
   std::vector<Measured> made(points.size());
-  std::atomic<bool> cancelled = false;
+  std::atomic<bool> stopped = false;
   const auto ask = [&, caller = std::this_thread::get_id()] {
-    if (points.size() > 1 && std::this_thread::get_id() == caller && limits_.cancelled && limits_.cancelled())
-      cancelled = true;
-    return cancelled.load();
+    if (cancelled && std::this_thread::get_id() == caller && cancelled()) stopped = true;
+    return stopped.load();
   };
   tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t k) {
     if (!ask()) made[k] = measured(points[k]);
@@ -206,7 +205,7 @@ void MagnitudeProblem::prepare(const std::vector<Magnitudes>& points) {
   std::vector<Magnitudes> fresh;
   for (const Magnitudes& x : points)
     if (!samples_.contains(x) && std::find(fresh.begin(), fresh.end(), x) == fresh.end()) fresh.push_back(x);
-  std::vector<Measured> made = measured(fresh);
+  std::vector<Measured> made = measured(fresh, {});
   for (std::size_t k = 0; k < fresh.size(); ++k) remember(fresh[k], std::move(made[k].sample));
 }
 
@@ -227,7 +226,7 @@ MagnitudeSlopes MagnitudeProblem::slopes(const Magnitudes& x) {
     steps[k] = x[k] + step_ <= highest() ? step_ : -step_;
     points.push_back(neighbour(k, steps[k]));
   }
-  std::vector<Measured> made = measured(points);
+  std::vector<Measured> made = measured(points, limits_.cancelled);
   if (!made.front().sample.made) {  // cancelled
     const auto columns = static_cast<Eigen::Index>(size());
     return {Eigen::MatrixXd::Zero(at(x).changes.size(), columns),
@@ -243,7 +242,7 @@ MagnitudeSlopes MagnitudeProblem::slopes(const Magnitudes& x) {
     steps[k] = -steps[k];
     others.push_back(neighbour(k, steps[k]));
   }
-  std::vector<Measured> instead = measured(others);
+  std::vector<Measured> instead = measured(others, {});
   for (std::size_t i = 0; i < refused.size(); ++i) made[refused[i] + 1] = std::move(instead[i]);
   for (std::size_t k = 0; k <= size(); ++k)
     remember(k == 0 ? x : neighbour(k - 1, steps[k - 1]), made[k].sample);

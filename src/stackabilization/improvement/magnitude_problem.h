@@ -71,7 +71,7 @@ class MagnitudeProblem {
   /// By differences over a step of each magnitude, see step_by. Zero, with no neighbour made, when it is
   /// cancelled meanwhile. Precondition: what is at `x` can be made.
   MagnitudeSlopes slopes(const Magnitudes& x);
-  /// Measures several at once, so that at() has them. Those left when it is cancelled count as not made.
+  /// Measures several at once, so that at() has them.
   void prepare(const std::vector<Magnitudes>& points);
 
   /// The edits with these magnitudes; those with 0 are left out.
@@ -99,7 +99,9 @@ class MagnitudeProblem {
     Points moved;  ///< displacements of some vertices, where they are measured
   };
   Measured measured(const Magnitudes& x) const;
-  std::vector<Measured> measured(const std::vector<Magnitudes>& points) const;
+  /// Those left when it is `cancelled`, which only this thread asks, are not made.
+  std::vector<Measured> measured(const std::vector<Magnitudes>& points,
+                                 const std::function<bool()>& cancelled) const;
   /// How much more than the target a design of such boxes needs: 0 but for a room, for which S is to grow
   /// with the boxes.
   double handicap(const Stackability& measured) const;

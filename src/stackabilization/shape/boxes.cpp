@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "stackabilization/shape/affine_span.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/hull_faces.h"
 #include "stackabilization/shape/planar.h"
@@ -48,6 +49,9 @@ HullSupport::HullSupport(const Points& points) {
   centre_ = (points_.colwise().minCoeff() + points_.colwise().maxCoeff()).transpose() / 2;
   centred_points_ = points_.rowwise() - centre_.transpose();
   normal_columns_ = face_normals_;
+  // Normals of what is hardly thicker than rounding tell no silhouette: without them all corners count.
+  if (affine_span(points_, tolerance::relative * points.cwiseAbs().maxCoeff()).dimension < dimension_)
+    normal_columns_.setZero();
 }
 
 double HullSupport::extent(const Direction& direction) const {
@@ -65,7 +69,7 @@ Eigen::Matrix2Xd HullSupport::projection(const Frame& frame) const {
       if (!std::exchange(listed[edges_(e, end)], 1)) rows.push_back(edges_(e, end));
   }
   Eigen::Matrix2Xd projected;
-  if (rows.empty()) {  // a flat set seen edge on, a straight one or a point
+  if (rows.empty()) {  // a flat set seen edge on, one that is nearly flat, a straight one or a point
     projected.resize(2, points_.rows());
     projected.row(0) = (centred_points_ * frame.u).transpose();
     projected.row(1) = (centred_points_ * frame.v).transpose();

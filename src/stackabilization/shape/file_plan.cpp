@@ -220,8 +220,6 @@ class FilePlanCheck {
   void check_folder(const FilePlan::Folder& folder) const {
     const fs::path& path = folder.path;
     std::error_code error;
-    if (path.empty() || path == "-")
-      throw UsageError(folder.option + " expects a folder, found '" + path.string() + "'");
     const fs::file_status status = fs::status(path, error);
     if (fs::is_directory(status)) {
       check_around(path, path);
@@ -299,6 +297,8 @@ void FilePlan::updates(std::string option, fs::path path) {
 }
 
 void FilePlan::fills(std::string option, fs::path folder, NameTest is_written) {
+  if (folder.empty() || folder == "-")
+    throw UsageError(option + " expects a folder, found '" + folder.string() + "'");
   folders_.push_back({std::move(option), std::move(folder), std::move(is_written)});
 }
 

@@ -26,6 +26,7 @@ class FilePlan {
   /// The same for a file that is read first, and is meant to be replaced by what is made of it.
   void updates(std::string option, std::filesystem::path path);
   /// A folder, made where it is missing, in which files with these names are written, replaced and removed.
+  /// Throws UsageError for "-" and an empty path.
   void fills(std::string option, std::filesystem::path folder,
              std::function<bool(const std::string& name)> is_written);
 

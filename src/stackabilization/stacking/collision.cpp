@@ -258,7 +258,8 @@ Vector translation_by(const Direction& direction, const Rational& lift) {
   return {t * r.x(), t * r.y(), t * r.z()};
 }
 
-/// Winding numbers beside one point of every triangle: neither of both signs nor 0 on both sides?
+/// Winding numbers beside one point of every triangle: none below 0, and no surfaces that cancel each other
+/// where there is nothing on one side?
 std::optional<InteriorDefect> winding_defect(const detail::SolidLocator& solid) {
   std::atomic<bool> negative = false, cancelled = false;
   const std::vector<std::int32_t>& rows = solid.rows();
@@ -266,7 +267,8 @@ std::optional<InteriorDefect> winding_defect(const detail::SolidLocator& solid) 
     if (negative) return;
     const detail::Windings beside = solid.windings_beside(rows[k]);
     if (std::min(beside.ahead, beside.behind) < 0) negative = true;
-    if (beside.ahead == 0 && beside.behind == 0) cancelled = true;
+    const bool is_outer = beside.ahead == 0 || beside.behind == 0;
+    if (is_outer && (beside.opposed || beside.ahead == beside.behind)) cancelled = true;
   });
   if (negative) return InteriorDefect::inside_out;
   if (cancelled) return InteriorDefect::no_volume;

@@ -161,18 +161,15 @@ Windings SolidLocator::windings_beside(std::int32_t triangle) const {
     const Number u = Number(271) / (997 + attempt);  // a weight that no model has by design
     const Point p = corner[0] + u * (corner[1] - corner[0]) + u * u * (corner[2] - corner[0]);
     Windings found;
-    bool decided = true;
+    bool decided = true, up = false, down = false;
     for (const std::int32_t t : triangles_in(box_of(p, ray, tree_->tree.bbox()))) {
       const RayMeeting met = ray_meeting(p, ray, corners(t));
-      const bool on_outline = met.meeting == Meeting::starts_on && met.winding == 0;
-      const bool along = met.meeting == Meeting::undecided;
-      if (on_outline || along) {
-        decided = false;
-        break;
-      }
+      decided = met.meeting != Meeting::undecided && (met.meeting != Meeting::starts_on || met.winding != 0);
+      if (!decided) break;
       (met.meeting == Meeting::starts_on ? found.behind : found.ahead) += met.winding;
+      if (met.meeting == Meeting::starts_on) (met.winding > 0 ? up : down) = true;
     }
-    if (decided) return {found.ahead, found.ahead + found.behind};
+    if (decided) return {found.ahead, found.ahead + found.behind, up && down};
   }
 }
 

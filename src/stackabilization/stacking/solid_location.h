@@ -30,6 +30,7 @@ struct PointLocation {
 /// Winding numbers on both sides of a surface.
 struct Windings {
   int ahead = 0, behind = 0;
+  bool opposed = false;  ///< triangles of both orientations lie there
 };
 
 /// Winding numbers about a closed surface, exact for its coordinates and any rational point, by rays through

@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "stackabilization/shape/point_index.h"
+#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/structure/hull_spread.h"
 
 namespace stackabilization::detail {
 
@@ -101,6 +103,10 @@ std::optional<ClosedPart> closed_part(const Shape& part) {
                                             range_along(part, Eigen::Vector3d::UnitY()).length(),
                                             range_along(part, Eigen::Vector3d::UnitZ()).length())
                                 .norm();
+    // Remeshing collapses such a plate through itself, wrapped or not, and CGAL 5.5 may crash on what is
+    // left.
+    if (hull_spread(part.vertices, tolerance::relative * diagonal).length(2) < diagonal / wrap_offset)
+      return std::nullopt;
     const Soup soup = soup_of(part, count > most_triangles ? diagonal / clusters : 0);
     Mesh mesh;
     if (count <= most_triangles) mesh = as_closed(soup);

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <limits>
-
 #include <Eigen/Core>
+#include <limits>
 
 #include "stackabilization/shape/boxes.h"
 #include "stackabilization/shape/shape.h"
