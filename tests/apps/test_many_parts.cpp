@@ -67,7 +67,8 @@ TEST_CASE("validate passes a shape with a part inside out and says what it did n
   const Outcome outcome = run_program({"validate", folder.model("mixed.obj", shape), "--json", "-"});
   CHECK(outcome.status == 0);
   bool skipped = false;
-  for (const nlohmann::json& check : outcome.json()["checks"])
+  const nlohmann::json document = outcome.json();
+  for (const nlohmann::json& check : document["checks"])
     if (check["name"] == "overlap of interiors")
       skipped = check["verdict"] == "skipped" &&
                 check["note"].get<std::string>().find("inside out") != std::string::npos;
