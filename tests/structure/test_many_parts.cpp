@@ -229,9 +229,10 @@ TEST_CASE("more parts or pairs of parts than are analysed are refused before the
       "more than 19 pairs of its parts come near each other, by their boxes: joints are looked for "
       "between at most so many");
   CHECK_THROWS_AS(analyse_structure(shape, triangles), InputError);
-  CHECK_THROWS_WITH(analyse_structure(shape, triangles),
-                    "the 20 pairs of its parts that come near each other have 480 triangles, counted pair by pair: "
-                    "joints are looked for between at most 479");
+  CHECK_THROWS_WITH(
+      analyse_structure(shape, triangles),
+      "the 20 pairs of its parts that come near each other have 480 triangles, counted pair by pair: "
+      "joints are looked for between at most 479");
   CHECK(steps == std::vector<AnalysisStep>(4, AnalysisStep::parts));
   CHECK(analyse_structure(shape, enough).structure.parts.size() == 9);
 }

@@ -64,7 +64,7 @@ class SymmetrySet {
  private:
   struct Member {
     Symmetry symmetry;
-    Eigen::Isometry3d isometry;  ///< before it is corrected
+    Eigen::Isometry3d isometry;    ///< before it is corrected
     std::set<std::size_t> orbits;  ///< of the parts it relates
   };
 
@@ -228,7 +228,7 @@ class SymmetrySet {
   Structure& structure_;
   DisjointSets orbits_;
   std::vector<Member> members_;
-  std::map<Cell, std::vector<std::size_t>> by_axis_;  ///< rows of the members
+  std::map<Cell, std::vector<std::size_t>> by_axis_;   ///< rows of the members
   std::vector<std::optional<std::size_t>> member_of_;  ///< per relation
 };
 

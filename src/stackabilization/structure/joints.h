@@ -27,8 +27,8 @@ struct JointOptions {
 };
 
 /// The pairs of parts that `find_joints` looks at: their boxes come within reach of each other. Throws
-/// UsageError for options out of range, InputError when there are more than JointOptions::max_pairs, or they have
-/// more than JointOptions::max_pair_triangles.
+/// UsageError for options out of range, InputError when there are more than JointOptions::max_pairs, or they
+/// have more than JointOptions::max_pair_triangles.
 BoxPairs near_parts(const Shape& shape, const JointOptions& options);
 
 /// Point and line joints of every pair of parts. Regions of contact are where the surfaces come within reach
