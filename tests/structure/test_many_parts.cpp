@@ -210,14 +210,16 @@ TEST_CASE("of copies of one part in one place a bounded number is compared", "[p
 
 TEST_CASE("more parts or pairs of parts than are analysed are refused before the work", "[parts][analysis]") {
   const Shape shape = grid(3, 3, 1, 1);
-  AnalysisOptions parts, pairs, enough;
+  AnalysisOptions parts, pairs, triangles, enough;
   std::vector<AnalysisStep> steps;
   const auto listen = [&](AnalysisStep step, double) { steps.push_back(step); };
   parts.progress = pairs.progress = listen;
   parts.max_parts = 8;
   pairs.joints.max_pairs = 19;
+  triangles.joints.max_pair_triangles = 479;
   enough.max_parts = 9;
   enough.joints.max_pairs = 20;
+  enough.joints.max_pair_triangles = 480;
   CHECK_THROWS_AS(analyse_structure(shape, parts), InputError);
   CHECK_THROWS_WITH(analyse_structure(shape, parts),
                     "it has 9 parts, and the structure of at most 8 is analysed");
@@ -226,6 +228,11 @@ TEST_CASE("more parts or pairs of parts than are analysed are refused before the
       analyse_structure(shape, pairs),
       "more than 19 pairs of its parts come near each other, by their boxes: joints are looked for "
       "between at most so many");
+  CHECK_THROWS_AS(analyse_structure(shape, triangles), InputError);
+  CHECK_THROWS_WITH(
+      analyse_structure(shape, triangles),
+      "the 20 pairs of its parts that come near each other have 480 triangles, counted pair by pair: "
+      "joints are looked for between at most 479");
   CHECK(steps == std::vector<AnalysisStep>(4, AnalysisStep::parts));
   CHECK(analyse_structure(shape, enough).structure.parts.size() == 9);
 }

@@ -30,12 +30,23 @@ struct RayMeeting {
   int winding = 0;
 };
 
-/// Of the ray from p along (1, slope, slope^2) with triangle t.
-RayMeeting ray_meeting(const Point& p, int slope, const Corners& t) {
-  const auto flat = [slope](const Point& q) {
-    return Exact::Point_2(q.y() - slope * q.x(), q.z() - slope * slope * q.x());
-  };
-  const Exact::Point_2 a = flat(t[0]), b = flat(t[1]), c = flat(t[2]), q = flat(p);
+/// A ray up along a coordinate axis or, with a slope, along (1, slope, slope^2).
+struct Ray {
+  int axis = 0;
+  int slope = 0;  ///< of axis 0 only
+
+  /// The plane that the ray is a point of, turned so that the axis points at who looks.
+  Exact::Point_2 flat(const Point& q) const {
+    if (slope > 0) return {q.y() - slope * q.x(), q.z() - slope * slope * q.x()};
+    return {q[(axis + 1) % 3], q[(axis + 2) % 3]};
+  }
+  /// Along the three axes first, where few triangles are near.
+  static Ray number(int k) { return k < 3 ? Ray{k, 0} : Ray{0, k - 2}; }
+};
+
+/// Of the ray from p with triangle t.
+RayMeeting ray_meeting(const Point& p, const Ray& ray, const Corners& t) {
+  const Exact::Point_2 a = ray.flat(t[0]), b = ray.flat(t[1]), c = ray.flat(t[2]), q = ray.flat(p);
   const std::array<int, 3> side = {CGAL::orientation(a, b, q), CGAL::orientation(b, c, q),
                                    CGAL::orientation(c, a, q)};
   const auto [least, most] = std::minmax({side[0], side[1], side[2]});
@@ -96,23 +107,40 @@ std::vector<std::int32_t> SolidLocator::triangles_in(const CGAL::Bbox_3& box) co
   return found;
 }
 
-/// The ray never descends along an axis, and along y and z it only ascends when it has a slope.
-std::vector<std::int32_t> SolidLocator::along_ray(const Point& p, int slope) const {
-  if (rows_.empty()) return {};
-  const CGAL::Bbox_3 from = p.bbox(), all = tree_->tree.bbox();
+namespace {
+
+/// The box of a ray in `all`: it never descends along an axis, and ascends along one only without a slope.
+CGAL::Bbox_3 box_of(const Point& p, const Ray& ray, const CGAL::Bbox_3& all) {
+  const CGAL::Bbox_3 from = p.bbox();
   const auto end = [&](int k) {
-    return std::max(from.max(k), k == 0 || slope > 0 ? all.max(k) : from.max(k));
+    const bool ascends = k == ray.axis || ray.slope > 0;
+    return ascends ? std::max(from.max(k), all.max(k)) : from.max(k);
   };
-  return triangles_in({from.xmin(), from.ymin(), from.zmin(), end(0), end(1), end(2)});
+  return {from.xmin(), from.ymin(), from.zmin(), end(0), end(1), end(2)};
 }
+
+/// The axis that is least along a triangle.
+int axis_across(const Corners& t) {
+  const Vector normal = CGAL::cross_product(t[1] - t[0], t[2] - t[0]);
+  int axis = 0;
+  for (int k = 1; k < 3; ++k)
+    if (CGAL::abs(CGAL::to_double(normal[k])) > CGAL::abs(CGAL::to_double(normal[axis]))) axis = k;
+  if (!CGAL::is_zero(normal[axis])) return axis;
+  while (CGAL::is_zero(normal[axis])) axis = (axis + 1) % 3;  // where doubles are too coarse
+  return axis;
+}
+
+}  // namespace
 
 /// Ends: a plane through p and an edge of the solid holds (1, slope, slope^2) for two slopes at most.
 PointLocation SolidLocator::locate(const Point& p) const {
-  for (int slope = 0;; ++slope) {
+  if (rows_.empty()) return {};
+  for (int k = 0;; ++k) {
+    const Ray ray = Ray::number(k);
     int winding = 0;
     bool decided = true;
-    for (const std::int32_t t : along_ray(p, slope)) {
-      const RayMeeting met = ray_meeting(p, slope, corners(t));
+    for (const std::int32_t t : triangles_in(box_of(p, ray, tree_->tree.bbox()))) {
+      const RayMeeting met = ray_meeting(p, ray, corners(t));
       if (met.meeting == Meeting::starts_on) return {PointPlace::boundary, t};
       if (met.meeting == Meeting::undecided) {
         decided = false;
@@ -124,17 +152,18 @@ PointLocation SolidLocator::locate(const Point& p) const {
   }
 }
 
-/// Tries points on a parabola in the triangle, each with another ray: an edge of the solid is in the way of
-/// finitely many.
+/// Tries points on a parabola in the triangle, which meets what an edge of the solid looks like from the axis
+/// twice at most: so this ends.
 Windings SolidLocator::windings_beside(std::int32_t triangle) const {
   const Corners corner = corners(triangle);
+  const Ray ray{axis_across(corner), 0};
   for (int attempt = 0;; ++attempt) {
     const Number u = Number(271) / (997 + attempt);  // a weight that no model has by design
     const Point p = corner[0] + u * (corner[1] - corner[0]) + u * u * (corner[2] - corner[0]);
     Windings found;
     bool decided = true, up = false, down = false;
-    for (const std::int32_t t : along_ray(p, attempt)) {
-      const RayMeeting met = ray_meeting(p, attempt, corners(t));
+    for (const std::int32_t t : triangles_in(box_of(p, ray, tree_->tree.bbox()))) {
+      const RayMeeting met = ray_meeting(p, ray, corners(t));
       decided = met.meeting != Meeting::undecided && (met.meeting != Meeting::starts_on || met.winding != 0);
       if (!decided) break;
       (met.meeting == Meeting::starts_on ? found.behind : found.ahead) += met.winding;

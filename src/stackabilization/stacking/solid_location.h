@@ -58,7 +58,6 @@ class SolidLocator {
 
  private:
   struct Tree;
-  std::vector<std::int32_t> along_ray(const Point& p, int slope) const;
 
   const Shape& solid_;
   std::unique_ptr<const Tree> tree_;

@@ -127,16 +127,24 @@ class Analysis {
     return cylinder < cuboid ? PrimitiveKind::cylinder : PrimitiveKind::cuboid;
   }
 
-  /// Symmetries were found one by one; where primitives cannot have all of them, the last to come goes.
+  /// Symmetries were found one by one; where primitives cannot have all of them, the last to come goes. What
+  /// goes may settle other contradictions, so they go one at a time; where that would take too long, one of
+  /// every orbit at a time.
   void drop_contradictions() {
-    for (;;) {
+    constexpr std::size_t max_relations_looked_at = 20'000;
+    for (std::size_t looked_at = 0;;) {
       Structure ideal = structure();
       const std::optional<detail::Contradiction> contradiction = detail::try_idealise(ideal);
       if (!contradiction) {
         structure() = std::move(ideal);
         return;
       }
-      structure().relations.erase(structure().relations.begin() + contradiction->relations.back());
+      std::vector<int> rows = {contradiction->relations.back()};
+      looked_at += structure().relations.size();
+      if (looked_at > max_relations_looked_at) rows = contradiction->dispensable;
+      std::sort(rows.begin(), rows.end());
+      for (auto row = rows.rbegin(); row != rows.rend(); ++row)
+        structure().relations.erase(structure().relations.begin() + *row);
     }
   }
 

@@ -1,7 +1,9 @@
 #include "stackabilization/structure/consistent_symmetries.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -35,7 +37,7 @@ class SymmetrySet {
                      static_cast<std::size_t>(relation.parts[1]));
     for (Symmetry& symmetry : structure.symmetries) {
       symmetry.axis.normalize();
-      members_.push_back({symmetry, {}});
+      add(symmetry);
     }
     for (std::size_t r = 0; r < structure.relations.size(); ++r)
       if (is_symmetry(structure.relations[r])) collect(r);
@@ -62,8 +64,41 @@ class SymmetrySet {
  private:
   struct Member {
     Symmetry symmetry;
+    Eigen::Isometry3d isometry;    ///< before it is corrected
     std::set<std::size_t> orbits;  ///< of the parts it relates
   };
+
+  /// Unit vectors of one cell, or of neighbouring ones, are candidates for being nearly parallel.
+  using Cell = std::array<int, 3>;
+  static constexpr double cell_width = 0.25;  // more than the chord of `least_cosine`
+
+  static Cell cell_of(const Eigen::Vector3d& axis) {
+    Cell cell{};
+    for (int k = 0; k < 3; ++k)
+      cell[static_cast<std::size_t>(k)] = static_cast<int>(std::floor(axis(k) / cell_width));
+    return cell;
+  }
+
+  void add(const Symmetry& symmetry) {
+    by_axis_[cell_of(symmetry.axis)].push_back(members_.size());
+    members_.push_back({symmetry, isometry_of(symmetry), {}});
+  }
+
+  /// Members whose axes are parallel to `axis` within `least_cosine`, and some more, ascending.
+  std::vector<std::size_t> nearly_parallel(const Eigen::Vector3d& axis) const {
+    std::vector<std::size_t> found;
+    for (const double sign : {1.0, -1.0}) {
+      const Cell middle = cell_of(sign * axis);
+      for (int step = 0; step < 27; ++step) {
+        const auto rows =
+            by_axis_.find({middle[0] + step % 3 - 1, middle[1] + step / 3 % 3 - 1, middle[2] + step / 9 - 1});
+        if (rows != by_axis_.end()) found.insert(found.end(), rows->second.begin(), rows->second.end());
+      }
+    }
+    std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());
+    return found;
+  }
 
   void collect(std::size_t r) {
     Relation& relation = structure_.relations[r];
@@ -71,11 +106,15 @@ class SymmetrySet {
     const auto part = static_cast<std::size_t>(relation.parts[0]);
     std::optional<std::size_t> best;
     double least = tolerance::same_symmetry * structure_.diagonal;
-    for (std::size_t i = 0; i < members_.size(); ++i) {
+    const Eigen::Isometry3d isometry = isometry_of(relation.symmetry);
+    const Eigen::Vector3d point = control_points(structure_.parts[part].primitive).row(0).transpose();
+    const Eigen::Vector3d image = isometry * point;
+    for (const std::size_t i : nearly_parallel(relation.symmetry.axis)) {
       const Symmetry& other = members_[i].symmetry;
       if (other.kind != relation.symmetry.kind || isometry_order(other) != isometry_order(relation.symmetry))
         continue;
       if (std::abs(other.axis.dot(relation.symmetry.axis)) < least_cosine) continue;
+      if ((image - members_[i].isometry * point).norm() > least) continue;  // the difference is no smaller
       const double miss = difference(relation.symmetry, other, structure_.parts[part].primitive);
       if (miss > least || (best && miss == least)) continue;
       least = miss;
@@ -83,7 +122,7 @@ class SymmetrySet {
     }
     if (!best) {
       best = members_.size();
-      members_.push_back({relation.symmetry, {}});
+      add(relation.symmetry);
     }
     members_[*best].orbits.insert(orbits_.root(part));
     member_of_.resize(structure_.relations.size());
@@ -189,6 +228,7 @@ class SymmetrySet {
   Structure& structure_;
   DisjointSets orbits_;
   std::vector<Member> members_;
+  std::map<Cell, std::vector<std::size_t>> by_axis_;   ///< rows of the members
   std::vector<std::optional<std::size_t>> member_of_;  ///< per relation
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -134,7 +135,7 @@ class Idealiser {
     OrbitsOrContradiction found = find_orbits(structure_);
     if (found.contradiction) return found.contradiction;
     for (const Orbit& orbit : found.orbits) idealise(orbit);
-    return check();
+    return check(found.orbits);
   }
 
   void idealise(const Orbit& orbit);
@@ -213,24 +214,41 @@ class Idealiser {
     return tolerance::idealised * largest;
   }
 
-  std::optional<Contradiction> check() const {
+  /// The first relation that does not hold, and of every other orbit the first as well.
+  std::optional<Contradiction> check(const std::vector<Orbit>& orbits) const {
+    std::vector<int> orbit_of(structure_.parts.size(), -1);
+    for (std::size_t k = 0; k < orbits.size(); ++k)
+      for (const int part : orbits[k].parts) orbit_of[static_cast<std::size_t>(part)] = static_cast<int>(k);
+    std::set<int> contradicting;
+    std::optional<Contradiction> first;
     const double most = limit();
     for (std::size_t r = 0; r < structure_.relations.size(); ++r) {
       const Relation& relation = structure_.relations[r];
       if (relation.type != RelationType::symmetry && relation.type != RelationType::self_symmetry) continue;
+      const int orbit = orbit_of[static_cast<std::size_t>(relation.parts.front())];
+      if (contradicting.contains(orbit)) continue;
       const int row = static_cast<int>(r);
-      if (symmetry_miss(structure_, relation) > most)
-        return Contradiction{{row},
-                             describe(structure_, row) +
-                                 " cannot hold exactly between primitives of this kind, "
-                                 "together with the other symmetries of these parts"};
-      for (const int one : relation.parts) try {
-          validate(structure_.parts[static_cast<std::size_t>(one)].primitive, "");
-        } catch (const InputError&) {
-          return Contradiction{{row}, describe(structure_, row) + " leaves nothing of the primitive"};
-        }
+      const std::string reason = broken(relation, row, most);
+      if (reason.empty()) continue;
+      contradicting.insert(orbit);
+      if (!first) first = Contradiction{{row}, reason};
+      first->dispensable.push_back(row);
     }
-    return std::nullopt;
+    return first;
+  }
+
+  /// Why a symmetry does not hold; empty when it does.
+  std::string broken(const Relation& relation, int row, double most) const {
+    if (symmetry_miss(structure_, relation) > most)
+      return describe(structure_, row) +
+             " cannot hold exactly between primitives of this kind, together with the other symmetries of "
+             "these parts";
+    for (const int one : relation.parts) try {
+        validate(structure_.parts[static_cast<std::size_t>(one)].primitive, "");
+      } catch (const InputError&) {
+        return describe(structure_, row) + " leaves nothing of the primitive";
+      }
+    return {};
   }
 
   Structure& structure_;

@@ -254,11 +254,13 @@ class JointFinder {
 BoxPairs near_parts(const Shape& shape, const JointOptions& options) {
   check(options);
   std::vector<Eigen::AlignedBox3d> boxes(shape.part_names.size());
+  std::vector<std::size_t> triangles(boxes.size(), 0);
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
     const Eigen::Vector3d a = shape.corner(t, 0), b = shape.corner(t, 1), c = shape.corner(t, 2);
     if (!((b - a).cross(c - a).squaredNorm() > 0)) continue;
-    for (const Eigen::Vector3d& p : {a, b, c})
-      boxes[static_cast<std::size_t>(shape.triangle_part[static_cast<std::size_t>(t)])].extend(p);
+    const auto part = static_cast<std::size_t>(shape.triangle_part[static_cast<std::size_t>(t)]);
+    for (const Eigen::Vector3d& p : {a, b, c}) boxes[part].extend(p);
+    ++triangles[part];
   }
   auto pairs = near_boxes(boxes, options.reach * size_of(shape), options.max_pairs);
   if (!pairs)
@@ -266,6 +268,14 @@ BoxPairs near_parts(const Shape& shape, const JointOptions& options) {
         "more than " + std::to_string(options.max_pairs) +
         " pairs of its parts come near each other, by their boxes: joints are looked for between "
         "at most so many");
+  std::size_t in_pairs = 0;
+  for (const auto& [a, b] : *pairs)
+    in_pairs += triangles[static_cast<std::size_t>(a)] + triangles[static_cast<std::size_t>(b)];
+  if (in_pairs > options.max_pair_triangles)
+    throw InputError("the " + std::to_string(pairs->size()) +
+                     " pairs of its parts that come near each other have " + std::to_string(in_pairs) +
+                     " triangles, counted pair by pair: joints are looked for between at most " +
+                     std::to_string(options.max_pair_triangles));
   return std::move(*pairs);
 }
 

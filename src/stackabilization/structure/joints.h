@@ -22,10 +22,13 @@ struct JointOptions {
   double least_line = 0.25;
   /// Pairs of parts that are looked at; more are refused.
   std::size_t max_pairs = 200'000;
+  /// Triangles of the parts of these pairs, each pair counting those of both its parts; more are refused.
+  std::size_t max_pair_triangles = 8'000'000;
 };
 
 /// The pairs of parts that `find_joints` looks at: their boxes come within reach of each other. Throws
-/// UsageError for options out of range, InputError when there are more than JointOptions::max_pairs.
+/// UsageError for options out of range, InputError when there are more than JointOptions::max_pairs, or they
+/// have more than JointOptions::max_pair_triangles.
 BoxPairs near_parts(const Shape& shape, const JointOptions& options);
 
 /// Point and line joints of every pair of parts. Regions of contact are where the surfaces come within reach

@@ -32,8 +32,7 @@ class OrbitFinder {
   OrbitsOrContradiction run() {
     for (std::size_t part = 0; part < structure_.parts.size(); ++part)
       if (orbit_of_[part] < 0 && !relations_of_[part].empty()) grow(static_cast<int>(part));
-    for (Orbit& orbit : result_.orbits)
-      if (!close_group(orbit)) break;
+    for (Orbit& orbit : result_.orbits) close_group(orbit);
     return std::move(result_);
   }
 
@@ -104,7 +103,7 @@ class OrbitFinder {
     return rows;
   }
 
-  bool close_group(Orbit& orbit) {
+  void close_group(Orbit& orbit) {
     orbit.group = {Eigen::Isometry3d::Identity()};
     std::vector<Eigen::Isometry3d> generators;
     std::vector<int> relations;
@@ -118,9 +117,8 @@ class OrbitFinder {
       generators.push_back(generator);
       if (generate(orbit, generators)) continue;
       contradict(relations);
-      return false;
+      return;
     }
-    return true;
   }
 
   bool contains(const Orbit& orbit, const Eigen::Isometry3d& map) const {
@@ -139,7 +137,12 @@ class OrbitFinder {
   }
 
   void contradict(const std::vector<int>& relations) {
+    if (result_.contradiction) {
+      result_.contradiction->dispensable.push_back(relations.back());
+      return;
+    }
     Contradiction contradiction;
+    contradiction.dispensable = {relations.back()};
     const auto orbit_of = [&](std::size_t r) {
       return orbit_of_[static_cast<std::size_t>(structure_.relations[r].parts[0])];
     };

@@ -21,6 +21,8 @@ struct Orbit {
 struct Contradiction {
   std::vector<int> relations;  ///< rows of Structure::relations
   std::string reason;          ///< one sentence
+  /// The last relation of each orbit that contradicts itself, those of this one first: what to do without.
+  std::vector<int> dispensable = {};
 };
 
 struct OrbitsOrContradiction {
