@@ -399,7 +399,7 @@ TEST_CASE("options out of range are refused") {
     CHECK_THROWS_AS(best_first(checker(0.5), how), UsageError);
   };
   refused([](BestFirstOptions& how) { how.solutions = 0; });
-  refused([](BestFirstOptions& how) { how.expansions = 0; });
+  refused([](BestFirstOptions& how) { how.expansions = -1; });
   refused([](BestFirstOptions& how) { how.trials = -1; });
   refused([](BestFirstOptions& how) { how.seconds = 0; });
   refused([](BestFirstOptions& how) { how.seconds = std::nan(""); });

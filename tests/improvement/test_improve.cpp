@@ -143,6 +143,26 @@ TEST_CASE("a run goes on to the same result from every state that it saves") {
     }
 }
 
+TEST_CASE("a run expands no more candidates than it may, and with more of them goes on to the same result") {
+  for (const double effort : {0.005, 0.02, 0.05}) {
+    ImprovementOptions options = limited(effort);
+    options.search.expansions = 12;
+    const Improvement whole = improve(checker(0.97), options);
+    CHECK(whole.progress.expanded <= 12);
+    for (const std::int64_t first : {1, 2, 5, 9}) {
+      std::string state;
+      ImprovementOptions fewer = options;
+      fewer.search.expansions = first;
+      fewer.search.save = [&](const std::string& text) { state = text; };
+      CHECK(improve(checker(0.97), fewer).progress.expanded <= first);
+      check_same(improve(checker(0.97), options, SavedSearch{state}), whole);
+    }
+  }
+  ImprovementOptions none = limited(0.02);
+  none.search.expansions = 0;
+  CHECK_THROWS_AS(improve(checker(0.97), none), UsageError);
+}
+
 TEST_CASE("a run that is cancelled anywhere leaves a state from which the whole result follows") {
   ImprovementOptions options = limited(0.05);
   options.search.expansions = 6;

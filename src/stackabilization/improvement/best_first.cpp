@@ -9,7 +9,8 @@ namespace {
 
 void validate(const RequirementChecker& checker, const BestFirstOptions& options) {
   if (options.solutions < 1) throw UsageError("a search looks for one solution at least");
-  if (options.expansions < 1) throw UsageError("a search expands one candidate at least");
+  if (options.expansions < 0)
+    throw UsageError("the number of candidates that a search expands must not be negative");
   if (options.trials < 0) throw UsageError("the number of edits that a search tries must not be negative");
   if (!(options.seconds > 0)) throw UsageError("the deadline of a search must be positive");
   if (!(options.cone_degrees >= 0) || options.cone_degrees > 90)

@@ -30,7 +30,7 @@ struct BestFirstOptions {
   double alpha = 0.2;             ///< of Eq. 5
   ContactEditOptions edits;       ///< what contacts suggest
   int solutions = 1;              ///< different ones wanted, >= 1
-  std::int64_t expansions = 100;  ///< limit, >= 1
+  std::int64_t expansions = 100;  ///< limit, >= 0
   /// Limit, >= 0: edits tried in all, whatever comes of them. A candidate whose edits would be more than are
   /// left ends the search.
   std::int64_t trials = std::numeric_limits<std::int64_t>::max();

@@ -7,6 +7,7 @@
 #include "stackabilization/improvement/effort.h"
 #include "stackabilization/improvement/pursuit.h"
 #include "stackabilization/improvement/work_budget.h"
+#include "stackabilization/shape/errors.h"
 
 namespace stackabilization {
 
@@ -168,7 +169,9 @@ class ImprovementRun {
         options_(options),
         state_(state),
         refines_(options.preset == ImprovementPreset::refined),
-        budget_(designs_of_effort(options.effort, checker.space().rest()), options.search.seconds) {}
+        budget_(designs_of_effort(options.effort, checker.space().rest()), options.search.seconds) {
+    if (options.search.expansions < 1) throw UsageError("an improvement expands one candidate at least");
+  }
 
   Improvement run() {
     const BestFirstOptions search = search_options();
@@ -227,8 +230,10 @@ class ImprovementRun {
     return found;
   }
 
-  /// A search until `share` of the work is done. What the saved state did counts as done.
+  /// A search until `share` of the work is done, with the expansions that are left. What the saved state did
+  /// counts as done.
   BestFirstResult searched(BestFirstOptions search, double share, const std::optional<SavedSearch>& state) {
+    search.expansions -= result_.progress.expanded;
     search.trials = budget_.designs_until(share, min_search);
     search.seconds = budget_.seconds_until(share, min_search);
     if (search.progress)

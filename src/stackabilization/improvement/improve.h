@@ -24,8 +24,8 @@ struct ImprovementOptions {
   /// How much work is done at most, > 0, see effort.h: 1 comes to about 40 seconds on two cores. The result
   /// depends on it, and not on the machine.
   double effort = 1;
-  /// Its alpha, edits, directions, deadline and callbacks hold for the whole run, its expansions for each
-  /// search; its trials follow from the effort.
+  /// Its alpha, edits, directions, deadline, callbacks and expansions, of which there is one at least, hold
+  /// for the whole run; its trials follow from the effort.
   BestFirstOptions search;
   RefinementOptions refinement;  ///< of the continuous magnitudes
 };
