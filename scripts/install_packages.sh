@@ -9,7 +9,7 @@ packages=(
   libpugixml-dev libminizip-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
   libvtk9-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   libembree-dev libfcl-dev
-  catch2 python3
+  catch2 doxygen python3
 )
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then

@@ -45,10 +45,10 @@ struct Separation {
   /// False when the projections along r have no common interior (solid) or no common point (closed): the
   /// shapes pass each other at any height, and the other fields are meaningless.
   bool blocked = false;
-  Rational value;     ///< in units of r: the translation is value * r
-  double length = 0;  ///< value * |r|, model units, within 4 ulp
-  Witness witness;    ///< where the value is attained
-  SeparationWork work;
+  Rational value;       ///< in units of r: the translation is value * r
+  double length = 0;    ///< value * |r|, model units, within 4 ulp
+  Witness witness;      ///< where the value is attained
+  SeparationWork work;  ///< what it took
 };
 
 /// A certified enclosure of a separation, in units of r: lower <= sep <= upper. Empty (lower = upper = -inf)
@@ -57,7 +57,7 @@ struct Enclosure {
   double lower = -std::numeric_limits<double>::infinity();  ///< certainly at most sep, units of r
   double upper = -std::numeric_limits<double>::infinity();  ///< certainly at least sep, units of r
   bool abandoned = false;  ///< stopped early: only `lower` > abandon_above is known, upper is +inf
-  SeparationWork work;
+  SeparationWork work;     ///< what it took
 };
 
 /// Options of `separation` and `separation_enclosure`.

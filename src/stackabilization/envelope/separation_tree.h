@@ -14,10 +14,12 @@ struct TreeTriangle {
   std::int32_t index;                            ///< row of Shape::triangles
 };
 
-/// A triangle with the same three points as an earlier one; rows of Shape::triangles.
+/// A triangle with the same three points as an earlier one.
 struct TriangleCopy {
-  std::int32_t first, copy;
+  std::int32_t first;  ///< row of Shape::triangles of the first triangle with these points
+  std::int32_t copy;   ///< row of Shape::triangles of the later one
 
+  /// Orders by the first triangle, then by the copy.
   friend bool operator<(const TriangleCopy& a, const TriangleCopy& b) {
     return a.first != b.first ? a.first < b.first : a.copy < b.copy;
   }

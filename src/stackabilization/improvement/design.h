@@ -69,9 +69,11 @@ struct DesignSpaceOptions {
   Direction direction{0, 0, 1};
 };
 
-/// What a search for designs takes on: it makes hundreds of edits, and every energy compares all pairs of
-/// parts.
-inline constexpr std::size_t max_design_parts = 500, max_design_joint_points = 200;
+/// Most parts of a shape that is searched for designs: a search makes hundreds of edits, and every energy
+/// compares all pairs of parts.
+inline constexpr std::size_t max_design_parts = 500;
+/// Most points of all joints of such a shape.
+inline constexpr std::size_t max_design_joint_points = 200;
 
 /// Throws as the constructor of the model does, and InputError for a shape of more than `max_design_parts`
 /// parts, or with controllers more than `max_design_joint_points` (ControllerLimits).

@@ -43,6 +43,7 @@ std::string shape_bytes(const Shape& shape, Format format, const WriteOptions& o
 /// double, to the bit; from GLB with the vertices of one copy in single precision and placements in double,
 /// so that all copies are the same shape.
 void write_shape(const Copies& copies, const std::filesystem::path& path, const WriteOptions& options = {});
+/// The bytes of that file.
 std::string shape_bytes(const Copies& copies, Format format, const WriteOptions& options = {});
 
 }  // namespace stackabilization
