@@ -8,6 +8,7 @@
 #include "stackabilization/shape/errors.h"
 #include "support/catch.h"
 #include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 
@@ -239,6 +240,22 @@ TEST_CASE("a stored ray caster answers as a fresh one", "[height_field]") {
     CHECK(stored.upper == fresh.upper);
     CHECK(stored.lower == fresh.lower);
   }
+}
+
+TEST_CASE("rays meet parts in one place once, and no more triangles than they may", "[height_field]") {
+  const Shape box = solids::box({2, 3, 4});
+  Shape many = box;
+  for (int k = 1; k < 50; ++k) many = concatenate(many, k % 2 == 0 ? box : solids::flipped(box));
+  const Direction oblique(0.1, 0.2, 1);
+  const Window window = window_around(box, oblique, 16);
+  const HeightField field = RayCaster(box).cast(oblique, window);
+  const HeightField of_many = RayCaster(many).cast(oblique, window);
+  CHECK(of_many.upper == field.upper);
+  CHECK(of_many.lower == field.lower);
+  // A ray that enters and leaves through the insides of triangles meets two.
+  const Window one{0.9, 1.4, 0.01, 1, 1};
+  CHECK(RayCaster(many).cast(up, one, 2).upper(0, 0) == 4);
+  CHECK_THROWS_AS(RayCaster(many).cast(up, one, 1), InputError);
 }
 
 TEST_CASE("impossible windows and shapes are refused", "[height_field]") {

@@ -1,4 +1,6 @@
+#include <Eigen/Geometry>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "stackabilization/shape/errors.h"
@@ -253,6 +255,41 @@ TEST_CASE("solids are recognised without shared indices and with touching parts"
   CHECK(CollisionTester(concatenate(loose, moved(loose, {1, 1, 0})), box).solids());
   corners.resize(corners.size() - 3);
   CHECK_FALSE(CollisionTester(sheet(corners), box).solids());
+}
+
+TEST_CASE("parts in one place are as one", "[collision]") {
+  const Shape box = solids::box({2, 3, 4}), other = solids::box({1, 1, 1});
+  Shape many = box;
+  for (int k = 1; k < 1000; ++k) many = concatenate(many, box);
+  const CollisionTester one_against(box, other), many_against(many, other), themselves(many, many);
+  CHECK(themselves.interior_defect() == std::nullopt);
+  for (const double z : {-1.0, -0.5, 0.0, 3.5, 4.0, 4.5}) {
+    CHECK(many_against.closed_contact(up, Rational(z)) == one_against.closed_contact(up, Rational(z)));
+    CHECK(many_against.interiors_overlap(up, Rational(z)) == one_against.interiors_overlap(up, Rational(z)));
+    CHECK(themselves.closed_contact(up, Rational(z)) == (z <= 4));
+    CHECK(themselves.interiors_overlap(up, Rational(z)) == (z < 4));
+  }
+  // The same triangles with other neighbours are not the same: a wedge shares two faces with the box.
+  Shape wedge = box;
+  for (Eigen::Index v = 0; v < wedge.vertex_count(); ++v)
+    if (wedge.vertices(v, 2) == 4) wedge.vertices(v, 0) = 0;
+  const Shape both = concatenate(wedge, box), bar = moved(solids::box({1, 1, 1}), {1, 1, 0});
+  CHECK_FALSE(interiors_overlap(wedge, bar, up, Rational(3)));
+  CHECK(interiors_overlap(both, bar, up, Rational(3)));
+  CHECK(interiors_overlap(concatenate(box, wedge), bar, up, Rational(3)));
+}
+
+TEST_CASE("more pairs of near triangles than can be tested are refused, however they are met",
+          "[collision]") {
+  const Eigen::Matrix3d aslant = Eigen::AngleAxisd(0.5, Eigen::Vector3d(1, 2, 3).normalized()).matrix();
+  const Shape box = transformed(solids::box({2, 3, 4}), aslant, Eigen::Vector3d::Zero());
+  Shape nearly_one = box;
+  for (int k = 1; k < 400; ++k)
+    nearly_one = concatenate(nearly_one, moved(box, {1e-9 * k, 2e-9 * k, 1e-9 * k}));
+  const CollisionTester tester(nearly_one, nearly_one);
+  CHECK_THROWS_AS(tester.closed_contact(up, Rational(0)), InputError);
+  CHECK_THROWS_AS(tester.interiors_overlap(up, Rational(0)), InputError);
+  CHECK_FALSE(tester.closed_contact(up, Rational(10)));
 }
 
 TEST_CASE("impossible searches and shapes are refused", "[collision]") {

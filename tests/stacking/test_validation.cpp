@@ -219,6 +219,20 @@ TEST_CASE("a table has one line per check between heading and verdict", "[valida
   CHECK(last == "every check agrees with the exact value");
 }
 
+TEST_CASE("checks that would look at too many triangles are skipped with the reason", "[validation]") {
+  const Shape box = solids::box({1, 2, 1});
+  ValidationOptions options;
+  options.resolutions = {8, 16, 32};
+  options.max_ray_hits = 2 * 8 * 16;  // two for each ray of 16 samples along the longer side
+  const ValidationReport report = validate_translation(box, up, options);
+  CHECK(report.passed);
+  CHECK(row_of(report, "rays 8").verdict == Verdict::agrees);
+  CHECK(row_of(report, "rays 16").verdict != Verdict::skipped);
+  CHECK(row_of(report, "rays 32").verdict == Verdict::skipped);
+  CHECK(mentions(row_of(report, "rays 32").note, "more than 256 triangles"));
+  CHECK(row_of(report, "scanline 32").verdict == Verdict::agrees);
+}
+
 TEST_CASE("impossible validations are refused", "[validation]") {
   const Shape box = solids::box({1, 1, 1});
   ValidationOptions none, unsorted, no_margin;

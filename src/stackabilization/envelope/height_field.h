@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <limits>
 #include <memory>
 
 #include "stackabilization/shape/direction.h"
@@ -63,7 +65,7 @@ HeightField empty_height_field(const Shape& shape, const Direction& direction, c
 /// Envelopes by ray casting through every sample: which triangles a ray meets is decided by exact predicates
 /// on the ray whose end points are rounded to double; heights are constructed in double and never leave the
 /// triangle's own range. Vertical triangles, met along a segment, count with both ends; triangles without
-/// area cover nothing.
+/// area cover nothing, and triangles with the same three points count once.
 ///
 /// Built once per shape (CGAL AABB tree), queried for any number of directions and windows, also by several
 /// threads at a time. A query runs in parallel over rows and is deterministic.
@@ -75,8 +77,10 @@ class RayCaster {
   RayCaster& operator=(RayCaster&&) noexcept;
   ~RayCaster();
 
-  /// Throws UsageError as `empty_height_field` does.
-  HeightField cast(const Direction& direction, const Window& window) const;
+  /// Throws UsageError as `empty_height_field` does, and InputError where all rays together meet more than
+  /// `max_hits` triangles.
+  HeightField cast(const Direction& direction, const Window& window,
+                   std::int64_t max_hits = std::numeric_limits<std::int64_t>::max()) const;
 
  private:
   struct Data;

@@ -7,13 +7,18 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "stackabilization/envelope/height_field.h"
+#include "stackabilization/envelope/triangle_copies.h"
+#include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization {
@@ -87,19 +92,28 @@ HeightRange heights_over(const LocalTriangle& corners, const Eigen::Vector3d& q)
 
 struct RayCaster::Data {
   Shape shape;
-  std::vector<Kernel::Triangle_3> triangles;  // those with area
+  std::vector<Kernel::Triangle_3> triangles;  // those with area, of those with the same points one
   std::vector<Eigen::Index> rows;             // their rows in the shape
   Tree tree;
   double diagonal = 0;
 
-  explicit Data(const Shape& source) : shape(source) {
+  explicit Data(const Shape& cast) : shape(cast) {
     validate(shape);
+    std::vector<TreeTriangle> sources;
     for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-      const Kernel::Triangle_3 triangle(to_cgal(shape.corner(t, 0)), to_cgal(shape.corner(t, 1)),
-                                        to_cgal(shape.corner(t, 2)));
+      TreeTriangle& source = sources.emplace_back();
+      source.index = static_cast<std::int32_t>(t);
+      for (int k = 0; k < 3; ++k)
+        Eigen::Vector3d::Map(source.corners[static_cast<std::size_t>(k)].data()) = shape.corner(t, k);
+    }
+    detail::take_copies(sources);
+    for (const TreeTriangle& source : sources) {
+      const Kernel::Triangle_3 triangle(to_cgal(shape.corner(source.index, 0)),
+                                        to_cgal(shape.corner(source.index, 1)),
+                                        to_cgal(shape.corner(source.index, 2)));
       if (triangle.is_degenerate()) continue;
       triangles.push_back(triangle);
-      rows.push_back(t);
+      rows.push_back(source.index);
     }
     tree.insert(triangles.cbegin(), triangles.cend());
     tree.build();
@@ -114,7 +128,7 @@ RayCaster::RayCaster(RayCaster&&) noexcept = default;
 RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
 RayCaster::~RayCaster() = default;
 
-HeightField RayCaster::cast(const Direction& direction, const Window& window) const {
+HeightField RayCaster::cast(const Direction& direction, const Window& window, std::int64_t max_hits) const {
   const Data& data = *data_;
   HeightField field = empty_height_field(data.shape, direction, window);
   if (data.triangles.empty()) return field;
@@ -128,8 +142,9 @@ HeightField RayCaster::cast(const Direction& direction, const Window& window) co
       range.add(p.z());
     }
 
+  std::atomic<std::int64_t> all_hits = 0;
   const auto cast_row = [&](int j, std::vector<Tree::Primitive_id>& hits) {
-    for (int i = 0; i < window.columns; ++i) {
+    for (int i = 0; i < window.columns && all_hits <= max_hits; ++i) {
       const Eigen::Vector2d sample = window.sample(i, j);
       // Overshooting by the diagonal keeps the segment long, so rounding its ends barely tilts it.
       const Eigen::Vector3d bottom(sample.x(), sample.y(), range.low - data.diagonal);
@@ -138,6 +153,7 @@ HeightField RayCaster::cast(const Direction& direction, const Window& window) co
       data.tree.all_intersected_primitives(
           Kernel::Segment_3(to_cgal(field.frame.to_world(bottom)), to_cgal(field.frame.to_world(top))),
           std::back_inserter(hits));
+      all_hits += static_cast<std::int64_t>(hits.size());
       HeightRange column;
       for (const Tree::Primitive_id hit : hits) {
         const auto k = static_cast<std::size_t>(hit - data.triangles.cbegin());
@@ -153,6 +169,8 @@ HeightField RayCaster::cast(const Direction& direction, const Window& window) co
     std::vector<Tree::Primitive_id> hits;
     for (int j = rows.begin(); j < rows.end(); ++j) cast_row(j, hits);
   });
+  if (all_hits > max_hits)
+    throw InputError("the rays meet more than " + std::to_string(max_hits) + " triangles");
   return field;
 }
 

@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <iterator>
+#include <cstdint>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "stackabilization/shape/errors.h"
@@ -30,6 +32,7 @@ struct Placed {
   const ClosedSurface& surface;
   std::vector<Point> points;
 
+  std::size_t triangle_count() const { return static_cast<std::size_t>(shape.triangle_count()); }
   const Point& vertex(std::int32_t v) const { return points[static_cast<std::size_t>(v)]; }
   Corners corners(std::int32_t t) const {
     return {vertex(shape.triangles(t, 0)), vertex(shape.triangles(t, 1)), vertex(shape.triangles(t, 2))};
@@ -175,9 +178,7 @@ bool overlap_near(const Placed& a, std::int32_t in_a, const Placed& b, std::int3
 /// points, of which the parabola meets each twice at most: so this ends.
 bool inside(const Corners& t, const detail::SolidLocator& solid) {
   for (int attempt = 0;; ++attempt) {
-    const Number u = Number(271) / (997 + attempt);  // a weight that no model has by design
-    const Point p = t[0] + u * (t[1] - t[0]) + u * u * (t[2] - t[0]);
-    const detail::PointLocation found = solid.locate(p);
+    const detail::PointLocation found = solid.locate(detail::inner_point(t, attempt));
     if (found.place != detail::PointPlace::boundary) return found.place == detail::PointPlace::inside;
     if (sides(solid.corners(found.triangle), t) == std::array<int, 3>{0, 0, 0}) return false;
   }
@@ -200,22 +201,58 @@ Shape outward(Shape shape) {
   return shape;
 }
 
-}  // namespace
+/// Corners of a triangle from the smallest one on and, of a closed surface, the opposite corners of the
+/// neighbours in the same order: all that a test looks at.
+using TriangleKey = std::array<std::array<double, 3>, 6>;
 
-struct CollisionTester::Data {
-  Shape below, above;
-  ClosedSurface below_surface, above_surface;
-  detail::SolidLocator below_solid, above_solid;
+TriangleKey key_of(const Shape& shape, const ClosedSurface& surface, std::int32_t t) {
+  const auto point = [&](std::int32_t vertex) {
+    return std::array{shape.vertices(vertex, 0), shape.vertices(vertex, 1), shape.vertices(vertex, 2)};
+  };
+  std::array<std::array<double, 3>, 3> corners;
+  for (int k = 0; k < 3; ++k) corners[static_cast<std::size_t>(k)] = point(shape.triangles(t, k));
+  const auto first =
+      static_cast<std::size_t>(std::min_element(corners.begin(), corners.end()) - corners.begin());
+  TriangleKey key{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t from = (first + k) % 3;
+    key[k] = corners[from];
+    if (surface.closed) key[3 + k] = point(surface.opposite[static_cast<std::size_t>(t)][from]);
+  }
+  return key;
+}
 
-  Data(const Shape& fixed, const Shape& lifted)
-      : below(outward(fixed)),
-        above(outward(lifted)),
-        below_surface(closed_surface(below)),
-        above_surface(closed_surface(above)),
-        below_solid(below),
-        above_solid(above) {}
+/// A shape with all that its place does not change. Of triangles that tests cannot tell apart, as those of
+/// parts in one place, they look at the first.
+struct Body {
+  Shape shape;
+  ClosedSurface surface;
+  detail::SolidLocator solid;
+  std::vector<std::int32_t> first;     ///< per triangle with area the first that is the same, else -1
+  std::vector<std::int32_t> distinct;  ///< those, ascending
 
-  static Placed place(const Shape& shape, const ClosedSurface& surface, const Vector& translation) {
+  explicit Body(const Shape& source)
+      : shape(outward(source)),
+        surface(closed_surface(shape)),
+        solid(shape),
+        first(static_cast<std::size_t>(shape.triangle_count()), -1) {
+    std::vector<std::pair<TriangleKey, std::int32_t>> keys;
+    for (const std::int32_t row : solid.rows()) keys.emplace_back(key_of(shape, surface, row), row);
+    std::sort(keys.begin(), keys.end());
+    for (std::size_t k = 0; k < keys.size(); ++k) {
+      const bool repeats = k > 0 && keys[k].first == keys[k - 1].first;
+      const std::int32_t row = keys[k].second;
+      first[index(row)] = repeats ? first[index(keys[k - 1].second)] : row;
+      if (!repeats) distinct.push_back(row);
+    }
+    std::sort(distinct.begin(), distinct.end());
+  }
+
+  static std::size_t index(std::int32_t row) { return static_cast<std::size_t>(row); }
+
+  bool is_distinct(std::int32_t row) const { return first[index(row)] == row; }
+
+  Placed moved(const Vector& translation) const {
     Placed placed{shape, surface, std::vector<Point>(static_cast<std::size_t>(shape.vertex_count()))};
     for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
       for (int k = 0; k < 3; ++k) {
@@ -226,17 +263,57 @@ struct CollisionTester::Data {
     return placed;
   }
 
-  /// Calls visit(triangle of below, triangle of above) for pairs that touch until one call returns true; any
-  /// order, in parallel. Tells whether one did.
+  /// What may lie inside another solid, where no triangle crosses its surface: those that touch it and one
+  /// triangle of every component, as neighbours that do not touch it are on the same side.
+  std::vector<std::int32_t> candidates(const std::vector<std::atomic<bool>>& touched) const {
+    std::vector<std::int32_t> rows;
+    for (const std::int32_t row : surface.representatives)
+      rows.push_back(first[index(row)] < 0 ? row : first[index(row)]);
+    for (std::size_t t = 0; t < touched.size(); ++t)
+      if (touched[t]) rows.push_back(static_cast<std::int32_t>(t));
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    return rows;
+  }
+};
+
+}  // namespace
+
+struct CollisionTester::Data {
+  Body below, above;
+
+  Data(const Shape& fixed, const Shape& lifted) : below(fixed), above(lifted) {}
+
+  /// Distinct triangles of `below` whose boxes meet that of a triangle of the lifted shape.
+  std::vector<std::int32_t> near(const Corners& t) const {
+    std::vector<std::int32_t> found = below.solid.triangles_in(t[0].bbox() + t[1].bbox() + t[2].bbox());
+    std::erase_if(found, [&](std::int32_t row) { return !below.is_distinct(row); });
+    return found;
+  }
+
+  /// Throws InputError where more than `max_collision_pairs` pairs would have to be tested.
+  void require_bounded_pairs(const Placed& lifted) const {
+    std::atomic<std::int64_t> pairs = 0;
+    tbb::parallel_for(std::size_t{0}, above.distinct.size(), [&](std::size_t k) {
+      if (pairs <= max_collision_pairs)
+        pairs += static_cast<std::int64_t>(near(lifted.corners(above.distinct[k])).size());
+    });
+    if (pairs > max_collision_pairs)
+      throw InputError("more than " + std::to_string(max_collision_pairs) +
+                       " pairs of triangles come near each other: collisions are tested between so many");
+  }
+
+  /// Calls visit(triangle of below, triangle of above) for pairs of distinct triangles that touch until one
+  /// call returns true; any order, in parallel. Tells whether one did.
   template <class Visitor>
   bool any_touching_pair(const Placed& fixed, const Placed& lifted, const Visitor& visit) const {
+    require_bounded_pairs(lifted);
     std::atomic<bool> found = false;
-    const std::vector<std::int32_t>& above_rows = above_solid.rows();
-    tbb::parallel_for(std::size_t{0}, above_rows.size(), [&](std::size_t k) {
+    tbb::parallel_for(std::size_t{0}, above.distinct.size(), [&](std::size_t k) {
       if (found) return;
-      const std::int32_t in_above = above_rows[k];
+      const std::int32_t in_above = above.distinct[k];
       const Corners t = lifted.corners(in_above);
-      for (const std::int32_t in_below : below_solid.triangles_in(t[0].bbox() + t[1].bbox() + t[2].bbox())) {
+      for (const std::int32_t in_below : near(t)) {
         const Corners s = fixed.corners(in_below);
         if (!CGAL::do_intersect(Exact::Triangle_3(s[0], s[1], s[2]), Exact::Triangle_3(t[0], t[1], t[2])))
           continue;
@@ -260,12 +337,16 @@ Vector translation_by(const Direction& direction, const Rational& lift) {
 
 /// Winding numbers beside one point of every triangle: none below 0, and no surfaces that cancel each other
 /// where there is nothing on one side?
-std::optional<InteriorDefect> winding_defect(const detail::SolidLocator& solid) {
+std::optional<InteriorDefect> winding_defect(const Body& body) {
+  std::atomic<std::int64_t> pairs = 0;
+  tbb::parallel_for(std::size_t{0}, body.distinct.size(), [&](std::size_t k) {
+    if (pairs <= max_collision_pairs) pairs += body.solid.count_beside(body.distinct[k]);
+  });
+  if (pairs > max_collision_pairs) return InteriorDefect::undecided;
   std::atomic<bool> negative = false, cancelled = false;
-  const std::vector<std::int32_t>& rows = solid.rows();
-  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t k) {
+  tbb::parallel_for(std::size_t{0}, body.distinct.size(), [&](std::size_t k) {
     if (negative) return;
-    const detail::Windings beside = solid.windings_beside(rows[k]);
+    const detail::Windings beside = body.solid.windings_beside(body.distinct[k]);
     if (std::min(beside.ahead, beside.behind) < 0) negative = true;
     const bool is_outer = beside.ahead == 0 || beside.behind == 0;
     if (is_outer && (beside.opposed || beside.ahead == beside.behind)) cancelled = true;
@@ -297,27 +378,27 @@ CollisionTester& CollisionTester::operator=(CollisionTester&&) noexcept = defaul
 CollisionTester::~CollisionTester() = default;
 
 bool CollisionTester::solids() const {
-  return data_->below_surface.closed && data_->above_surface.closed;
+  return data_->below.surface.closed && data_->above.surface.closed;
 }
 
 std::optional<InteriorDefect> CollisionTester::interior_defect() const {
   if (!solids()) return InteriorDefect::open;
-  for (const detail::SolidLocator* solid : {&data_->below_solid, &data_->above_solid})
-    if (const auto defect = winding_defect(*solid)) return defect;
+  for (const Body* body : {&data_->below, &data_->above})
+    if (const auto defect = winding_defect(*body)) return defect;
   return std::nullopt;
 }
 
 const Shape& CollisionTester::below() const {
-  return data_->below;
+  return data_->below.shape;
 }
 
 const Shape& CollisionTester::above() const {
-  return data_->above;
+  return data_->above.shape;
 }
 
 bool CollisionTester::closed_contact(const Direction& direction, const Rational& lift) const {
-  const Placed fixed = Data::place(data_->below, data_->below_surface, CGAL::NULL_VECTOR);
-  const Placed lifted = Data::place(data_->above, data_->above_surface, translation_by(direction, lift));
+  const Placed fixed = data_->below.moved(CGAL::NULL_VECTOR);
+  const Placed lifted = data_->above.moved(translation_by(direction, lift));
   return data_->any_touching_pair(fixed, lifted, [](std::int32_t, std::int32_t) { return true; });
 }
 
@@ -325,30 +406,19 @@ bool CollisionTester::interiors_overlap(const Direction& direction, const Ration
   if (!solids())
     throw InputError("the interiors of an open or non-manifold shape cannot be tested for overlap");
   const Vector by = translation_by(direction, lift);
-  const Placed fixed = Data::place(data_->below, data_->below_surface, CGAL::NULL_VECTOR);
-  const Placed lifted = Data::place(data_->above, data_->above_surface, by);
+  const Placed fixed = data_->below.moved(CGAL::NULL_VECTOR), lifted = data_->above.moved(by);
 
-  std::vector<std::atomic<bool>> below_touched(static_cast<std::size_t>(data_->below.triangle_count()));
-  std::vector<std::atomic<bool>> above_touched(static_cast<std::size_t>(data_->above.triangle_count()));
+  std::vector<std::atomic<bool>> below_touched(fixed.triangle_count()),
+      above_touched(lifted.triangle_count());
   const bool certain =
       data_->any_touching_pair(fixed, lifted, [&](std::int32_t in_below, std::int32_t in_above) {
-        below_touched[static_cast<std::size_t>(in_below)] = true;
-        above_touched[static_cast<std::size_t>(in_above)] = true;
+        below_touched[Body::index(in_below)] = true;
+        above_touched[Body::index(in_above)] = true;
         return overlap_near(fixed, in_below, lifted, in_above);
       });
-  if (certain) return true;
-
-  // No triangle is crossed, so each lies entirely on one side of the other surface, and so do neighbours that
-  // do not touch it: what touches it and one triangle of every component are enough to look at.
-  const auto candidates = [](const ClosedSurface& surface, const std::vector<std::atomic<bool>>& touched) {
-    std::vector<std::int32_t> rows = surface.representatives;
-    for (std::size_t t = 0; t < touched.size(); ++t)
-      if (touched[t]) rows.push_back(static_cast<std::int32_t>(t));
-    return rows;
-  };
-  return any_inside(lifted, candidates(data_->above_surface, above_touched), CGAL::NULL_VECTOR,
-                    data_->below_solid) ||
-         any_inside(fixed, candidates(data_->below_surface, below_touched), -by, data_->above_solid);
+  return certain ||
+         any_inside(lifted, data_->above.candidates(above_touched), CGAL::NULL_VECTOR, data_->below.solid) ||
+         any_inside(fixed, data_->below.candidates(below_touched), -by, data_->above.solid);
 }
 
 bool closed_contact(const Shape& below, const Shape& above, const Direction& direction,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -11,10 +12,14 @@
 
 namespace stackabilization {
 
+/// Most pairs of triangles near each other that a collision test looks at.
+inline constexpr std::int64_t max_collision_pairs = 5'000'000;
+
 /// Why the interior of a shape cannot be told by winding numbers.
 enum class InteriorDefect {
   open,        ///< it is open or non-manifold: there are no winding numbers
   inside_out,  ///< winding numbers of both signs: some of its parts are inside out
+  undecided,   ///< more than `max_collision_pairs` triangles lie above each other: it is not looked for
   no_volume,   ///< surfaces that cancel each other, as of a box without thickness: nothing is inside them
 };
 
@@ -23,7 +28,8 @@ enum class InteriorDefect {
 /// with the separation code (CGAL AABB tree for the candidates, CGAL predicates over rationals for the
 /// decisions).
 ///
-/// Triangles without area are passed over: only triangles with area touch or cross.
+/// Triangles without area are passed over: only triangles with area touch or cross. Triangles in the same
+/// place with the same neighbours count once.
 ///
 /// Built once per pair, queried for any number of directions and lifts, also by several threads at a time. A
 /// query runs in parallel and is deterministic.
@@ -42,7 +48,8 @@ class CollisionTester {
   /// indices, else by equal coordinates, else by equal coordinates within each part.)
   bool solids() const;
 
-  /// Do `below` and `above` + lift * r have a point in common?
+  /// Do `below` and `above` + lift * r have a point in common? Throws InputError where the boxes of more than
+  /// `max_collision_pairs` pairs of triangles meet at this lift.
   bool closed_contact(const Direction& direction, const Rational& lift) const;
 
   /// Why `interiors_overlap` is no answer for these shapes; nothing when it is exact. Looks at winding
@@ -52,7 +59,8 @@ class CollisionTester {
   /// Do the interiors of `below` and `above` + lift * r have a point in common: is the regularised
   /// intersection not empty? The interior of a shape is where its winding number is not zero; the answer is
   /// exact when neither shape has winding numbers of both signs or surfaces that cancel each other (see
-  /// `interior_defect`; parts may overlap and have cavities). Throws InputError unless `solids()`.
+  /// `interior_defect`; parts may overlap and have cavities). Throws InputError unless `solids()`,
+  /// and as `closed_contact`.
   bool interiors_overlap(const Direction& direction, const Rational& lift) const;
 
  private:

@@ -152,14 +152,25 @@ PointLocation SolidLocator::locate(const Point& p) const {
   }
 }
 
+Point inner_point(const Corners& corner, int attempt) {
+  const Number u = Number(271) / (997 + attempt);
+  return corner[0] + u * (corner[1] - corner[0]) + u * u * (corner[2] - corner[0]);
+}
+
+std::int64_t SolidLocator::count_beside(std::int32_t triangle) const {
+  const Corners corner = corners(triangle);
+  const Ray ray{axis_across(corner), 0};
+  const CGAL::Bbox_3 box = box_of(inner_point(corner, 0), ray, tree_->tree.bbox());
+  return static_cast<std::int64_t>(tree_->tree.number_of_intersected_primitives(box));
+}
+
 /// Tries points on a parabola in the triangle, which meets what an edge of the solid looks like from the axis
 /// twice at most: so this ends.
 Windings SolidLocator::windings_beside(std::int32_t triangle) const {
   const Corners corner = corners(triangle);
   const Ray ray{axis_across(corner), 0};
   for (int attempt = 0;; ++attempt) {
-    const Number u = Number(271) / (997 + attempt);  // a weight that no model has by design
-    const Point p = corner[0] + u * (corner[1] - corner[0]) + u * u * (corner[2] - corner[0]);
+    const Point p = inner_point(corner, attempt);
     Windings found;
     bool decided = true, up = false, down = false;
     for (const std::int32_t t : triangles_in(box_of(p, ray, tree_->tree.bbox()))) {

@@ -18,6 +18,10 @@ using Vector = Exact::Vector_3;
 using Number = Exact::FT;
 using Corners = std::array<Point, 3>;
 
+/// A point inside a triangle, another one for each attempt: on a parabola, by weights that no model has by
+/// design.
+Point inner_point(const Corners& corner, int attempt);
+
 /// Where a point lies with respect to a closed surface.
 enum class PointPlace { outside, inside, boundary };
 
@@ -52,6 +56,8 @@ class SolidLocator {
   /// `inside` is where the winding number is not 0. Of several triangles that hold a point on the boundary
   /// the first.
   PointLocation locate(const Point& p) const;
+  /// How many triangles `windings_beside` looks at for one point.
+  std::int64_t count_beside(std::int32_t triangle) const;
   /// Winding numbers right beside an inner point of a triangle with area, on both sides of all triangles that
   /// hold this point.
   Windings windings_beside(std::int32_t triangle) const;

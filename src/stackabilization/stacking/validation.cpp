@@ -58,7 +58,7 @@ class Validator {
       });
       const HeightFieldMaker rays{"rays",
                                   [&](const Shape&, const Direction& direction, const Window& window) {
-                                    return caster->cast(direction, window);
+                                    return caster->cast(direction, window, options_.max_ray_hits);
                                   }};
       raster_around_witness(rays);
       raster(rays);
@@ -185,12 +185,15 @@ class Validator {
 
   void raster(const HeightFieldMaker& maker) {
     std::optional<double> previous;
+    std::string refusal;  // what does not come at one resolution does not at a finer one
     for (const int resolution : options_.resolutions) {
       const Window window = window_around(shape_, direction_, resolution);
       ValidationRow& row = timed(maker.name + " " + std::to_string(resolution), [&](ValidationRow& entry) {
+        if (!refusal.empty()) throw InputError(refusal);
         entry.value = maximum_gap(maker.make(shape_, direction_, window)).value;
         judge_sampled(entry, maker);
       });
+      if (row.verdict == Verdict::skipped) refusal = row.note;
       if (row.verdict == Verdict::within_sampling && row.note.empty())
         row.note = explain_shortfall(*row.value, window.pixel_size, previous);
       if (row.value && *row.value <= report_.solid.length) previous = row.value;
@@ -266,6 +269,9 @@ class Validator {
         return "the shape is open or non-manifold, so it has no interior to test";
       case InteriorDefect::inside_out:
         return "some of the shape is inside out and some is not, so winding numbers do not tell its interior";
+      case InteriorDefect::undecided:
+        return "more than " + std::to_string(max_collision_pairs) +
+               " triangles lie above each other, so winding numbers are not looked for";
       case InteriorDefect::no_volume:
         break;
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -31,6 +32,7 @@ struct ValidationOptions {
   double collision_margin = tolerance::collision_margin;
   int bisection_steps = 64;                      ///< lifts tried on the way down from the top
   Eigen::Index max_collision_triangles = 50000;  ///< above this, collision tests are skipped
+  std::int64_t max_ray_hits = 5'000'000;         ///< most triangles that rays of a check meet; skipped above
 };
 
 /// What a check says about the exact value.

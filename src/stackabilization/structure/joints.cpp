@@ -158,7 +158,8 @@ class JointFinder {
       }
     std::vector<char> hidden(joints.size(), 0);
     tbb::parallel_for(std::size_t{0}, joints.size(), [&](std::size_t k) {
-      const auto& [relation, region] = joints[k];
+      const Relation& relation = joints[k].relation;
+      const detail::HullSpread& region = joints[k].region;
       const std::map<int, double>*few = &shares[static_cast<std::size_t>(relation.parts[0])],
                           *many = &shares[static_cast<std::size_t>(relation.parts[1])];
       if (many->size() < few->size()) std::swap(few, many);
