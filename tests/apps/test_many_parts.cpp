@@ -47,7 +47,7 @@ TEST_CASE("more parts than a command takes are refused before the work, with the
   check_refused(folder, {"improve", apart_501, "--target", "0.5", "-o", folder / "better"}, 3,
                 "apart_501.obj: it has 501 parts, and the structure of at most 500 is analysed");
   check_refused(folder, {"structure", together}, 3,
-                "together.obj: more than 200000 pairs of its parts come near each other");
+                "together.obj: more than 100000 pairs of its parts come near each other");
   check_refused(folder, {"deform", together, "--edit", "cube_0 scale 1.1"}, 3,
                 "together.obj: more than 20000 pairs of its parts come near each other");
 }

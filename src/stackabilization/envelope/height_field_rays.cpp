@@ -9,15 +9,16 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stackabilization/envelope/height_field.h"
-#include "stackabilization/envelope/triangle_copies.h"
 #include "stackabilization/shape/errors.h"
 #include "stackabilization/shape/tolerances.h"
 
@@ -88,6 +89,26 @@ HeightRange heights_over(const LocalTriangle& corners, const Eigen::Vector3d& q)
   return range;
 }
 
+/// Rows of triangles, ascending: of those with the same three points, in whatever order, the first. Written
+/// apart from what separations do about copies, since rays check separations.
+std::vector<Eigen::Index> distinct_triangles(const Shape& shape) {
+  std::vector<std::pair<std::array<std::array<double, 3>, 3>, Eigen::Index>> triangles;
+  triangles.reserve(static_cast<std::size_t>(shape.triangle_count()));
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+    std::array<std::array<double, 3>, 3> corners;
+    for (int k = 0; k < 3; ++k)
+      Eigen::Vector3d::Map(corners[static_cast<std::size_t>(k)].data()) = shape.corner(t, k);
+    std::sort(corners.begin(), corners.end());
+    triangles.emplace_back(corners, t);
+  }
+  std::sort(triangles.begin(), triangles.end());
+  std::vector<Eigen::Index> rows;
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+    if (k == 0 || triangles[k].first != triangles[k - 1].first) rows.push_back(triangles[k].second);
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
 }  // namespace
 
 struct RayCaster::Data {
@@ -99,21 +120,12 @@ struct RayCaster::Data {
 
   explicit Data(const Shape& cast) : shape(cast) {
     validate(shape);
-    std::vector<TreeTriangle> sources;
-    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-      TreeTriangle& source = sources.emplace_back();
-      source.index = static_cast<std::int32_t>(t);
-      for (int k = 0; k < 3; ++k)
-        Eigen::Vector3d::Map(source.corners[static_cast<std::size_t>(k)].data()) = shape.corner(t, k);
-    }
-    detail::take_copies(sources);
-    for (const TreeTriangle& source : sources) {
-      const Kernel::Triangle_3 triangle(to_cgal(shape.corner(source.index, 0)),
-                                        to_cgal(shape.corner(source.index, 1)),
-                                        to_cgal(shape.corner(source.index, 2)));
+    for (const Eigen::Index t : distinct_triangles(shape)) {
+      const Kernel::Triangle_3 triangle(to_cgal(shape.corner(t, 0)), to_cgal(shape.corner(t, 1)),
+                                        to_cgal(shape.corner(t, 2)));
       if (triangle.is_degenerate()) continue;
       triangles.push_back(triangle);
-      rows.push_back(source.index);
+      rows.push_back(t);
     }
     tree.insert(triangles.cbegin(), triangles.cend());
     tree.build();

@@ -21,7 +21,7 @@ struct JointOptions {
   /// Shortest line joint, fraction of the diameter of the smallest ball around the smaller part.
   double least_line = 0.25;
   /// Pairs of parts that are looked at; more are refused.
-  std::size_t max_pairs = 200'000;
+  std::size_t max_pairs = 100'000;
   /// Triangles of the parts of these pairs, each pair counting those of both its parts; more are refused.
   std::size_t max_pair_triangles = 8'000'000;
 };
