@@ -97,13 +97,13 @@ detail::SearchState two_candidates() {
   for (std::size_t queue = 0; queue < task.directions.size(); ++queue) {
     detail::SearchNode root;
     root.queue = static_cast<int>(queue);
-    root.direction = task.directions[queue];
+    root.direction = root.measured.direction = task.directions[queue];
     state.tree.add(root);
   }
   detail::SearchNode child;
   child.parent = 1;
   child.queue = 1;
-  child.direction = Eigen::Vector3d(0, 1, 1);
+  child.direction = child.measured.direction = Eigen::Vector3d(0, 1, 1);
   child.why = "a contact";
   child.edit = {{HandleKind::section, 0, 2}, Scale{0.9, {}}, Falloff::linear};
   state.tree.add(child);
