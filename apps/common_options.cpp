@@ -10,7 +10,7 @@ namespace stackabilization::apps {
 namespace {
 
 /// More than any machine has; a larger number is a typing error.
-constexpr int most_threads = 1024;
+constexpr int max_threads = 1024;
 
 void add_reading_options(CLI::App& command, ReadOptions& read) {
   const Choices<Format> formats = {{"obj", Format::obj}, {"off", Format::off},      {"ply", Format::ply},
@@ -53,7 +53,7 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
       ->type_name("FILE");
   command.add_flag("--quiet", common.quiet, "Print the essential numbers only");
   command.add_flag("--no-timing", common.no_timing, "Leave the field seconds out of the JSON");
-  add_count(command, {"--threads", "Threads to use (default: all); never changes a result", 1, most_threads},
+  add_count(command, {"--threads", "Threads to use (default: all); never changes a result", 1, max_threads},
             common.threads);
   add_count(command, {"--seed", "Accepted for scripts: nothing here depends on chance"}, common.seed);
 }

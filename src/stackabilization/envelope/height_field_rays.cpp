@@ -118,7 +118,7 @@ struct RayCaster::Data {
   Tree tree;
   double diagonal = 0;
 
-  explicit Data(const Shape& cast) : shape(cast) {
+  explicit Data(const Shape& source) : shape(source) {
     validate(shape);
     for (const Eigen::Index t : distinct_triangles(shape)) {
       const Kernel::Triangle_3 triangle(to_cgal(shape.corner(t, 0)), to_cgal(shape.corner(t, 1)),

@@ -293,6 +293,7 @@ struct CollisionTester::Data {
 
   /// Throws InputError where more than `max_collision_pairs` pairs would have to be tested.
   void require_bounded_pairs(const Placed& lifted) const {
+    if (above.distinct.size() * below.distinct.size() <= std::size_t{max_collision_pairs}) return;
     std::atomic<std::int64_t> pairs = 0;
     tbb::parallel_for(std::size_t{0}, above.distinct.size(), [&](std::size_t k) {
       if (pairs <= max_collision_pairs)
@@ -338,11 +339,13 @@ Vector translation_by(const Direction& direction, const Rational& lift) {
 /// Winding numbers beside one point of every triangle: none below 0, and no surfaces that cancel each other
 /// where there is nothing on one side?
 std::optional<InteriorDefect> winding_defect(const Body& body) {
-  std::atomic<std::int64_t> pairs = 0;
-  tbb::parallel_for(std::size_t{0}, body.distinct.size(), [&](std::size_t k) {
-    if (pairs <= max_collision_pairs) pairs += body.solid.count_beside(body.distinct[k]);
-  });
-  if (pairs > max_collision_pairs) return InteriorDefect::undecided;
+  if (body.distinct.size() * body.solid.rows().size() > std::size_t{max_collision_pairs}) {
+    std::atomic<std::int64_t> pairs = 0;
+    tbb::parallel_for(std::size_t{0}, body.distinct.size(), [&](std::size_t k) {
+      if (pairs <= max_collision_pairs) pairs += body.solid.count_beside(body.distinct[k]);
+    });
+    if (pairs > max_collision_pairs) return InteriorDefect::undecided;
+  }
   std::atomic<bool> negative = false, cancelled = false;
   tbb::parallel_for(std::size_t{0}, body.distinct.size(), [&](std::size_t k) {
     if (negative) return;

@@ -19,7 +19,7 @@ inline constexpr std::int64_t max_collision_pairs = 5'000'000;
 enum class InteriorDefect {
   open,        ///< it is open or non-manifold: there are no winding numbers
   inside_out,  ///< winding numbers of both signs: some of its parts are inside out
-  undecided,   ///< more than `max_collision_pairs` triangles lie above each other: it is not looked for
+  undecided,   ///< more than `max_collision_pairs` pairs of triangles lie above each other: not looked for
   no_volume,   ///< surfaces that cancel each other, as of a box without thickness: nothing is inside them
 };
 

@@ -271,7 +271,7 @@ class Validator {
         return "some of the shape is inside out and some is not, so winding numbers do not tell its interior";
       case InteriorDefect::undecided:
         return "more than " + std::to_string(max_collision_pairs) +
-               " triangles lie above each other, so winding numbers are not looked for";
+               " pairs of triangles lie above each other, so winding numbers are not looked for";
       case InteriorDefect::no_volume:
         break;
     }
