@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "stackabilization/shape/read.h"
+#include "stackabilization/io/read.h"
 #include "stackabilization/stacking/stackability.h"
 
 namespace stackabilization::apps {

@@ -6,8 +6,8 @@
 
 #include "apps/deformation_models.h"
 #include "apps/edit_grammar.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/relation_residual.h"
-#include "stackabilization/shape/errors.h"
 
 namespace stackabilization::apps {
 

@@ -1,10 +1,10 @@
 #include "apps/deformation_models.h"
 
+#include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/controller_model.h"
 #include "stackabilization/deformation/gap_scaling.h"
 #include "stackabilization/deformation/iwires_model.h"
 #include "stackabilization/deformation/surface_model.h"
-#include "stackabilization/shape/errors.h"
 
 namespace stackabilization::apps {
 

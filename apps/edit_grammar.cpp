@@ -9,8 +9,8 @@
 
 #include "apps/text.h"
 #include "apps/values.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/part_names.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/part_names.h"
 
 namespace stackabilization::apps {
 

@@ -5,7 +5,7 @@
 #include <cctype>
 
 #include "stackabilization/improvement/best_first.h"
-#include "stackabilization/shape/read_file.h"
+#include "stackabilization/io/read_file.h"
 
 namespace stackabilization::apps {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "apps/text.h"
-#include "stackabilization/shape/direction_text.h"
+#include "stackabilization/core/direction_text.h"
 
 namespace stackabilization::apps {
 

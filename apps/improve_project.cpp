@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::apps {
 

@@ -5,7 +5,7 @@
 
 #include "apps/edit_grammar.h"
 #include "apps/text.h"
-#include "stackabilization/shape/direction_text.h"
+#include "stackabilization/core/direction_text.h"
 
 namespace stackabilization::apps {
 

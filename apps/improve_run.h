@@ -11,7 +11,7 @@
 
 namespace stackabilization::apps {
 
-/// A task for the improvement room: a design space and what is asked of its designs.
+/// A task for `improve`: a design space and what is asked of its designs.
 struct ImproveTask {
   Model model;  ///< as read, parts that were taken out included
   std::unique_ptr<const DesignSpace> space;

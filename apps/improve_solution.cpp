@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "apps/text.h"
+#include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/relation_residual.h"
-#include "stackabilization/shape/exact_triangles.h"
-#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/mesh/exact_triangles.h"
 #include "stackabilization/stacking/collision.h"
 
 namespace stackabilization::apps {

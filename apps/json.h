@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "stackabilization/core/rational.h"
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/envelope/separation.h"
-#include "stackabilization/shape/inspect.h"
-#include "stackabilization/shape/rational.h"
+#include "stackabilization/io/inspect.h"
 
 /// The library's values as JSON. Keys keep their order; doubles print with as many digits as bring them back
 /// exactly; what is not finite becomes null.

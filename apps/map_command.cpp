@@ -8,7 +8,7 @@
 #include "apps/progress.h"
 #include "apps/rendering.h"
 #include "apps/values.h"
-#include "stackabilization/shape/direction_text.h"
+#include "stackabilization/core/direction_text.h"
 #include "stackabilization/stacking/map.h"
 
 namespace stackabilization::apps {

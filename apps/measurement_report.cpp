@@ -5,8 +5,8 @@
 #include "apps/measurement.h"
 #include "apps/rendering.h"
 #include "apps/text.h"
-#include "stackabilization/shape/direction_text.h"
-#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/core/direction_text.h"
+#include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::apps {
 

@@ -6,9 +6,9 @@
 #include "apps/common_options.h"
 #include "apps/json.h"
 #include "apps/text.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/inspect.h"
-#include "stackabilization/shape/shape.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/shape.h"
+#include "stackabilization/io/inspect.h"
 
 namespace stackabilization::apps {
 

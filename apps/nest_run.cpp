@@ -3,7 +3,7 @@
 #include "apps/output.h"
 #include "apps/rendering.h"
 #include "apps/stack_run.h"
-#include "stackabilization/shape/boxes.h"
+#include "stackabilization/mesh/boxes.h"
 #include "stackabilization/stacking/nest.h"
 
 namespace stackabilization::apps {

@@ -4,12 +4,12 @@
 #include <iostream>
 
 #include "apps/interrupt.h"
-#include "stackabilization/shape/companion_files.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/file_plan.h"
-#include "stackabilization/shape/format.h"
-#include "stackabilization/shape/write.h"
-#include "stackabilization/shape/write_file.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/companion_files.h"
+#include "stackabilization/io/file_plan.h"
+#include "stackabilization/io/format.h"
+#include "stackabilization/io/write.h"
+#include "stackabilization/io/write_file.h"
 
 namespace stackabilization::apps {
 

@@ -8,7 +8,7 @@
 #include "apps/common_options.h"
 #include "apps/json.h"
 #include "apps/owned_folder.h"
-#include "stackabilization/shape/copies.h"
+#include "stackabilization/core/copies.h"
 
 namespace stackabilization::apps {
 

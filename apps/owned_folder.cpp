@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "apps/output.h"
-#include "stackabilization/improvement/fingerprint.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/formats/text.h"
-#include "stackabilization/shape/read_file.h"
-#include "stackabilization/shape/write_file.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/fingerprint.h"
+#include "stackabilization/core/text.h"
+#include "stackabilization/io/read_file.h"
+#include "stackabilization/io/write_file.h"
 
 namespace stackabilization::apps {
 
@@ -29,7 +29,7 @@ constexpr const char* format_name = "stackabilization files";
 
 /// Hexadecimal; empty for a file that cannot be read.
 std::string hash_of(const fs::path& file) {
-  detail::Fingerprint hash;
+  Fingerprint hash;
   try {
     hash.add(read_file(file));
   } catch (const InputError&) {

@@ -12,9 +12,9 @@
 
 #include "apps/interrupt.h"
 #include "apps/version.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/formats/text.h"
-#include "stackabilization/shape/utf8.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/text.h"
+#include "stackabilization/core/utf8.h"
 
 namespace stackabilization::apps {
 

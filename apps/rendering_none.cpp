@@ -1,5 +1,5 @@
 #include "apps/rendering.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 
 namespace stackabilization::apps {
 

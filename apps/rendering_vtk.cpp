@@ -2,9 +2,9 @@
 
 #include "apps/interrupt.h"
 #include "apps/rendering.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/rendering/depth_raster.h"
 #include "stackabilization/rendering/pictures.h"
-#include "stackabilization/shape/errors.h"
 
 namespace stackabilization::apps {
 

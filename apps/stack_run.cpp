@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/core/tolerances.h"
 #include "stackabilization/stacking/clearance.h"
 #include "stackabilization/stacking/stack_search.h"
 

@@ -6,7 +6,7 @@
 
 #include "apps/progress.h"
 #include "apps/values.h"
-#include "stackabilization/shape/part_names.h"
+#include "stackabilization/core/part_names.h"
 #include "stackabilization/structure/authors_files.h"
 #include "stackabilization/structure/seeds.h"
 

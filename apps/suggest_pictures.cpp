@@ -5,8 +5,8 @@
 #include "apps/rendering.h"
 #include "apps/suggest_run.h"
 #include "apps/text.h"
-#include "stackabilization/shape/direction_text.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/direction_text.h"
+#include "stackabilization/core/errors.h"
 
 namespace stackabilization::apps {
 

@@ -6,7 +6,7 @@
 #include "apps/measurement.h"
 #include "apps/suggest_run.h"
 #include "apps/text.h"
-#include "stackabilization/shape/direction_text.h"
+#include "stackabilization/core/direction_text.h"
 
 namespace stackabilization::apps {
 

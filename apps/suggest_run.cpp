@@ -1,7 +1,7 @@
 #include "apps/suggest_run.h"
 
 #include "apps/text.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/structure/project_file.h"
 
 namespace stackabilization::apps {

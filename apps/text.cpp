@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::apps {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "stackabilization/shape/shape.h"
+#include "stackabilization/core/shape.h"
 
 /// Numbers and tables for people. Independent of the locale.
 namespace stackabilization::apps {

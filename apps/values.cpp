@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "apps/text.h"
-#include "stackabilization/shape/direction.h"
-#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/core/direction.h"
+#include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::apps {
 

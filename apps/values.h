@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/shape.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/shape.h"
 
 /// Values on the command line, checked as soon as they are parsed, so that the rest of the program knows them
 /// to be finite and in range. Numbers are read as the nearest doubles, whatever the locale, because

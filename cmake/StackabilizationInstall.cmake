@@ -9,28 +9,17 @@ list(FILTER libraries EXCLUDE REGEX "^stackabilization_rendering$")
 
 install(TARGETS ${libraries} EXPORT StackabilizationTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT StackabilizationTargets NAMESPACE stackabilization:: DESTINATION ${package_dir})
-# Headers that show third-party types stay at home; scripts/check_source.sh lets no others do so. So do those of
-# namespace detail.
-set(header_filter FILES_MATCHING PATTERN "*.h" PATTERN "formats" EXCLUDE PATTERN "rational_number.h" EXCLUDE)
-file(GLOB_RECURSE headers CONFIGURE_DEPENDS src/stackabilization/*.h)
-set(installed_headers)
-foreach(header ${headers})
-  file(STRINGS ${header} detail REGEX "^namespace stackabilization::detail" LIMIT_COUNT 1)
-  if(detail)
-    get_filename_component(name ${header} NAME)
-    list(APPEND header_filter PATTERN ${name} EXCLUDE)
-  elseif(NOT header MATCHES "/formats/|/rational_number\\.h$")
-    list(APPEND installed_headers ${header})
-  endif()
-endforeach()
+set(public_headers_without)
+file(GLOB_RECURSE installed_headers CONFIGURE_DEPENDS include/stackabilization/*.h)
 if(rendering_libraries)
   install(TARGETS ${rendering_libraries} EXPORT StackabilizationRenderingTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(EXPORT StackabilizationRenderingTargets NAMESPACE stackabilization:: DESTINATION ${package_dir})
 else()
-  list(APPEND header_filter PATTERN "rendering" EXCLUDE)
+  list(FILTER installed_headers EXCLUDE REGEX "/rendering/")
+  set(public_headers_without PATTERN "rendering" EXCLUDE)
 endif()
-install(DIRECTORY src/stackabilization DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${header_filter})
+install(DIRECTORY include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${public_headers_without})
 
 configure_package_config_file(cmake/StackabilizationConfig.cmake.in
   ${PROJECT_BINARY_DIR}/StackabilizationConfig.cmake INSTALL_DESTINATION ${package_dir})

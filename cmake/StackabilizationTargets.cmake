@@ -1,5 +1,5 @@
 # stackabilization_library(NAME SOURCES ... PUBLIC ... PRIVATE ...)
-# One static library per room: target stackabilization_NAME, alias stackabilization::NAME.
+# One static library per module: target stackabilization_NAME, alias stackabilization::NAME.
 # Compile options stay private to this project: a consumer inherits include folders and C++20 only.
 function(stackabilization_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
@@ -8,8 +8,9 @@ function(stackabilization_library name)
   add_library(stackabilization::${name} ALIAS ${target})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_include_directories(${target}
+    PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    PRIVATE ${PROJECT_SOURCE_DIR}/src)
   # Header-only packages are compiled in: consumers of the installed library neither need nor see them. What CGAL's
   # numbers stand on is still linked.
   if("CGAL::CGAL" IN_LIST ARG_PRIVATE)

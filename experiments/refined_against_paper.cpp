@@ -20,12 +20,12 @@
 
 #include "common/clock.h"
 #include "common/experiment.h"
+#include "stackabilization/core/direction_text.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/tolerances.h"
 #include "stackabilization/improvement/improve.h"
 #include "stackabilization/improvement/shape_change.h"
-#include "stackabilization/shape/direction_text.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/read.h"
-#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/io/read.h"
 #include "stackabilization/structure/analysis.h"
 #include "stackabilization/structure/project_file.h"
 

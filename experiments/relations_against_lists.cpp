@@ -21,9 +21,9 @@
 #include <vector>
 
 #include "common/experiment.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/labels.h"
-#include "stackabilization/shape/read.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/labels.h"
+#include "stackabilization/io/read.h"
 #include "stackabilization/structure/analysis.h"
 #include "stackabilization/structure/authors_files.h"
 

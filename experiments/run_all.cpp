@@ -20,8 +20,8 @@
 #include "common/clock.h"
 #include "common/models.h"
 #include "common/resume.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/file_plan.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/file_plan.h"
 
 using namespace stackabilization;
 using namespace stackabilization::experiments;

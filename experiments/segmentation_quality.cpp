@@ -21,8 +21,8 @@
 #include "common/experiment.h"
 #include "common/rand_index.h"
 #include "common/statistics.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/read.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/read.h"
 #include "stackabilization/structure/segmentation.h"
 
 using namespace stackabilization;

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "paper_figures/shown.h"
+#include "stackabilization/core/tolerances.h"
 #include "stackabilization/rendering/foot.h"
-#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::figures {
 namespace {

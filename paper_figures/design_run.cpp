@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "paper_figures/shown.h"
+#include "stackabilization/core/part_names.h"
 #include "stackabilization/improvement/removal.h"
-#include "stackabilization/shape/part_names.h"
 
 namespace stackabilization::figures {
 namespace {

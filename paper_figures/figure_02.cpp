@@ -1,8 +1,8 @@
 #include "paper_figures/figure.h"
 #include "paper_figures/shown.h"
+#include "stackabilization/core/tolerances.h"
 #include "stackabilization/rendering/foot.h"
 #include "stackabilization/rendering/stacking_scene.h"
-#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::figures {
 namespace {

@@ -5,9 +5,9 @@
 #include "generator/modelling.h"
 #include "paper_figures/figure.h"
 #include "paper_figures/shown.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/rendering/foot.h"
 #include "stackabilization/rendering/stacking_scene.h"
-#include "stackabilization/shape/errors.h"
 #include "stackabilization/stacking/stack.h"
 
 namespace stackabilization::figures {

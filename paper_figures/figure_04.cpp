@@ -4,10 +4,10 @@
 
 #include "paper_figures/figure.h"
 #include "paper_figures/shown.h"
+#include "stackabilization/core/tolerances.h"
 #include "stackabilization/envelope/height_field.h"
-#include "stackabilization/shape/format.h"
-#include "stackabilization/shape/read.h"
-#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/io/format.h"
+#include "stackabilization/io/read.h"
 
 namespace stackabilization::figures {
 namespace {

@@ -3,9 +3,9 @@
 
 #include "paper_figures/before_after.h"
 #include "paper_figures/shown.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/gap_scaling.h"
 #include "stackabilization/deformation/refined.h"
-#include "stackabilization/shape/errors.h"
 
 namespace stackabilization::figures {
 namespace {

@@ -2,8 +2,8 @@
 
 #include "paper_figures/before_after.h"
 #include "paper_figures/shown.h"
+#include "stackabilization/core/tolerances.h"
 #include "stackabilization/improvement/shape_change.h"
-#include "stackabilization/shape/tolerances.h"
 
 namespace stackabilization::figures {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "paper_figures/before_after.h"
 #include "paper_figures/shown.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/removal.h"
-#include "stackabilization/shape/errors.h"
 #include "stackabilization/stacking/search.h"
 
 namespace stackabilization::figures {

@@ -2,11 +2,11 @@
 
 #include "paper_figures/figure.h"
 #include "paper_figures/shown.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/part_names.h"
 #include "stackabilization/rendering/foot.h"
 #include "stackabilization/rendering/stacking_scene.h"
 #include "stackabilization/rendering/structure_views.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/part_names.h"
 #include "stackabilization/stacking/rigid_transform.h"
 #include "stackabilization/stacking/search.h"
 #include "stackabilization/structure/analysis.h"

@@ -4,9 +4,9 @@
 #include <functional>
 #include <utility>
 
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/read.h"
-#include "stackabilization/shape/read_file.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/read.h"
+#include "stackabilization/io/read_file.h"
 
 namespace stackabilization::figures {
 namespace {

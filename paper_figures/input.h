@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "stackabilization/shape/shape.h"
+#include "stackabilization/core/shape.h"
 
 /// What the figures are told to do: one JSON file for each, read strictly.
 namespace stackabilization::figures {

@@ -9,8 +9,8 @@
 
 #include "paper_figures/page.h"
 #include "paper_figures/run.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/write_file.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/write_file.h"
 
 namespace stackabilization::figures {
 namespace {

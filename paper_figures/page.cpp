@@ -7,8 +7,8 @@
 
 #include "paper_figures/run.h"
 #include "paper_figures/shown.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/read_file.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/read_file.h"
 
 namespace stackabilization::figures {
 namespace {

@@ -6,10 +6,10 @@
 #include <set>
 #include <system_error>
 
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/file_plan.h"
-#include "stackabilization/shape/read_file.h"
-#include "stackabilization/shape/write_file.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/file_plan.h"
+#include "stackabilization/io/read_file.h"
+#include "stackabilization/io/write_file.h"
 
 namespace stackabilization::figures {
 namespace {

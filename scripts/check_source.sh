@@ -12,49 +12,85 @@ report() {
   broken=1
 }
 
-# source_lines PATTERN GREP_OPTIONS...: lines of src/ that match outside // comments.
+# source_lines PATTERN GREP_OPTIONS...: lines of src/ and include/ that match outside // comments.
 source_lines() {
   local pattern=$1
   shift
-  grep -rnE "$@" -- "$pattern" src | grep -vE "^[^:]+:[0-9]+:[[:space:]]*//" |
+  grep -rnE "$@" -- "$pattern" src include | grep -vE "^[^:]+:[0-9]+:[[:space:]]*//" |
     grep -E "^[^:]+:[0-9]+:([^/]|/[^/])*($pattern)" || true
 }
 
 # shear.h names the rounding unit that the exact filters count in.
-report "Epsilon outside shape/tolerances.h" \
+report "Epsilon outside core/tolerances.h" \
   "$(source_lines '[0-9.][eE]-[0-9]|0x[0-9a-fA-F.]+p-|epsilon\(\)' --include=*.h --include=*.cpp \
     --exclude=tolerances.h --exclude=shear.h)"
 # Pictures are full of small sizes; elsewhere a constant or an option says what such a number means.
 report "Small decimal without a name" \
   "$(source_lines '[^0-9A-Za-z_.]0?\.0[0-9]*[1-9]' --include=*.h --include=*.cpp --exclude-dir=rendering \
     --exclude=tolerances.h | grep -vE ':( *constexpr)? *double [a-z_]+ = 0\.0[0-9]+;|return 0\.0[0-9]+;' || true)"
-# Not installed: rational_number.h, half_edge_mesh.h and solid_location.h, the doors to GMP, OpenMesh and CGAL for
-# sources that compute with them, and the formats' own headers.
-report "Installed header that shows a third-party library other than Eigen" \
-  "$(source_lines '#include [<"](CGAL|OpenMesh|boost|vtk|tbb|gmp|mpfr|pugixml|minizip|unzip|zip\.h|tiny_gltf|nlohmann|GL/|EGL/)' \
-    --include=*.h --exclude=rational_number.h --exclude=half_edge_mesh.h --exclude=solid_location.h --exclude-dir=formats)"
+report "Public header that shows a third-party library other than Eigen" \
+  "$(grep -rnE '#include [<"](CGAL|OpenMesh|boost|vtk|tbb|gmp|mpfr|pugixml|minizip|unzip|zip\.h|tiny_gltf|nlohmann|GL/|EGL/)' \
+    include || true)"
+report "Public header that includes a private one" \
+  "$(grep -rnE '#include "' include | grep -v '#include "stackabilization/' || true)"
 report "Output from the library" \
   "$(source_lines '(std::(cout|cerr|clog)|[^a-z_]f?printf *\(|[^a-z_]puts *\()' --include=*.h --include=*.cpp)"
-report "Header without include guard" "$(grep -rLx '#pragma once' --include=*.h src || true)"
+report "Header without include guard" "$(grep -rLx '#pragma once' --include=*.h src include || true)"
 
-# Rooms may include only these rooms.
-declare -A allowed=(
-  [shape]='shape'
-  [envelope]='shape|envelope'
-  [stacking]='shape|envelope|stacking'
-  [structure]='shape|structure'
-  [deformation]='shape|structure|deformation'
-  [improvement]='shape|envelope|stacking|structure|deformation|improvement'
-  [rendering]='shape|envelope|stacking|structure|deformation|improvement|rendering'
+# A module may include only these modules: itself and those that it is built on.
+declare -A modules=(
+  [core]='core'
+  [mesh]='core mesh'
+  [io]='core mesh io'
+  [numerics]='core numerics'
+  [envelope]='core mesh envelope'
+  [stacking]='core mesh envelope stacking'
+  [structure]='core mesh io structure'
+  [deformation]='core mesh io numerics structure deformation'
+  [improvement]='core mesh io numerics envelope stacking structure deformation improvement'
+  [rendering]='core mesh io envelope stacking structure deformation improvement rendering'
 )
-for room in src/stackabilization/*/; do
-  name=$(basename "$room")
-  if [[ -z ${allowed[$name]:-} ]]; then
-    report "Room without a rule in scripts/check_source.sh" "$room"
+# A part of a module may include only itself and the parts before it. A public header belongs to the part that holds
+# the source of its name.
+declare -A parts=(
+  [core]=''
+  [mesh]=''
+  [io]='files formats'
+  [numerics]=''
+  [envelope]='separation height_field contacts'
+  [stacking]='measure direction stacks validation'
+  [structure]='model fitting symmetry joints segmentation analysis project'
+  [deformation]='model controllers arap iwires gap_scaling'
+  [improvement]='design requirements history contacts search advice refinement run'
+  [rendering]='gl drawing scene pictures'
+)
+for folder in src/*/ include/stackabilization/*/; do
+  module=$(basename "$folder")
+  if [[ -z ${modules[$module]:-} ]]; then
+    report "Module without a rule in scripts/check_source.sh" "$folder"
     continue
   fi
-  report "Room $name reaches back" \
-    "$(grep -rnE '#include "' "$room" | grep -vE "#include \"stackabilization/(${allowed[$name]})/" || true)"
+  report "Module $module reaches back" \
+    "$(grep -rnE '#include "' "$folder" |
+      grep -vE "#include \"(stackabilization/)?(${modules[$module]// /|})/" || true)"
+done
+for module in "${!parts[@]}"; do
+  before=''
+  for part in ${parts[$module]}; do
+    before+="${before:+|}$part"
+    report "Part $part of $module reaches back" "$(
+      grep -rnE "#include \"$module/[a-z_]+/" "src/$module/$part" | grep -vE "#include \"$module/($before)/" || true
+      grep -rnE "#include \"stackabilization/$module/" "src/$module/$part" | while IFS= read -r line; do
+        header=${line##*/}
+        owner=$(find "src/$module" -name "${header%%.*}.cpp" -printf '%h\n' -quit)
+        [[ -z $owner || "|$before|" == *"|$(basename "$owner")|"* ]] || echo "$line"
+      done
+    )"
+  done
+  for folder in "src/$module"/*/; do
+    [[ -d $folder && " ${parts[$module]} " != *" $(basename "$folder") "* ]] &&
+      report "Part without a rule in scripts/check_source.sh" "$folder"
+  done
 done
 
 # Absolute paths of somebody's machine, in everything that is versioned.

@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "generator/models.h"
-#include "stackabilization/shape/write.h"
+#include "stackabilization/io/write.h"
 
 /// Writes every shipped model as FOLDER/NAME.obj.
 int main(int count, char** arguments) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "stackabilization/shape/shape.h"
+#include "stackabilization/core/shape.h"
 
 /// The few constructions that the shipped models are made of. Lengths in metres, z up, x to the right of a
 /// person who sits on the object, y to the back. Every construction returns a closed, outward oriented shape

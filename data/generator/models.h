@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "stackabilization/shape/shape.h"
+#include "stackabilization/core/shape.h"
 
 namespace stackabilization::models {
 

@@ -1,6 +1,6 @@
 // Prints how well the shape of a mesh file stacks along z.
-#include <stackabilization/shape/errors.h>
-#include <stackabilization/shape/read.h>
+#include <stackabilization/core/errors.h>
+#include <stackabilization/io/read.h>
 #include <stackabilization/stacking/stackability.h>
 
 #include <iostream>

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "stackabilization/core/direction.h"
+#include "stackabilization/core/shape.h"
 #include "stackabilization/envelope/height_field.h"
-#include "stackabilization/shape/direction.h"
-#include "stackabilization/shape/shape.h"
 
 namespace stackabilization::experiments {
 

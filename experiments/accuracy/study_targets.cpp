@@ -8,7 +8,7 @@
 
 #include "accuracy/sampling.h"
 #include "common/authors_targets.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/stacking/stackability.h"
 #ifdef STACKABILIZATION_WITH_RENDERING
 #include "stackabilization/rendering/depth_raster.h"

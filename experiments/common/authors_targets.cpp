@@ -4,7 +4,7 @@
 #include <charconv>
 #include <fstream>
 
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 
 namespace stackabilization::experiments {
 

@@ -11,7 +11,7 @@
 #include <fstream>
 
 #include "common/clock.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 
 namespace stackabilization::experiments {
 

@@ -7,11 +7,11 @@
 #include <iostream>
 
 #include "common/resume.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/file_plan.h"
-#include "stackabilization/shape/read.h"
-#include "stackabilization/shape/utf8.h"
-#include "stackabilization/shape/write_file.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/utf8.h"
+#include "stackabilization/io/file_plan.h"
+#include "stackabilization/io/read.h"
+#include "stackabilization/io/write_file.h"
 #ifdef STACKABILIZATION_WITH_RENDERING
 #include "common/plot_drawing.h"
 #include "stackabilization/rendering/pictures.h"

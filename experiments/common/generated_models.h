@@ -1,6 +1,6 @@
 #pragma once
 
-#include "stackabilization/shape/shape.h"
+#include "stackabilization/core/shape.h"
 
 /// Models of any size, for experiments about costs. Lengths are plain numbers without a unit; z is up.
 namespace stackabilization::experiments {

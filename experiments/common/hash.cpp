@@ -5,7 +5,7 @@
 #include <fstream>
 #include <vector>
 
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 
 namespace stackabilization::experiments {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "stackabilization/shape/direction.h"
+#include "stackabilization/core/direction.h"
 
 namespace stackabilization::experiments {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/utf8.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/utf8.h"
 
 namespace stackabilization::experiments {
 

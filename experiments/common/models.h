@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "stackabilization/shape/shape.h"
+#include "stackabilization/core/shape.h"
 
 namespace stackabilization::experiments {
 

@@ -4,8 +4,8 @@
 #include <array>
 
 #include "common/statistics.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/rendering/curve_plot.h"
-#include "stackabilization/shape/errors.h"
 
 namespace stackabilization::experiments {
 namespace {

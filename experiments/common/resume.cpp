@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/hash.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/write_file.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/write_file.h"
 
 namespace stackabilization::experiments {
 namespace {

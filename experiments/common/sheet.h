@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "stackabilization/shape/direction.h"
-#include "stackabilization/shape/shape.h"
+#include "stackabilization/core/direction.h"
+#include "stackabilization/core/shape.h"
 
 namespace stackabilization::experiments {
 

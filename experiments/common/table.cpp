@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 
 namespace stackabilization::experiments {
 namespace {

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "common/clock.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/carried_design.h"
-#include "stackabilization/shape/errors.h"
 #include "stackabilization/structure/analysis.h"
 
 namespace stackabilization::experiments {

@@ -19,8 +19,8 @@
 #include "common/child_process.h"
 #include "common/experiment.h"
 #include "common/generated_models.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/write.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/write.h"
 
 using namespace stackabilization;
 using namespace stackabilization::experiments;

@@ -18,8 +18,8 @@
 #include "common/experiment.h"
 #include "common/random.h"
 #include "common/statistics.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/controller_model.h"
-#include "stackabilization/shape/errors.h"
 #include "stackabilization/structure/analysis.h"
 
 using namespace stackabilization;

@@ -21,9 +21,9 @@
 #include "common/statistics.h"
 #include "speed/competitor.h"
 #include "speed/small_solids.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/envelope/height_field.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/stacking/closed_surface.h"
+#include "stackabilization/mesh/closed_surface.h"
 #include "stackabilization/stacking/minkowski.h"
 #ifdef STACKABILIZATION_WITH_RENDERING
 #include "stackabilization/rendering/depth_raster.h"

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "stackabilization/shape/shape.h"
+#include "stackabilization/core/shape.h"
 
 namespace stackabilization::experiments {
 

@@ -20,8 +20,8 @@
 
 #include "common/clock.h"
 #include "common/experiment.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/shape_change.h"
-#include "stackabilization/shape/errors.h"
 #include "study/automatic_work.h"
 #include "study/manual_work.h"
 #include "study/study_summary.h"

@@ -3,10 +3,10 @@
 #include <algorithm>
 
 #include "common/authors_targets.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/part_names.h"
 #include "stackabilization/improvement/removal.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/part_names.h"
-#include "stackabilization/shape/read.h"
+#include "stackabilization/io/read.h"
 #include "stackabilization/structure/analysis.h"
 
 namespace stackabilization::experiments {

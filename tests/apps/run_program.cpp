@@ -8,7 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "stackabilization/shape/write.h"
+#include "stackabilization/io/write.h"
 #include "support/catch.h"
 
 namespace stackabilization::apps {

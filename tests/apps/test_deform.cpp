@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "apps/run_program.h"
-#include "stackabilization/shape/read.h"
+#include "stackabilization/io/read.h"
 #include "support/catch.h"
 #include "support/solids.h"
 

@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "apps/edit_grammar.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 #include "support/catch.h"
 
 using namespace stackabilization;

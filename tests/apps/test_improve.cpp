@@ -5,7 +5,7 @@
 #include <set>
 
 #include "apps/run_program.h"
-#include "stackabilization/shape/read.h"
+#include "stackabilization/io/read.h"
 #include "stackabilization/stacking/stackability.h"
 #include "support/catch.h"
 #include "support/solids.h"

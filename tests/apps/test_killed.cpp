@@ -4,7 +4,7 @@
 #include <map>
 
 #include "apps/run_program.h"
-#include "stackabilization/shape/write_file.h"
+#include "stackabilization/io/write_file.h"
 #include "support/catch.h"
 #include "support/solids.h"
 

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "apps/run_program.h"
-#include "stackabilization/shape/rational.h"
+#include "stackabilization/core/rational.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/variants.h"

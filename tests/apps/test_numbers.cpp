@@ -7,7 +7,7 @@
 
 #include "apps/program.h"
 #include "apps/run_program.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 #include "support/catch.h"
 #include "support/solids.h"
 

@@ -1,6 +1,6 @@
 #include "apps/run_program.h"
-#include "stackabilization/shape/rational.h"
-#include "stackabilization/shape/read.h"
+#include "stackabilization/core/rational.h"
+#include "stackabilization/io/read.h"
 #include "stackabilization/stacking/rigid_transform.h"
 #include "support/catch.h"
 #include "support/solids.h"

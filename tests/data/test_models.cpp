@@ -9,8 +9,8 @@
 #include <string>
 
 #include "generator/models.h"
-#include "stackabilization/shape/format.h"
-#include "stackabilization/shape/write.h"
+#include "stackabilization/io/format.h"
+#include "stackabilization/io/write.h"
 #include "support/catch.h"
 #include "support/variants.h"
 

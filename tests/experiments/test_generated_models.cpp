@@ -1,5 +1,5 @@
 #include "common/generated_models.h"
-#include "stackabilization/shape/inspect.h"
+#include "stackabilization/io/inspect.h"
 #include "support/catch.h"
 
 using namespace stackabilization;

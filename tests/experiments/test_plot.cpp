@@ -2,7 +2,7 @@
 #include <string>
 
 #include "common/plot_drawing.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 #include "support/catch.h"
 
 using namespace stackabilization;

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 #include "study/study_summary.h"
 #include "study/study_tasks.h"
 #include "support/catch.h"

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <memory>
 
-#include "deformation/structures.h"
-#include "improvement/cups.h"
-#include "stackabilization/shape/tolerances.h"
+#include "stackabilization/core/tolerances.h"
 #include "study/manual_work.h"
 #include "support/catch.h"
+#include "support/cups.h"
+#include "support/structures.h"
 
 using namespace stackabilization;
 using namespace stackabilization::experiments;

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "common/table.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 #include "support/catch.h"
 
 using namespace stackabilization;

@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include "deformation_models/trial.h"
-#include "stackabilization/shape/read.h"
+#include "stackabilization/io/read.h"
 #include "support/catch.h"
 #include "support/solids.h"
 

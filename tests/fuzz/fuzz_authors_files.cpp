@@ -1,8 +1,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/structure/authors_text.h"
+#include "stackabilization/core/errors.h"
+#include "structure/project/authors_text.h"
 
 using namespace stackabilization;
 

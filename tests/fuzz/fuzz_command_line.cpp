@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "apps/program.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 
 using namespace stackabilization;
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "apps/edit_grammar.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 
 using namespace stackabilization;
 

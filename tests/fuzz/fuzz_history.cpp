@@ -2,8 +2,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/history.h"
-#include "stackabilization/shape/errors.h"
 
 using namespace stackabilization;
 

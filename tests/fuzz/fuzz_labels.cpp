@@ -1,8 +1,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/labels.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/labels.h"
 
 using namespace stackabilization;
 

@@ -3,10 +3,10 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/inspect.h"
-#include "stackabilization/shape/read.h"
-#include "stackabilization/shape/write.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/inspect.h"
+#include "stackabilization/io/read.h"
+#include "stackabilization/io/write.h"
 
 using namespace stackabilization;
 

@@ -3,8 +3,8 @@
 #include <string>
 
 #include "fuzz/seeds.h"
-#include "stackabilization/improvement/search_state.h"
-#include "stackabilization/shape/errors.h"
+#include "improvement/search/search_state.h"
+#include "stackabilization/core/errors.h"
 
 using namespace stackabilization;
 

@@ -2,7 +2,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/structure/seeds.h"
 
 using namespace stackabilization;

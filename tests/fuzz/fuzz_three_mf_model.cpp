@@ -2,8 +2,8 @@
 #include <string>
 #include <string_view>
 
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/formats/formats.h"
+#include "io/formats/formats.h"
+#include "stackabilization/core/errors.h"
 
 using namespace stackabilization;
 

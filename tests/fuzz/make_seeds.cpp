@@ -3,8 +3,8 @@
 #include <iostream>
 
 #include "fuzz/seeds.h"
-#include "stackabilization/shape/errors.h"
-#include "stackabilization/shape/write_file.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/write_file.h"
 
 int main(int argc, char** argv) {
   if (argc != 2) {

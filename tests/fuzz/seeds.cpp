@@ -1,8 +1,8 @@
 #include "fuzz/seeds.h"
 
+#include "io/formats/zip.h"
 #include "stackabilization/improvement/history.h"
-#include "stackabilization/shape/formats/zip.h"
-#include "stackabilization/shape/write.h"
+#include "stackabilization/io/write.h"
 #include "stackabilization/structure/project_file.h"
 
 namespace stackabilization::fuzz {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "stackabilization/improvement/search_state.h"
+#include "improvement/search/search_state.h"
 
 namespace stackabilization::fuzz {
 

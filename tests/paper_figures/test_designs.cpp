@@ -7,7 +7,7 @@
 #include "paper_figures/figure.h"
 #include "paper_figures/folder.h"
 #include "paper_figures/shown.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 #include "support/catch.h"
 #include "support/solids.h"
 

@@ -3,7 +3,7 @@
 #include "paper_figures/figure.h"
 #include "paper_figures/folder.h"
 #include "paper_figures/run.h"
-#include "stackabilization/shape/errors.h"
+#include "stackabilization/core/errors.h"
 #include "support/catch.h"
 
 using namespace stackabilization;

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "stackabilization/shape/direction.h"
-#include "stackabilization/shape/shape.h"
+#include "stackabilization/core/direction.h"
+#include "stackabilization/core/shape.h"
 
 /// Analytic solids for the tests. Every solid is closed, outward oriented and of one part unless its line
 /// says otherwise; z is up. A function NAME_f_max gives f_max of NAME in closed form, `solid` semantics

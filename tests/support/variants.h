@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "stackabilization/shape/shape.h"
+#include "stackabilization/core/shape.h"
 
 /// Random shapes, and shapes that are the same set of points as a given one: what invariance tests need. All
 /// are functions of a seed, the same on every machine.

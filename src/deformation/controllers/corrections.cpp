@@ -1,0 +1,86 @@
+#include "deformation/controllers/corrections.h"
+
+#include <Eigen/QR>
+#include <utility>
+
+#include "stackabilization/core/tolerances.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// How much the part that carries the handle resists corrections of what the edit left open of it: length of
+/// its columns relative to those of other parts.
+constexpr double stiffness = 0.3;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// Orthogonal projection of rows of coefficients onto what they span.
+Eigen::MatrixXd row_space(const Eigen::MatrixXd& rows) {
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(tolerance::relative);
+  solver.compute(rows);
+  return solver.pseudoInverse() * rows;
+}
+
+}  // namespace
+
+Corrections::Corrections(const Rig& rig) : rig_(rig), bases_(rig.bases), straight_(rig.bases.size()) {}
+
+void Corrections::fix(int of_class) {
+  bases_[at(of_class)].resize(bases_[at(of_class)].rows(), 0);
+}
+
+void Corrections::hold(const PartEdit& edit, Eigen::MatrixXd rows) {
+  held_ = Held{edit, std::move(rows)};
+  const int c = rig_.space.class_of(edit.part);
+  allow(c, Eigen::MatrixXd(bases_[at(c)]));
+}
+
+void Corrections::allow(int of_class, const Eigen::MatrixXd& columns) {
+  Eigen::MatrixXd& basis = bases_[at(of_class)];
+  basis = columns;
+  if (!held_ || rig_.space.class_of(held_->edit.part) != of_class) return;
+  basis = stiffness * (columns - columns * row_space(held_->rows * columns));
+}
+
+StraightHandle Corrections::handle_in(int of_class) const {
+  StraightHandle handle;
+  if (!held_ || rig_.space.class_of(held_->edit.part) != of_class) return handle;
+  const int part = held_->edit.part, value = held_->edit.values.front();
+  const auto count = static_cast<int>(control_points(rig_.space.rest(part)).rows());
+  if (value < 3 * count)
+    handle.section = rig_.space.counterpart(part, value / 3);
+  else
+    handle.radius = rig_.space.counterpart(part, value - 3 * count);
+  return handle;
+}
+
+void Corrections::keep_straight(const std::vector<ControlState>& states) {
+  start_ = states;
+  for (int c = 0; c < rig_.space.class_count(); ++c) {
+    const Primitive now = rig_.space.primitive(rig_.space.members(c).front(), states[at(c)]);
+    const auto* cylinder = std::get_if<GeneralizedCylinder>(&now);
+    if (cylinder == nullptr || is_fixed(c) || !is_straight(*cylinder)) continue;
+    straight_[at(c)].emplace(*cylinder, rig_.slides[at(c)], rig_.strains[at(c)], handle_in(c));
+    allow(c, rig_.space.invariant_columns(c, straight_[at(c)]->columns(*cylinder)));
+  }
+}
+
+void Corrections::settle(std::vector<ControlState>& states) {
+  for (int c = 0; c < rig_.space.class_count(); ++c) {
+    ControlState& state = states[at(c)];
+    if (!straight_[at(c)] || state.values == start_[at(c)].values) continue;
+    const int first = rig_.space.members(c).front();
+    const auto now =
+        straight_[at(c)]->settled(std::get<GeneralizedCylinder>(rig_.space.primitive(first, state)));
+    ControlState settled = rig_.space.state_of(first, now);
+    settled.rotation = state.rotation;
+    state = rig_.space.invariant(c, std::move(settled));
+    allow(c, rig_.space.invariant_columns(c, straight_[at(c)]->columns(now)));
+  }
+}
+
+}  // namespace stackabilization::detail

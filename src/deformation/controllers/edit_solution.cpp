@@ -1,0 +1,343 @@
+#include "deformation/controllers/edit_solution.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "deformation/controllers/corrections.h"
+#include "deformation/controllers/prescription.h"
+#include "deformation/controllers/primitive_validity.h"
+#include "deformation/controllers/propagation.h"
+#include "deformation/model/refusal_words.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/relation_residual.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Rounds in which vertices that a solve made outermost are held as well.
+constexpr int extent_rounds = 10;
+
+/// Rounds of stretching what a solve leaves of an extent. It goes on while that is more than the first of
+/// these, in multiples of what relations may be off by; what is more than the second is no remainder.
+constexpr int remainder_rounds = 4;
+constexpr double settled_remainder = 0.1, largest_remainder = 10;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+bool changes_nothing(const PartEdit& edit) {
+  return edit.changes.isZero(0) && edit.rotation.vec().isZero(0);
+}
+
+class EditSolution {
+ public:
+  EditSolution(const Rig& rig, const RiggedMesh& mesh, const EditTask& task)
+      : rig_(rig),
+        mesh_(mesh),
+        task_(task),
+        edit_(task.wanted.front()),
+        class_(rig.space.class_of(edit_.part)),
+        progress_(at(rig.space.class_count()), Progress::open),
+        corrections_(rig),
+        watch_(mesh.by_class, extent_bounds(task.shape, task.constraints)) {}
+
+  EditOutcome run() {
+    fix_parts();
+    if (std::all_of(task_.wanted.begin(), task_.wanted.end(), changes_nothing))
+      return {std::nullopt, task_.now};
+    start_ = rig_.space.states(task_.now);
+    state_.controls = start_;
+    if (task_.wanted.size() > 1) {
+      if (auto refusal = prescribe_all()) return refused(std::move(*refusal));
+    } else {
+      if (auto refusal = prescribe()) return refused(std::move(*refusal));
+      progress_[at(class_)] = Progress::modified;
+      // Where the ends of an extent are fixed, what is moved is not to take everything along.
+      if (task_.constraints.extent_ends == ExtentEnds::free)
+        state_.controls = propagated(rig_, std::move(state_.controls), progress_);
+    }
+    corrections_.keep_straight(state_.controls);
+    solve();
+    take_up_remainder();
+    primitives_ = current_primitives();
+    if (auto refusal = broken()) return refused(std::move(*refusal));
+    return {std::nullopt, std::move(primitives_)};
+  }
+
+ private:
+  EditOutcome refused(Refusal refusal) const { return {std::move(refusal), task_.now}; }
+
+  double diagonal() const { return rig_.rest.diagonal; }
+
+  const std::string& part_name(int part) const { return rig_.rest.parts[at(part)].name; }
+
+  void fix_parts() {
+    for (const int part : task_.constraints.fixed_parts) {
+      const int c = rig_.space.class_of(part);
+      progress_[at(c)] = Progress::settled;
+      corrections_.fix(c);
+    }
+  }
+
+  /// Gives the edited class what the edit prescribes, within its symmetries, and corrections what keeps
+  /// that.
+  std::optional<Refusal> prescribe() {
+    if (progress_[at(class_)] == Progress::settled)
+      return Refusal{"'" + part_name(edit_.part) + "' is fixed, or symmetric to a part that is", std::nullopt,
+                     0};
+    Prescription wanted =
+        prescription(rig_, {task_.now[at(edit_.part)], start_[at(class_)], edit_, task_.constraints});
+    if (wanted.refusal) return std::move(wanted.refusal);
+    state_.controls[at(class_)] = std::move(wanted.state);
+    if (wanted.held)
+      corrections_.hold(edit_, std::move(*wanted.held));
+    else
+      corrections_.fix(class_);
+    return std::nullopt;
+  }
+
+  /// Gives every part what the edit prescribes, as far as all symmetries allow that.
+  std::optional<Refusal> prescribe_all() {
+    std::vector<Primitive> wanted;
+    for (const PartEdit& edit : task_.wanted) {
+      if (progress_[at(rig_.space.class_of(edit.part))] == Progress::settled)
+        return Refusal{"'" + part_name(edit.part) + "' is fixed, or symmetric to a part that is",
+                       std::nullopt, 0};
+      wanted.push_back(changed(task_.now[at(edit.part)], edit));
+    }
+    const std::vector<double> residuals = relation_residuals(rig_.rest, wanted);
+    for (std::size_t row = 0; row < residuals.size(); ++row) {
+      const Relation& relation = rig_.rest.relations[row];
+      const bool symmetry =
+          relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry;
+      if (symmetry && residuals[row] > tolerance::relation)
+        return Refusal{name_of(relation, rig_.rest) + " does not let the shape go where the edit takes it: " +
+                           "it would be off by " + fraction(residuals[row]) + " of the diagonal",
+                       static_cast<int>(row), residuals[row]};
+    }
+    state_.controls = rig_.space.states(wanted);
+    return std::nullopt;
+  }
+
+  void solve() {
+    std::vector<Constraint> constraints = joint_constraints(rig_);
+    for (const Constraint& fixed : fixed_point_constraints()) constraints.push_back(fixed);
+    fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.distinct_joints.size()),
+                     constraints.end()};
+    if (!solve_with_fixed_ends(constraints))
+      state_ = solved(rig_, corrections_, constraints, std::move(state_));
+    if (watch_.bounds().empty() || largest_gap(rig_, constraints, state_) > tolerance::relation * diagonal())
+      return;
+    const SolverState unbounded = state_;
+    bound_extents(constraints);
+    // Relations give way when bounds cannot be met: then the bounds are what is to be reported.
+    if (!(largest_gap(rig_, constraints, state_) <= tolerance::relation * diagonal())) state_ = unbounded;
+  }
+
+  /// What stands on the fixed ends of an extent is held from the start: else joints take everything along
+  /// first, and what passes the ends then is not what has to stay on them. False, and nothing done, when
+  /// there is nothing to hold, or it cannot be held together with `constraints`.
+  bool solve_with_fixed_ends(const std::vector<Constraint>& constraints) {
+    const bool fixed = std::any_of(watch_.bounds().begin(), watch_.bounds().end(),
+                                   [](const ExtentBound& bound) { return bound.level.has_value(); });
+    if (!fixed) return false;
+    const SolverState prescribed = state_;
+    const Points vertices = current_vertices();
+    state_.levels = watch_.levels(vertices);
+    bool held = false;
+    for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
+      if (watch_.bounds()[k].level) held |= watch_.hold(k, vertices, ExtentWatch::Former::held);
+    if (held) {
+      const std::vector<Constraint> all = solve_held(constraints);
+      if (largest_gap(rig_, all, state_) <= tolerance::relation * diagonal()) return true;
+    }
+    watch_.release();
+    state_ = prescribed;
+    corrections_.keep_straight(state_.controls);
+    return false;
+  }
+
+  /// Holds the outermost vertices, one of every class: when another one becomes outermost, that instead;
+  /// where they take turns, all of those; and where what was held before is in the way, as on a face that the
+  /// edit tilts by a hair, only what is outermost in any class.
+  void bound_extents(const std::vector<Constraint>& constraints) {
+    using Former = ExtentWatch::Former;
+    for (const Former former : {Former::released, Former::held})
+      for (int round = 0; round < extent_rounds; ++round) {
+        const Points vertices = current_vertices();
+        if (state_.levels.size() == 0) state_.levels = watch_.levels(vertices);
+        if (remains_at_most(settled_remainder, vertices)) return;
+        bool held = false;
+        for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
+          if (watch_.excess(k, vertices) != 0) held |= watch_.hold(k, vertices, former);
+        if (!held) break;
+        solve_held(constraints);
+      }
+    for (int round = 0; round < extent_rounds; ++round) {
+      const Points vertices = current_vertices();
+      if (remains_at_most(settled_remainder, vertices)) return;
+      watch_.release();
+      for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
+        if (watch_.excess(k, vertices) != 0 || watch_.is_kept(k)) watch_.hold(k, vertices, Former::released);
+      solve_held(constraints);
+    }
+  }
+
+  /// Solves for `constraints` and what is held; these together.
+  std::vector<Constraint> solve_held(std::vector<Constraint> constraints) {
+    for (Constraint& held : watch_.constraints(mesh_.transfer)) constraints.push_back(std::move(held));
+    state_ = solved(rig_, corrections_, constraints, std::move(state_));
+    return constraints;
+  }
+
+  Points current_vertices() const {
+    return mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
+  }
+
+  /// Is every extent off by so little, which take_up_remainder sees to?
+  bool remains_at_most(double multiple, const Points& vertices) const {
+    for (std::size_t k = 0; k < watch_.bounds().size(); ++k) {
+      const double most = watch_.is_kept(k) ? multiple * tolerance::relation * diagonal() : 0;
+      if (std::abs(watch_.excess(k, vertices)) > most) return false;
+    }
+    return true;
+  }
+
+  /// What little a solve leaves of a kept extent is taken away by stretching all that moved along it: which
+  /// of two vertices at the foot of a leg is the lower one may change with every solve. Relations between
+  /// what moved do not notice; those to the rest are looked at afterwards.
+  void take_up_remainder() {
+    for (int round = 0; round < remainder_rounds; ++round) {
+      const Points vertices = current_vertices();
+      if (!watch_.any_excess(vertices) || !remains_at_most(largest_remainder, vertices)) return;
+      for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
+        if (watch_.is_kept(k) && watch_.excess(k, vertices) != 0)
+          stretch(watch_.bounds()[k].normal, watch_.range(k, vertices), watch_.wanted(k, vertices));
+    }
+  }
+
+  /// The affine map along `normal` that takes the heights `from` to `to`, on all that moved.
+  void stretch(const Eigen::Vector3d& normal, const Range& from, const Range& to) {
+    const double factor = from.length() > 0 ? to.length() / from.length() : 1;
+    const auto move = [&](auto& points) {
+      const Eigen::VectorXd heights = points * normal;
+      points +=
+          (to.low + factor * (heights.array() - from.low) - heights.array()).matrix() * normal.transpose();
+    };
+    for (int c = 0; c < rig_.space.class_count(); ++c) {
+      ControlState& state = state_.controls[at(c)];
+      if (state.values == start_[at(c)].values) continue;
+      const int part = rig_.space.members(c).front();
+      Primitive now = rig_.space.primitive(part, state);
+      if (auto* cuboid = std::get_if<Cuboid>(&now))
+        move(cuboid->corners);
+      else
+        move(std::get<GeneralizedCylinder>(now).centres);
+      state = rig_.space.invariant(c, rig_.space.state_of(part, now));
+    }
+  }
+
+  /// The points of the surface nearest to the fixed ones stay where they are now.
+  std::vector<Constraint> fixed_point_constraints() const {
+    std::vector<Constraint> constraints;
+    for (const Eigen::Vector3d& point : task_.constraints.fixed_points) {
+      const SurfacePoint nearest = mesh_.surface.nearest(point);
+      Eigen::Matrix3d corners;
+      for (int k = 0; k < 3; ++k) corners.col(k) = task_.shape.corner(nearest.triangle, k);
+      const Eigen::Vector3d weights = barycentric(corners, nearest.point);
+      Constraint constraint;
+      for (int k = 0; k < 3; ++k)
+        for (Rider rider : mesh_.transfer.riders(task_.shape.triangles(nearest.triangle, k))) {
+          rider.weight *= weights(k);
+          constraint.target +=
+              rider.weight * rig_.carriers[at(rider.part)].carried(rider.binding, task_.now[at(rider.part)]);
+          constraint.riders.push_back(std::move(rider));
+        }
+      constraints.push_back(std::move(constraint));
+    }
+    return constraints;
+  }
+
+  static Eigen::Vector3d barycentric(const Eigen::Matrix3d& corners, const Eigen::Vector3d& point) {
+    Eigen::Matrix<double, 3, 2> edges;
+    edges << corners.col(1) - corners.col(0), corners.col(2) - corners.col(0);
+    const Eigen::Vector2d weights = edges.completeOrthogonalDecomposition().solve(point - corners.col(0));
+    return {1 - weights.sum(), weights(0), weights(1)};
+  }
+
+  /// Classes that nothing moved keep the very numbers they had.
+  std::vector<Primitive> current_primitives() const {
+    std::vector<Primitive> primitives = rig_.space.primitives(state_.controls);
+    for (std::size_t part = 0; part < primitives.size(); ++part) {
+      const std::size_t c = at(rig_.space.class_of(static_cast<int>(part)));
+      const ControlState &before = start_[c], &after = state_.controls[c];
+      if (before.values == after.values && before.rotation.coeffs() == after.rotation.coeffs())
+        primitives[part] = task_.now[part];
+    }
+    return primitives;
+  }
+
+  std::optional<Refusal> broken() const {
+    if (auto refusal = broken_relation()) return refusal;
+    for (std::size_t part = 0; part < primitives_.size(); ++part)
+      if (const auto what = defect(rig_.rest.parts[part].primitive, primitives_[part]))
+        return Refusal{"'" + rig_.rest.parts[part].name + "' " + *what, std::nullopt, 0};
+    if (const double gap = largest_gap(rig_, fixed_points_, state_) / diagonal();
+        !(gap <= tolerance::relation))
+      return Refusal{"a fixed point would move by " + fraction(gap) + " of the diagonal", std::nullopt, gap};
+    return broken_extent();
+  }
+
+  std::optional<Refusal> broken_relation() const {
+    const std::vector<double> residuals = relation_residuals(rig_.rest, primitives_);
+    const auto worst = std::max_element(residuals.begin(), residuals.end());
+    if (worst == residuals.end() || !(*worst > tolerance::relation)) return std::nullopt;
+    const auto row = static_cast<int>(worst - residuals.begin());
+    const Relation& relation = rig_.rest.relations[at(row)];
+    return Refusal{name_of(relation, rig_.rest) + " would be off by " + fraction(*worst) + " of the diagonal",
+                   row, *worst};
+  }
+
+  std::optional<Refusal> broken_extent() const {
+    if (watch_.bounds().empty()) return std::nullopt;
+    const Points vertices = mesh_.transfer.vertices(rig_, primitives_);
+    for (std::size_t k = 0; k < watch_.bounds().size(); ++k) {
+      const double excess = watch_.excess(k, vertices);
+      if (excess == 0) continue;
+      const Eigen::Vector3d& n = watch_.bounds()[k].normal;
+      const std::string what = watch_.bounds()[k].level ? ") would begin or end elsewhere, off by "
+                               : excess > 0             ? ") would be too long by "
+                                                        : ") would be too short by ";
+      return Refusal{"the extent along (" + fraction(n.x()) + ", " + fraction(n.y()) + ", " +
+                         fraction(n.z()) + what + fraction(std::abs(excess) / diagonal()) +
+                         " of the diagonal",
+                     std::nullopt, std::abs(excess) / diagonal()};
+    }
+    return std::nullopt;
+  }
+
+  const Rig& rig_;
+  const RiggedMesh& mesh_;
+  const EditTask& task_;
+  const PartEdit& edit_;  ///< the one of a handle
+  int class_;
+  std::vector<Progress> progress_;  ///< per class
+  Corrections corrections_;
+  ExtentWatch watch_;
+  std::vector<ControlState> start_;
+  SolverState state_;
+  std::vector<Constraint> fixed_points_;
+  std::vector<Primitive> primitives_;
+};
+
+}  // namespace
+
+EditOutcome solved_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& task) {
+  return EditSolution(rig, mesh, task).run();
+}
+
+}  // namespace stackabilization::detail

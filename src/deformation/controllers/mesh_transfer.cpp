@@ -1,0 +1,170 @@
+#include "deformation/controllers/mesh_transfer.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <map>
+#include <queue>
+#include <set>
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Reach of a part beyond its border with another, fraction of the diagonal of the smaller of both.
+constexpr double reach_of_parts = 0.15;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+/// 1 at 0, 0 from 1 on, flat at both ends.
+double fall_off(double t) {
+  return t >= 1 ? 0 : 1 - t * t * (3 - 2 * t);
+}
+
+bool equal(const Primitive& a, const Primitive& b) {
+  if (const auto* cuboid = std::get_if<Cuboid>(&a)) return cuboid->corners == std::get<Cuboid>(b).corners;
+  const auto &p = std::get<GeneralizedCylinder>(a), &q = std::get<GeneralizedCylinder>(b);
+  return p.centres == q.centres && p.radii == q.radii && p.rotation.coeffs() == q.rotation.coeffs();
+}
+
+/// Finds the share of every part in every vertex.
+class Shares {
+ public:
+  /// Share of each part that a vertex rides on.
+  using PerVertex = std::map<int, double>;
+
+  explicit Shares(const Shape& shape)
+      : shape_(shape),
+        owners_(at(static_cast<int>(shape.vertex_count()))),
+        triangles_(shape.part_names.size()),
+        boxes_(triangles_.size()) {
+    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+      const std::int32_t part = shape.triangle_part[static_cast<std::size_t>(t)];
+      triangles_[at(part)].push_back(t);
+      for (int k = 0; k < 3; ++k) {
+        owners_[at(shape.triangles(t, k))].insert(part);
+        boxes_[at(part)].extend(shape.corner(t, k));
+      }
+    }
+  }
+
+  std::vector<PerVertex> all() {
+    std::vector<PerVertex> shares(owners_.size());
+    for (std::size_t v = 0; v < owners_.size(); ++v)
+      for (const int part : owners_[v]) shares[v][part] = 1;
+    for (const auto& [part, borders] : borders()) spread_into(part, borders, shares);
+    for (PerVertex& shares_of : shares) {
+      double sum = 0;
+      for (const auto& [part, share] : shares_of) sum += share;
+      for (auto& [part, share] : shares_of) share /= sum;
+    }
+    return shares;
+  }
+
+ private:
+  /// The vertices that a part shares with each other part.
+  using Borders = std::map<int, std::vector<int>>;
+
+  /// Per part that shares any.
+  std::map<int, Borders> borders() const {
+    std::map<int, Borders> borders;
+    for (std::size_t v = 0; v < owners_.size(); ++v)
+      for (const int part : owners_[v])
+        for (const int other : owners_[v])
+          if (other != part) borders[part][other].push_back(static_cast<int>(v));
+    return borders;
+  }
+
+  /// Lets the parts that share vertices with `part` reach into it.
+  void spread_into(int part, const Borders& borders, std::vector<PerVertex>& shares) const {
+    const std::map<int, std::set<int>> edges = edges_of(part);
+    for (const auto& [other, border] : borders) {
+      const double reach = reach_of_parts * std::min(diagonal(part), diagonal(other));
+      for (const auto& [vertex, distance] : distances(edges, border, reach)) {
+        double& share = shares[at(vertex)][other];
+        share = std::max(share, fall_off(distance / reach));
+      }
+    }
+  }
+
+  std::map<int, std::set<int>> edges_of(int part) const {
+    std::map<int, std::set<int>> edges;
+    for (const Eigen::Index t : triangles_[at(part)])
+      for (int k = 0; k < 3; ++k) {
+        const int a = shape_.triangles(t, k), b = shape_.triangles(t, (k + 1) % 3);
+        edges[a].insert(b);
+        edges[b].insert(a);
+      }
+    return edges;
+  }
+
+  double diagonal(int part) const { return boxes_[at(part)].diagonal().norm(); }
+
+  /// Dijkstra's algorithm along the edges, up to `most`.
+  std::map<int, double> distances(const std::map<int, std::set<int>>& edges, const std::vector<int>& from,
+                                  double most) const {
+    std::map<int, double> settled;
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (const int vertex : from) queue.emplace(0, vertex);
+    while (!queue.empty()) {
+      const auto [distance, vertex] = queue.top();
+      queue.pop();
+      if (distance >= most || !settled.emplace(vertex, distance).second) continue;
+      for (const int next : edges.at(vertex))
+        if (!settled.contains(next))
+          queue.emplace(distance + (shape_.vertices.row(next) - shape_.vertices.row(vertex)).norm(), next);
+    }
+    return settled;
+  }
+
+  const Shape& shape_;
+  std::vector<std::set<int>> owners_;                 ///< parts whose triangles use the vertex
+  std::vector<std::vector<Eigen::Index>> triangles_;  ///< per part
+  std::vector<Eigen::AlignedBox3d> boxes_;            ///< per part
+};
+
+}  // namespace
+
+MeshTransfer::MeshTransfer(const Shape& shape, const Rig& rig)
+    : rest_(shape.vertices), parts_(rig.carriers.size()) {
+  const std::vector<Shares::PerVertex> shares = Shares(shape).all();
+  for (std::size_t v = 0; v < shares.size(); ++v)
+    for (const auto& [part, share] : shares[v]) {
+      parts_[at(part)].vertices.push_back(static_cast<int>(v));
+      parts_[at(part)].shares.push_back(share);
+    }
+  for (std::size_t part = 0; part < parts_.size(); ++part) {
+    Points points(static_cast<Eigen::Index>(parts_[part].vertices.size()), 3);
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+      points.row(i) = rest_.row(parts_[part].vertices[static_cast<std::size_t>(i)]);
+    parts_[part].bindings = rig.carriers[part].bind(points);
+  }
+}
+
+Points MeshTransfer::vertices(const Rig& rig, const std::vector<Primitive>& now) const {
+  Points vertices = rest_;
+  for (std::size_t part = 0; part < parts_.size(); ++part) {
+    if (equal(rig.carriers[part].rest(), now[part])) continue;
+    const BoundPart& bound = parts_[part];
+    const Points moved = rig.carriers[part].displacements(bound.bindings, now[part]);
+    for (std::size_t i = 0; i < bound.vertices.size(); ++i)
+      vertices.row(bound.vertices[i]) += bound.shares[i] * moved.row(static_cast<Eigen::Index>(i));
+  }
+  return vertices;
+}
+
+std::vector<Rider> MeshTransfer::riders(int vertex) const {
+  std::vector<Rider> riders;
+  for (std::size_t part = 0; part < parts_.size(); ++part) {
+    const BoundPart& bound = parts_[part];
+    const auto found = std::lower_bound(bound.vertices.begin(), bound.vertices.end(), vertex);
+    if (found == bound.vertices.end() || *found != vertex) continue;
+    const auto i = static_cast<std::size_t>(found - bound.vertices.begin());
+    riders.push_back({static_cast<int>(part), bound.bindings[i], bound.shares[i]});
+  }
+  return riders;
+}
+
+}  // namespace stackabilization::detail

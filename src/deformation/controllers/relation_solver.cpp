@@ -1,0 +1,232 @@
+#include "deformation/controllers/relation_solver.h"
+
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "stackabilization/core/tolerances.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+constexpr int most_steps = 20;
+/// A step that leaves more of the gap than this, twice in a row, is the last.
+constexpr double idle_ratio = 0.9;
+/// Longest step of a control, fraction of the diagonal.
+constexpr double longest_step = 0.25;
+
+std::size_t at(int i) {
+  return static_cast<std::size_t>(i);
+}
+
+Eigen::Index rows_of(const Constraint& constraint) {
+  return constraint.normal ? 1 : 3;
+}
+
+Eigen::Index rows_of(const std::vector<Constraint>& constraints) {
+  Eigen::Index rows = 0;
+  for (const Constraint& constraint : constraints) rows += rows_of(constraint);
+  return rows;
+}
+
+Eigen::Quaterniond rotation_of(const Eigen::Vector3d& vector) {
+  const double angle = vector.norm();
+  return angle > 0 ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, vector / angle))
+                   : Eigen::Quaterniond::Identity();
+}
+
+/// Solution x of A x = b for a positive semi-definite A that may be singular: pivoted Cholesky, which leaves
+/// out rows that depend on those before them.
+Eigen::VectorXd semidefinite_solution(Eigen::MatrixXd a, const Eigen::VectorXd& b) {
+  const Eigen::Index n = a.rows();
+  const Eigen::VectorXd diagonal = a.diagonal();
+  Eigen::VectorXd left = diagonal;
+  Eigen::MatrixXd lower = Eigen::MatrixXd::Zero(n, n);
+  std::vector<Eigen::Index> pivots;
+  const double least = tolerance::redundant * (n > 0 ? diagonal.maxCoeff() : 0);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    Eigen::Index pivot = 0;
+    if (!(left.maxCoeff(&pivot) > least)) break;
+    const double root = std::sqrt(left(pivot));
+    lower.col(k).noalias() = (a.col(pivot) - lower.leftCols(k) * lower.row(pivot).head(k).transpose()) / root;
+    left -= lower.col(k).cwiseAbs2();
+    left(pivot) = 0;
+    for (const Eigen::Index used : pivots) left(used) = 0;
+    pivots.push_back(pivot);
+  }
+  const auto rank = static_cast<Eigen::Index>(pivots.size());
+  Eigen::MatrixXd factor(rank, rank);
+  Eigen::VectorXd solution(rank);
+  for (Eigen::Index i = 0; i < rank; ++i) {
+    factor.row(i) = lower.row(pivots[static_cast<std::size_t>(i)]).head(rank);
+    solution(i) = b(pivots[static_cast<std::size_t>(i)]);
+  }
+  factor.triangularView<Eigen::Lower>().solveInPlace(solution);
+  factor.triangularView<Eigen::Lower>().transpose().solveInPlace(solution);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
+  for (Eigen::Index i = 0; i < rank; ++i) x(pivots[static_cast<std::size_t>(i)]) = solution(i);
+  return x;
+}
+
+Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state,
+                     const std::vector<Primitive>& now) {
+  Eigen::VectorXd all(rows_of(constraints));
+  Eigen::Index row = 0;
+  for (const Constraint& constraint : constraints) {
+    Eigen::Vector3d sum = -constraint.target;
+    for (const Rider& rider : constraint.riders)
+      sum += rider.weight * rig.carriers[at(rider.part)].carried(rider.binding, now[at(rider.part)]);
+    if (constraint.normal)
+      all(row) = constraint.normal->dot(sum) - constraint.height -
+                 (constraint.level ? state.levels(*constraint.level) : 0);
+    else
+      all.segment<3>(row) = sum;
+    row += rows_of(constraint);
+  }
+  return all;
+}
+
+class Solver {
+ public:
+  Solver(const Rig& rig, Corrections& corrections, const std::vector<Constraint>& constraints,
+         SolverState start)
+      : rig_(rig),
+        corrections_(corrections),
+        bases_(corrections.bases()),
+        constraints_(constraints),
+        state_(std::move(start)) {
+    for (const Eigen::MatrixXd& basis : bases_) {
+      offsets_.push_back(columns_);
+      columns_ += basis.cols();
+    }
+  }
+
+  SolverState run() {
+    double before = std::numeric_limits<double>::infinity();
+    int idle = 0;
+    for (int step = 0; step < most_steps; ++step) {
+      now_ = rig_.space.primitives(state_.controls);
+      const Eigen::VectorXd gap = gaps(rig_, constraints_, state_, now_);
+      const double largest = gap.size() > 0 ? gap.cwiseAbs().maxCoeff() : 0;
+      if (!(largest > tolerance::solve * rig_.rest.diagonal)) break;
+      idle = largest > idle_ratio * before ? idle + 1 : 0;
+      if (idle == 2) break;
+      before = largest;
+      // A joint depends on two classes only: most of it is zeros.
+      const Eigen::SparseMatrix<double> jacobian = slopes().sparseView();
+      Eigen::MatrixXd gram = jacobian * jacobian.transpose();
+      advance(-jacobian.transpose() * semidefinite_solution(std::move(gram), gap));
+    }
+    return std::move(state_);
+  }
+
+ private:
+  Eigen::MatrixXd slopes() const {
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows_of(constraints_), columns_ + state_.levels.size());
+    const std::vector<Eigen::MatrixXd> turns = turn_columns();
+    Eigen::Index row = 0;
+    for (const Constraint& constraint : constraints_) {
+      for (const Rider& rider : constraint.riders) {
+        const int c = rig_.space.class_of(rider.part);
+        if (bases_[at(c)].cols() == 0) continue;
+        const Eigen::MatrixXd slope = rider.weight * rider_slope(rider, turns[at(c)]);
+        auto block = all.block(row, offsets_[at(c)], rows_of(constraint), slope.cols());
+        if (constraint.normal)
+          block += constraint.normal->transpose() * slope;
+        else
+          block += slope;
+      }
+      if (constraint.level) all(row, columns_ + *constraint.level) = -1;
+      row += rows_of(constraint);
+    }
+    return all;
+  }
+
+  /// 3 x m per class of generalized cylinders: rotation vectors of the columns.
+  std::vector<Eigen::MatrixXd> turn_columns() const {
+    std::vector<Eigen::MatrixXd> turns;
+    for (std::size_t c = 0; c < bases_.size(); ++c) turns.push_back(turned_columns(c, bases_[c]));
+    return turns;
+  }
+
+  Eigen::MatrixXd turned_columns(std::size_t c, const Eigen::MatrixXd& columns) const {
+    const Eigen::MatrixXd& turning = rig_.turnings[c];
+    if (turning.size() == 0 || columns.cols() == 0) return {};
+    // The fit was made at rest: turn displacements back there, and what it finds forth again.
+    const Eigen::Matrix3d rotation = state_.controls[c].rotation.toRotationMatrix();
+    Eigen::MatrixXd found(3, turning.cols());
+    for (Eigen::Index i = 0; i < turning.cols(); i += 3)
+      found.middleCols<3>(i).noalias() = rotation * turning.middleCols<3>(i) * rotation.transpose();
+    return found * columns.topRows(turning.cols());
+  }
+
+  Eigen::Matrix<double, 3, Eigen::Dynamic> rider_slope(const Rider& rider,
+                                                       const Eigen::MatrixXd& turns) const {
+    const Eigen::MatrixXd& basis = bases_[at(rig_.space.class_of(rider.part))];
+    const ControlJacobian jacobian =
+        rig_.carriers[at(rider.part)].jacobian(rider.binding, now_[at(rider.part)]);
+    Eigen::Matrix<double, 3, Eigen::Dynamic> slope =
+        Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, basis.cols());
+    for (const auto& [point, block] : jacobian.points)
+      slope.noalias() += block * rig_.space.point_rows(rider.part, point, basis);
+    for (const auto& [section, column] : jacobian.radii)
+      slope.noalias() += column * rig_.space.radius_row(rider.part, section, basis);
+    if (turns.size() > 0) slope.noalias() += jacobian.rotation * rig_.space.axial(rider.part) * turns;
+    return slope;
+  }
+
+  void advance(const Eigen::VectorXd& step) {
+    std::vector<Eigen::VectorXd> changes;
+    double longest = 0;
+    for (std::size_t c = 0; c < bases_.size(); ++c) {
+      changes.push_back(bases_[c] * step.segment(offsets_[c], bases_[c].cols()));
+      if (changes[c].size() > 0) longest = std::max(longest, changes[c].cwiseAbs().maxCoeff());
+    }
+    const double scale = std::min(1.0, longest_step * rig_.rest.diagonal / longest);
+    for (std::size_t c = 0; c < bases_.size(); ++c) {
+      if (bases_[c].cols() == 0) continue;
+      ControlState& state = state_.controls[c];
+      if (const Eigen::MatrixXd turn = turned_columns(c, changes[c]); turn.size() > 0)
+        state.rotation = (rotation_of(scale * turn) * state.rotation).normalized();
+      state.values += scale * changes[c];
+    }
+    state_.levels += scale * step.tail(state_.levels.size());
+    corrections_.settle(state_.controls);
+  }
+
+  const Rig& rig_;
+  Corrections& corrections_;
+  const std::vector<Eigen::MatrixXd>& bases_;
+  const std::vector<Constraint>& constraints_;
+  SolverState state_;
+  std::vector<Primitive> now_;
+  std::vector<Eigen::Index> offsets_;
+  Eigen::Index columns_ = 0;
+};
+
+}  // namespace
+
+std::vector<Constraint> joint_constraints(const Rig& rig) {
+  std::vector<Constraint> constraints;
+  for (const int k : rig.distinct_joints) {
+    const JointPoint& joint = rig.joints[at(k)];
+    Constraint constraint;
+    constraint.riders = {{joint.parts[0], joint.bindings[0], 1}, {joint.parts[1], joint.bindings[1], -1}};
+    constraints.push_back(std::move(constraint));
+  }
+  return constraints;
+}
+
+double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state) {
+  const Eigen::VectorXd all = gaps(rig, constraints, state, rig.space.primitives(state.controls));
+  return all.size() > 0 ? all.cwiseAbs().maxCoeff() : 0;
+}
+
+SolverState solved(const Rig& rig, Corrections& corrections, const std::vector<Constraint>& constraints,
+                   SolverState start) {
+  return Solver(rig, corrections, constraints, std::move(start)).run();
+}
+
+}  // namespace stackabilization::detail

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+
+#include "envelope/contacts/planar_union.h"
+
+namespace stackabilization::detail {
+
+/// The axis-parallel rectangle around outlines; inverted while there is none.
+struct OutlineBounds {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high = -low;
+
+  void add(const Outline& outline) {
+    for (const Eigen::Vector2d& p : outline) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
+};
+
+}  // namespace stackabilization::detail

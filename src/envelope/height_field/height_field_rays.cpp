@@ -1,0 +1,193 @@
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/tolerances.h"
+#include "stackabilization/envelope/height_field.h"
+
+namespace stackabilization {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using TriangleIterator = std::vector<Kernel::Triangle_3>::const_iterator;
+using Tree =
+    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, TriangleIterator>>>;
+
+Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+struct HeightRange {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void add(double height) {
+    low = std::min(low, height);
+    high = std::max(high, height);
+  }
+};
+
+using LocalTriangle = std::array<Eigen::Vector3d, 3>;
+
+double cross2(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Heights over q of a triangle whose projection is a segment: both ends of the column it fills there.
+HeightRange heights_of_vertical(const LocalTriangle& corners, const Eigen::Vector3d& q) {
+  const auto [x_low, x_high] = std::minmax({corners[0].x(), corners[1].x(), corners[2].x()});
+  const auto [y_low, y_high] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
+  const int axis = x_high - x_low >= y_high - y_low ? 0 : 1;
+  const double s = axis == 0 ? std::clamp(q.x(), x_low, x_high) : std::clamp(q.y(), y_low, y_high);
+  HeightRange range;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d& a = corners[static_cast<std::size_t>(k)];
+    const Eigen::Vector3d& b = corners[static_cast<std::size_t>((k + 1) % 3)];
+    if (std::min(a[axis], b[axis]) > s || std::max(a[axis], b[axis]) < s) continue;
+    if (a[axis] == b[axis]) {
+      range.add(a.z());
+      range.add(b.z());
+    } else {
+      range.add(std::lerp(a.z(), b.z(), (s - a[axis]) / (b[axis] - a[axis])));
+    }
+  }
+  return range;
+}
+
+/// Heights over q of a triangle that the vertical line through q is known to meet.
+HeightRange heights_over(const LocalTriangle& corners, const Eigen::Vector3d& q) {
+  const Eigen::Vector3d ab = corners[1] - corners[0], ac = corners[2] - corners[0], aq = q - corners[0];
+  const double area = cross2(ab, ac);
+  const double span = std::max({std::abs(ab.x()), std::abs(ab.y()), std::abs(ac.x()), std::abs(ac.y())});
+  const double magnitude = std::max({corners[0].norm(), corners[1].norm(), corners[2].norm()});
+  // Below this the sign of the area is the rounding of the frame coordinates: the triangle is vertical for
+  // all we know.
+  if (std::abs(area) <= tolerance::product_rounding * magnitude * span)
+    return heights_of_vertical(corners, q);
+  const double height = corners[0].z() + (cross2(aq, ac) * ab.z() + cross2(ab, aq) * ac.z()) / area;
+  const auto [low, high] = std::minmax({corners[0].z(), corners[1].z(), corners[2].z()});
+  HeightRange range;
+  range.add(std::clamp(height, low, high));
+  return range;
+}
+
+/// Rows of triangles, ascending: of those with the same three points, in whatever order, the first. Written
+/// apart from what separations do about copies, since rays check separations.
+std::vector<Eigen::Index> distinct_triangles(const Shape& shape) {
+  std::vector<std::pair<std::array<std::array<double, 3>, 3>, Eigen::Index>> triangles;
+  triangles.reserve(static_cast<std::size_t>(shape.triangle_count()));
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+    std::array<std::array<double, 3>, 3> corners;
+    for (int k = 0; k < 3; ++k)
+      Eigen::Vector3d::Map(corners[static_cast<std::size_t>(k)].data()) = shape.corner(t, k);
+    std::sort(corners.begin(), corners.end());
+    triangles.emplace_back(corners, t);
+  }
+  std::sort(triangles.begin(), triangles.end());
+  std::vector<Eigen::Index> rows;
+  for (std::size_t k = 0; k < triangles.size(); ++k)
+    if (k == 0 || triangles[k].first != triangles[k - 1].first) rows.push_back(triangles[k].second);
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+}  // namespace
+
+struct RayCaster::Data {
+  Shape shape;
+  std::vector<Kernel::Triangle_3> triangles;  // those with area, of those with the same points one
+  std::vector<Eigen::Index> rows;             // their rows in the shape
+  Tree tree;
+  double diagonal = 0;
+
+  explicit Data(const Shape& source) : shape(source) {
+    validate(shape);
+    for (const Eigen::Index t : distinct_triangles(shape)) {
+      const Kernel::Triangle_3 triangle(to_cgal(shape.corner(t, 0)), to_cgal(shape.corner(t, 1)),
+                                        to_cgal(shape.corner(t, 2)));
+      if (triangle.is_degenerate()) continue;
+      triangles.push_back(triangle);
+      rows.push_back(t);
+    }
+    tree.insert(triangles.cbegin(), triangles.cend());
+    tree.build();
+    if (triangles.empty()) return;
+    const CGAL::Bbox_3 box = tree.bbox();
+    diagonal = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
+  }
+};
+
+RayCaster::RayCaster(const Shape& shape) : data_(std::make_unique<const Data>(shape)) {}
+RayCaster::RayCaster(RayCaster&&) noexcept = default;
+RayCaster& RayCaster::operator=(RayCaster&&) noexcept = default;
+RayCaster::~RayCaster() = default;
+
+HeightField RayCaster::cast(const Direction& direction, const Window& window, std::int64_t max_hits) const {
+  const Data& data = *data_;
+  HeightField field = empty_height_field(data.shape, direction, window);
+  if (data.triangles.empty()) return field;
+
+  std::vector<LocalTriangle> local(data.triangles.size());
+  HeightRange range;
+  for (std::size_t k = 0; k < local.size(); ++k)
+    for (int corner = 0; corner < 3; ++corner) {
+      Eigen::Vector3d& p = local[k][static_cast<std::size_t>(corner)];
+      p = field.frame.to_local(data.shape.corner(data.rows[k], corner));
+      range.add(p.z());
+    }
+
+  std::atomic<std::int64_t> all_hits = 0;
+  const auto cast_row = [&](int j, std::vector<Tree::Primitive_id>& hits) {
+    for (int i = 0; i < window.columns && all_hits <= max_hits; ++i) {
+      const Eigen::Vector2d sample = window.sample(i, j);
+      // Overshooting by the diagonal keeps the segment long, so rounding its ends barely tilts it.
+      const Eigen::Vector3d bottom(sample.x(), sample.y(), range.low - data.diagonal);
+      const Eigen::Vector3d top(sample.x(), sample.y(), range.high + data.diagonal);
+      hits.clear();
+      data.tree.all_intersected_primitives(
+          Kernel::Segment_3(to_cgal(field.frame.to_world(bottom)), to_cgal(field.frame.to_world(top))),
+          std::back_inserter(hits));
+      all_hits += static_cast<std::int64_t>(hits.size());
+      HeightRange column;
+      for (const Tree::Primitive_id hit : hits) {
+        const auto k = static_cast<std::size_t>(hit - data.triangles.cbegin());
+        const HeightRange heights = heights_over(local[k], bottom);
+        column.add(heights.low);
+        column.add(heights.high);
+      }
+      field.upper(i, j) = column.high;
+      field.lower(i, j) = column.low;
+    }
+  };
+  tbb::parallel_for(tbb::blocked_range<int>(0, window.rows), [&](const tbb::blocked_range<int>& rows) {
+    std::vector<Tree::Primitive_id> hits;
+    for (int j = rows.begin(); j < rows.end(); ++j) cast_row(j, hits);
+  });
+  if (all_hits > max_hits)
+    throw InputError("the rays meet more than " + std::to_string(max_hits) + " triangles");
+  return field;
+}
+
+HeightField height_field_by_rays(const Shape& shape, const Direction& direction, const Window& window) {
+  return RayCaster(shape).cast(direction, window);
+}
+
+}  // namespace stackabilization

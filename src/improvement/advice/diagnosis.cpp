@@ -1,0 +1,333 @@
+#include "stackabilization/improvement/diagnosis.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "improvement/contacts/contact_symmetry.h"
+#include "improvement/search/refusal_reason.h"
+#include "stackabilization/core/direction_text.h"
+#include "stackabilization/improvement/removal.h"
+#include "stackabilization/stacking/search.h"
+
+namespace stackabilization {
+
+namespace {
+
+/// What raises S by less is no help.
+constexpr double worth_saying = 0.01;
+constexpr int most_blockers = 4;
+constexpr std::size_t most_constraints = 3, most_removals = 3;
+
+std::string number(double value, int digits = 3) {
+  char buffer[64];
+  const double unit = std::pow(10, digits);
+  const double rounded = std::round(unit * value) / unit + 0.0;  // no -0.000
+  const auto end =
+      std::to_chars(buffer, buffer + sizeof buffer, rounded, std::chars_format::fixed, digits).ptr;
+  return {buffer, end};
+}
+
+/// With as many digits as tell it from `other`.
+std::string number_unlike(double value, double other) {
+  int digits = 3;
+  while (digits < 9 && number(value, digits) == number(other, digits)) ++digits;
+  return number(value, digits);
+}
+
+std::string names(const std::vector<int>& parts, const Shape& shape) {
+  std::string text;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (k > 0) text += k + 1 < parts.size() ? ", " : " and ";
+    text += "'" + shape.part_names[static_cast<std::size_t>(parts[k])] + "'";
+  }
+  return text;
+}
+
+bool contains(const std::vector<int>& parts, int part) {
+  return std::find(parts.begin(), parts.end(), part) != parts.end();
+}
+
+/// A limit of directions, at least 1.
+std::int64_t whole_directions(double count) {
+  constexpr auto most = std::numeric_limits<std::int64_t>::max();
+  if (!(count < static_cast<double>(most))) return most;
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(count));
+}
+
+/// What became of the edits that would separate regions.
+struct Trial {
+  double best = 0;  ///< largest S; the S before where no edit was made
+  std::map<std::string, int> refusals;
+  int made = 0;
+  bool stopped = false;  ///< before all of them were tried
+};
+
+class Diagnostician {
+ public:
+  Diagnostician(const RequirementChecker& checker, const BestFirstResult& result,
+                const DiagnosisOptions& options)
+      : checker_(checker),
+        result_(result),
+        options_(options),
+        best_(result.nearest.front()),
+        rest_(checker.space().rest()),
+        direction_(best_.direction),
+        handles_(checker.space().handles()),
+        solver_(best_.design.shape, checker.requirements().measure) {}
+
+  Diagnosis run() {
+    diagnosis_.target = checker_.needed(best_.measured);
+    diagnosis_.reached = best_.measured.value;
+    diagnosis_.direction = best_.direction;
+    find_blockers();
+    for (const RefusalCount& refusal : result_.refusals) {
+      if (diagnosis_.constraints.size() == most_constraints) break;
+      diagnosis_.constraints.push_back(refusal.reason + " (" + std::to_string(refusal.count) +
+                                       (refusal.count == 1 ? " edit)" : " edits)"));
+    }
+    if (!stopped()) free_parts();
+    if (!stopped()) relax();
+    if (!stopped()) remove_parts();
+    if (!stopped()) look_elsewhere();
+    std::stable_sort(diagnosis_.remedies.begin(), diagnosis_.remedies.end(),
+                     [](const Remedy& a, const Remedy& b) { return a.stackability > b.stackability; });
+    return std::move(diagnosis_);
+  }
+
+ private:
+  const std::string& name(int part) const { return rest_.shape.part_names[static_cast<std::size_t>(part)]; }
+
+  double designs_left() const { return options_.designs - static_cast<double>(designs_); }
+
+  bool stopped() const { return designs_left() <= 0 || (options_.cancelled && options_.cancelled()); }
+
+  bool helps(double stackability) const { return stackability > diagnosis_.reached + worth_saying; }
+
+  void find_blockers() {
+    const Separation separation = solver_.separation(direction_);
+    if (!separation.blocked) return;
+    ContactOptions contacts;
+    contacts.semantics = checker_.requirements().measure.semantics;
+    const std::vector<ContactRegion> all =
+        contact_regions({best_.design.shape, solver_.tree(), direction_, separation}, contacts).regions;
+    const detail::ContactSymmetry symmetry(rest_.structure);
+    for (const int row : detail::different_regions(all, symmetry, most_blockers)) {
+      regions_.push_back(all[static_cast<std::size_t>(row)]);
+      diagnosis_.blockers.push_back(blocker(regions_.back()));
+    }
+    std::stable_sort(diagnosis_.blockers.begin(), diagnosis_.blockers.end(),
+                     [](const Blocker& a, const Blocker& b) { return a.f > b.f; });
+  }
+
+  Blocker blocker(const ContactRegion& region) {
+    Blocker blocker;
+    blocker.upper_part = region.upper_part;
+    blocker.lower_part = region.lower_part;
+    blocker.type = region.type;
+    const SeparationTree below(extract_part(best_.design.shape, region.upper_part)),
+        above(extract_part(best_.design.shape, region.lower_part));
+    SeparationOptions options;
+    options.semantics = checker_.requirements().measure.semantics;
+    const Stackability& measured = best_.measured;
+    const Separation apart = separation(below, above, direction_, options);
+    blocker.f = apart.blocked ? apart.length : measured.f_max;
+    blocker.stackability =
+        1 - blocker.f / measured.extent * (measured.stack_box_volume / measured.box_volume);
+    if (const auto trial = tried({region}, constraints(checker_.requirements())))
+      blocker.reason = reason_of(*trial);
+    return blocker;
+  }
+
+  DeformationConstraints constraints(const Requirements& requirements) const {
+    return deformation_constraints(requirements, rest_, direction_);
+  }
+
+  /// All edits that these regions suggest, each by itself; nothing when that is too many, or cancelled.
+  std::optional<Trial> tried(const std::vector<ContactRegion>& regions,
+                             const DeformationConstraints& constraints) {
+    if (stopped()) return std::nullopt;
+    const DesignSpace& space = checker_.space();
+    const std::vector<ContactEdit> edits =
+        contact_edits({rest_, space.kind(), handles_, best_.design, regions, direction_, space.centres()});
+    if (static_cast<double>(edits.size()) > designs_left()) return std::nullopt;
+    designs_ += static_cast<std::int64_t>(edits.size());
+    std::vector<std::optional<std::string>> refusals(edits.size());
+    std::vector<double> reached(edits.size(), best_.measured.value);
+    std::atomic<bool> cut_short = false;
+    tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
+      if (cut_short || stopped()) {
+        cut_short = true;
+        return;
+      }
+      const DesignOutcome outcome = space.edited(best_.design, edits[k].edit, constraints);
+      if (outcome.refusal)
+        refusals[k] = detail::without_amounts(outcome.refusal->reason);
+      else if (const auto better = checker_.measured_above(outcome.design.shape, direction_, reached[k]))
+        reached[k] = std::max(reached[k], better->value);
+    });
+    Trial trial;
+    trial.stopped = cut_short;
+    trial.best = best_.measured.value;
+    for (std::size_t k = 0; k < edits.size(); ++k) {
+      trial.best = std::max(trial.best, reached[k]);
+      if (refusals[k])
+        ++trial.refusals[*refusals[k]];
+      else
+        ++trial.made;
+    }
+    return trial;
+  }
+
+  std::string reason_of(const Trial& trial) const {
+    if (trial.stopped && !helps(trial.best))
+      return "time was up before every edit that may separate it was tried";
+    if (trial.made == 0 && trial.refusals.empty())
+      return "no edit would separate it: symmetries and the height that is kept leave none";
+    if (trial.made > 0)
+      return helps(trial.best)
+                 ? "one more edit would give S = " + number(trial.best)
+                 : "edits separate it, but other contacts ask for as much, or it takes more than one edit";
+    const auto most = std::max_element(trial.refusals.begin(), trial.refusals.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    return "every edit that would separate it is refused, most because " + most->first;
+  }
+
+  void look_elsewhere() {
+    const StackabilitySolver rest(rest_.shape, checker_.requirements().measure);
+    SearchOptions options;
+    options.cancelled = options_.cancelled;
+    options.max_directions = whole_directions(designs_left() * options_.directions_per_design);
+    for (const Symmetry& symmetry : rest_.structure.symmetries) options.candidates.push_back(symmetry.axis);
+    const Stackability best = best_direction(rest, options).best;
+    if (!helps(best.value)) return;
+    add({Remedy::Kind::other_direction,
+         "stack " + direction_text(best.direction) + ", without any edit",
+         {},
+         best.direction,
+         best.value});
+  }
+
+  /// The blocking parts that have to stay, one class of symmetric ones at a time.
+  void free_parts() {
+    const Requirements& asked = checker_.requirements();
+    for (const std::vector<int>& parts : symmetric_classes(rest_.structure)) {
+      const bool blocks = std::any_of(regions_.begin(), regions_.end(), [&](const ContactRegion& region) {
+        return contains(parts, region.upper_part) || contains(parts, region.lower_part);
+      });
+      const auto stays = [&](int part) {
+        return contains(asked.kept_parts, part) ||
+               (!asked.editable_parts.empty() && !contains(asked.editable_parts, part));
+      };
+      if (!blocks || std::none_of(parts.begin(), parts.end(), stays)) continue;
+      Requirements freed = asked;
+      std::erase_if(freed.kept_parts, [&](int part) { return contains(parts, part); });
+      if (!freed.editable_parts.empty())
+        freed.editable_parts.insert(freed.editable_parts.end(), parts.begin(), parts.end());
+      offer(Remedy::Kind::free_part, "let " + names(parts, rest_.shape) + " change", freed, parts);
+    }
+  }
+
+  void relax() {
+    Requirements relaxed = checker_.requirements();
+    if (relaxed.keep_height) {
+      relaxed.keep_height = false;
+      offer(Remedy::Kind::relax, "let the height change", relaxed, {});
+    }
+    relaxed = checker_.requirements();
+    if (relaxed.box_tolerance) {
+      relaxed.box_tolerance.reset();
+      offer(Remedy::Kind::relax, "let the box change", relaxed, {});
+    }
+  }
+
+  /// A remedy when one edit helps that is refused without it.
+  void offer(Remedy::Kind kind, const std::string& what, const Requirements& instead,
+             const std::vector<int>& parts) {
+    const std::optional<Trial> trial = tried(regions_, constraints(instead));
+    if (!trial || !helps(trial->best)) return;
+    const std::optional<double> as_asked = best_as_asked();
+    if (as_asked && trial->best > *as_asked + worth_saying)
+      add({kind, what, parts, best_.direction, trial->best});
+  }
+
+  std::optional<double> best_as_asked() {
+    if (!as_asked_)
+      if (const auto trial = tried(regions_, constraints(checker_.requirements()))) as_asked_ = trial->best;
+    return as_asked_;
+  }
+
+  void remove_parts() {
+    RemovalOptions options;
+    options.measure = checker_.requirements().measure;
+    options.directions = {best_.direction};
+    options.cancelled = options_.cancelled;
+    std::size_t offered = 0;
+    for (const Removal& removal : removals(rest_, options)) {
+      if (offered == most_removals || !helps(removal.stackability)) break;
+      const bool all_may_go = std::none_of(removal.parts.begin(), removal.parts.end(), [&](int part) {
+        return contains(checker_.requirements().kept_parts, part);
+      });
+      if (!all_may_go) continue;
+      add({Remedy::Kind::remove_part, "leave out " + names(removal.parts, rest_.shape), removal.parts,
+           removal.direction, removal.stackability});
+      ++offered;
+    }
+  }
+
+  void add(Remedy remedy) { diagnosis_.remedies.push_back(std::move(remedy)); }
+
+  const RequirementChecker& checker_;
+  const BestFirstResult& result_;
+  const DiagnosisOptions& options_;
+  const Candidate& best_;
+  const StructuredShape& rest_;
+  Direction direction_;
+  std::vector<Handle> handles_;
+  StackabilitySolver solver_;
+  std::vector<ContactRegion> regions_;  ///< one of each class of symmetric ones
+  std::optional<double> as_asked_;      ///< best S after one more edit
+  std::int64_t designs_ = 0;            ///< made so far
+  Diagnosis diagnosis_;
+};
+
+std::string sentence(const Blocker& blocker, const Shape& shape) {
+  const std::string above = names({blocker.lower_part}, shape), below = names({blocker.upper_part}, shape);
+  const char* how = blocker.type == ContactType::ring   ? " all around"
+                    : blocker.type == ContactType::line ? " along a line"
+                                                        : "";
+  return above + " of each copy comes down on " + below + " of the copy below" + how +
+         ". These two alone leave S = " + number(blocker.stackability) +
+         (blocker.reason.empty() ? "" : ": " + blocker.reason) + ".\n";
+}
+
+}  // namespace
+
+Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& result,
+                    const DiagnosisOptions& options) {
+  return Diagnostician(checker, result, options).run();
+}
+
+std::string text(const Diagnosis& diagnosis, const StructuredShape& rest) {
+  std::string text = "S = " + number(diagnosis.target) + " was not reached; the best is S = " +
+                     number_unlike(diagnosis.reached, diagnosis.target) + " " +
+                     direction_text(diagnosis.direction) + ".\n";
+  for (const Blocker& blocker : diagnosis.blockers) text += sentence(blocker, rest.shape);
+  if (!diagnosis.constraints.empty()) text += "What stood against edits most often:\n";
+  for (const std::string& constraint : diagnosis.constraints) text += "  " + constraint + "\n";
+  if (diagnosis.remedies.empty()) return text + "No single change was found that would help.\n";
+  text += "What would help:\n";
+  for (const Remedy& remedy : diagnosis.remedies)
+    text += "  " + remedy.what + ": S = " + number(remedy.stackability) + "\n";
+  return text;
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,149 @@
+#include "stackabilization/improvement/design.h"
+
+#include "improvement/design/carried_primitives.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/deformation/controller_model.h"
+#include "stackabilization/deformation/gap_scaling.h"
+#include "stackabilization/deformation/iwires_model.h"
+#include "stackabilization/deformation/surface_model.h"
+
+namespace stackabilization {
+
+namespace {
+
+std::vector<Edit> with(std::vector<Edit> edits, const Edit& edit) {
+  edits.push_back(edit);
+  return edits;
+}
+
+/// Goes on from the primitives that a design has.
+class ControllerDesigns : public DesignSpace {
+ public:
+  explicit ControllerDesigns(StructuredShape rest) : model_(std::move(rest), {max_design_joint_points}) {}
+
+  const StructuredShape& rest() const override { return model_.rest(); }
+  DeformationKind kind() const override { return DeformationKind::controllers; }
+  std::vector<Handle> handles() const override { return model_.handles(); }
+  Design at_rest() const override { return {{}, model_.rest_primitives(), model_.rest().shape}; }
+
+  DesignOutcome edited(const Design& now, const Edit& edit,
+                       const DeformationConstraints& constraints) const override {
+    EditOutcome outcome = model_.edited(now.primitives, edit, constraints);
+    if (outcome.refusal) return {std::move(outcome.refusal), now};
+    Shape shape = model_.shape_of(outcome.primitives);
+    return {std::nullopt, {with(now.edits, edit), std::move(outcome.primitives), std::move(shape)}};
+  }
+
+  /// The mesh follows from the primitives alone, so it is made once.
+  DesignOutcome replayed(const std::vector<Edit>& edits,
+                         const DeformationConstraints& constraints) const override {
+    DesignOutcome result{std::nullopt, {{}, model_.rest_primitives(), {}}};
+    for (const Edit& edit : edits) {
+      EditOutcome outcome = model_.edited(result.design.primitives, edit, constraints);
+      if (outcome.refusal) {
+        result.refusal = std::move(outcome.refusal);
+        break;
+      }
+      result.design.primitives = std::move(outcome.primitives);
+      result.design.edits.push_back(edit);
+    }
+    result.design.shape =
+        result.design.edits.empty() ? model_.rest().shape : model_.shape_of(result.design.primitives);
+    return result;
+  }
+
+ private:
+  ControllerModel model_;
+};
+
+/// For models that know no primitives: makes all edits again, from rest.
+class CarriedDesigns : public DesignSpace {
+ public:
+  CarriedDesigns(StructuredShape rest, DeformationKind kind, std::unique_ptr<DeformationModel> model)
+      : rest_(std::move(rest)), kind_(kind), model_(std::move(model)), primitives_(rest_) {
+    for (const Handle& handle : model_->handles()) centres_.push_back(model_->centre(handle));
+  }
+
+  const StructuredShape& rest() const override { return rest_; }
+  DeformationKind kind() const override { return kind_; }
+  std::vector<Handle> handles() const override { return model_->handles(); }
+  std::vector<Eigen::Vector3d> centres() const override { return centres_; }
+  Design at_rest() const override { return {{}, primitives_.at(rest_.shape.vertices), rest_.shape}; }
+
+  DesignOutcome edited(const Design& now, const Edit& edit,
+                       const DeformationConstraints& constraints) const override {
+    std::vector<Edit> edits = with(now.edits, edit);
+    DeformationResult result = model_->deformed(edits, constraints);
+    if (result.refusal) return {std::move(result.refusal), now};
+    std::vector<Primitive> primitives = primitives_.at(result.shape.vertices);
+    return {std::nullopt, {std::move(edits), std::move(primitives), std::move(result.shape)}};
+  }
+
+ private:
+  StructuredShape rest_;
+  DeformationKind kind_;
+  std::unique_ptr<DeformationModel> model_;
+  detail::CarriedPrimitives primitives_;
+  std::vector<Eigen::Vector3d> centres_;
+};
+
+/// Precondition: not of the controllers.
+std::unique_ptr<DeformationModel> primitiveless_model(const StructuredShape& rest,
+                                                      const DesignSpaceOptions& options) {
+  switch (options.kind) {
+    case DeformationKind::surface: {
+      SurfaceModelOptions surface;
+      surface.axis = options.direction.unit();
+      return surface_model(rest.shape, surface);
+    }
+    case DeformationKind::iwires: {
+      IWiresOptions wires;
+      wires.relations.symmetries = rest.structure.symmetries;
+      return std::make_unique<IWiresModel>(rest.shape, wires);
+    }
+    case DeformationKind::gap_scaling:
+      return gap_scaling(rest.shape, options.direction);
+    case DeformationKind::controllers:
+      break;
+  }
+  throw UsageError("an unknown deformation model was asked for");
+}
+
+}  // namespace
+
+std::string name_of(DeformationKind kind) {
+  switch (kind) {
+    case DeformationKind::controllers:
+      return "controllers";
+    case DeformationKind::surface:
+      return "surface";
+    case DeformationKind::iwires:
+      return "iwires";
+    case DeformationKind::gap_scaling:
+      return "gap-scaling";
+  }
+  return {};
+}
+
+DesignOutcome DesignSpace::replayed(const std::vector<Edit>& edits,
+                                    const DeformationConstraints& constraints) const {
+  DesignOutcome outcome{std::nullopt, at_rest()};
+  for (const Edit& edit : edits) {
+    outcome = edited(outcome.design, edit, constraints);
+    if (outcome.refusal) break;
+  }
+  return outcome;
+}
+
+std::unique_ptr<DesignSpace> design_space(StructuredShape rest, const DesignSpaceOptions& options) {
+  if (rest.structure.parts.size() > max_design_parts)
+    throw InputError("it has " + std::to_string(rest.structure.parts.size()) +
+                     " parts, and designs are made of at most " + std::to_string(max_design_parts));
+  if (options.kind == DeformationKind::controllers)
+    return std::make_unique<ControllerDesigns>(std::move(rest));
+  validate(rest);
+  std::unique_ptr<DeformationModel> model = primitiveless_model(rest, options);
+  return std::make_unique<CarriedDesigns>(std::move(rest), options.kind, std::move(model));
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,73 @@
+#include "improvement/design/distinct.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <variant>
+
+#include "core/disjoint_sets.h"
+#include "stackabilization/core/tolerances.h"
+#include "stackabilization/improvement/shape_change.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Two designs are different when the change between them is at least this fraction of the smaller of their
+/// changes from rest; where other handles are taken hold of, or moved otherwise, less will do.
+constexpr double far_apart = 0.5;
+constexpr double apart = 0.1;
+
+void set_direction(Gesture& gesture, const Eigen::Vector3d& vector) {
+  const double length = vector.norm();
+  if (!(length > 0)) return;
+  gesture.x = static_cast<int>(std::lround(vector.x() / length));
+  gesture.y = static_cast<int>(std::lround(vector.y() / length));
+  gesture.z = static_cast<int>(std::lround(vector.z() / length));
+}
+
+}  // namespace
+
+Distinctness::Distinctness(const StructuredShape& rest) : rest_(rest) {
+  const std::size_t count = rest.structure.parts.size();
+  DisjointSets classes(count);
+  for (const Relation& relation : rest.structure.relations)
+    if (relation.type == RelationType::symmetry)
+      classes.join(static_cast<std::size_t>(relation.parts[0]), static_cast<std::size_t>(relation.parts[1]));
+  for (std::size_t part = 0; part < count; ++part)
+    part_class_.push_back(static_cast<int>(classes.root(part)));
+}
+
+Gesture Distinctness::gesture(const Edit& edit) const {
+  Gesture gesture;
+  const auto part = static_cast<std::size_t>(edit.handle.part);
+  if (part < part_class_.size()) gesture.part_class = part_class_[part];
+  gesture.handle_kind = static_cast<int>(edit.handle.kind);
+  gesture.index = edit.handle.index;
+  gesture.operation = static_cast<int>(edit.operation.index());
+  gesture.falloff = static_cast<int>(edit.falloff);
+  if (const auto* move = std::get_if<Move>(&edit.operation)) set_direction(gesture, move->by);
+  if (const auto* turn = std::get_if<Rotate>(&edit.operation)) set_direction(gesture, turn->axis);
+  if (const auto* scale = std::get_if<Scale>(&edit.operation)) gesture.x = scale->factor > 1 ? 1 : -1;
+  return gesture;
+}
+
+std::vector<Gesture> Distinctness::gestures(const std::vector<Edit>& edits) const {
+  std::vector<Gesture> gestures;
+  for (const Edit& edit : edits) gestures.push_back(gesture(edit));
+  std::sort(gestures.begin(), gestures.end());
+  gestures.erase(std::unique(gestures.begin(), gestures.end()), gestures.end());
+  return gestures;
+}
+
+bool Distinctness::differ(const Design& a, const Design& b) const {
+  const auto change = [](const Shape& from, const Shape& to) {
+    return shape_change(from, to).root_mean_square;
+  };
+  const double from_rest = std::min(change(rest_.shape, a.shape), change(rest_.shape, b.shape));
+  const double between = change(a.shape, b.shape);
+  const bool same_gestures = gestures(a.edits) == gestures(b.edits);
+  return between > tolerance::relative && between >= (same_gestures ? far_apart : apart) * from_rest;
+}
+
+}  // namespace stackabilization::detail

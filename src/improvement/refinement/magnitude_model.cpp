@@ -1,0 +1,219 @@
+#include "improvement/refinement/magnitude_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "numerics/quadratic_programme.h"
+#include "stackabilization/core/tolerances.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Parabolas that stand for the length of a displacement, one after the other.
+constexpr int most_parabolas = 3;
+
+/// Cuts that stay, the nearest to being active, and how far below 0 they may lie: shortfalls are of S.
+constexpr std::size_t most_cuts = 400;
+constexpr double far_below = 0.5;
+
+/// Corrections take back more than what falls short, so that they do not come up to the border from outside.
+constexpr double excess = 2;
+
+using Vector = Eigen::Map<const Eigen::VectorXd>;
+
+Vector vector_of(const Magnitudes& x) {
+  return Vector(x.data(), static_cast<Eigen::Index>(x.size()));
+}
+
+}  // namespace
+
+/// Variables are the step, then the slacks: one per change, or the largest shortfall.
+class MagnitudeModel::Programme {
+ public:
+  explicit Programme(const MagnitudeModel& model)
+      : model_(model), size_(static_cast<Eigen::Index>(model.centre_.size())) {
+    levels_.resize(static_cast<Eigen::Index>(model.cuts_.size()));
+    for (Eigen::Index c = 0; c < levels_.size(); ++c) levels_(c) = model.level(cut(c));
+  }
+
+  QuadraticMinimum step(const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest) const {
+    QuadraticProgramme programme = linear_part(lowest, highest);
+    if (minimal_shortfall() || gram().size() == 0) return minimum(programme);
+    QuadraticMinimum result{Eigen::VectorXd::Zero(size_), {}};
+    // The length is below any parabola that touches it: minima of these come down to its own.
+    for (int round = 0; round < most_parabolas; ++round) {
+      const double length = std::max(displacement(result.x.head(size_)), tolerance::relative * scale());
+      programme.q.topLeftCorner(size_, size_) = gram().bottomRightCorner(size_, size_) / (length * scale());
+      programme.c.head(size_) = gram().col(0).tail(size_) / (length * scale());
+      result = minimum(programme);
+    }
+    return result;
+  }
+
+  /// Of a minimum, see Step::pull.
+  Eigen::VectorXd pull(const QuadraticMinimum& minimum) const {
+    return scale() * (minimum.multipliers.head(size_) + minimum.multipliers.segment(size_, size_));
+  }
+
+  /// The merit after a step.
+  double merit(const Eigen::VectorXd& step) const {
+    if (minimal_shortfall()) {
+      double largest = -std::numeric_limits<double>::infinity();
+      for (Eigen::Index c = 0; c < levels_.size(); ++c)
+        largest = std::max(largest, levels_(c) + cut(c).slope.dot(step));
+      return largest;
+    }
+    double sum = model_.constant_ + displacement(step);
+    for (const Row& change : model_.changes_) sum += std::abs(change(0) + change.tail(size_).dot(step));
+    return sum;
+  }
+
+ private:
+  bool minimal_shortfall() const { return model_.goal_ == MagnitudeGoal::feasible; }
+  const Cut& cut(Eigen::Index c) const { return model_.cuts_[static_cast<std::size_t>(c)]; }
+  const Eigen::MatrixXd& gram() const { return model_.slopes_.gram; }
+  /// What changes are divided by.
+  double scale() const { return minimal_shortfall() || !(model_.base_.change > 0) ? 1 : model_.base_.change; }
+
+  double displacement(const Eigen::VectorXd& step) const {
+    if (gram().size() == 0) return 0;
+    Eigen::VectorXd from(step.size() + 1);
+    from << 1, step;
+    return std::sqrt(std::max(0.0, from.dot(gram() * from)));
+  }
+
+  /// The programme but for the displacement.
+  QuadraticProgramme linear_part(const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest) const {
+    const auto changes = static_cast<Eigen::Index>(model_.changes_.size());
+    const Eigen::Index slacks = minimal_shortfall() ? 1 : changes;
+    const Eigen::Index count = size_ + slacks, rows = 2 * size_ + 2 * changes + levels_.size();
+    QuadraticProgramme programme{Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count),
+                                 Eigen::MatrixXd::Zero(rows, count), Eigen::VectorXd::Zero(rows)};
+    programme.c.tail(slacks).setOnes();
+    programme.a.topLeftCorner(size_, size_).setIdentity();
+    programme.a.block(size_, 0, size_, size_) = -Eigen::MatrixXd::Identity(size_, size_);
+    programme.b.head(2 * size_) << highest, -lowest;
+    Eigen::Index row = 2 * size_;
+    for (Eigen::Index g = 0; g < changes; ++g)
+      for (const double sign : {1.0, -1.0}) {
+        const Row& change = model_.changes_[static_cast<std::size_t>(g)];
+        programme.a.row(row).head(size_) = sign * change.tail(size_) / scale();
+        programme.a(row, size_ + g) = -1;
+        programme.b(row++) = -sign * change(0) / scale();
+      }
+    for (Eigen::Index c = 0; c < levels_.size(); ++c, ++row) {
+      programme.a.row(row).head(size_) = cut(c).slope;
+      if (minimal_shortfall()) programme.a(row, size_) = -1;
+      programme.b(row) = -levels_(c);
+    }
+    return programme;
+  }
+
+  const MagnitudeModel& model_;
+  Eigen::Index size_;
+  Eigen::VectorXd levels_;  ///< of the cuts, at the centre
+};
+
+MagnitudeModel::MagnitudeModel(MagnitudeGoal goal, Magnitudes centre, const MagnitudeSample& base,
+                               const MagnitudeSlopes& slopes)
+    : goal_(goal) {
+  move_to(std::move(centre), base, slopes);
+}
+
+double MagnitudeModel::merit(const MagnitudeSample& sample) const {
+  return goal_ == MagnitudeGoal::feasible ? sample.shortfalls.maxCoeff() : sample.change;
+}
+
+double MagnitudeModel::level(const Cut& cut) const {
+  return cut.value + cut.slope.dot(vector_of(centre_));
+}
+
+void MagnitudeModel::move_to(Magnitudes centre, const MagnitudeSample& base, const MagnitudeSlopes& slopes) {
+  centre_ = std::move(centre);
+  base_ = base;
+  slopes_ = slopes;
+  std::erase_if(cuts_, [&](const Cut& cut) {
+    return level(cut) > base.shortfalls[cut.row] + tolerance::target || level(cut) < -far_below;
+  });
+  if (cuts_.size() > most_cuts) {
+    std::stable_sort(cuts_.begin(), cuts_.end(),
+                     [&](const Cut& a, const Cut& b) { return level(a) > level(b); });
+    cuts_.resize(most_cuts);
+  }
+  changes_.clear();
+  constant_ = 0;
+  if (goal_ == MagnitudeGoal::unchanged) group_changes(base, slopes);
+  add(centre_, base, slopes);
+}
+
+/// Changes that are multiples of each other, as values and slopes, have one slack for all: symmetric parts,
+/// mostly.
+void MagnitudeModel::group_changes(const MagnitudeSample& base, const MagnitudeSlopes& slopes) {
+  std::vector<Row> shapes;
+  for (Eigen::Index row = 0; row < base.changes.size(); ++row) {
+    Row change(1 + slopes.changes.cols());
+    change << base.changes[row], slopes.changes.row(row);
+    if (change.tail(change.size() - 1).norm() <= tolerance::magnitude * base.change) {
+      constant_ += std::abs(base.changes[row]);
+      continue;
+    }
+    const Row shape = change.normalized();
+    const auto same = std::find_if(shapes.begin(), shapes.end(), [&](const Row& other) {
+      return std::abs(shape.dot(other)) >= 1 - tolerance::magnitude;
+    });
+    if (same == shapes.end()) {
+      shapes.push_back(shape);
+      changes_.push_back(change);
+    } else {
+      changes_[static_cast<std::size_t>(same - shapes.begin())] +=
+          shape.dot(*same) < 0 ? Row(-change) : change;
+    }
+  }
+}
+
+void MagnitudeModel::add(const Magnitudes& at, const MagnitudeSample& sample, const MagnitudeSlopes& slopes) {
+  std::erase_if(cuts_, [](const Cut& cut) { return !cut.measured; });
+  for (Eigen::Index row = 0; row < sample.shortfalls.size(); ++row) {
+    const Row slope = slopes.shortfalls.row(row);
+    add({row, sample.shortfalls[row] - slope.dot(vector_of(at)), slope, true});
+  }
+}
+
+void MagnitudeModel::correct(const Magnitudes& at, const MagnitudeSample& sample) {
+  for (Eigen::Index row = 0; row < sample.shortfalls.size(); ++row) {
+    const Row slope = slopes_.shortfalls.row(row);
+    if (sample.shortfalls[row] > 0)
+      add({row, excess * sample.shortfalls[row] - slope.dot(vector_of(at)), slope, false});
+  }
+}
+
+/// Those that say the same as another are left out, and those that say nothing near the centre.
+void MagnitudeModel::add(Cut cut) {
+  // S is no convex function: what was seen far away may say too much of here.
+  if (cut.measured) cut.value -= std::max(0.0, level(cut) - base_.shortfalls[cut.row]);
+  const double now = level(cut);
+  if (goal_ == MagnitudeGoal::unchanged && now < -far_below) return;
+  const bool known = std::any_of(cuts_.begin(), cuts_.end(), [&](const Cut& other) {
+    return std::abs(level(other) - now) <= tolerance::magnitude &&
+           (other.slope - cut.slope).norm() <= tolerance::magnitude * (1 + cut.slope.norm());
+  });
+  if (!known) cuts_.push_back(std::move(cut));
+}
+
+MagnitudeModel::Step MagnitudeModel::step(const Magnitudes& lowest, const Magnitudes& highest) const {
+  const Eigen::VectorXd centre = vector_of(centre_);
+  const Eigen::VectorXd low = (vector_of(lowest) - centre).cwiseMin(0),
+                        high = (vector_of(highest) - centre).cwiseMax(0);
+  const Programme programme(*this);
+  const QuadraticMinimum minimum = programme.step(low, high);
+  const Eigen::VectorXd by = minimum.x.head(centre.size());
+  Step step{centre_, merit(base_) - programme.merit(by), programme.pull(minimum)};
+  for (std::size_t k = 0; k < centre_.size(); ++k)
+    step.to[k] = std::clamp(centre_[k] + by(static_cast<Eigen::Index>(k)), lowest[k], highest[k]);
+  return step;
+}
+
+}  // namespace stackabilization::detail

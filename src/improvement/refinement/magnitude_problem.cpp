@@ -1,0 +1,276 @@
+#include "improvement/refinement/magnitude_problem.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "improvement/requirements/proportions.h"
+#include "stackabilization/core/tolerances.h"
+#include "stackabilization/improvement/refinement.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Pairs of blocks count as near when they miss f_max, or what the target allows, by less than this fraction
+/// of the extent; so many at most.
+constexpr double near_band = 0.1;
+constexpr std::size_t most_pairs = 80;
+
+/// Shortfall of the whole shape where the pairs stand for it.
+constexpr double no_shortfall = -1;
+
+/// Less the shortfall, at least, of a pair that passes at any height: as it moves apart, what it asks for
+/// falls to what its lowest and highest points would, and then to nothing.
+constexpr double passing_surplus = 0.02;
+
+/// Whether the deformation cannot see to it: it keeps extent, relations and box by itself.
+bool is_open(const Check& check) {
+  return check.name == "thickness" || check.name == "draft" || check.name == "standing";
+}
+
+double shortfall(const Check& check) {
+  const double lack = check.demanded - check.value;
+  if (!std::isfinite(lack)) return check.passed ? -1 : 1;
+  return check.demanded > 0 ? lack / check.demanded : lack;
+}
+
+/// Changes whose magnitudes add up to D.
+Eigen::VectorXd in_a_row(const DistortionChanges& changes) {
+  Eigen::VectorXd row(changes.volume.size() + changes.proximity.size() + changes.box.size() + 1);
+  row << changes.volume, changes.proximity, changes.box, changes.symmetry;
+  return row / 4;
+}
+
+/// At most so many vertices, evenly chosen, tell how displacements vary.
+constexpr Eigen::Index most_vertices = 20000;
+
+Points some_rows(const Points& all) {
+  const Eigen::Index stride = (all.rows() + most_vertices - 1) / most_vertices;
+  if (stride <= 1) return all;
+  Points some((all.rows() + stride - 1) / stride, 3);
+  for (Eigen::Index row = 0; row < some.rows(); ++row) some.row(row) = all.row(row * stride);
+  return some;
+}
+
+/// S lost per unit of f_max.
+double loss_per_length(const Stackability& measured) {
+  return measured.stack_box_volume / (measured.extent * measured.box_volume);
+}
+
+}  // namespace
+
+MagnitudeProblem::MagnitudeProblem(const RequirementChecker& checker, std::vector<Edit> edits,
+                                   const Direction& direction, Limits limits)
+    : checker_(checker),
+      edits_(std::move(edits)),
+      direction_(direction),
+      limits_(std::move(limits)),
+      constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction)),
+      meter_(checker.space().rest(), checker.requirements().measure.boxes),
+      blocks_(checker.space().rest().shape, direction, checker.requirements().measure.semantics) {
+  const Requirements& asked = checker.requirements();
+  checks_ = asked.least_thickness || asked.least_draft_degrees || asked.standing_copies;
+}
+
+double MagnitudeProblem::handicap(const Stackability& measured) const {
+  return checker_.needed(measured) - checker_.requirements().target;
+}
+
+double MagnitudeProblem::aim() const {
+  return checker_.requirements().target + tolerance::target / 2;
+}
+
+bool MagnitudeProblem::stopped() const {
+  return evaluations_ >= limits_.evaluations || (limits_.cancelled && limits_.cancelled());
+}
+
+std::vector<Edit> MagnitudeProblem::edits(const Magnitudes& x) const {
+  std::vector<Edit> result;
+  for (std::size_t k = 0; k < edits_.size(); ++k)
+    if (x[k] != 0) result.push_back(with_magnitude(edits_[k], x[k]));
+  return result;
+}
+
+DesignOutcome MagnitudeProblem::design(const Magnitudes& x) const {
+  return checker_.space().replayed(edits(x), constraints_);
+}
+
+void MagnitudeProblem::constrain_pairs(const Magnitudes& x) {
+  samples_.clear();
+  pairs_.clear();
+  if (checker_.requirements().play > 0) return;
+  const Design design = this->design(x).design;
+  const Stackability whole = checker_.measured(design.shape, direction_);
+  const double allowed = (1 - aim() - handicap(whole)) / loss_per_length(whole);
+  const double clearance = checker_.requirements().clearance;
+  pairs_ = blocks_.pairs_above(design.shape,
+                               std::min(whole.f_max, allowed) - clearance - near_band * whole.extent);
+  if (pairs_.size() > most_pairs) pairs_.resize(most_pairs);
+}
+
+void MagnitudeProblem::measure_blocks(const Design& design, const Stackability& whole,
+                                      MagnitudeSample& sample) const {
+  const double loss = loss_per_length(whole), clearance = checker_.requirements().clearance;
+  const std::vector<BlockSeparation> separations = blocks_.separations(design.shape, pairs_);
+  double largest = 0;
+  for (std::size_t p = 0; p < pairs_.size(); ++p) {
+    const double f = separations[p].f + clearance, lack = aim() + handicap(whole) - (1 - f * loss);
+    sample.shortfalls[static_cast<Eigen::Index>(p) + 1] =
+        separations[p].blocked ? lack : std::min(lack, -passing_surplus);
+    if (separations[p].blocked) largest = std::max(largest, f);
+  }
+  const bool covered = !pairs_.empty() && largest >= whole.f_max - tolerance::relative * whole.extent;
+  sample.shortfalls[0] = covered ? no_shortfall : aim() - sample.stackability;
+}
+
+MagnitudeProblem::Measured MagnitudeProblem::measured(const Magnitudes& x) const {
+  Measured result;
+  MagnitudeSample& sample = result.sample;
+  const DesignOutcome outcome = design(x);
+  if (outcome.refusal) return result;
+  sample.made = true;
+  if (limits_.measure != ChangeMeasure::displacement) {
+    const DistortionChanges changes = meter_.changes(outcome.design);
+    sample.change = changes.distortion().total();
+    sample.changes = in_a_row(changes);
+  }
+  if (limits_.measure != ChangeMeasure::distortion) {
+    const Points moved = displacements(checker_.space().rest().shape, outcome.design.shape);
+    sample.displacement = root_mean_square(moved);
+    sample.change += sample.displacement;
+    result.moved = some_rows(moved);
+  }
+  Assessment assessment;
+  if (checks_) {
+    assessment = checker_.checked(outcome.design, direction_);
+  } else {
+    assessment.measured = checker_.measured(outcome.design.shape, direction_);
+  }
+  std::erase_if(assessment.checks, [](const Check& check) { return !is_open(check); });
+  sample.stackability = assessment.measured.value - handicap(assessment.measured);
+  const Requirements& asked = checker_.requirements();
+  const double proportion = least_proportion(checker_.space().rest(), outcome.design).ratio;
+  sample.passes =
+      proportion >= asked.least_proportion && std::all_of(assessment.checks.begin(), assessment.checks.end(),
+                                                          [](const Check& c) { return c.passed; });
+  sample.feasible = sample.passes && sample.stackability >= asked.target + tolerance::stackability;
+  const auto of_pairs = static_cast<Eigen::Index>(pairs_.size()) + 1;
+  const auto checks = static_cast<Eigen::Index>(assessment.checks.size());
+  sample.shortfalls.resize(of_pairs + checks + 1);
+  measure_blocks(outcome.design, assessment.measured, sample);
+  for (Eigen::Index c = 0; c < checks; ++c)
+    sample.shortfalls[of_pairs + c] = shortfall(assessment.checks[static_cast<std::size_t>(c)]);
+  sample.shortfalls[of_pairs + checks] = asked.least_proportion + tolerance::magnitude - proportion;
+  return result;
+}
+
+std::vector<MagnitudeProblem::Measured> MagnitudeProblem::measured(
+    const std::vector<Magnitudes>& points, const std::function<bool()>& cancelled) const {
+  std::vector<Measured> made(points.size());
+  std::atomic<bool> stopped = false;
+  const auto ask = [&, caller = std::this_thread::get_id()] {
+    if (cancelled && std::this_thread::get_id() == caller && cancelled()) stopped = true;
+    return stopped.load();
+  };
+  tbb::parallel_for(std::size_t{0}, points.size(), [&](std::size_t k) {
+    if (!ask()) made[k] = measured(points[k]);
+  });
+  return made;
+}
+
+void MagnitudeProblem::remember(const Magnitudes& x, MagnitudeSample sample) {
+  ++evaluations_;
+  if (sample.feasible && (!best_ || sample.change < best_change_)) {
+    best_ = x;
+    best_change_ = sample.change;
+  }
+  if (sample.passes && (!nearest_ || sample.stackability > nearest_stackability_)) {
+    nearest_ = x;
+    nearest_stackability_ = sample.stackability;
+  }
+  samples_.emplace(x, std::move(sample));
+}
+
+void MagnitudeProblem::prefer(const Magnitudes& x) {
+  best_ = x;
+  best_change_ = samples_.at(x).change;
+}
+
+void MagnitudeProblem::prepare(const std::vector<Magnitudes>& points) {
+  std::vector<Magnitudes> fresh;
+  for (const Magnitudes& x : points)
+    if (!samples_.contains(x) && std::find(fresh.begin(), fresh.end(), x) == fresh.end()) fresh.push_back(x);
+  std::vector<Measured> made = measured(fresh, {});
+  for (std::size_t k = 0; k < fresh.size(); ++k) remember(fresh[k], std::move(made[k].sample));
+}
+
+const MagnitudeSample& MagnitudeProblem::at(const Magnitudes& x) {
+  prepare({x});
+  return samples_.at(x);
+}
+
+MagnitudeSlopes MagnitudeProblem::slopes(const Magnitudes& x) {
+  std::vector<double> steps(size());
+  std::vector<Magnitudes> points{x};
+  const auto neighbour = [&x](std::size_t k, double step) {
+    Magnitudes y = x;
+    y[k] += step;
+    return y;
+  };
+  for (std::size_t k = 0; k < size(); ++k) {
+    steps[k] = x[k] + step_ <= highest() ? step_ : -step_;
+    points.push_back(neighbour(k, steps[k]));
+  }
+  std::vector<Measured> made = measured(points, limits_.cancelled);
+  if (!made.front().sample.made) {  // cancelled
+    const auto columns = static_cast<Eigen::Index>(size());
+    return {Eigen::MatrixXd::Zero(at(x).changes.size(), columns),
+            Eigen::MatrixXd::Zero(at(x).shortfalls.size(), columns),
+            {},
+            std::vector<bool>(size())};
+  }
+  std::vector<std::size_t> refused;
+  std::vector<Magnitudes> others;
+  for (std::size_t k = 0; k < size(); ++k) {
+    if (made[k + 1].sample.made) continue;
+    refused.push_back(k);
+    steps[k] = -steps[k];
+    others.push_back(neighbour(k, steps[k]));
+  }
+  std::vector<Measured> instead = measured(others, {});
+  for (std::size_t i = 0; i < refused.size(); ++i) made[refused[i] + 1] = std::move(instead[i]);
+  for (std::size_t k = 0; k <= size(); ++k)
+    remember(k == 0 ? x : neighbour(k - 1, steps[k - 1]), made[k].sample);
+  return differences(made, steps);
+}
+
+MagnitudeSlopes MagnitudeProblem::differences(const std::vector<Measured>& made,
+                                              const std::vector<double>& steps) const {
+  const MagnitudeSample& base = made.front().sample;
+  const auto columns = static_cast<Eigen::Index>(steps.size());
+  MagnitudeSlopes result{Eigen::MatrixXd::Zero(base.changes.size(), columns),
+                         Eigen::MatrixXd::Zero(base.shortfalls.size(), columns),
+                         {},
+                         std::vector<bool>(steps.size())};
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(made.front().moved.size(), columns + 1);
+  moved.col(0) = made.front().moved.reshaped();
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const MagnitudeSample& there = made[k + 1].sample;
+    if (!there.made || !base.made) continue;
+    result.made[k] = true;
+    const auto column = static_cast<Eigen::Index>(k);
+    result.changes.col(column) = (there.changes - base.changes) / steps[k];
+    result.shortfalls.col(column) = (there.shortfalls - base.shortfalls) / steps[k];
+    if (moved.rows() > 0)
+      moved.col(column + 1) = (made[k + 1].moved.reshaped() - made.front().moved.reshaped()) / steps[k];
+  }
+  if (moved.rows() > 0) result.gram = 3 * moved.transpose() * moved / static_cast<double>(moved.rows());
+  return result;
+}
+
+}  // namespace stackabilization::detail

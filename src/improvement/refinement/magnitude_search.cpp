@@ -1,0 +1,225 @@
+#include "improvement/refinement/magnitude_search.h"
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "improvement/refinement/magnitude_optimiser.h"
+#include "stackabilization/core/tolerances.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Uniform multiples of the magnitudes that are tried before anything else when the target is not reached.
+constexpr double multiples[] = {1.25, 1.5, 2, 3};
+
+/// Runs of the optimiser, each from the best point so far with its own pairs of blocks; one that lessens the
+/// change or raises S by less than this fraction gains nothing. For less change slopes are taken over short
+/// and over long steps in turn, until neither gains anything.
+constexpr int most_runs = 8;
+constexpr double least_progress = 0.001;
+
+/// Of longer lists that shrink to half by leaving out what is not needed the rest is refined afresh.
+constexpr std::size_t most_at_once = 6;
+
+/// The optimiser may use the evaluations up to this share of all: the rest is for what comes after.
+constexpr double share_of_descent = 0.8;
+
+/// Rounds of pulling back one magnitude after the other.
+constexpr int most_sweeps = 3;
+
+/// Steps of a search along a segment, and how far S must stay from what is aimed at, in multiples of the
+/// bracket, where the bracket is narrow, for a jump.
+constexpr std::uintmax_t most_steps = 40;
+constexpr double steep = 1000;
+
+/// Multiples less 1 of the other magnitudes that are tried when edits are left out, and the fraction by which
+/// the change may grow for that.
+constexpr double make_up[] = {
+    0, 1. / (1 << 20), 1. / (1 << 16), 1. / (1 << 12), 1. / (1 << 8), 1. / (1 << 6)};
+constexpr double spare_change = 0.005;
+
+Magnitudes scaled(Magnitudes x, double factor) {
+  for (double& magnitude : x) magnitude *= factor;
+  return x;
+}
+
+/// How many edits change something.
+std::size_t made(const Magnitudes& x) {
+  return x.size() - static_cast<std::size_t>(std::count(x.begin(), x.end(), 0.0));
+}
+
+class MagnitudeSearch {
+ public:
+  MagnitudeSearch(MagnitudeProblem& problem, const Magnitudes& given, const RefinementOptions& options)
+      : problem_(problem), given_(given), options_(options) {}
+
+  void run() {
+    if (!problem_.at(given_).feasible) reach();
+    if (!problem_.best()) return;
+    const std::size_t given = made(given_);
+    do_without();
+    pull_back();
+    if (given > most_at_once && 2 * made(*problem_.best()) <= given) return;
+    descend();
+    pull_back_singly();
+    leave_out();
+    pull_back();
+  }
+
+ private:
+  /// Phase 1: any feasible point.
+  void reach() {
+    std::vector<Magnitudes> larger;
+    for (const double factor : multiples)
+      if (factor <= options_.reach) larger.push_back(scaled(given_, factor));
+    problem_.prepare(larger);
+    for (int run = 0; run < most_runs && !problem_.best() && !problem_.stopped(); ++run) {
+      const Magnitudes from = problem_.nearest().value_or(given_);
+      const double before = problem_.nearest_stackability();
+      problem_.constrain_pairs(from);
+      optimised_magnitudes(problem_, {from, MagnitudeGoal::feasible});
+      if (problem_.nearest_stackability() - before < least_progress * (1 - before)) break;
+    }
+  }
+
+  /// Takes away edits that the target does not need, one after the other, those whose loss lessens the change
+  /// most first.
+  void do_without() {
+    const double given = problem_.best_change();
+    std::vector<std::pair<double, std::size_t>> spare;
+    for (const auto& [k, sample] : each_left_out(*problem_.best()))
+      if (sample.feasible && sample.change <= given) spare.emplace_back(sample.change, k);
+    std::sort(spare.begin(), spare.end());
+    for (const auto& [change, k] : spare) {
+      if (problem_.stopped()) return;
+      Magnitudes without = *problem_.best();
+      without[k] = 0;
+      const MagnitudeSample& sample = problem_.at(without);
+      if (sample.feasible && sample.change <= problem_.best_change()) problem_.prefer(without);
+    }
+  }
+
+  /// What becomes of `x` without one of its edits, by the row of that edit.
+  std::vector<std::pair<std::size_t, MagnitudeSample>> each_left_out(const Magnitudes& x) {
+    std::vector<std::size_t> rows;
+    std::vector<Magnitudes> fewer;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      if (x[k] == 0) continue;
+      rows.push_back(k);
+      fewer.push_back(x);
+      fewer.back()[k] = 0;
+    }
+    problem_.prepare(fewer);
+    std::vector<std::pair<std::size_t, MagnitudeSample>> result;
+    for (std::size_t i = 0; i < rows.size(); ++i) result.emplace_back(rows[i], problem_.at(fewer[i]));
+    return result;
+  }
+
+  /// Phase 2.
+  void descend() {
+    problem_.allow(static_cast<int>(share_of_descent * options_.evaluations));
+    int idle = 0;
+    for (int run = 0; run < most_runs && idle < 2 && !problem_.stopped(); ++run) {
+      const Magnitudes from = *problem_.best();
+      const double before = problem_.best_change();
+      problem_.step_by(run % 2 == 0 ? shortest_magnitude_step : longest_magnitude_step);
+      problem_.constrain_pairs(from);
+      optimised_magnitudes(problem_, {from, MagnitudeGoal::unchanged});
+      pull_back();
+      idle = problem_.best_change() < before * (1 - least_progress) ? 0 : idle + 1;
+    }
+    problem_.allow(options_.evaluations);
+  }
+
+  /// Looks for the last feasible point on the way from the best one to `to`, if that promises less change.
+  void approach(const Magnitudes& to) {
+    const Magnitudes from = *problem_.best();
+    const MagnitudeSample there = problem_.at(to);
+    if (there.feasible || (there.made && there.change >= problem_.best_change())) return;
+    const auto point = [&](double share) {
+      Magnitudes x = from;
+      for (std::size_t k = 0; k < x.size(); ++k) x[k] += share * (to[k] - from[k]);
+      return x;
+    };
+    double excess = 1;
+    const auto margin = [&](double share) {
+      const MagnitudeSample& sample = problem_.at(point(share));
+      if (!sample.made) return -1.0;
+      const double above = sample.stackability - problem_.aim();
+      if (sample.feasible) excess = std::min(excess, std::abs(above));
+      return sample.feasible ? above : std::min(above, -tolerance::target);
+    };
+    const auto close_enough = [&](double a, double b) {
+      const double width = std::abs(b - a);
+      const bool jump = width <= tolerance::magnitude && excess > steep * width;
+      return excess <= tolerance::target / 2 || jump || problem_.stopped();
+    };
+    const double at_start = margin(0), at_end = margin(1);
+    if (!(at_start > 0) || !(at_end < 0)) return;
+    std::uintmax_t steps = most_steps;
+    boost::math::tools::toms748_solve(margin, 0.0, 1.0, at_start, at_end, close_enough, steps);
+  }
+
+  /// Towards the shape at rest as far as the target allows.
+  void pull_back() { approach(Magnitudes(problem_.size(), 0)); }
+
+  /// The same with one magnitude after the other, for as long as that helps: what is left to do where S
+  /// jumps, which slopes do not tell.
+  void pull_back_singly() {
+    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+      const double before = problem_.best_change();
+      for (std::size_t k = 0; k < problem_.size() && !problem_.stopped(); ++k) {
+        if (problem_.at(*problem_.best()).stackability <= problem_.aim() + tolerance::target / 2) return;
+        Magnitudes without = *problem_.best();
+        without[k] = 0;
+        approach(without);
+      }
+      if (!(problem_.best_change() < before * (1 - least_progress))) return;
+    }
+  }
+
+  /// Leaves out edits that hardly matter, as many as the others can make up for, those that S needs least
+  /// first. Even when the time is up: many edits that do next to nothing are no answer.
+  void leave_out() {
+    const Magnitudes best = *problem_.best();
+    const double allowed = problem_.best_change() * (1 + spare_change);
+    const double gained = problem_.aim() - problem_.at(Magnitudes(best.size(), 0)).stackability;
+    std::vector<std::pair<double, std::size_t>> little;
+    for (const auto& [k, sample] : each_left_out(best))
+      if (sample.passes && sample.change <= allowed &&
+          problem_.aim() - sample.stackability <= options_.negligible * gained)
+        little.emplace_back(-sample.stackability, k);
+    std::sort(little.begin(), little.end());
+    const auto goes_without = [&](std::size_t count) {
+      Magnitudes fewer = best;
+      for (std::size_t i = 0; i < count; ++i) fewer[little[i].second] = 0;
+      for (const double more : make_up) {
+        const Magnitudes x = scaled(fewer, 1 + more);
+        if (!problem_.at(x).feasible) continue;
+        if (problem_.at(x).change > allowed) return false;
+        problem_.prefer(x);
+        return true;
+      }
+      return false;
+    };
+    std::size_t possible = 0, too_many = little.size() + 1;
+    for (std::size_t next = little.size(); too_many - possible > 1; next = (possible + too_many) / 2)
+      (goes_without(next) ? possible : too_many) = next;
+  }
+
+  MagnitudeProblem& problem_;
+  const Magnitudes& given_;
+  const RefinementOptions& options_;
+};
+
+}  // namespace
+
+void search_magnitudes(MagnitudeProblem& problem, const Magnitudes& given, const RefinementOptions& options) {
+  MagnitudeSearch(problem, given, options).run();
+}
+
+}  // namespace stackabilization::detail

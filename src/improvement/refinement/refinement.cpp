@@ -1,0 +1,231 @@
+#include "stackabilization/improvement/refinement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "improvement/refinement/edit_magnitudes.h"
+#include "improvement/refinement/magnitude_model.h"
+#include "improvement/refinement/magnitude_search.h"
+#include "stackabilization/core/errors.h"
+
+namespace stackabilization {
+
+namespace {
+
+using namespace detail;
+
+/// Further edits join in rounds, few at a time: every variable costs a sample per slope. They are chosen by
+/// how much the change would fall, of itself, per unit of magnitude, according to the slopes within a radius;
+/// less than this is not worth it, and a round that lessens the change by less than this is the last.
+constexpr int most_rounds = 4;
+constexpr double pricing_radius = 0.1;
+constexpr double least_pull = 0.01;
+constexpr double least_gain = 0.01;
+
+/// Refinements of what another one found with fewer edits, and what one of them needs at least.
+constexpr int most_restarts = 3;
+constexpr int least_evaluations = 10;
+
+/// The last word on one candidate: everything checked.
+struct Verdict {
+  Candidate candidate;
+  bool reached = false;
+  double change = 0;
+};
+
+/// One list of edits, whose magnitudes are sought.
+class MagnitudeRefiner {
+ public:
+  /// `joining`: edits that may be added to those of the start.
+  MagnitudeRefiner(const RequirementChecker& checker, const Candidate& start,
+                   const RefinementOptions& options, const std::vector<MagnitudeEdit>& joining = {})
+      : checker_(checker),
+        start_(start),
+        options_(options),
+        direction_(start.direction),
+        edits_(variables(checker, start, options, joining)),
+        meter_(checker.space().rest(), checker.requirements().measure.boxes, options.alpha),
+        problem_(checker, plain(edits_), direction_,
+                 {options.evaluations, options.reach, options.least, options.cancelled}) {}
+
+  /// Of the edits that may be added those that promise to lessen the change most, as the slopes at the start
+  /// say; at most `most`.
+  std::vector<MagnitudeEdit> promising(std::size_t most) {
+    const Magnitudes x = found();
+    if (!problem_.at(x).made) return {};
+    problem_.constrain_pairs(x);
+    const MagnitudeSlopes slopes = problem_.slopes(x);
+    const MagnitudeModel model(MagnitudeGoal::unchanged, x, problem_.at(x), slopes);
+    Magnitudes low = x, high = x;
+    for (double& magnitude : low) magnitude -= pricing_radius;
+    for (double& magnitude : high) magnitude += pricing_radius;
+    const Eigen::VectorXd pulls = model.step(low, high).pull;
+    const double least = least_pull * model.merit(problem_.at(x));
+    std::vector<std::pair<double, std::size_t>> ranked;
+    for (std::size_t k = 0; k < edits_.size(); ++k) {
+      const double pull = pulls(static_cast<Eigen::Index>(k));
+      if (!edits_[k].source && slopes.made[k] && pull > least) ranked.emplace_back(-pull, k);
+    }
+    std::sort(ranked.begin(), ranked.end());
+    if (ranked.size() > most) ranked.resize(most);
+    std::vector<MagnitudeEdit> result;
+    for (const auto& [pull, k] : ranked) result.push_back(edits_[k]);
+    return result;
+  }
+
+  int evaluations() const { return problem_.evaluations(); }
+
+  RefinementResult result() {
+    const Verdict given = judged(start_.design, start_.reasons);
+    Verdict best = given;
+    if (!edits_.empty() && problem_.at(found()).made) {
+      search_magnitudes(problem_, found(), options_);
+      for (const Magnitudes& x : finalists()) {
+        Verdict verdict = judged(x);
+        if (better(verdict, best)) best = std::move(verdict);
+        if (best.reached) break;
+      }
+    }
+    return {std::move(best.candidate), best.reached, problem_.evaluations()};
+  }
+
+ private:
+  /// The edits given, merged where their order does not matter so much that they are refused, and what joins.
+  static std::vector<MagnitudeEdit> variables(const RequirementChecker& checker, const Candidate& start,
+                                              const RefinementOptions& options,
+                                              const std::vector<MagnitudeEdit>& joining) {
+    const DeformationConstraints constraints =
+        deformation_constraints(checker.requirements(), checker.space().rest(), Direction(start.direction));
+    std::vector<MagnitudeEdit> edits =
+        merged_edits(start.design.edits, [&](const std::vector<MagnitudeEdit>& fewer) {
+          const bool late = options.cancelled && options.cancelled();  // long lists take long to replay
+          return !late && !checker.space().replayed(plain(fewer), constraints).refusal;
+        });
+    edits.insert(edits.end(), joining.begin(), joining.end());
+    return edits;
+  }
+  static std::vector<Edit> plain(const std::vector<MagnitudeEdit>& edits) {
+    std::vector<Edit> result;
+    for (const MagnitudeEdit& one : edits) result.push_back(one.edit);
+    return result;
+  }
+  /// The magnitudes of what was given.
+  Magnitudes found() const {
+    Magnitudes x;
+    for (const MagnitudeEdit& one : edits_) x.push_back(one.source ? 1 : 0);
+    return x;
+  }
+  static double stackability(const Verdict& verdict) { return verdict.candidate.measured.value; }
+  /// Fewer edits are better where the change is the same.
+  static bool better(const Verdict& a, const Verdict& b) {
+    if (a.reached != b.reached) return a.reached;
+    if (!a.reached) return stackability(a) > stackability(b);
+    return std::pair(a.change, a.candidate.design.edits.size()) <
+           std::pair(b.change, b.candidate.design.edits.size());
+  }
+
+  /// What is worth a full check: the best first.
+  std::vector<Magnitudes> finalists() const {
+    std::vector<Magnitudes> result;
+    if (problem_.best()) result.push_back(*problem_.best());
+    if (!problem_.best() && problem_.nearest()) result.push_back(*problem_.nearest());
+    return result;
+  }
+
+  Verdict judged(const Magnitudes& x) const {
+    std::vector<std::string> reasons;
+    for (std::size_t k = 0; k < edits_.size(); ++k)
+      if (x[k] != 0)
+        reasons.push_back(edits_[k].source && *edits_[k].source < start_.reasons.size()
+                              ? start_.reasons[*edits_[k].source]
+                              : "makes up for the others");
+    return judged(problem_.design(x).design, std::move(reasons));
+  }
+
+  Verdict judged(Design design, std::vector<std::string> reasons) const {
+    Verdict verdict;
+    const Assessment assessment = checker_.checked(design, direction_);
+    Candidate& candidate = verdict.candidate;
+    candidate.measured = assessment.measured;
+    const double gain = start_.energy.gain + assessment.measured.value - start_.measured.value;
+    candidate.energy = meter_.energy(design, gain);
+    candidate.design = std::move(design);
+    candidate.direction = start_.direction;
+    candidate.reasons = std::move(reasons);
+    verdict.reached = assessment.passed();
+    verdict.change = size_of(options_.least, candidate, checker_.space().rest().shape);
+    return verdict;
+  }
+
+  const RequirementChecker& checker_;
+  const Candidate& start_;
+  const RefinementOptions& options_;
+  Direction direction_;
+  std::vector<MagnitudeEdit> edits_;
+  EnergyMeter meter_;
+  MagnitudeProblem problem_;
+};
+
+/// Edits that are worth adding, and what it cost to find them.
+struct Offer {
+  std::vector<MagnitudeEdit> edits;
+  int evaluations = 0;
+};
+
+Offer offered(const RequirementChecker& checker, const Candidate& candidate,
+              const RefinementOptions& options) {
+  std::vector<MagnitudeEdit> given;
+  for (std::size_t k = 0; k < candidate.design.edits.size(); ++k)
+    given.push_back({candidate.design.edits[k], k});
+  MagnitudeRefiner all(checker, candidate, options,
+                       possible_edits(given, checker.space(), Direction(candidate.direction)));
+  Offer offer;
+  offer.edits = all.promising(static_cast<std::size_t>(options.joining));
+  offer.evaluations = all.evaluations();
+  return offer;
+}
+
+}  // namespace
+
+RefinementResult refined_candidate(const RequirementChecker& checker, const Candidate& start,
+                                   const RefinementOptions& options) {
+  if (options.evaluations < least_evaluations)
+    throw UsageError("a refinement needs at least " + std::to_string(least_evaluations) + " evaluations");
+  if (!(options.reach > 0) || !std::isfinite(options.reach))
+    throw UsageError("the reach of a refinement must be a positive number");
+  if (options.joining < 0) throw UsageError("the number of edits that join must not be negative");
+  if (!(options.negligible >= 0)) throw UsageError("the negligible magnitude must not be negative");
+  RefinementResult result = MagnitudeRefiner(checker, start, options).result();
+  const auto options_left = [&] {
+    RefinementOptions left = options;
+    left.evaluations -= result.evaluations;
+    return left;
+  };
+  const auto goes_on = [&] {
+    return result.reached && options_left().evaluations >= least_evaluations &&
+           !(options.cancelled && options.cancelled());
+  };
+  const auto take = [&](RefinementResult next) {
+    next.evaluations += result.evaluations;
+    result = std::move(next);
+  };
+  std::size_t edits = start.design.edits.size();
+  for (int restart = 0; restart < most_restarts && goes_on(); ++restart) {
+    if (result.candidate.design.edits.size() >= edits) break;
+    edits = result.candidate.design.edits.size();
+    take(MagnitudeRefiner(checker, result.candidate, options_left()).result());
+  }
+  const Shape& rest = checker.space().rest().shape;
+  for (int round = 0; options.joining > 0 && round < most_rounds && goes_on(); ++round) {
+    const double before = size_of(options.least, result.candidate, rest);
+    const Offer offer = offered(checker, result.candidate, options_left());
+    result.evaluations += offer.evaluations;
+    if (offer.edits.empty() || !goes_on()) break;
+    take(MagnitudeRefiner(checker, result.candidate, options_left(), offer.edits).result());
+    if (!(size_of(options.least, result.candidate, rest) < before * (1 - least_gain))) break;
+  }
+  return result;
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,84 @@
+#include "improvement/requirements/draft.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "stackabilization/core/tolerances.h"
+#include "structure/model/bounding_diagonal.h"
+
+namespace stackabilization {
+
+namespace {
+
+/// One triangle and a point that copies touch at.
+struct Touched {
+  double draft = 0;     ///< radians between r and the triangle
+  bool inside = false;  ///< the point is clear of the triangle's edges
+};
+
+class DraftGauge {
+ public:
+  DraftGauge(const Shape& shape, const Direction& direction)
+      : shape_(shape), up_(direction.unit()), reach_(tolerance::relative * bounding_diagonal(shape)) {}
+
+  /// Radians; nothing when a triangle has no area.
+  std::optional<double> draft(const ContactPolygon& polygon) const;
+
+ private:
+  std::optional<Touched> touched(Eigen::Index triangle, const Eigen::Vector3d& point) const;
+
+  const Shape& shape_;
+  Eigen::Vector3d up_;
+  double reach_;
+};
+
+std::optional<Touched> DraftGauge::touched(Eigen::Index triangle, const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d a = shape_.corner(triangle, 0);
+  const Eigen::Vector3d normal =
+      (shape_.corner(triangle, 1) - a).cross(shape_.corner(triangle, 2) - a).stableNormalized();
+  if (!(normal.norm() > 0)) return std::nullopt;
+  Touched result{std::atan2(std::abs(normal.dot(up_)), normal.cross(up_).norm()), true};
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d from = shape_.corner(triangle, k);
+    const Eigen::Vector3d edge = (shape_.corner(triangle, (k + 1) % 3) - from).normalized();
+    result.inside &= normal.dot(edge.cross(point - from)) > reach_;
+  }
+  return result;
+}
+
+std::optional<double> DraftGauge::draft(const ContactPolygon& polygon) const {
+  // The copies come nearest where f is largest over the polygon.
+  const Eigen::VectorXd f = (polygon.upper_points - polygon.lower_points) * up_;
+  const double touching = f.maxCoeff() - reach_;
+  Eigen::Vector3d below = Eigen::Vector3d::Zero(), above = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (Eigen::Index k = 0; k < f.size(); ++k) {
+    if (f(k) < touching) continue;
+    below += polygon.upper_points.row(k).transpose();
+    above += polygon.lower_points.row(k).transpose();
+    ++count;
+  }
+  const auto upper = touched(polygon.upper_triangle, below / count);
+  const auto lower = touched(polygon.lower_triangle, above / count);
+  if (!upper || !lower) return std::nullopt;
+  if (upper->inside != lower->inside) return upper->inside ? upper->draft : lower->draft;
+  return upper->inside ? std::min(upper->draft, lower->draft) : std::max(upper->draft, lower->draft);
+}
+
+}  // namespace
+
+double contact_draft_degrees(const Shape& shape, const std::vector<ContactRegion>& regions,
+                             const Direction& direction) {
+  if (regions.empty()) return 90;
+  const DraftGauge gauge(shape, direction);
+  double least = std::numbers::pi / 2;
+  for (const ContactRegion& region : regions)
+    for (const ContactPolygon& polygon : region.polygons)
+      least = std::min(least, gauge.draft(polygon).value_or(least));
+  return least * 180 / std::numbers::pi;
+}
+
+}  // namespace stackabilization

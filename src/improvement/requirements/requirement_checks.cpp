@@ -1,0 +1,213 @@
+#include "improvement/requirements/requirement_checks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "improvement/requirements/draft.h"
+#include "improvement/requirements/proportions.h"
+#include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/relation_residual.h"
+#include "stackabilization/envelope/contacts.h"
+#include "stackabilization/stacking/standing.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+std::string quoted(const Structure& structure, int part) {
+  return "'" + structure.parts[static_cast<std::size_t>(part)].name + "'";
+}
+
+std::string words_for(const Relation& relation, const Structure& structure) {
+  std::string kind = name_of(relation.type);
+  std::replace(kind.begin(), kind.end(), '_', ' ');
+  std::string words = kind + " of " + quoted(structure, relation.parts.front());
+  if (relation.parts.size() > 1) words += " and " + quoted(structure, relation.parts.back());
+  return words;
+}
+
+/// Parts whose triangles use each vertex.
+std::vector<std::set<int>> owners_of(const Shape& shape) {
+  std::vector<std::set<int>> owners(static_cast<std::size_t>(shape.vertex_count()));
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k)
+      owners[static_cast<std::size_t>(shape.triangles(t, k))].insert(
+          shape.triangle_part[static_cast<std::size_t>(t)]);
+  return owners;
+}
+
+double primitive_displacement(const Primitive& rest, const Primitive& now) {
+  double farthest = (control_points(now) - control_points(rest)).rowwise().norm().maxCoeff();
+  if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&rest))
+    farthest = std::max(farthest,
+                        (std::get<GeneralizedCylinder>(now).radii - cylinder->radii).cwiseAbs().maxCoeff());
+  return farthest;
+}
+
+}  // namespace
+
+RequirementChecks::RequirementChecks(const DesignSpace& space, const Requirements& requirements,
+                                     std::vector<int> stay)
+    : space_(space), requirements_(requirements) {
+  const Shape& rest = space.rest().shape;
+  const std::set<int> staying(stay.begin(), stay.end());
+  const std::vector<std::set<int>> owners = staying.empty() ? std::vector<std::set<int>>() : owners_of(rest);
+  for (const int part : stay) {
+    StayingPart entry{part, {}, false};
+    for (std::size_t v = 0; v < owners.size(); ++v) {
+      if (!owners[v].contains(part)) continue;
+      entry.vertices.push_back(static_cast<Eigen::Index>(v));
+      const bool seam = !std::includes(staying.begin(), staying.end(), owners[v].begin(), owners[v].end());
+      if (seam && space.kind() == DeformationKind::controllers) entry.by_primitive = true;
+    }
+    if (entry.by_primitive) entry.vertices.clear();
+    staying_.push_back(std::move(entry));
+  }
+  if (requirements.least_thickness) probes_ = thickness_probes(rest);
+}
+
+std::vector<Check> RequirementChecks::of(const CheckedDesign& checked) const {
+  std::vector<Check> checks = {reached(checked.assessment.measured)};
+  if (requirements_.keep_height) checks.push_back(height(checked));
+  if (space_.kind() == DeformationKind::controllers) checks.push_back(relations(checked));
+  if (requirements_.least_proportion > 0) checks.push_back(proportions(checked));
+  if (requirements_.box_tolerance) checks.push_back(box(checked));
+  if (!staying_.empty()) checks.push_back(parts(checked));
+  if (requirements_.least_thickness) checks.push_back(thickness(checked));
+  if (requirements_.least_draft_degrees) checks.push_back(draft(checked));
+  if (requirements_.standing_copies) checks.push_back(standing(checked));
+  return checks;
+}
+
+Check RequirementChecks::reached(const Stackability& measured) const {
+  if (!requirements_.room)
+    return {"target", measured.value, requirements_.target, measured.value >= requirements_.target, "", ""};
+  const double length = stack_length(*requirements_.room, measured), room = requirements_.room->length;
+  return {"room", length, room, length <= room, "model units", ""};
+}
+
+Check RequirementChecks::height(const CheckedDesign& checked) const {
+  const Eigen::Vector3d axis = checked.direction.unit();
+  const double rest = range_along(space_.rest().shape, axis).length();
+  const double change = std::abs(range_along(checked.design.shape, axis).length() - rest) / rest;
+  return {"height", change, tolerance::relative, change <= tolerance::relative, "of the height", ""};
+}
+
+Check RequirementChecks::relations(const CheckedDesign& checked) const {
+  const Structure& structure = space_.rest().structure;
+  const std::vector<double> residuals = relation_residuals(structure, checked.design.primitives);
+  Check check{"relations", 0, tolerance::relation, true, "of the diagonal", ""};
+  for (std::size_t i = 0; i < residuals.size(); ++i) {
+    if (residuals[i] <= check.value || std::isnan(check.value)) continue;
+    check.value = residuals[i];
+    check.note = words_for(structure.relations[i], structure);
+  }
+  check.passed = check.value <= check.demanded;
+  return check;
+}
+
+Check RequirementChecks::proportions(const CheckedDesign& checked) const {
+  const Proportion least = least_proportion(space_.rest(), checked.design);
+  Check check{"proportions", least.ratio, requirements_.least_proportion, true, "of the size at rest", ""};
+  check.passed = least.ratio >= check.demanded - tolerance::relative;
+  if (least.part >= 0) check.note = quoted(space_.rest().structure, least.part);
+  return check;
+}
+
+Check RequirementChecks::box(const CheckedDesign& checked) const {
+  Check check{"box", 0, *requirements_.box_tolerance, true, "of a side", ""};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
+    const double rest = range_along(space_.rest().shape, along).length();
+    const double change = std::abs(range_along(checked.design.shape, along).length() - rest) / rest;
+    if (change <= check.value) continue;
+    check.value = change;
+    check.note = std::string("along ") + "xyz"[axis];
+  }
+  check.passed = check.value <= check.demanded + tolerance::relative;
+  return check;
+}
+
+double RequirementChecks::displacement(const StayingPart& staying, const Design& design) const {
+  const StructuredShape& rest = space_.rest();
+  const auto part = static_cast<std::size_t>(staying.part);
+  double farthest = 0;
+  if (staying.by_primitive)
+    farthest = primitive_displacement(rest.structure.parts[part].primitive, design.primitives[part]);
+  for (const Eigen::Index v : staying.vertices)
+    farthest = std::max(farthest, (design.shape.vertices.row(v) - rest.shape.vertices.row(v)).norm());
+  return farthest / rest.structure.diagonal;
+}
+
+Check RequirementChecks::parts(const CheckedDesign& checked) const {
+  Check check{"parts", 0, tolerance::relative, true, "of the diagonal", ""};
+  for (const StayingPart& staying : staying_) {
+    const double moved = displacement(staying, checked.design);
+    if (moved <= check.value) continue;
+    check.value = moved;
+    check.note = quoted(space_.rest().structure, staying.part);
+  }
+  check.passed = check.value <= check.demanded;
+  return check;
+}
+
+Check RequirementChecks::thickness(const CheckedDesign& checked) const {
+  const Structure& structure = space_.rest().structure;
+  const double least = *requirements_.least_thickness, slack = tolerance::relative * structure.diagonal;
+  Check check{"thickness", 0, least, true, "model units", "nothing has a thickness"};
+  // The probe with the least excess over what it needs decides; the thinnest one is reported.
+  double worst = std::numeric_limits<double>::infinity(), thinnest = worst;
+  for (const ThicknessProbe& probe : probes_) {
+    const double measured = stackabilization::thickness(probe, checked.design.shape);
+    const double excess = measured - std::min(least, probe.at_rest);
+    thinnest = std::min(thinnest, measured);
+    if (excess >= worst) continue;
+    worst = excess;
+    const auto triangle = static_cast<std::size_t>(probe.near_triangle);
+    check.note = quoted(structure, checked.design.shape.triangle_part[triangle]);
+  }
+  if (probes_.empty()) return check;
+  check.value = thinnest;
+  check.passed = worst >= -slack;
+  if (check.passed) check.note = thinnest < least - slack ? "nowhere thinner than at rest" : "";
+  return check;
+}
+
+Check RequirementChecks::draft(const CheckedDesign& checked) const {
+  const double least = *requirements_.least_draft_degrees;
+  const Shape& shape = checked.design.shape;
+  Check check{"draft", 90, least, true, "degrees", ""};
+  if (!checked.assessment.separation.blocked) return check;
+  ContactOptions options;
+  options.semantics = requirements_.measure.semantics;
+  check.value = contact_draft_degrees(
+      shape,
+      contact_regions({shape, checked.tree, checked.direction, checked.assessment.separation}, options)
+          .regions,
+      checked.direction);
+  check.passed = check.value >= least * (1 - tolerance::relative);
+  return check;
+}
+
+Check RequirementChecks::standing(const CheckedDesign& checked) const {
+  Check check{"standing", 0, requirements_.least_tilt_degrees, false, "degrees", ""};
+  if (!checked.assessment.separation.blocked) {
+    check.note = "copies pass each other along the direction";
+    return check;
+  }
+  StandingOptions options;
+  options.copies = *requirements_.standing_copies;
+  options.semantics = requirements_.measure.semantics;
+  const Standing stack = stackabilization::standing(checked.design.shape, checked.direction, options);
+  check.value = stack.tilt_degrees;
+  check.passed = stack.stands && stack.tilt_degrees >= check.demanded * (1 - tolerance::relative);
+  check.note = "copy " + std::to_string(stack.weakest_copy + 1) + " of " + std::to_string(options.copies) +
+               " topples first";
+  return check;
+}
+
+}  // namespace stackabilization::detail

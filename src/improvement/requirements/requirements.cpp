@@ -1,0 +1,202 @@
+#include "stackabilization/improvement/requirements.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "improvement/design/design_match.h"
+#include "improvement/requirements/proportions.h"
+#include "improvement/requirements/requirement_checks.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/improvement/removal.h"
+#include "stackabilization/stacking/clearance.h"
+#include "stackabilization/stacking/plan.h"
+
+namespace stackabilization {
+
+namespace {
+
+/// Air beyond this many diagonals is a slip of the unit, and numbers that no file takes.
+constexpr double most_air = 1e6;
+
+void require_at_least_zero(double value, const std::string& what) {
+  if (!std::isfinite(value) || value < 0)
+    throw UsageError("the " + what + " that is required must be a finite number of at least 0");
+}
+
+void require_air(double value, const std::string& what, double diagonal) {
+  require_at_least_zero(value, what);
+  if (value > most_air * diagonal)
+    throw UsageError("the " + what + " that is required cannot exceed a million times the size of the shape");
+}
+
+void require_angle(double degrees, const std::string& what) {
+  require_at_least_zero(degrees, what);
+  if (degrees > 90) throw UsageError("the " + what + " that is required cannot exceed 90 degrees");
+}
+
+void require_parts(const std::vector<int>& parts, const Structure& structure) {
+  for (const int part : parts)
+    if (part < 0 || static_cast<std::size_t>(part) >= structure.parts.size())
+      throw UsageError("there is no part " + std::to_string(part) + ": the shape has " +
+                       std::to_string(structure.parts.size()));
+}
+
+void require_room(const StackRoom& room) {
+  if (room.copies < 2) throw UsageError("a room is for two copies at least");
+  if (!std::isfinite(room.length) || room.length <= 0)
+    throw UsageError("the room for a stack must be a finite positive length");
+}
+
+std::vector<int> parts_that_stay(const Requirements& requirements, const Structure& structure) {
+  std::set<int> stay(requirements.kept_parts.begin(), requirements.kept_parts.end());
+  if (!requirements.editable_parts.empty()) {
+    const std::set<int> editable(requirements.editable_parts.begin(), requirements.editable_parts.end());
+    for (const std::vector<int>& members : symmetric_classes(structure))
+      if (std::none_of(members.begin(), members.end(), [&](int part) { return editable.contains(part); }))
+        stay.insert(members.begin(), members.end());
+  }
+  return {stay.begin(), stay.end()};
+}
+
+Requirements validated(Requirements requirements, const StructuredShape& rest) {
+  validate(requirements, rest);
+  return requirements;
+}
+
+}  // namespace
+
+void validate(const Requirements& requirements, const StructuredShape& rest) {
+  if (!std::isfinite(requirements.target) || requirements.target >= 1)
+    throw UsageError("the target must be a stackability below 1");
+  if (requirements.measure.flat_shapes != FlatShapes::refuse)
+    throw UsageError("a target needs shapes whose box has a volume");
+  if (requirements.room) require_room(*requirements.room);
+  require_parts(requirements.kept_parts, rest.structure);
+  require_parts(requirements.editable_parts, rest.structure);
+  if (!(requirements.least_proportion >= 0 && requirements.least_proportion <= 1))
+    throw UsageError("the least proportion that is required must be from 0 to 1");
+  require_air(requirements.clearance, "clearance", rest.structure.diagonal);
+  require_air(requirements.play, "play", rest.structure.diagonal);
+  require_at_least_zero(requirements.box_tolerance.value_or(0), "tolerance of the box");
+  require_at_least_zero(requirements.least_thickness.value_or(0), "thickness");
+  require_angle(requirements.least_draft_degrees.value_or(0), "draft angle");
+  require_angle(requirements.least_tilt_degrees, "tilt");
+  if (requirements.standing_copies.value_or(1) < 1)
+    throw UsageError("a stack that stands needs at least one copy");
+  if (requirements.least_tilt_degrees > 0 && !requirements.standing_copies)
+    throw UsageError("a least tilt needs the number of copies that are to stand");
+}
+
+DeformationConstraints deformation_constraints(const Requirements& requirements, const StructuredShape& rest,
+                                               const Direction& direction) {
+  DeformationConstraints constraints;
+  if (requirements.keep_height) {
+    constraints.keep_extent = direction;
+    constraints.extent_ends = ExtentEnds::fixed;
+  }
+  constraints.box_tolerance = requirements.box_tolerance;
+  constraints.fixed_parts = parts_that_stay(requirements, rest.structure);
+  return constraints;
+}
+
+bool Assessment::passed() const {
+  return std::all_of(checks.begin(), checks.end(), [](const Check& check) { return check.passed; });
+}
+
+struct RequirementChecker::Data {
+  Data(const DesignSpace& designs, Requirements required)
+      : space(designs),
+        requirements(validated(std::move(required), designs.rest())),
+        primitives(detail::primitives_of(designs.rest().structure)),
+        checks(designs, requirements, parts_that_stay(requirements, designs.rest().structure)) {}
+
+  /// How far apart copies are, with the air, where they are `touching` without any.
+  double translation(const Shape& shape, const Direction& direction, double touching) const {
+    if (requirements.play > 0) {
+      PlayOptions options;
+      options.play = requirements.play;
+      options.semantics = requirements.measure.semantics;
+      const Separation apart = separation_with_play(shape, shape, direction, options);
+      touching = apart.blocked ? apart.length : 0;
+    }
+    return touching + requirements.clearance;
+  }
+
+  Stackability with_air(const Shape& shape, const Direction& direction, Stackability measured) const {
+    if (requirements.play > 0 || requirements.clearance > 0) {
+      measured.f_max = translation(shape, direction, measured.f_max);
+      const double base = measured.stack_box_volume / measured.extent;
+      measured.value = 1 - measured.f_max * base / measured.box_volume;
+    }
+    return measured;
+  }
+
+  const DesignSpace& space;
+  Requirements requirements;
+  std::vector<Primitive> primitives;  ///< at rest
+  detail::RequirementChecks checks;
+};
+
+RequirementChecker::RequirementChecker(const DesignSpace& space, Requirements requirements)
+    : data_(std::make_shared<const Data>(space, std::move(requirements))) {}
+
+const Requirements& RequirementChecker::requirements() const {
+  return data_->requirements;
+}
+
+const DesignSpace& RequirementChecker::space() const {
+  return data_->space;
+}
+
+Stackability RequirementChecker::measured(const Shape& shape, const Direction& direction) const {
+  return data_->with_air(shape, direction, stackability(shape, direction, data_->requirements.measure));
+}
+
+std::optional<Stackability> RequirementChecker::measured_above(const Shape& shape, const Direction& direction,
+                                                               double threshold) const {
+  // Air never raises S: what is too low without it need not be looked at.
+  const std::optional<Stackability> touching =
+      stackability_if_above(shape, direction, threshold, data_->requirements.measure);
+  if (!touching) return std::nullopt;
+  const Stackability measured = data_->with_air(shape, direction, *touching);
+  if (measured.value < threshold) return std::nullopt;
+  return measured;
+}
+
+bool RequirementChecker::reaches(const Stackability& measured) const {
+  const Requirements& asked = data_->requirements;
+  return asked.room ? detail::stack_length(*asked.room, measured) <= asked.room->length
+                    : measured.value >= asked.target;
+}
+
+double RequirementChecker::needed(const Stackability& measured) const {
+  const std::optional<StackRoom>& room = data_->requirements.room;
+  return room ? stackability_within(measured, room->copies, room->length) : data_->requirements.target;
+}
+
+std::optional<std::string> RequirementChecker::out_of_proportion(const Design& design) const {
+  if (data_->requirements.least_proportion == 0) return std::nullopt;
+  const StructuredShape& rest = data_->space.rest();
+  const Proportion proportion = least_proportion(rest, design);
+  if (proportion.ratio >= data_->requirements.least_proportion) return std::nullopt;
+  return "'" + rest.structure.parts[static_cast<std::size_t>(proportion.part)].name +
+         "' would lose its proportions";
+}
+
+Assessment RequirementChecker::checked(const Design& design, const Direction& direction) const {
+  detail::require_match(design, data_->primitives, data_->space.rest().shape.vertex_count());
+  validate(design.shape);
+  const StackabilityOptions& measure = data_->requirements.measure;
+  const SeparationTree tree(design.shape);
+  Assessment assessment;
+  assessment.separation = separation(tree, tree, direction, {measure.semantics, std::nullopt});
+  const double touching = assessment.separation.blocked ? assessment.separation.length : 0;
+  assessment.measured = stackability_of_translation(
+      design.shape, direction, data_->translation(design.shape, direction, touching), measure);
+  assessment.checks = data_->checks.of({design, tree, direction, assessment});
+  return assessment;
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,185 @@
+#include "improvement/requirements/thickness.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "mesh/surface_index.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/tolerances.h"
+#include "structure/model/bounding_diagonal.h"
+#include "structure/segmentation/surface_graph.h"
+
+namespace stackabilization {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using TrianglePrimitive =
+    CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive>>;
+
+/// Samples of a part on its own, when none of the common ones found material in it.
+constexpr int samples_per_part = 16;
+
+Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+struct Hit {
+  double distance;  ///< from the start of the ray, model units
+  std::int32_t triangle;
+
+  bool operator<(const Hit& other) const {
+    return std::pair(distance, triangle) < std::pair(other.distance, other.triangle);
+  }
+};
+
+/// Barycentric weights of the point of a triangle's plane that is nearest to `point`.
+Eigen::Vector3d weights_of(const Shape& shape, Eigen::Index triangle, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d a = shape.corner(triangle, 0), b = shape.corner(triangle, 1),
+                        c = shape.corner(triangle, 2);
+  const Eigen::Vector3d normal = (b - a).cross(c - a);
+  const double v = normal.dot((point - a).cross(c - a)) / normal.squaredNorm();
+  const double w = normal.dot((b - a).cross(point - a)) / normal.squaredNorm();
+  return {1 - v - w, v, w};
+}
+
+Eigen::Vector3d point_at(const Shape& shape, Eigen::Index triangle, const Eigen::Vector3d& weights) {
+  return weights(0) * shape.corner(triangle, 0) + weights(1) * shape.corner(triangle, 1) +
+         weights(2) * shape.corner(triangle, 2);
+}
+
+class MaterialFinder {
+ public:
+  explicit MaterialFinder(const Shape& shape)
+      : shape_(shape), shell_(detail::connected_components(shape)), diagonal_(bounding_diagonal(shape)) {
+    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+      const Kernel::Triangle_3 triangle(to_cgal(shape.corner(t, 0)), to_cgal(shape.corner(t, 1)),
+                                        to_cgal(shape.corner(t, 2)));
+      if (triangle.is_degenerate()) continue;
+      triangles_.push_back(triangle);
+      rows_.push_back(static_cast<std::int32_t>(t));
+    }
+    tree_.insert(triangles_.cbegin(), triangles_.cend());
+    tree_.build();
+  }
+
+  /// The place at `point` of a triangle, if there is material on one side of it.
+  std::optional<ThicknessProbe> probe(std::int32_t triangle, const Eigen::Vector3d& point) const;
+
+ private:
+  std::vector<Hit> hits(std::int32_t triangle, const Eigen::Vector3d& point,
+                        const Eigen::Vector3d& along) const;
+
+  const Shape& shape_;
+  std::vector<std::int32_t> shell_;  ///< per triangle
+  double diagonal_;
+  std::vector<Kernel::Triangle_3> triangles_;  ///< those with area
+  std::vector<std::int32_t> rows_;             ///< of them in the shape
+  Tree tree_;
+};
+
+/// Crossings of the triangle's shell with a ray that leaves it, nearest first, one for each edge or corner
+/// that is met.
+std::vector<Hit> MaterialFinder::hits(std::int32_t triangle, const Eigen::Vector3d& point,
+                                      const Eigen::Vector3d& along) const {
+  std::vector<Tree::Primitive_id> met;
+  const Kernel::Segment_3 ray(to_cgal(point), to_cgal(point + 2 * diagonal_ * along));
+  tree_.all_intersected_primitives(ray, std::back_inserter(met));
+  const double reach = tolerance::relative * diagonal_;
+  std::vector<Hit> found;
+  for (const Tree::Primitive_id id : met) {
+    const std::int32_t other = rows_[static_cast<std::size_t>(id - triangles_.cbegin())];
+    if (shell_[static_cast<std::size_t>(other)] != shell_[static_cast<std::size_t>(triangle)]) continue;
+    const Eigen::Vector3d a = shape_.corner(other, 0);
+    const Eigen::Vector3d normal =
+        (shape_.corner(other, 1) - a).cross(shape_.corner(other, 2) - a).stableNormalized();
+    const double distance = normal.dot(a - point) / normal.dot(along);
+    if (distance > reach && distance <= 2 * diagonal_) found.push_back({distance, other});
+  }
+  std::sort(found.begin(), found.end());
+  const auto same = [&](const Hit& a, const Hit& b) { return b.distance - a.distance <= reach; };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());
+  return found;
+}
+
+std::optional<ThicknessProbe> MaterialFinder::probe(std::int32_t triangle,
+                                                    const Eigen::Vector3d& point) const {
+  const Eigen::Vector3d a = shape_.corner(triangle, 0);
+  const Eigen::Vector3d normal =
+      (shape_.corner(triangle, 1) - a).cross(shape_.corner(triangle, 2) - a).stableNormalized();
+  const std::vector<Hit> behind = hits(triangle, point, -normal), before = hits(triangle, point, normal);
+  if (behind.size() % 2 == before.size() % 2) return std::nullopt;
+  const bool outward = behind.size() % 2 == 1;
+  const Hit& far = outward ? behind.front() : before.front();
+  const Eigen::Vector3d end = point + (outward ? -far.distance : far.distance) * normal;
+  ThicknessProbe probe{triangle, far.triangle, weights_of(shape_, triangle, point),
+                       weights_of(shape_, far.triangle, end), 0};
+  probe.at_rest = thickness(probe, shape_);
+  return probe;
+}
+
+/// Appends the samples at which there is material.
+void find(const MaterialFinder& finder, const SurfaceSamples& samples, std::vector<ThicknessProbe>& probes) {
+  std::vector<std::optional<ThicknessProbe>> found(samples.triangles.size());
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
+    found[k] =
+        finder.probe(samples.triangles[k], samples.points.row(static_cast<Eigen::Index>(k)).transpose());
+  });
+  for (const auto& probe : found)
+    if (probe) probes.push_back(*probe);
+}
+
+/// Samples of one part alone; none when it has no area.
+SurfaceSamples samples_of_part(const Shape& shape, std::int32_t part) {
+  std::vector<std::int32_t> rows;
+  double area = 0;
+  for (std::int32_t t = 0; t < shape.triangle_count(); ++t) {
+    if (shape.triangle_part[static_cast<std::size_t>(t)] != part) continue;
+    rows.push_back(t);
+    const Eigen::Vector3d a = shape.corner(t, 0);
+    area += (shape.corner(t, 1) - a).cross(shape.corner(t, 2) - a).norm();
+  }
+  if (!(area > 0)) return {};
+  SurfaceSamples samples = surface_samples(detail::extracted(shape, rows), samples_per_part);
+  for (std::int32_t& triangle : samples.triangles) triangle = rows[static_cast<std::size_t>(triangle)];
+  return samples;
+}
+
+}  // namespace
+
+std::vector<ThicknessProbe> thickness_probes(const Shape& shape, const ThicknessOptions& options) {
+  if (options.probes < 1) throw UsageError("thickness needs at least one probe");
+  validate(shape);
+  const SurfaceSamples samples = surface_samples(shape, options.probes);
+  const MaterialFinder finder(shape);
+  std::vector<ThicknessProbe> probes;
+  find(finder, samples, probes);
+  std::vector<char> probed(static_cast<std::size_t>(shape.part_count()), 0);
+  const auto part_of = [&](const ThicknessProbe& probe) {
+    return static_cast<std::size_t>(shape.triangle_part[static_cast<std::size_t>(probe.near_triangle)]);
+  };
+  for (const ThicknessProbe& probe : probes) probed[part_of(probe)] = 1;
+  for (std::size_t part = 0; part < probed.size(); ++part)
+    if (!probed[part]) find(finder, samples_of_part(shape, static_cast<std::int32_t>(part)), probes);
+  return probes;
+}
+
+double thickness(const ThicknessProbe& probe, const Shape& shape) {
+  return (point_at(shape, probe.near_triangle, probe.near_weights) -
+          point_at(shape, probe.far_triangle, probe.far_weights))
+      .norm();
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,312 @@
+#include "stackabilization/improvement/improve.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "improvement/design/distinct.h"
+#include "improvement/run/work_budget.h"
+#include "improvement/search/pursuit.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/improvement/effort.h"
+
+namespace stackabilization {
+
+namespace {
+
+using detail::WorkBudget;
+
+/// Shares of the work by which the pursuits, the search in the paper's steps, and the search end where their
+/// results are refined afterwards.
+constexpr double pursuit_share = 0.4;
+constexpr double paper_share = 0.45;
+constexpr double search_share = 0.5;
+/// By then the magnitudes of the edits that they found are known, and edits begin to join.
+constexpr double first_share = 0.7;
+/// Each search gets this share at least.
+constexpr double min_search = 0.05;
+/// Where nothing was found, what is left beyond this share is for the diagnosis.
+constexpr double diagnosis_begin = 0.85;
+
+/// Designs measured at most for the magnitudes of one list of edits, and the fewest that are any use.
+constexpr int first_evaluations = 300;
+constexpr std::int64_t min_evaluations = 10;
+
+/// Which solution becomes the best is not known before its refinement: so many at least are looked for, and
+/// so many more than are wanted are tried with edits that join.
+constexpr int min_solutions = 3;
+constexpr std::size_t more_extended = 4;
+
+bool more_stackable(const Candidate& a, const Candidate& b) {
+  return a.measured.value > b.measured.value;
+}
+
+/// Refines what a search found: magnitudes of all of it first, then with further edits what came out best,
+/// until there are as many different solutions as wanted.
+class Refinements {
+ public:
+  Refinements(const RequirementChecker& checker, const ImprovementOptions& options, WorkBudget& budget)
+      : checker_(checker),
+        options_(options.refinement),
+        wanted_(static_cast<std::size_t>(options.search.solutions)),
+        budget_(budget),
+        less_changed_([measure = options.refinement.least, &rest = checker.space().rest().shape](
+                          const Candidate& a, const Candidate& b) {
+          return size_of(measure, a, rest) < size_of(measure, b, rest);
+        }),
+        distinct_(checker.space().rest()) {
+    options_.alpha = options.search.alpha;
+    options_.cancelled = [this, cancelled = options.search.cancelled] {
+      return budget_.late(share_) || (cancelled && cancelled());
+    };
+  }
+  Refinements(const Refinements&) = delete;
+  Refinements& operator=(const Refinements&) = delete;
+
+  /// `starts`: what else was found. Begins with what reaches the target with the least change: the work may
+  /// end.
+  std::vector<Candidate> refined(std::vector<Candidate> starts, const BestFirstResult& found) {
+    starts.insert(starts.end(), found.solutions.begin(), found.solutions.end());
+    const double target = checker_.requirements().target;
+    std::stable_sort(starts.begin(), starts.end(), [this, target](const Candidate& a, const Candidate& b) {
+      const bool reached = a.measured.value >= target;
+      if (reached != (b.measured.value >= target)) return reached;
+      return reached ? less_changed_(a, b) : more_stackable(a, b);
+    });
+    share_ = diagnosis_begin;
+    for (const Candidate& start : starts) add(start);
+    for (const Candidate& near : found.nearest) {
+      if (solutions_.size() >= std::max<std::size_t>(wanted_, min_solutions) || at_end()) break;
+      add(near);
+    }
+    extend();
+    return std::move(solutions_);
+  }
+
+  const std::optional<Candidate>& nearest() const { return nearest_; }
+
+ private:
+  /// Is there no work left for what it is at?
+  bool at_end() const { return budget_.designs_until(share_) < min_evaluations || options_.cancelled(); }
+
+  RefinementResult refinement(const Candidate& start, RefinementOptions options) {
+    options.evaluations =
+        static_cast<int>(std::min<std::int64_t>(options.evaluations, budget_.designs_until(share_)));
+    RefinementResult result = refined_candidate(checker_, start, options);
+    budget_.charge(result.evaluations);
+    return result;
+  }
+
+  void add(const Candidate& start) {
+    if (start.design.edits.empty() && !checker_.reaches(start.measured)) return;
+    RefinementOptions alone = options_;
+    alone.joining = 0;
+    alone.evaluations = std::min(options_.evaluations, first_evaluations);
+    RefinementResult result = at_end() ? as_it_is(start) : refinement(start, alone);
+    if (result.reached) {
+      share_ = first_share;
+      keep(std::move(result.candidate));
+    } else if (!nearest_ || result.candidate.measured.value > nearest_->measured.value) {
+      nearest_ = std::move(result.candidate);
+    }
+  }
+
+  /// Without any refinement.
+  RefinementResult as_it_is(const Candidate& start) const {
+    const bool reached = checker_.reaches(start.measured) &&
+                         checker_.checked(start.design, Direction(start.direction)).passed();
+    return {start, reached, 0};
+  }
+
+  /// Lets further edits join, to the least changed solutions first.
+  void extend() {
+    share_ = 1;
+    std::stable_sort(solutions_.begin(), solutions_.end(), less_changed_);
+    std::vector<Candidate> found;
+    found.swap(solutions_);
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      if (k < wanted_ + more_extended && !at_end()) found[k] = refinement(found[k], options_).candidate;
+      keep(std::move(found[k]));
+    }
+    std::stable_sort(solutions_.begin(), solutions_.end(), less_changed_);
+    if (solutions_.size() > wanted_) solutions_.resize(wanted_);
+  }
+
+  /// Of two solutions that are not different the less changed one stays.
+  void keep(Candidate candidate) {
+    for (Candidate& other : solutions_)
+      if (!distinct_.differ(other.design, candidate.design)) {
+        if (less_changed_(candidate, other)) other = std::move(candidate);
+        return;
+      }
+    solutions_.push_back(std::move(candidate));
+  }
+
+  const RequirementChecker& checker_;
+  RefinementOptions options_;
+  std::size_t wanted_;
+  WorkBudget& budget_;
+  double share_ = diagnosis_begin;  ///< by which what it is at ends
+  std::function<bool(const Candidate&, const Candidate&)> less_changed_;
+  detail::Distinctness distinct_;
+  std::vector<Candidate> solutions_;
+  std::optional<Candidate> nearest_;
+};
+
+Candidate at_rest(const RequirementChecker& checker, const Eigen::Vector3d& direction) {
+  Candidate rest;
+  rest.design = checker.space().at_rest();
+  rest.direction = direction;
+  rest.measured = checker.measured(rest.design.shape, Direction(direction));
+  return rest;
+}
+
+/// One improvement, phase by phase.
+class ImprovementRun {
+ public:
+  ImprovementRun(const RequirementChecker& checker, const ImprovementOptions& options,
+                 const std::optional<SavedSearch>& state)
+      : checker_(checker),
+        options_(options),
+        state_(state),
+        refines_(options.preset == ImprovementPreset::refined),
+        budget_(designs_of_effort(options.effort, checker.space().rest()), options.search.seconds) {
+    if (options.search.expansions < 1) throw UsageError("an improvement expands one candidate at least");
+  }
+
+  Improvement run() {
+    const BestFirstOptions search = search_options();
+    if (!state_ && search.save) search.save(search_at_start(checker_, search));
+    std::vector<Candidate> starts;
+    if (refines_) {
+      starts = pursuits(search);
+      BestFirstOptions paper = search;
+      paper.edits.family = EditFamily::paper;
+      paper.save = {};
+      for (Candidate& solution : searched(paper, paper_share, std::nullopt).solutions)
+        starts.push_back(std::move(solution));
+    }
+    BestFirstResult found = searched(search, refines_ ? search_share : 1, state_);
+    result_.end = found.end;
+    if (refines_)
+      refine(std::move(starts), found);
+    else
+      result_.solutions = found.solutions;
+    finish(found);
+    return std::move(result_);
+  }
+
+ private:
+  BestFirstOptions search_options() const {
+    BestFirstOptions search = options_.search;
+    if (refines_)
+      search.solutions = std::max(search.solutions, min_solutions);
+    else
+      search.edits.family = EditFamily::paper;
+    return search;
+  }
+
+  bool late(double share) { return budget_.late(share) || cancelled(); }
+  bool cancelled() const { return options_.search.cancelled && options_.search.cancelled(); }
+
+  /// One pursuit per starting direction.
+  std::vector<Candidate> pursuits(const BestFirstOptions& search) {
+    PursuitOptions options;
+    options.alpha = search.alpha;
+    options.edits = search.edits;
+    options.cancelled = [this] { return late(pursuit_share); };
+    std::vector<Candidate> found;
+    double first = 0;
+    for (const Eigen::Vector3d& direction : search.directions) {
+      Candidate start = at_rest(checker_, direction);
+      if (found.empty()) first = start.measured.value;
+      start.energy.gain = start.measured.value - first;
+      start.energy.value = -(1 - search.alpha) * start.energy.gain;
+      options.evaluations = budget_.designs_until(pursuit_share);
+      PursuitResult result = pursued(checker_, start, options);
+      budget_.charge(result.evaluations);
+      result_.progress.evaluated += result.evaluations;
+      found.push_back(std::move(result.candidate));
+    }
+    return found;
+  }
+
+  /// A search until `share` of the work is done, with the expansions that are left. What the saved state did
+  /// counts as done.
+  BestFirstResult searched(BestFirstOptions search, double share, const std::optional<SavedSearch>& state) {
+    search.expansions -= result_.progress.expanded;
+    search.trials = budget_.designs_until(share, min_search);
+    search.seconds = budget_.seconds_until(share, min_search);
+    if (search.progress)
+      search.progress = [this, report = search.progress](ImprovementProgress now) { report(counted(now)); };
+    BestFirstResult found =
+        state ? best_first_resumed(checker_, search, *state) : best_first(checker_, search);
+    budget_.charge(found.trials);
+    if (found.end == SearchEnd::time_limit) budget_.note_deadline();
+    result_.progress = counted(found.progress);
+    return found;
+  }
+
+  /// With what the phases before this search did.
+  ImprovementProgress counted(ImprovementProgress now) const {
+    now.expanded += result_.progress.expanded;
+    now.evaluated += result_.progress.evaluated;
+    now.seconds_left = budget_.seconds_until(1);
+    return now;
+  }
+
+  void refine(std::vector<Candidate> starts, BestFirstResult& found) {
+    const std::int64_t before = budget_.used();
+    Refinements refinements(checker_, options_, budget_);
+    result_.solutions = refinements.refined(std::move(starts), found);
+    result_.progress.evaluated += budget_.used() - before;
+    if (refinements.nearest()) found.nearest.insert(found.nearest.begin(), *refinements.nearest());
+    std::stable_sort(found.nearest.begin(), found.nearest.end(), more_stackable);
+    if (result_.solutions.size() >= static_cast<std::size_t>(options_.search.solutions) ||
+        (!result_.solutions.empty() && found.solutions.empty() && result_.end == SearchEnd::exhausted))
+      result_.end = SearchEnd::solved;
+  }
+
+  void finish(const BestFirstResult& found) {
+    for (const Candidate& solution : result_.solutions)
+      result_.assessments.push_back(checker_.checked(solution.design, Direction(solution.direction)));
+    Eigen::Vector3d direction = options_.search.directions.front();
+    if (!result_.solutions.empty()) {
+      direction = result_.solutions.front().direction;
+    } else if (!found.nearest.empty()) {
+      direction = found.nearest.front().direction;
+      diagnose(found);
+      result_.nearest = found.nearest.front();
+    }
+    result_.before = at_rest(checker_, direction);
+    if (cancelled())
+      result_.end = SearchEnd::cancelled;
+    else if (budget_.met_deadline())
+      result_.end = SearchEnd::time_limit;
+  }
+
+  void diagnose(const BestFirstResult& found) {
+    DiagnosisOptions options;
+    options.designs = static_cast<double>(budget_.designs_until(1, min_search));
+    options.directions_per_design =
+        static_cast<double>(directions_of_effort(1, checker_.space().rest().shape)) /
+        designs_of_effort(1, checker_.space().rest());
+    options.cancelled = [this] { return late(1); };
+    result_.diagnosis = diagnosed(checker_, found, options);
+  }
+
+  const RequirementChecker& checker_;
+  const ImprovementOptions& options_;
+  const std::optional<SavedSearch>& state_;
+  bool refines_;
+  WorkBudget budget_;
+  Improvement result_;
+};
+
+}  // namespace
+
+Improvement improve(const RequirementChecker& checker, const ImprovementOptions& options,
+                    const std::optional<SavedSearch>& state) {
+  return ImprovementRun(checker, options, state).run();
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,233 @@
+#include "improvement/search/best_first_search.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "improvement/search/refusal_reason.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Candidates that are shown when the target was not reached.
+constexpr std::size_t most_nearest = 8;
+
+/// The look around in a cone costs about as much as so many edits.
+constexpr std::int64_t cone_trials = 8;
+
+/// Seconds between two saves, and the most that saving may take of all time.
+constexpr double save_every = 1;
+constexpr double save_share = 0.05;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+BestFirstSearch::BestFirstSearch(const RequirementChecker& checker, const BestFirstOptions& options,
+                                 SearchState state)
+    : tools_(checker, options),
+      state_(std::move(state)),
+      interruption_(options),
+      designs_(checker, state_.tree),
+      cone_(checker, options.cone_degrees),
+      distinct_(checker.space().rest()) {
+  if (state_.tree.nodes().empty()) add_roots();
+  for (int id = 0; id < state_.tree.count(); ++id) {
+    notice(state_.tree.node(id));
+    if (state_.tree.node(id).state == NodeState::solution) solutions_.emplace_back(id, designs_.of(id));
+  }
+}
+
+void BestFirstSearch::add_roots() {
+  const Design rest = checker().space().at_rest();
+  for (std::size_t queue = 0; queue < options().directions.size(); ++queue) {
+    SearchNode root;
+    root.queue = static_cast<int>(queue);
+    root.direction = options().directions[queue];
+    root.measured = checker().measured(rest.shape, Direction(root.direction));
+    root.energy = tools_.energy(rest, root.measured);
+    root.key = tools_.keys.key(rest);
+    state_.tree.add(root);
+    ++state_.evaluated;
+  }
+}
+
+void BestFirstSearch::notice(const SearchNode& node) {
+  best_stackability_ = std::max(best_stackability_, node.measured.value);
+  best_energy_ = std::min(best_energy_, node.energy.value);
+}
+
+BestFirstResult BestFirstSearch::run() {
+  save();
+  std::optional<SearchEnd> ended = end();
+  while (!ended) {
+    ended = step(*state_.tree.next());
+    if (ended) break;
+    ended = end();
+    if (options().progress) options().progress(progress());
+    if (seconds_since(last_save_) >= std::max(save_every, save_seconds_ / save_share)) save();
+  }
+  save();
+  return result(*ended);
+}
+
+std::optional<SearchEnd> BestFirstSearch::end() {
+  if (solutions_.size() >= static_cast<std::size_t>(options().solutions)) return SearchEnd::solved;
+  if (!state_.tree.next()) return SearchEnd::exhausted;
+  if (state_.expanded >= options().expansions) return SearchEnd::expansion_limit;
+  if (interruption_.now()) return interruption_.why();
+  return std::nullopt;
+}
+
+std::optional<SearchEnd> BestFirstSearch::step(int id) {
+  const SearchNode node = state_.tree.node(id);
+  const std::shared_ptr<const Design> design = designs_.of(id);
+  Stackability measured = node.measured;
+  if (!checker().reaches(measured))
+    if (const auto better = cone_.better(design->shape, measured)) measured = *better;
+
+  const Verdict verdict = this->verdict(*design, measured);
+  std::vector<Successor> made;
+  if (!verdict.state) {
+    const Standpoint from{*design, measured.direction, node.queue};
+    std::vector<ContactEdit> edits = suggested_edits(tools_, from);
+    const auto trials = static_cast<std::int64_t>(edits.size()) + turning_trials();
+    if (trials > options().trials - state_.trials) return SearchEnd::trial_limit;
+    made = successors(tools_, from, std::move(edits), state_.tree, interruption_);
+    if (interruption_.why()) return interruption_.why();
+    state_.trials += trials;
+    ++state_.expanded;
+  }
+  state_.tree.settle(id, verdict.state.value_or(NodeState::expanded));
+  state_.tree.turn_to(id, measured, tools_.energy(*design, measured));
+  notice(state_.tree.node(id));
+  if (verdict.state == NodeState::solution) solutions_.emplace_back(id, design);
+  for (const std::string& check : verdict.broken) ++state_.refusals[check];
+  add_successors(id, made);
+  return std::nullopt;
+}
+
+std::int64_t BestFirstSearch::turning_trials() const {
+  return options().cone_degrees > 0 ? cone_trials : 0;
+}
+
+BestFirstSearch::Verdict BestFirstSearch::verdict(const Design& design, const Stackability& measured) const {
+  if (!checker().reaches(measured)) return {};
+  for (const auto& solution : solutions_)
+    if (!distinct_.differ(design, *solution.second)) return {NodeState::repeated, {}};
+  const Assessment assessment = checker().checked(design, Direction(measured.direction));
+  if (assessment.passed()) return {NodeState::solution, {}};
+  Verdict verdict;
+  for (const Check& check : assessment.checks)
+    if (!check.passed)
+      verdict.broken.push_back("a design that reaches the target fails its check of: " + check.name);
+  return verdict;
+}
+
+void BestFirstSearch::add_successors(int parent, const std::vector<Successor>& made) {
+  const SearchNode from = state_.tree.node(parent);
+  std::vector<std::pair<int, const Successor*>> added;
+  for (const Successor& successor : made) {
+    if (successor.refusal) {
+      ++state_.refusals[without_amounts(*successor.refusal)];
+      continue;
+    }
+    if (!successor.known) ++state_.evaluated;
+    if (state_.tree.knows(from.queue, successor.key)) continue;
+    SearchNode node;
+    node.parent = parent;
+    node.queue = from.queue;
+    node.edit = successor.suggestion.edit;
+    node.why = successor.suggestion.why;
+    node.direction = from.direction;
+    node.measured = successor.measured;
+    node.energy = successor.energy;
+    node.key = successor.key;
+    notice(node);
+    added.emplace_back(state_.tree.add(std::move(node)), &successor);
+  }
+  // Those looked at first are to be forgotten last.
+  std::sort(added.begin(), added.end(), [](const auto& a, const auto& b) {
+    return std::pair(a.second->energy.value, a.first) > std::pair(b.second->energy.value, b.first);
+  });
+  for (const auto& [id, successor] : added) designs_.keep(id, successor->design);
+}
+
+ImprovementProgress BestFirstSearch::progress() const {
+  ImprovementProgress now;
+  now.best_stackability = best_stackability_;
+  now.best_energy = best_energy_;
+  now.expanded = state_.expanded;
+  now.evaluated = state_.evaluated;
+  now.queued = state_.tree.queued();
+  now.solutions = static_cast<int>(solutions_.size());
+  now.seconds_left = std::max(0.0, options().seconds - interruption_.seconds());
+  return now;
+}
+
+void BestFirstSearch::save() {
+  if (!options().save) return;
+  const auto start = std::chrono::steady_clock::now();
+  options().save(text_of(state_));
+  save_seconds_ = seconds_since(start);
+  last_save_ = std::chrono::steady_clock::now();
+}
+
+Candidate BestFirstSearch::candidate(int id) {
+  const SearchNode& node = state_.tree.node(id);
+  Candidate candidate;
+  candidate.design = *designs_.of(id);
+  candidate.direction = node.direction;
+  candidate.measured = node.measured;
+  candidate.energy = node.energy;
+  for (const int step : state_.tree.path(id)) candidate.reasons.push_back(state_.tree.node(step).why);
+  return candidate;
+}
+
+std::vector<Candidate> BestFirstSearch::nearest() {
+  std::vector<int> order;
+  for (int id = 0; id < state_.tree.count(); ++id) {
+    const NodeState state = state_.tree.node(id).state;
+    if (state == NodeState::queued || state == NodeState::expanded) order.push_back(id);
+  }
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return state_.tree.node(a).measured.value > state_.tree.node(b).measured.value;
+  });
+  std::vector<Candidate> nearest;
+  std::vector<std::vector<Gesture>> shown;
+  for (const int id : order) {
+    if (nearest.size() == most_nearest) break;
+    std::vector<Edit> edits;
+    for (const int step : state_.tree.path(id)) edits.push_back(state_.tree.node(step).edit);
+    std::vector<Gesture> gestures = distinct_.gestures(edits);
+    if (std::find(shown.begin(), shown.end(), gestures) != shown.end()) continue;
+    shown.push_back(std::move(gestures));
+    nearest.push_back(candidate(id));
+  }
+  return nearest;
+}
+
+std::vector<RefusalCount> BestFirstSearch::refusals() const {
+  std::vector<RefusalCount> counts;
+  for (const auto& [reason, count] : state_.refusals) counts.push_back({reason, count});
+  std::stable_sort(counts.begin(), counts.end(),
+                   [](const RefusalCount& a, const RefusalCount& b) { return a.count > b.count; });
+  return counts;
+}
+
+BestFirstResult BestFirstSearch::result(SearchEnd end) {
+  BestFirstResult result;
+  result.end = end;
+  for (const auto& solution : solutions_) result.solutions.push_back(candidate(solution.first));
+  std::stable_sort(result.solutions.begin(), result.solutions.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.energy.value < b.energy.value; });
+  result.nearest = nearest();
+  result.refusals = refusals();
+  result.progress = progress();
+  result.trials = state_.trials;
+  return result;
+}
+
+}  // namespace stackabilization::detail

@@ -1,0 +1,91 @@
+#include "improvement/search/expansion.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "improvement/contacts/design_contacts.h"
+#include "stackabilization/core/tolerances.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Whether `edit` takes back what `earlier` did, in part at least.
+bool takes_back(const Edit& edit, const Edit& earlier) {
+  if (!(edit.handle == earlier.handle) || edit.operation.index() != earlier.operation.index()) return false;
+  if (const auto* move = std::get_if<Move>(&edit.operation)) {
+    const Eigen::Vector3d& by = std::get<Move>(earlier.operation).by;
+    return move->by.dot(by) < -tolerance::same_symmetry * move->by.norm() * by.norm();
+  }
+  const auto *scale = std::get_if<Scale>(&edit.operation), *before = std::get_if<Scale>(&earlier.operation);
+  if (scale == nullptr || (scale->factor > 1) == (before->factor > 1)) return false;
+  if (scale->along.has_value() != before->along.has_value()) return false;
+  return !scale->along ||
+         scale->along->cross(*before->along).norm() < tolerance::same_symmetry * before->along->norm();
+}
+
+void make(Successor& successor, const SearchTools& tools, const Standpoint& from, const SearchTree& tree) {
+  const DesignSpace& space = tools.checker.space();
+  const Direction direction(from.direction);
+  const auto constraints = deformation_constraints(tools.checker.requirements(), space.rest(), direction);
+  DesignOutcome outcome = space.edited(from.design, successor.suggestion.edit, constraints);
+  if (outcome.refusal) {
+    successor.refusal = outcome.refusal->reason;
+    return;
+  }
+  if (auto reason = tools.checker.out_of_proportion(outcome.design)) {
+    successor.refusal = std::move(reason);
+    return;
+  }
+  successor.key = tools.keys.key(outcome.design);
+  successor.known = tree.knows(from.queue, successor.key);
+  if (successor.known) return;
+  successor.measured = tools.checker.measured(outcome.design.shape, direction);
+  successor.energy = tools.energy(outcome.design, successor.measured);
+  if (!std::isfinite(successor.energy.value)) successor.refusal = "stackability or distortion is undefined";
+  successor.design = std::move(outcome.design);
+}
+
+}  // namespace
+
+SearchTools::SearchTools(const RequirementChecker& the_checker, const BestFirstOptions& the_options)
+    : checker(the_checker),
+      options(the_options),
+      meter(the_checker.space().rest(), the_checker.requirements().measure.boxes, the_options.alpha),
+      keys(the_checker.space()),
+      handles(the_checker.space().handles()),
+      at_rest(
+          the_checker.measured(the_checker.space().rest().shape, Direction(the_options.directions.front()))
+              .value) {}
+
+std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const Standpoint& from) {
+  const DesignSpace& space = tools.checker.space();
+  const Direction direction(from.direction);
+  const std::vector<ContactRegion> regions =
+      contacts_of(tools.checker, from.design.shape, direction, tools.options.edits.contacts);
+  std::vector<ContactEdit> edits = contact_edits(
+      {space.rest(), space.kind(), tools.handles, from.design, regions, direction, space.centres()},
+      tools.options.edits);
+  // Back and forth leads to places that steps of the same kind reach as well, or near them.
+  std::erase_if(edits, [&](const ContactEdit& suggestion) {
+    return std::any_of(from.design.edits.begin(), from.design.edits.end(),
+                       [&](const Edit& earlier) { return takes_back(suggestion.edit, earlier); });
+  });
+  return edits;
+}
+
+std::vector<Successor> successors(const SearchTools& tools, const Standpoint& from,
+                                  std::vector<ContactEdit> edits, const SearchTree& tree,
+                                  Interruption& interruption) {
+  std::vector<Successor> made(edits.size());
+  for (std::size_t k = 0; k < made.size(); ++k) made[k].suggestion = std::move(edits[k]);
+  tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t k) {
+    if (!interruption.now()) make(made[k], tools, from, tree);
+  });
+  return made;
+}
+
+}  // namespace stackabilization::detail

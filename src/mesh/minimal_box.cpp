@@ -1,0 +1,211 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <queue>
+#include <tuple>
+#include <vector>
+
+#include "mesh/affine_span.h"
+#include "stackabilization/core/tolerances.h"
+#include "stackabilization/mesh/boxes.h"
+
+namespace stackabilization {
+
+namespace {
+
+/// Work for one search, in visits of hull elements: a fraction of a second.
+constexpr double total_effort = 1.5e8;
+
+/// The same for one box. Corners of the silhouette, at most about those of the face with most sides, must be
+/// sorted.
+double effort_per_box(const HullSupport& hull) {
+  Eigen::VectorXi sides = Eigen::VectorXi::Zero(hull.face_normals().rows());
+  for (Eigen::Index e = 0; e < hull.edge_faces().rows(); ++e)
+    for (int side = 0; side < 2; ++side) ++sides[hull.edge_faces()(e, side)];
+  return 1000.0 + 100.0 * sides.maxCoeff() +
+         static_cast<double>(hull.points().rows() + hull.edges().rows() + sides.size());
+}
+
+/// Intervals of an arc narrower than this are searched by golden section, radians.
+constexpr double narrow = 0.01;
+
+/// So far from its end, in radians, such an interval is probed for the slope there: a kink that lies between
+/// hides little more than the accuracy of boxes, and a slope that rounding hides makes little over the
+/// interval.
+constexpr double beside = 3 * tolerance::relative;
+
+/// The turn from one hull face normal to a neighbouring one.
+struct Arc {
+  Eigen::Vector3d start, side;
+  double length;
+
+  Eigen::Vector3d normal(double angle) const { return start * std::cos(angle) + side * std::sin(angle); }
+};
+
+/// The smallest box at one place of an arc, its volume up to a factor that is the same for all. Turned by a
+/// small angle d it grows by a factor of at most 1 + d * rate, its other sides times d, to hold the shape
+/// again.
+struct Sample {
+  double angle = 0, volume = 0, rate = 0;
+};
+
+struct Interval {
+  int arc;
+  Sample low, high;
+  double bound;  ///< volume that boxes inside hardly go below: `rate` of both ends is taken for theirs
+
+  double width() const { return high.angle - low.angle; }
+  bool operator<(const Interval& other) const {  // smallest bound on top of a priority queue
+    return std::tie(bound, arc, low.angle) > std::tie(other.bound, other.arc, other.low.angle);
+  }
+};
+
+double turning_rate(const OrientedBox& box) {
+  const double a = box.half_extents.z(), b = box.half_extents.x(), c = box.half_extents.y();
+  return std::hypot(b / a + a / b, c / a + a / c);
+}
+
+class MinimalBoxSearch {
+ public:
+  explicit MinimalBoxSearch(const HullSupport& hull)
+      : hull_(hull),
+        unit_(std::ldexp(1.0, std::min(working_exponent(hull.points()), 1000))),
+        boxes_left_(static_cast<int>(total_effort / effort_per_box(hull))) {}
+
+  OrientedBox run() {
+    visit_faces();
+    visit_arcs();
+    while (!intervals_.empty() && boxes_left_ > 0) {
+      const Interval interval = intervals_.top();
+      intervals_.pop();
+      if (cannot_win(interval.bound)) break;
+      if (interval.width() > narrow)
+        split(interval);
+      else
+        minimise_inside(interval);
+    }
+    return best_;
+  }
+
+ private:
+  Sample visit(const Eigen::Vector3d& normal, double angle) {
+    --boxes_left_;
+    const OrientedBox box = hull_.box_along(Direction(normal));
+    const double volume = (unit_ * box.half_extents).prod();
+    if (volume < best_volume_) {
+      best_ = box;
+      best_volume_ = volume;
+    }
+    return {angle, volume, turning_rate(box)};
+  }
+
+  bool cannot_win(double bound) const { return bound >= best_volume_ * (1 - tolerance::rounding); }
+
+  void push(int arc, const Sample& low, const Sample& high) {
+    const double growth = std::max(low.rate, high.rate) * (high.angle - low.angle) / 2;
+    const double bound =
+        std::min({low.volume, high.volume, std::sqrt(low.volume * high.volume) * std::exp(-growth)});
+    if (!cannot_win(bound)) intervals_.push({arc, low, high, bound});
+  }
+
+  void visit_faces();
+  void visit_arcs();
+  void split(const Interval& interval);
+  bool least_at_an_end(const Interval& interval);
+  void minimise_inside(const Interval& interval);
+
+  const HullSupport& hull_;
+  double unit_;  ///< lengths times it have volumes that neither overflow nor underflow
+  int boxes_left_;
+  OrientedBox best_;
+  double best_volume_ = std::numeric_limits<double>::infinity();
+  std::vector<std::optional<Sample>> face_samples_;
+  std::vector<Arc> arcs_;
+  std::priority_queue<Interval> intervals_;
+};
+
+/// Large hulls: the largest faces get half of the effort, the arcs between them the rest.
+void MinimalBoxSearch::visit_faces() {
+  const Eigen::Index visited =
+      std::min<Eigen::Index>(hull_.face_normals().rows(), std::max(1, boxes_left_ / 2));
+  face_samples_.resize(hull_.face_normals().rows());
+  for (Eigen::Index f = 0; f < visited; ++f)
+    if (!hull_.face_normals().row(f).isZero())
+      face_samples_[f] = visit(hull_.face_normals().row(f).transpose(), 0);
+}
+
+void MinimalBoxSearch::visit_arcs() {
+  for (Eigen::Index e = 0; e < hull_.edge_faces().rows(); ++e) {
+    const int from = hull_.edge_faces()(e, 0), to = hull_.edge_faces()(e, 1);
+    if (!face_samples_[from] || !face_samples_[to]) continue;
+    const Eigen::Vector3d start = hull_.face_normals().row(from).transpose();
+    const Eigen::Vector3d end = hull_.face_normals().row(to).transpose();
+    const Eigen::Vector3d side = (end - start * start.dot(end)).stableNormalized();
+    arcs_.push_back({start, side, std::atan2(start.cross(end).norm(), start.dot(end))});
+    Sample high = *face_samples_[to];
+    high.angle = arcs_.back().length;
+    push(static_cast<int>(arcs_.size()) - 1, *face_samples_[from], high);
+  }
+}
+
+void MinimalBoxSearch::split(const Interval& interval) {
+  const double angle = (interval.low.angle + interval.high.angle) / 2;
+  const Sample middle = visit(arcs_[interval.arc].normal(angle), angle);
+  push(interval.arc, interval.low, middle);
+  push(interval.arc, middle, interval.high);
+}
+
+/// Do boxes grow from the end with the smaller one on? Then it is the minimum of the interval.
+bool MinimalBoxSearch::least_at_an_end(const Interval& interval) {
+  if (interval.width() < 2 * beside) return false;
+  const bool at_low = interval.low.volume <= interval.high.volume;
+  const double angle = at_low ? interval.low.angle + beside : interval.high.angle - beside;
+  const double volume = visit(arcs_[interval.arc].normal(angle), angle).volume;
+  return volume >= (at_low ? interval.low : interval.high).volume;
+}
+
+/// Golden section: it needs no derivatives, and the minimum is often a kink where the hull touches with
+/// another corner.
+void MinimalBoxSearch::minimise_inside(const Interval& interval) {
+  constexpr double golden = 0.6180339887498949;
+  if (least_at_an_end(interval)) return;
+  const Arc& arc = arcs_[interval.arc];
+  double low = interval.low.angle, high = interval.high.angle;
+  const auto inner = [&](double fraction) {
+    const double angle = low + (high - low) * fraction;
+    return visit(arc.normal(angle), angle);
+  };
+  Sample left = inner(1 - golden), right = inner(golden);
+  while (high - low > tolerance::rounding && boxes_left_ > 0) {
+    const Sample& least = left.volume <= right.volume ? left : right;
+    if (cannot_win(least.volume * (1 - least.rate * (high - low)))) return;
+    if (left.volume <= right.volume) {
+      high = right.angle;
+      right = left;
+      left = inner(1 - golden);
+    } else {
+      low = left.angle;
+      left = right;
+      right = inner(golden);
+    }
+  }
+}
+
+/// Direction in which a straight set runs; z for a point.
+Direction direction_of_straight_set(const Points& points) {
+  const Eigen::Vector3d along = (points.row(points.rows() - 1) - points.row(0)).transpose();
+  return Direction(along.isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::UnitZ())
+                                   : Eigen::Vector3d(along.stableNormalized()));
+}
+
+}  // namespace
+
+OrientedBox minimal_oriented_box(const HullSupport& hull) {
+  if (hull.dimension() < 2) return hull.box_along(direction_of_straight_set(hull.points()));
+  if (hull.dimension() == 2) return hull.box_along(Direction(hull.face_normals().row(0).transpose()));
+  return MinimalBoxSearch(hull).run();
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,82 @@
+#include "stackabilization/stacking/map.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "stackabilization/core/errors.h"
+
+namespace stackabilization {
+
+namespace {
+
+constexpr std::size_t batch_size = 512;  ///< directions between two reports of progress
+
+/// Cosine and sine, exact at multiples of a right angle.
+struct Turn {
+  double cosine, sine;
+};
+
+Turn turn(double degrees) {
+  const double quarters = std::floor(degrees / 90), rest = (degrees - 90 * quarters) * std::numbers::pi / 180;
+  const double c = std::cos(rest), s = std::sin(rest);
+  switch (static_cast<int>(quarters) % 4) {
+    case 0:
+      return {c, s};
+    case 1:
+      return {-s, c};
+    case 2:
+      return {-c, -s};
+    default:
+      return {s, -c};
+  }
+}
+
+MapSample sample_at(double theta, double phi) {
+  const Turn polar = turn(theta), around = turn(phi);
+  const Eigen::Vector3d direction(polar.sine * around.cosine, polar.sine * around.sine, polar.cosine);
+  return {(direction.array() + 0.0).matrix(), theta, phi, 0, 0};
+}
+
+std::vector<MapSample> directions(double step) {
+  const int rings = static_cast<int>(std::ceil(90 / step));
+  std::vector<MapSample> samples = {sample_at(0, 0)};
+  for (int ring = 1; ring <= rings; ++ring) {
+    const double theta = 90.0 * ring / rings;
+    // A multiple of four, so that every ring meets the planes of the axes.
+    const int count = 4 * static_cast<int>(std::ceil(90 * turn(theta).sine / step));
+    for (int i = 0; i < count; ++i) samples.push_back(sample_at(theta, 360.0 * i / count));
+  }
+  return samples;
+}
+
+}  // namespace
+
+StackabilityMap stackability_map(const StackabilitySolver& solver, const MapOptions& options) {
+  if (!(options.step_degrees >= 0.1) || options.step_degrees > 90)
+    throw UsageError("the step of a map must be between 0.1 and 90 degrees");
+  if (!(solver.box_volume() > 0)) throw UsageError("a map needs a shape whose stackability is defined");
+  StackabilityMap map;
+  map.step_degrees = options.step_degrees;
+  map.samples = directions(options.step_degrees);
+  for (std::size_t begin = 0; begin < map.samples.size(); begin += batch_size) {
+    if (options.cancelled && options.cancelled()) {
+      map.samples.resize(begin);
+      map.cancelled = true;
+      return map;
+    }
+    if (options.progress)
+      options.progress(static_cast<double>(begin) / static_cast<double>(map.samples.size()));
+    tbb::parallel_for(begin, std::min(begin + batch_size, map.samples.size()), [&](std::size_t i) {
+      const Stackability measured = solver.measure(Direction(map.samples[i].direction));
+      map.samples[i].f_max_over_height = measured.f_max / measured.extent;
+      map.samples[i].stackability = measured.value;
+    });
+  }
+  if (options.progress) options.progress(1);
+  return map;
+}
+
+}  // namespace stackabilization

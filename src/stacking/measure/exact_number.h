@@ -1,0 +1,30 @@
+#pragma once
+
+#include <locale>
+#include <sstream>
+#include <string>
+
+#include "stackabilization/core/rational.h"
+
+namespace stackabilization {
+
+/// The exact number type of a CGAL kernel (GMP or Boost, as CGAL was configured) with the same value. Through
+/// decimal text, the one form that they all share.
+template <class Exact>
+Exact to_exact(const Rational& value) {
+  return Exact(value.numerator() + "/" + value.denominator());
+}
+
+/// The Rational with the same value.
+template <class Exact>
+Rational from_exact(const Exact& value) {
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  stream << value;
+  const std::string text = stream.str();
+  const std::size_t slash = text.find('/');
+  if (slash == std::string::npos) return {text, "1"};
+  return {text.substr(0, slash), text.substr(slash + 1)};
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,44 @@
+#include "stackabilization/stacking/nest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/tolerances.h"
+#include "stackabilization/stacking/clearance.h"
+#include "stacking/measure/exact_span.h"
+
+namespace stackabilization {
+
+NestResult nest(const Shape& container, const Shape& content, const Direction& direction,
+                const NestOptions& options) {
+  if (!(options.clearance >= 0 && options.clearance <= tolerance::largest_coordinate))
+    throw UsageError("the clearance must be a length from 0 to 10^60");
+  validate(container);
+  validate(content);
+  const double unit = direction.length();
+  const Span below = exact_span(container, direction), above = exact_span(content, direction);
+
+  NestResult result;
+  result.separation = separation_with_play(container, content, direction,
+                                           {options.play, options.play_corners, options.semantics});
+  result.offset = below.bottom - above.bottom;
+  result.on_floor = true;
+  if (result.separation.blocked) {
+    Rational lift = result.separation.value + Rational(options.clearance / unit);
+    if (lift >= result.offset) {
+      result.offset = std::move(lift);
+      result.on_floor = false;
+    }
+  }
+  result.offset_length = result.offset.to_double() * unit;
+  result.container_height = (below.top - below.bottom).to_double() * unit;
+  result.content_height = (above.top - above.bottom).to_double() * unit;
+  const Rational top = std::max(below.top, above.top + result.offset);
+  result.total_height = (top - below.bottom).to_double() * unit;
+  result.saving = result.container_height + result.content_height - result.total_height;
+  return result;
+}
+
+}  // namespace stackabilization

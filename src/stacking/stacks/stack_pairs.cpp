@@ -1,0 +1,105 @@
+#include "stacking/stacks/stack_pairs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/tolerances.h"
+#include "stackabilization/stacking/clearance.h"
+
+namespace stackabilization {
+
+namespace {
+
+constexpr int largest_stack = 10000;
+constexpr std::size_t most_poses = 1000;
+
+void check(const StackOptions& options) {
+  if (options.copies < 1 || options.copies > largest_stack)
+    throw UsageError("a stack needs from 1 to " + std::to_string(largest_stack) + " copies");
+  if (!(options.clearance >= 0 && options.clearance <= tolerance::largest_coordinate))
+    throw UsageError("the clearance must be a length from 0 to 10^60");
+  if (options.axis_point && !options.axis_point->allFinite())
+    throw UsageError("the point of the twist axis needs three finite coordinates");
+}
+
+std::optional<SeparationTree> dilated_tree(const Shape& shape, const Direction& direction,
+                                           const StackOptions& options) {
+  const DilationOptions dilation{options.play, options.play_corners, DilatedSide::upper};
+  const DilatedShape dilated = dilated_sideways(shape, direction, dilation);
+  if (options.play == 0) return std::nullopt;
+  return SeparationTree(dilated.shape);
+}
+
+}  // namespace
+
+StackPairs::StackPairs(const Shape& shape, const Direction& direction, const StackOptions& options)
+    : direction_(direction),
+      semantics_(options.semantics),
+      twist_degrees_(reduced_degrees(options.twist_degrees)),
+      clearance_(options.clearance / direction.length()) {
+  check(options);
+  validate(shape);
+  axis_ =
+      options.axis_point ? Line{*options.axis_point, direction} : box_axis(shape, direction, options.boxes);
+
+  const std::vector<RigidTransform> straight(1);
+  std::vector<Pose> poses;
+  std::map<std::array<double, 12>, int> known;
+  for (const RigidTransform& transform : options.poses.empty() ? straight : options.poses) {
+    validate(transform);
+    std::array<double, 12> key;
+    std::copy_n(transform.rotation.data(), 9, key.begin());
+    std::copy_n(transform.translation.data(), 3, key.begin() + 9);
+    const auto [entry, added] = known.try_emplace(key, static_cast<int>(known.size()));
+    if (known.size() > most_poses)
+      throw UsageError("a stack can use at most " + std::to_string(most_poses) + " different poses");
+    sequence_.push_back(entry->second);
+    if (!added) continue;
+    Shape posed = transformed(shape, transform);
+    const Span span = exact_span(posed, direction);
+    SeparationTree tree(posed);
+    std::optional<SeparationTree> dilated = dilated_tree(posed, direction, options);
+    poses.push_back({transform, std::move(posed), span, std::move(tree), std::move(dilated)});
+  }
+  poses_ = std::make_shared<const std::vector<Pose>>(std::move(poses));
+}
+
+StackPairs StackPairs::with_twist(double degrees) const {
+  StackPairs other = *this;
+  other.twist_degrees_ = reduced_degrees(degrees);
+  other.demands_.clear();
+  return other;
+}
+
+RigidTransform StackPairs::transform(int pose, int copy) const {
+  const RigidTransform& base = (*poses_)[static_cast<std::size_t>(pose)].transform;
+  const double turn = turn_degrees(copy);
+  return turn == 0 ? base : composed(rotation_about(axis_, turn), base);
+}
+
+const Demand& StackPairs::demand(int below, int above, int lag) {
+  const double turn = turn_degrees(lag);
+  const std::tuple key(turn, below, above);
+  if (const auto known = demands_.find(key); known != demands_.end()) return known->second;
+
+  const Pose& lower = (*poses_)[static_cast<std::size_t>(below)];
+  const Pose& upper = (*poses_)[static_cast<std::size_t>(above)];
+  const SeparationTree& lower_tree = lower.dilated_tree ? *lower.dilated_tree : lower.tree;
+  std::optional<SeparationTree> turned;
+  if (turn != 0) turned.emplace(transformed(upper.shape, rotation_about(axis_, turn)));
+  const Separation found = separation(lower_tree, turned ? *turned : upper.tree, direction_,
+                                      {.semantics = semantics_, .abandon_above = std::nullopt});
+  Demand demand;
+  demand.blocked = found.blocked;
+  if (found.blocked) {
+    demand.lift = found.value + Rational(clearance_);
+    demand.approximate = demand.lift.to_double();
+  }
+  return demands_.emplace(key, std::move(demand)).first->second;
+}
+
+}  // namespace stackabilization

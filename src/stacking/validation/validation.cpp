@@ -1,0 +1,344 @@
+#include "stackabilization/stacking/validation.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "stackabilization/core/errors.h"
+#include "stackabilization/mesh/exact_triangles.h"
+#include "stackabilization/stacking/collision.h"
+#include "stackabilization/stacking/minkowski.h"
+
+namespace stackabilization {
+
+namespace {
+
+std::string short_number(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3).ptr;
+  return {text, end};
+}
+
+double width_across(const Shape& shape, const Direction& direction) {
+  const Frame frame = frame_of(direction);
+  return std::max(range_along(shape, frame.u).length(), range_along(shape, frame.v).length());
+}
+
+bool has_area(const Shape& shape, Eigen::Index t) {
+  return !are_collinear(shape.corner(t, 0), shape.corner(t, 1), shape.corner(t, 2));
+}
+
+void check_options(const ValidationOptions& options) {
+  if (options.resolutions.empty() || !std::is_sorted(options.resolutions.begin(), options.resolutions.end()))
+    throw UsageError("validation needs an ascending list of resolutions");
+  if (!(options.collision_margin > 0)) throw UsageError("the margin of collision tests must be positive");
+}
+
+/// Runs the checks one after the other and collects their rows.
+class Validator {
+ public:
+  Validator(const Shape& shape, const Direction& direction, const ValidationOptions& options)
+      : shape_(shape), direction_(direction), options_(options) {
+    validate(shape);
+    check_options(options);
+    report_.direction = direction.vector();
+    report_.extent = range_along(shape, direction.unit()).length();
+  }
+
+  ValidationReport run() {
+    exact();
+    witness();
+    if (report_.solid.blocked) {
+      std::optional<RayCaster> caster;
+      timed("build the ray caster", [&](ValidationRow& row) {
+        caster.emplace(shape_);
+        row.verdict = Verdict::agrees;
+      });
+      const HeightFieldMaker rays{"rays",
+                                  [&](const Shape&, const Direction& direction, const Window& window) {
+                                    return caster->cast(direction, window, options_.max_ray_hits);
+                                  }};
+      raster_around_witness(rays);
+      raster(rays);
+      raster({"scanline", height_field_by_scanline});
+      for (const HeightFieldMaker& maker : options_.further_rasters) raster(maker);
+    }
+    collisions();
+    minkowski();
+    report_.passed = std::none_of(report_.rows.begin(), report_.rows.end(),
+                                  [](const ValidationRow& row) { return row.verdict == Verdict::disagrees; });
+    return std::move(report_);
+  }
+
+ private:
+  /// Appends a row that `check` fills; what it throws about the input is a reason to skip.
+  template <class Check>
+  ValidationRow& timed(const std::string& name, const Check& check) {
+    ValidationRow row;
+    row.name = name;
+    const auto start = std::chrono::steady_clock::now();
+    try {
+      check(row);
+    } catch (const InputError& reason) {
+      row.verdict = Verdict::skipped;
+      row.note = reason.what();
+    }
+    row.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    report_.rows.push_back(std::move(row));
+    return report_.rows.back();
+  }
+
+  void skip(const std::string& name, const std::string& reason) {
+    timed(name, [&](ValidationRow& row) { row.note = reason; });
+  }
+
+  void exact() {
+    const SeparationTree tree(shape_);
+    const auto answer = [&](Semantics semantics) {
+      SeparationOptions options;
+      options.semantics = semantics;
+      return separation(tree, tree, direction_, options);
+    };
+    timed("exact, solid", [&](ValidationRow& row) {
+      report_.solid = answer(Semantics::solid);
+      row.verdict = report_.solid.blocked ? Verdict::agrees : Verdict::skipped;
+      if (report_.solid.blocked)
+        row.value = report_.solid.length;
+      else
+        row.note = "the projection along the direction has no area";
+    });
+    timed("exact, closed", [&](ValidationRow& row) {
+      report_.closed = answer(Semantics::closed);
+      row.value = report_.closed.length;
+      const bool ordered = !report_.solid.blocked || report_.solid.value <= report_.closed.value;
+      row.verdict = ordered ? Verdict::agrees : Verdict::disagrees;
+      if (!ordered) row.note = "the closed value may not be below the solid one";
+    });
+  }
+
+  /// The witness points must be straight above each other and as far apart as the answer says.
+  void witness() {
+    const Separation& answer = report_.solid.blocked ? report_.solid : report_.closed;
+    timed("witness points", [&](ValidationRow& row) {
+      const Eigen::Vector3d apart = answer.witness.upper_point - answer.witness.lower_point;
+      const Eigen::Vector3d w = direction_.unit();
+      const double magnitude = std::max({report_.extent, answer.witness.upper_point.norm(), apart.norm()});
+      row.value = apart.dot(w);
+      set_error(row, answer.length);
+      const double sideways = (apart - *row.value * w).norm();
+      const double allowed = tolerance::relative * magnitude;
+      row.verdict = std::abs(*row.value - answer.length) <= allowed && sideways <= allowed
+                        ? Verdict::agrees
+                        : Verdict::disagrees;
+    });
+  }
+
+  void set_error(ValidationRow& row, double exact) const {
+    if (report_.extent > 0) row.error = (*row.value - exact) / report_.extent;
+  }
+
+  /// Agreement, or the shortfall of sampling; above the exact value only for a stated reason.
+  void judge_sampled(ValidationRow& row, const HeightFieldMaker& maker) const {
+    const double allowed = maker.precision * report_.extent;
+    set_error(row, report_.solid.length);
+    if (std::abs(*row.value - report_.solid.length) <= allowed) {
+      row.verdict = Verdict::agrees;
+    } else if (*row.value < report_.solid.length) {
+      row.verdict = Verdict::within_sampling;
+    } else if (*row.value <= report_.closed.length + allowed) {
+      row.verdict = Verdict::within_sampling;
+      row.note = "a sample lies on a wall along the direction, which only closed semantics count";
+    } else if (!maker.excess.empty()) {
+      row.verdict = Verdict::within_sampling;
+      row.note = "above the exact value: " + maker.excess;
+    } else {
+      row.verdict = Verdict::disagrees;
+      row.note = "samples may not exceed the exact value";
+    }
+  }
+
+  /// Rays in ever smaller windows around the witness: what any sampling sees of f_max once its pixels are
+  /// small enough.
+  void raster_around_witness(const HeightFieldMaker& rays) {
+    constexpr int samples = 64, levels = 12;
+    constexpr double factor = 4;
+    const Eigen::Vector3d centre = frame_of(direction_).to_local(report_.solid.witness.upper_point);
+    Window window = window_around(shape_, direction_, options_.resolutions.back());
+    timed("rays, zoomed in on the witness", [&](ValidationRow& row) {
+      row.value = 0;
+      for (int level = 0; level < levels; ++level, window.pixel_size /= factor) {
+        window.columns = window.rows = samples;
+        window.x = centre.x() - window.pixel_size * samples / 2;
+        window.y = centre.y() - window.pixel_size * samples / 2;
+        const GapMaximum found = maximum_gap(rays.make(shape_, direction_, window));
+        if (found.column >= 0) row.value = std::max(*row.value, found.value);
+        if (found.column >= 0 && found.value <= report_.solid.length)
+          sightings_.push_back({window.pixel_size, found.value});
+      }
+      judge_sampled(row, rays);
+      row.note += (row.note.empty() ? "" : "; ") + std::string("pixels down to ") +
+                  short_number(window.pixel_size * factor);
+    });
+  }
+
+  void raster(const HeightFieldMaker& maker) {
+    std::optional<double> previous;
+    std::string refusal;  // what does not come at one resolution does not at a finer one
+    for (const int resolution : options_.resolutions) {
+      const Window window = window_around(shape_, direction_, resolution);
+      ValidationRow& row = timed(maker.name + " " + std::to_string(resolution), [&](ValidationRow& entry) {
+        if (!refusal.empty()) throw InputError(refusal);
+        entry.value = maximum_gap(maker.make(shape_, direction_, window)).value;
+        judge_sampled(entry, maker);
+      });
+      if (row.verdict == Verdict::skipped) refusal = row.note;
+      if (row.verdict == Verdict::within_sampling && row.note.empty())
+        row.note = explain_shortfall(*row.value, window.pixel_size, previous);
+      if (row.value && *row.value <= report_.solid.length) previous = row.value;
+    }
+  }
+
+  /// Why a sampled value is far below the exact one or no better than at the resolution before; empty when it
+  /// is not.
+  std::string explain_shortfall(double value, double pixel, const std::optional<double>& coarser) const {
+    // On a slope of f the error halves with the pixel; a part that asks for far smaller pixels is thin.
+    constexpr double thin = 8;
+    const double shortfall = report_.solid.length - value;
+    if (shortfall <= tolerance::sampling_error * report_.extent) return {};
+    const bool stuck = coarser && value <= *coarser;
+    const auto sees_half = std::find_if(sightings_.begin(), sightings_.end(), [&](const Sighting& sighting) {
+      return report_.solid.length - sighting.value <= shortfall / 2;
+    });
+    if (sees_half != sightings_.end() && sees_half->pixel < pixel / thin)
+      return std::string(stuck ? "the error does not shrink: " : "") +
+             "what attains f_max is thinner than the pixel of " + short_number(pixel) + "; pixels of " +
+             short_number(sees_half->pixel) + " see it";
+    return stuck ? "no better than the resolution before, whose samples happen to lie better" : "";
+  }
+
+  /// A shape without height is lifted by a fraction of its width.
+  Rational lift_at(const Separation& answer, double offset) const {
+    const double size = report_.extent > 0 ? report_.extent : width_across(shape_, direction_);
+    return answer.value + Rational(offset * options_.collision_margin * size / direction_.length());
+  }
+
+  enum class Expected { free, colliding };
+
+  /// A row that tests one lift.
+  template <class Test>
+  void expect(const std::string& name, const Rational& lift, const Test& collides, Expected expected) {
+    timed(name, [&](ValidationRow& row) {
+      row.value = lift.to_double() * direction_.length();
+      const Expected found = collides(lift) ? Expected::colliding : Expected::free;
+      row.verdict = found == expected ? Verdict::agrees : Verdict::disagrees;
+      if (found != expected) row.note = found == Expected::free ? "found free" : "found colliding";
+    });
+  }
+
+  void collisions() {
+    if (shape_.triangle_count() > options_.max_collision_triangles) {
+      skip("collision tests", "more than " + std::to_string(options_.max_collision_triangles) + " triangles");
+      return;
+    }
+    const CollisionTester tester(shape_, shape_);
+    const auto touch = [&](const Rational& lift) { return tester.closed_contact(direction_, lift); };
+    const auto overlap = [&](const Rational& lift) { return tester.interiors_overlap(direction_, lift); };
+    expect("no contact above closed f_max", lift_at(report_.closed, 1), touch, Expected::free);
+    const Witness& witness = report_.closed.witness;
+    if (has_area(shape_, witness.lower_triangle) && has_area(shape_, witness.upper_triangle))
+      expect("contact at closed f_max", lift_at(report_.closed, 0), touch, Expected::colliding);
+    else
+      skip("contact at closed f_max",
+           "a triangle without area attains it, and collision tests pass those over");
+    const std::optional<InteriorDefect> defect = tester.interior_defect();
+    if (defect) {
+      skip("overlap of interiors", reason_of(*defect));
+    } else if (report_.solid.blocked) {
+      expect("no overlap at solid f_max", lift_at(report_.solid, 0), overlap, Expected::free);
+      expect("no overlap above solid f_max", lift_at(report_.solid, 1), overlap, Expected::free);
+      expect("overlap below solid f_max", lift_at(report_.solid, -1), overlap, Expected::colliding);
+    }
+    bisection(tester, !defect && report_.solid.blocked ? Semantics::solid : Semantics::closed);
+  }
+
+  static std::string reason_of(InteriorDefect defect) {
+    switch (defect) {
+      case InteriorDefect::open:
+        return "the shape is open or non-manifold, so it has no interior to test";
+      case InteriorDefect::inside_out:
+        return "some of the shape is inside out and some is not, so winding numbers do not tell its interior";
+      case InteriorDefect::undecided:
+        return "more than " + std::to_string(max_collision_pairs) +
+               " pairs of triangles lie above each other, so winding numbers are not looked for";
+      case InteriorDefect::no_volume:
+        break;
+    }
+    return "surfaces of the shape cancel each other, as those of a part without thickness, so they enclose "
+           "no "
+           "interior to test";
+  }
+
+  void bisection(const CollisionTester& tester, Semantics semantics) {
+    BisectionOptions options;
+    options.steps = options_.bisection_steps;
+    options.semantics = semantics;
+    const Separation& answer = options.semantics == Semantics::solid ? report_.solid : report_.closed;
+    const std::string name = options.semantics == Semantics::solid ? "solid" : "closed";
+    timed("collision search from the top, " + name, [&](ValidationRow& row) {
+      const std::optional<CollisionBracket> bracket = translation_by_bisection(tester, direction_, options);
+      if (!bracket) {
+        row.verdict = Verdict::within_sampling;
+        row.note = "no step collides";
+        return;
+      }
+      row.value = bracket->free * direction_.length();
+      set_error(row, answer.length);
+      row.note = std::to_string(bracket->tests) + " tests";
+      if (Rational(bracket->colliding) > answer.value) {
+        row.verdict = Verdict::disagrees;
+        row.note += ", one collides above the exact value";
+      } else if (Rational(bracket->free) < answer.value) {
+        row.verdict = Verdict::within_sampling;
+        row.note += "; a collision thinner than a step was passed";
+      } else {
+        row.verdict = Verdict::agrees;
+      }
+    });
+  }
+
+  void minkowski() {
+    const std::string name = "Minkowski sum";
+    if (!report_.solid.blocked) return skip(name, "the projection along the direction has no area");
+    if (shape_.triangle_count() > max_minkowski_triangles)
+      return skip(name, "more than " + std::to_string(max_minkowski_triangles) + " triangles");
+    timed(name, [&](ValidationRow& row) {
+      const Rational value = minkowski_translation(shape_, direction_);
+      row.value = value.to_double() * direction_.length();
+      set_error(row, report_.solid.length);
+      row.verdict = value == report_.solid.value ? Verdict::agrees : Verdict::disagrees;
+      row.note = row.verdict == Verdict::agrees ? "the same rational number" : "another rational number";
+    });
+  }
+
+  /// A pixel size around the witness and the largest gap that it shows there.
+  struct Sighting {
+    double pixel, value;
+  };
+
+  const Shape& shape_;
+  const Direction& direction_;
+  const ValidationOptions& options_;
+  ValidationReport report_;
+  std::vector<Sighting> sightings_;
+};
+
+}  // namespace
+
+ValidationReport validate_translation(const Shape& shape, const Direction& direction,
+                                      const ValidationOptions& options) {
+  return Validator(shape, direction, options).run();
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,124 @@
+#include "structure/fitting/closed_part.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/alpha_wrap_3.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <exception>
+#include <vector>
+
+#include "mesh/hull_spread.h"
+#include "mesh/point_index.h"
+#include "stackabilization/core/tolerances.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+namespace PMP = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+/// Triangles that a skeleton is made from: enough for a dozen around a slender bar.
+constexpr double wanted_triangles = 2000;
+/// Above this a part is clustered and wrapped.
+constexpr std::size_t most_triangles = 20000;
+/// Cells along the diagonal of a clustered part.
+constexpr double clusters = 150;
+/// Wrapping: diagonal over the size of what is closed, and over the distance kept.
+constexpr double wrap_alpha = 24, wrap_offset = 120;
+
+struct Soup {
+  std::vector<Kernel::Point_3> points;
+  std::vector<std::array<std::size_t, 3>> polygons;
+};
+
+/// Vertices of equal coordinates become one; with a positive `cell`, all those of a cell of that size.
+Soup soup_of(const Shape& part, double cell) {
+  Soup soup;
+  PointIndex places;
+  for (Eigen::Index t = 0; t < part.triangle_count(); ++t) {
+    std::array<std::size_t, 3> polygon{};
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector3d p = part.corner(t, k);
+      const Eigen::Vector3d key = cell > 0 ? Eigen::Vector3d((p / cell).array().floor()) : p;
+      const auto place = static_cast<std::size_t>(places.insert(key));
+      if (place == soup.points.size()) soup.points.emplace_back(p.x(), p.y(), p.z());
+      polygon[static_cast<std::size_t>(k)] = place;
+    }
+    if (polygon[0] != polygon[1] && polygon[1] != polygon[2] && polygon[2] != polygon[0])
+      soup.polygons.push_back(polygon);
+  }
+  return soup;
+}
+
+/// The soup as a closed, connected surface; empty when it is none.
+Mesh as_closed(Soup soup) {
+  Mesh mesh;
+  if (!PMP::orient_polygon_soup(soup.points, soup.polygons)) return mesh;
+  PMP::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
+  auto component = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:component").first;
+  if (!CGAL::is_closed(mesh) || PMP::connected_components(mesh, component) != 1) return {};
+  if (!PMP::is_outward_oriented(mesh)) PMP::reverse_face_orientations(mesh);
+  return mesh;
+}
+
+void remesh(Mesh& mesh) {
+  const double area = PMP::area(mesh);
+  const double edge = std::sqrt(area / wanted_triangles * 4 / std::sqrt(3.0));
+  PMP::isotropic_remeshing(mesh.faces(), edge, mesh, CGAL::parameters::number_of_iterations(2));
+  mesh.collect_garbage();
+}
+
+Shape to_shape(const Mesh& mesh) {
+  Points points(static_cast<Eigen::Index>(mesh.number_of_vertices()), 3);
+  for (const auto v : mesh.vertices()) {
+    const Kernel::Point_3& p = mesh.point(v);
+    points.row(static_cast<Eigen::Index>(v)) << p.x(), p.y(), p.z();
+  }
+  Triangles triangles(static_cast<Eigen::Index>(mesh.number_of_faces()), 3);
+  for (const auto f : mesh.faces()) {
+    int k = 0;
+    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f)))
+      triangles(static_cast<Eigen::Index>(f), k++) = static_cast<std::int32_t>(v);
+  }
+  return make_shape(std::move(points), std::move(triangles));
+}
+
+}  // namespace
+
+std::optional<ClosedPart> closed_part(const Shape& part) {
+  try {
+    const auto count = static_cast<std::size_t>(part.triangle_count());
+    const double diagonal = Eigen::Vector3d(range_along(part, Eigen::Vector3d::UnitX()).length(),
+                                            range_along(part, Eigen::Vector3d::UnitY()).length(),
+                                            range_along(part, Eigen::Vector3d::UnitZ()).length())
+                                .norm();
+    // Remeshing collapses such a plate through itself, wrapped or not, and CGAL 5.5 may crash on what is
+    // left.
+    if (hull_spread(part.vertices, tolerance::relative * diagonal).length(2) < diagonal / wrap_offset)
+      return std::nullopt;
+    const Soup soup = soup_of(part, count > most_triangles ? diagonal / clusters : 0);
+    Mesh mesh;
+    if (count <= most_triangles) mesh = as_closed(soup);
+    const bool wrapped = mesh.is_empty();
+    if (wrapped)
+      CGAL::alpha_wrap_3(soup.points, soup.polygons, diagonal / wrap_alpha, diagonal / wrap_offset, mesh);
+    remesh(mesh);
+    if (mesh.is_empty() || !CGAL::is_closed(mesh)) return std::nullopt;
+    return ClosedPart{to_shape(mesh), wrapped};
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace stackabilization::detail

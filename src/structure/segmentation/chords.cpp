@@ -1,0 +1,165 @@
+#include "structure/segmentation/chords.h"
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+#include <CGAL/Simple_cartesian.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/variant.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <variant>
+
+#include "mesh/surface_index.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// What an intersection is, if it is a T. CGAL 5 keeps it in a boost::variant, CGAL 6 in a std::variant.
+template <class T, class First, class... Others>
+const T* held(const boost::variant<First, Others...>& intersection) {
+  return boost::get<T>(&intersection);
+}
+template <class T, class... Kinds>
+const T* held(const std::variant<Kinds...>& intersection) {
+  return std::get_if<T>(&intersection);
+}
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Triangle = Kernel::Triangle_3;
+using TrianglePrimitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive>>;
+
+/// Rays start this far off the surface, fraction of the bounding-box diagonal, so that they do not meet their
+/// own triangle: a choice of scale, below which no wall is seen.
+constexpr double lift = 0.0001;
+
+Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+/// Share of the half space in front of a place that is not barred by the shape, from which on the place is in
+/// the open, and up to which it is in a hollow.
+constexpr double open_air = 0.9, hollow = 0.6;
+
+/// Directions of the upper half space, each standing for the same solid angle: a spiral.
+std::vector<Eigen::Vector3d> half_space(int count) {
+  std::vector<Eigen::Vector3d> directions;
+  constexpr double golden_angle = std::numbers::pi * 0.7639320225002102;
+  for (int k = 0; k < count; ++k) {
+    const double z = (k + 0.5) / count, radius = std::sqrt(1 - z * z);
+    directions.emplace_back(radius * std::cos(golden_angle * k), radius * std::sin(golden_angle * k), z);
+  }
+  return directions;
+}
+
+class ChordCaster {
+ public:
+  ChordCaster(const Shape& shape, const SurfaceGraph& graph) : directions_(half_space(24)) {
+    Eigen::AlignedBox3d box;
+    for (std::int32_t t = 0; t < graph.size(); ++t) {
+      if (!(graph.areas(t) > 0)) continue;
+      triangles_.emplace_back(to_cgal(shape.corner(t, 0)), to_cgal(shape.corner(t, 1)),
+                              to_cgal(shape.corner(t, 2)));
+      rows_.push_back(t);
+      for (int k = 0; k < 3; ++k) box.extend(shape.corner(t, k));
+    }
+    lift_ = lift * box.diagonal().norm();
+    tree_.insert(triangles_.cbegin(), triangles_.cend());
+    tree_.build();
+  }
+
+  void measure(Chord& chord) const {
+    chord.end = chord.start;
+    chord.end_triangle = -1;
+    chord.solid = std::numeric_limits<double>::infinity();
+    if (const auto hit = first_hit(chord.start - lift_ * chord.normal, -chord.normal)) {
+      chord.end = hit->point;
+      chord.end_triangle = hit->triangle;
+      chord.solid = (hit->point - chord.start).norm();
+    }
+    const Eigen::Quaterniond turn =
+        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), chord.normal);
+    int seen = 0;
+    for (const Eigen::Vector3d& direction : directions_)
+      seen += blocked(chord.start + lift_ * chord.normal, turn * direction);
+    chord.free = 1 - static_cast<double>(seen) / static_cast<double>(directions_.size());
+    chord.openness = std::clamp((chord.free - hollow) / (open_air - hollow), 0.0, 1.0);
+  }
+
+ private:
+  struct Hit {
+    Eigen::Vector3d point;
+    std::int32_t triangle;
+  };
+  static Kernel::Ray_3 ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+    return {to_cgal(origin), Kernel::Vector_3(direction.x(), direction.y(), direction.z())};
+  }
+  bool blocked(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+    return tree_.do_intersect(ray(origin, direction));
+  }
+  std::optional<Hit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+    const auto hit = tree_.first_intersection(ray(origin, direction));
+    if (!hit) return std::nullopt;
+    const std::int32_t triangle = rows_[static_cast<std::size_t>(hit->second - triangles_.cbegin())];
+    const auto* point = held<Kernel::Point_3>(hit->first);
+    if (!point) return std::nullopt;  // along a triangle seen edge on
+    return Hit{{point->x(), point->y(), point->z()}, triangle};
+  }
+
+  std::vector<Eigen::Vector3d> directions_;
+  std::vector<Triangle> triangles_;
+  std::vector<std::int32_t> rows_;
+  Tree tree_;
+  double lift_ = 0;
+};
+
+void measure_ends(std::vector<Chord>& chords, const std::vector<std::int32_t>& patch) {
+  const auto patches = static_cast<std::size_t>(*std::max_element(patch.begin(), patch.end())) + 1;
+  std::vector<double> area(patches, 0), open_area(patches, 0);
+  const auto patch_of = [&](std::int32_t t) {
+    return static_cast<std::size_t>(patch[static_cast<std::size_t>(t)]);
+  };
+  for (const Chord& c : chords) {
+    area[patch_of(c.triangle)] += c.area;
+    open_area[patch_of(c.triangle)] += c.area * c.openness;
+  }
+  for (Chord& c : chords)
+    if (c.end_triangle >= 0)
+      c.end_openness = open_area[patch_of(c.end_triangle)] / area[patch_of(c.end_triangle)];
+}
+
+}  // namespace
+
+std::vector<Chord> chords(const Shape& shape, const SurfaceGraph& graph,
+                          const std::vector<std::int32_t>& patch, int count) {
+  const double area = graph.areas.sum();
+  const SurfaceSamples samples = surface_samples(shape, count);
+  std::vector<Chord> result;
+  std::vector<char> seen(patch.size(), 0);
+  const auto add = [&](std::int32_t t, const Eigen::Vector3d& point, double share) {
+    result.push_back({t, share, point, graph.normals.row(t).transpose(), 0, point, -1});
+    seen[static_cast<std::size_t>(patch[static_cast<std::size_t>(t)])] = 1;
+  };
+  for (int k = 0; k < count; ++k)
+    add(samples.triangles[static_cast<std::size_t>(k)], samples.points.row(k).transpose(), area / count);
+  std::vector<std::int32_t> by_area;
+  for (std::int32_t t = 0; t < graph.size(); ++t) by_area.push_back(t);
+  std::stable_sort(by_area.begin(), by_area.end(),
+                   [&](std::int32_t a, std::int32_t b) { return graph.areas(a) > graph.areas(b); });
+  for (const std::int32_t t : by_area)
+    if (graph.areas(t) > 0 && !seen[static_cast<std::size_t>(patch[static_cast<std::size_t>(t)])])
+      add(t, graph.centres.row(t).transpose(), graph.areas(t));
+  const ChordCaster caster(shape, graph);
+  tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t k) { caster.measure(result[k]); });
+  measure_ends(result, patch);
+  return result;
+}
+
+}  // namespace stackabilization::detail

@@ -1,0 +1,120 @@
+#include "stackabilization/structure/segmentation.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "stackabilization/core/errors.h"
+#include "structure/fitting/revolution_axis.h"
+#include "structure/model/fit_error.h"
+#include "structure/segmentation/components.h"
+#include "structure/segmentation/hierarchical_fitting.h"
+#include "structure/segmentation/segment_boundaries.h"
+#include "structure/segmentation/shape_diameter.h"
+#include "structure/segmentation/surface_graph.h"
+#include "structure/segmentation/wire_net.h"
+
+namespace stackabilization {
+
+namespace {
+
+void check(const SegmentationOptions& options) {
+  if (options.parts < 0) throw UsageError("the number of parts per component must not be negative");
+  if (!(options.smallest_part >= 0 && options.smallest_part < 1))
+    throw UsageError("the share of the smallest part must be at least 0 and below 1");
+}
+
+std::int32_t count_of(const std::vector<std::int32_t>& part) {
+  return *std::max_element(part.begin(), part.end()) + 1;
+}
+
+/// `shape` with the parts of `part`, a number per triangle, by falling area; equal ones by their first
+/// triangles.
+Shape with_parts_by_area(const Shape& shape, const std::vector<std::int32_t>& part) {
+  const auto count = static_cast<std::size_t>(count_of(part));
+  if (count == 1 && shape.part_count() == 1) return shape;
+  std::vector<double> area(count, 0);
+  std::vector<std::size_t> first(count, part.size());
+  for (std::size_t t = part.size(); t-- > 0;) {
+    const auto row = static_cast<Eigen::Index>(t);
+    const Eigen::Vector3d a = shape.corner(row, 0);
+    area[static_cast<std::size_t>(part[t])] +=
+        (shape.corner(row, 1) - a).cross(shape.corner(row, 2) - a).stableNorm() / 2;
+    first[static_cast<std::size_t>(part[t])] = t;
+  }
+  std::vector<std::size_t> order(count);
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return area[a] != area[b] ? area[a] > area[b] : first[a] < first[b];
+  });
+  std::vector<std::int32_t> rank(count);
+  Shape result = shape;
+  result.part_names.clear();
+  for (std::size_t k = 0; k < count; ++k) {
+    rank[order[k]] = static_cast<std::int32_t>(k);
+    result.part_names.push_back("part_" + std::to_string(k + 1));
+  }
+  for (std::size_t t = 0; t < part.size(); ++t)
+    result.triangle_part[t] = rank[static_cast<std::size_t>(part[t])];
+  return result;
+}
+
+/// Cuts one component, whose triangles are `rows`, and returns a number per row.
+std::vector<std::int32_t> cut(const Shape& component, const SegmentationOptions& options) {
+  detail::SurfaceGraph graph = detail::surface_graph(component);
+  if (!(graph.areas.sum() > 0)) return std::vector<std::int32_t>(static_cast<std::size_t>(graph.size()), 0);
+  detail::link_shells(graph, component, detail::ContactRule().reach * graph.diagonal);
+  std::vector<std::int32_t> part =
+      options.method == SegmentationMethod::shape_diameter
+          ? detail::shape_diameter_parts(component, graph, options.parts)
+          : detail::fitted_parts(component, graph, options.parts, options.smallest_part);
+  part = detail::with_smooth_boundaries(graph, std::move(part), {});
+  return detail::without_crumbs(graph, part, options.smallest_part * graph.areas.sum());
+}
+
+Shape cut_components(const Shape& shape, const std::vector<std::int32_t>& component,
+                     const SegmentationOptions& options) {
+  std::vector<std::vector<std::int32_t>> rows(static_cast<std::size_t>(count_of(component)));
+  for (std::size_t t = 0; t < component.size(); ++t)
+    rows[static_cast<std::size_t>(component[t])].push_back(static_cast<std::int32_t>(t));
+  std::vector<std::int32_t> part(component.size());
+  std::int32_t next = 0;
+  for (const std::vector<std::int32_t>& members : rows) {
+    const std::vector<std::int32_t> pieces = cut(detail::extracted(shape, members), options);
+    for (std::size_t k = 0; k < members.size(); ++k)
+      part[static_cast<std::size_t>(members[k])] = next + pieces[k];
+    next += count_of(pieces);
+  }
+  return with_parts_by_area(shape, part);
+}
+
+/// One generalized cylinder holds a body of revolution, whatever its profile; cutting a hat into crown and
+/// brim would only add joints.
+bool is_body_of_revolution(const Shape& shape) {
+  return detail::surface_graph(shape).areas.sum() > 0 &&
+         detail::revolution_axis(detail::FitSurface(shape)).has_value();
+}
+
+}  // namespace
+
+Shape segmented(const Shape& shape, const SegmentationOptions& options) {
+  check(options);
+  validate(shape);
+  if (options.method == SegmentationMethod::given) return shape;
+  if (options.method == SegmentationMethod::automatic && shape.part_count() > 1) return shape;
+  const std::vector<std::int32_t> one_part(shape.triangle_part.size(), 0);
+  if (options.method == SegmentationMethod::whole) return with_parts_by_area(shape, one_part);
+  const std::vector<std::int32_t> component = detail::merged_components(shape);
+  if (options.method == SegmentationMethod::automatic && options.parts == 0 &&
+      detail::is_wire_net(shape, component))
+    return with_parts_by_area(shape, one_part);
+  const bool components_do =
+      options.method == SegmentationMethod::automatic &&
+      (count_of(component) > 1 || (options.parts == 0 && is_body_of_revolution(shape)));
+  if (options.method == SegmentationMethod::components || components_do)
+    return with_parts_by_area(shape, component);
+  return cut_components(shape, component, options);
+}
+
+}  // namespace stackabilization

@@ -1,0 +1,122 @@
+#include "structure/segmentation/shape_diameter.h"
+
+#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/mesh_segmentation.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <map>
+#include <set>
+
+#include "mesh/half_edge_mesh.h"
+#include "structure/segmentation/segment_boundaries.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+/// Clusters of diameters: CGAL's default, and the most that are tried for a given number of parts.
+constexpr std::size_t default_clusters = 5, cluster_limit = 12;
+
+struct OutwardMesh {
+  Mesh mesh;
+  std::vector<std::int32_t> triangle_of_face;
+};
+
+OutwardMesh outward_mesh(const Shape& shape, const SurfaceGraph& graph) {
+  const ConnectedSurface surface = connected_surface(shape);
+  OutwardMesh result;
+  for (const auto vertex : surface.mesh.vertices()) {
+    const auto& p = surface.mesh.point(vertex);
+    result.mesh.add_vertex(Kernel::Point_3(p[0], p[1], p[2]));
+  }
+  for (const auto face : surface.mesh.faces()) {
+    const std::int32_t t = surface.triangle_of_face[static_cast<std::size_t>(face.idx())];
+    if (!(graph.areas(t) > 0)) continue;
+    std::array<Mesh::Vertex_index, 3> corners;
+    std::array<Eigen::Vector3d, 3> points;
+    std::size_t k = 0;
+    for (const auto vertex : surface.mesh.fv_range(face)) {
+      const auto& p = surface.mesh.point(vertex);
+      points[k] = {p[0], p[1], p[2]};
+      corners[k++] = Mesh::Vertex_index(static_cast<Mesh::size_type>(vertex.idx()));
+    }
+    if ((points[1] - points[0]).cross(points[2] - points[0]).dot(graph.normals.row(t).transpose()) < 0)
+      std::swap(corners[1], corners[2]);
+    if (result.mesh.add_face(corners[0], corners[1], corners[2]) != Mesh::null_face())
+      result.triangle_of_face.push_back(t);
+  }
+  return result;
+}
+
+/// Segments of the faces for a number of clusters.
+std::vector<std::int32_t> segments(const Mesh& mesh, const std::vector<double>& diameters,
+                                   std::size_t clusters) {
+  std::vector<std::size_t> segment(diameters.size());
+  const auto diameter_map =
+      boost::make_iterator_property_map(diameters.begin(), get(boost::face_index, mesh));
+  const auto segment_map = boost::make_iterator_property_map(segment.begin(), get(boost::face_index, mesh));
+  CGAL::segmentation_from_sdf_values(mesh, diameter_map, segment_map, clusters);
+  return {segment.begin(), segment.end()};
+}
+
+std::size_t different(const std::vector<std::int32_t>& part) {
+  return std::set<std::int32_t>(part.begin(), part.end()).size();
+}
+
+/// Lets the smallest part join the neighbour it is tied to most until `parts` are left.
+std::vector<std::int32_t> reduced(const SurfaceGraph& graph, std::vector<std::int32_t> part,
+                                  std::size_t parts) {
+  while (different(part) > parts) {
+    std::map<std::int32_t, double> area;
+    for (std::size_t t = 0; t < part.size(); ++t) area[part[t]] += graph.areas(static_cast<Eigen::Index>(t));
+    const auto smallest = std::min_element(area.begin(), area.end(),
+                                           [](const auto& a, const auto& b) { return a.second < b.second; });
+    const std::size_t before = area.size();
+    part = without_crumbs(graph, part, std::nextafter(smallest->second, smallest->second * 2));
+    if (different(part) >= before) break;
+  }
+  return part;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> shape_diameter_parts(const Shape& shape, const SurfaceGraph& graph, int parts) {
+  const std::vector<std::int32_t> whole(static_cast<std::size_t>(graph.size()), 0);
+  const OutwardMesh outward = outward_mesh(shape, graph);
+  if (outward.triangle_of_face.empty()) return whole;
+  std::vector<double> diameters(outward.triangle_of_face.size());
+  try {
+    const auto map =
+        boost::make_iterator_property_map(diameters.begin(), get(boost::face_index, outward.mesh));
+    const auto [least, most] = CGAL::sdf_values(outward.mesh, map);
+    if (!(least < most) ||
+        !std::all_of(diameters.begin(), diameters.end(), [](double d) { return d >= 0 && d <= 1; }))
+      return whole;
+    // CGAL looks for ever for more clusters than there are different diameters.
+    const std::size_t most_clusters =
+        std::min(cluster_limit, std::set<double>(diameters.begin(), diameters.end()).size());
+    std::vector<std::int32_t> found;
+    std::size_t clusters = std::min(most_clusters, parts > 0 ? std::size_t{2} : default_clusters);
+    do {
+      found = segments(outward.mesh, diameters, clusters);
+    } while (parts > 0 && different(found) < static_cast<std::size_t>(parts) && ++clusters <= most_clusters);
+    // Triangles without area have no face: a part of their own, which is no part but a crumb.
+    std::vector<std::int32_t> part(whole.size(), -1);
+    for (std::size_t f = 0; f < found.size(); ++f)
+      part[static_cast<std::size_t>(outward.triangle_of_face[f])] = found[f];
+    part = without_crumbs(graph, part, 0);
+    return parts > 0 ? reduced(graph, std::move(part), static_cast<std::size_t>(parts)) : part;
+  } catch (const std::exception&) {  // CGAL's own checks
+    return whole;
+  }
+}
+
+}  // namespace stackabilization::detail

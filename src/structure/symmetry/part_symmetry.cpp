@@ -1,0 +1,234 @@
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/disjoint_sets.h"
+#include "stackabilization/structure/symmetry_detection.h"
+#include "structure/symmetry/canonical_reflections.h"
+#include "structure/symmetry/part_match.h"
+#include "structure/symmetry/symmetry_candidates.h"
+#include "structure/symmetry/symmetry_refinement.h"
+
+namespace stackabilization {
+
+namespace {
+
+using detail::SymmetrySurface;
+
+constexpr double nearly_parallel = 0.99;                         // cosine
+constexpr double nearly_across = 0.05;                           // cosine
+constexpr double least_diagonal = 0.697, most_diagonal = 0.717;  // cosine
+
+class PartSymmetry {
+ public:
+  PartSymmetry(const Shape& shape, const std::vector<FoundSymmetry>& symmetries,
+               const SymmetryOptions& options)
+      : options_(options), parts_(shape, options), relations_of_(static_cast<std::size_t>(parts_.count())) {
+    for (const FoundSymmetry& found : symmetries)
+      if (found.symmetry.kind == SymmetryKind::reflection) candidates_.push_back(found.symmetry);
+    for (const FoundSymmetry& found : symmetries)
+      if (found.symmetry.kind == SymmetryKind::revolution)
+        for (const Symmetry& plane : detail::planes_through(found.symmetry)) candidates_.push_back(plane);
+  }
+
+  std::vector<Relation> run() {
+    planes_ = detail::canonical_reflections(parts_.whole(), parts_.with_area(), candidates_);
+    for (const Symmetry& plane : planes_) append(relations_under(plane));
+    add_oblique_planes();
+    std::vector<std::vector<Relation>> own(static_cast<std::size_t>(parts_.count()));
+    tbb::parallel_for(0, parts_.count(),
+                      [&](int part) { own[static_cast<std::size_t>(part)] = own_relations(part); });
+    for (const std::vector<Relation>& relations : own) append(relations);
+    std::stable_sort(relations_.begin(), relations_.end(), [](const Relation& a, const Relation& b) {
+      return std::pair(a.type, a.parts) < std::pair(b.type, b.parts);
+    });
+    return std::move(relations_);
+  }
+
+ private:
+  bool has(int part, RelationType type) const {
+    const std::vector<std::size_t>& rows = relations_of_[static_cast<std::size_t>(part)];
+    return std::any_of(rows.begin(), rows.end(),
+                       [&](std::size_t row) { return relations_[row].type == type; });
+  }
+
+  void append(const std::vector<Relation>& more) {
+    for (const Relation& relation : more) {
+      for (const int part : relation.parts)
+        relations_of_[static_cast<std::size_t>(part)].push_back(relations_.size());
+      relations_.push_back(relation);
+    }
+  }
+
+  static Relation related(std::vector<int> parts, const Symmetry& symmetry, double residual) {
+    const RelationType type = parts.size() == 1 ? RelationType::self_symmetry : RelationType::symmetry;
+    return {type, std::move(parts), symmetry, {}, residual};
+  }
+
+  /// The part that `plane` takes `part` onto best, -1 for none, and the residual.
+  std::pair<int, double> counterpart(int part, const Symmetry& plane) const {
+    std::pair<int, double> best{-1, 0};
+    for (const int other : parts_.near_image(part, plane))
+      if (const auto residual = parts_.match(part, other, plane);
+          residual && (best.first < 0 || *residual < best.second))
+        best = {other, *residual};
+    return best;
+  }
+
+  std::vector<Relation> relations_under(const Symmetry& plane) const {
+    std::vector<std::pair<int, double>> counterparts(static_cast<std::size_t>(parts_.count()));
+    tbb::parallel_for(0, parts_.count(), [&](int part) {
+      counterparts[static_cast<std::size_t>(part)] = counterpart(part, plane);
+    });
+    std::vector<Relation> relations;
+    for (int part = 0; part < parts_.count(); ++part) {
+      const auto [other, residual] = counterparts[static_cast<std::size_t>(part)];
+      if (other == part)
+        relations.push_back(related({part}, plane, residual));
+      else if (other > part && counterparts[static_cast<std::size_t>(other)].first == part)
+        relations.push_back(related({part, other}, plane, residual));
+    }
+    return relations;
+  }
+
+  /// Three legs, five legs: planes that are not orthogonal to those there are count when they give a part the
+  /// first counterpart it has. Six legs: also where they take parts onto each other that nothing else makes
+  /// equal. Only the diagonals of a square do not: it may become a rectangle.
+  void add_oblique_planes() {
+    for (const Symmetry& candidate : candidates_) {
+      if (meets_any_at(nearly_parallel, 1, candidate)) continue;
+      const Symmetry plane = detail::fitted_to(planes_, candidate);
+      const std::vector<Relation> relations = relations_under(plane);
+      const bool is_diagonal = meets_any_at(least_diagonal, most_diagonal, candidate);
+      DisjointSets orbits(static_cast<std::size_t>(parts_.count()));
+      for (const Relation& relation : relations_) join(orbits, relation);
+      const bool joins = std::any_of(relations.begin(), relations.end(), [&](const Relation& relation) {
+        const bool first = std::any_of(relation.parts.begin(), relation.parts.end(),
+                                       [&](int part) { return !has(part, RelationType::symmetry); });
+        return relation.type == RelationType::symmetry && (is_diagonal ? first : join(orbits, relation));
+      });
+      if (!joins) continue;
+      planes_.push_back(plane);
+      append(relations);
+    }
+  }
+
+  /// Whether the cosine of the angle to a plane there is lies between `least` and `most`.
+  bool meets_any_at(double least, double most, const Symmetry& candidate) const {
+    return std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& plane) {
+      const double cosine = std::min(1.0, std::abs(plane.axis.dot(candidate.axis)));
+      return least < cosine && cosine <= most;
+    });
+  }
+
+  /// Whether the relation takes parts onto each other that were not in one orbit.
+  static bool join(DisjointSets& orbits, const Relation& relation) {
+    const auto a = static_cast<std::size_t>(relation.parts.front()),
+               b = static_cast<std::size_t>(relation.parts.back());
+    const bool apart = orbits.root(a) != orbits.root(b);
+    orbits.join(a, b);
+    return apart;
+  }
+
+  /// Reflections that take the part onto itself.
+  std::vector<Symmetry> own_reflections(int part) const {
+    std::vector<Symmetry> planes;
+    for (const std::size_t row : relations_of_[static_cast<std::size_t>(part)])
+      if (relations_[row].type == RelationType::self_symmetry) planes.push_back(relations_[row].symmetry);
+    return planes;
+  }
+
+  /// What a part without counterparts has by itself.
+  std::vector<Relation> own_relations(int part) const {
+    if (!parts_.part(part) || has(part, RelationType::symmetry)) return {};
+    std::vector<Relation> relations = revolution(part);
+    if (relations.empty() && !has(part, RelationType::self_symmetry)) relations = own_planes(part);
+    return relations;
+  }
+
+  /// The relations of a part of revolution; none when it is none. Bars that the shape mirrors end to end are
+  /// left as bars: their roundness is the business of their primitive, and being straight is none of the
+  /// design's.
+  std::vector<Relation> revolution(int part) const {
+    const SymmetrySurface& surface = *parts_.part(part);
+    const std::vector<Symmetry> axes = detail::revolutions(surface, options_, detail::Roundness::tolerant);
+    if (axes.empty()) return {};
+    const std::vector<Symmetry> own = own_reflections(part);
+    Symmetry axis = detail::to_model(surface, axes.front());
+    std::vector<Symmetry> through;
+    for (const Symmetry& plane : own) {
+      if (std::abs(plane.axis.dot(axis.axis)) > nearly_across) continue;
+      axis.axis = (axis.axis - plane.axis * plane.axis.dot(axis.axis)).normalized();
+      axis.point -= plane.axis * plane.axis.dot(axis.point - plane.point);
+      through.push_back(plane);
+    }
+    for (const Symmetry& plane : own)
+      if (std::abs(plane.axis.dot(axis.axis)) > nearly_parallel) {
+        if (through.size() < 2) return {};
+        axis.axis = plane.axis;
+      }
+
+    std::vector<Symmetry> planes;
+    if (through.empty())
+      planes = detail::planes_through(axis);
+    else if (through.size() == 1)
+      planes = {
+          {SymmetryKind::reflection, axis.point, axis.axis.cross(through.front().axis).normalized(), 2}};
+    planes.push_back(axis);
+    std::vector<Relation> relations;
+    for (const Symmetry& symmetry : planes)
+      relations.push_back(related({part}, symmetry, parts_.match(part, part, symmetry).value_or(0)));
+    return relations;
+  }
+
+  /// Planes through the middle of a part that the whole has no symmetry for, along its own box.
+  std::vector<Relation> own_planes(int part) const {
+    const SymmetrySurface& surface = *parts_.part(part);
+    std::vector<Symmetry> planes;
+    for (int k = 0; k < 3; ++k) {
+      const Symmetry start{SymmetryKind::reflection, Eigen::Vector3d::Zero(), surface.box.axes.col(k), 2};
+      const Symmetry plane = detail::refined(surface, start, detail::counterpart_reach(surface, options_));
+      if (detail::verify(surface, plane, options_, detail::Effort::dense).holds)
+        planes.push_back(detail::to_model(surface, plane));
+    }
+    std::vector<Relation> relations;
+    for (const Symmetry& plane : detail::canonical_reflections(surface, {&surface}, planes))
+      if (const auto residual = parts_.match(part, part, plane);
+          residual && !lies_beside_common(plane, surface))
+        relations.push_back(related({part}, plane, *residual));
+    return relations;
+  }
+
+  /// A part that a plane of the whole cuts, but not in the middle, has no plane of its own beside that one:
+  /// what it is joined to on both sides would be symmetric about the one, and the joints about the other.
+  bool lies_beside_common(const Symmetry& own, const SymmetrySurface& surface) const {
+    const double half =
+        surface.diagonal * (own.axis.transpose() * surface.box.axes).cwiseAbs() * surface.box.half_extents;
+    return std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& common) {
+      return std::abs(common.axis.dot(own.axis)) > nearly_parallel &&
+             std::abs(common.axis.dot(own.point - common.point)) < half;
+    });
+  }
+
+  SymmetryOptions options_;
+  detail::PartSurfaces parts_;
+  std::vector<Symmetry> candidates_, planes_;  ///< model units
+  std::vector<Relation> relations_;
+  std::vector<std::vector<std::size_t>> relations_of_;  ///< rows per part, ascending
+};
+
+}  // namespace
+
+std::vector<Relation> symmetry_relations(const Shape& shape, const std::vector<FoundSymmetry>& symmetries,
+                                         const SymmetryOptions& options) {
+  validate(shape);
+  detail::validate(options);
+  return PartSymmetry(shape, symmetries, options).run();
+}
+
+}  // namespace stackabilization

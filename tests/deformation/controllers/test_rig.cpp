@@ -1,0 +1,61 @@
+#include <map>
+
+#include "deformation/controllers/correction_basis.h"
+#include "deformation/controllers/joint_copies.h"
+#include "deformation/controllers/relation_solver.h"
+#include "deformation/controllers/rig.h"
+#include "support/catch.h"
+#include "support/structures.h"
+
+using namespace stackabilization;
+using namespace stackabilization::detail;
+
+TEST_CASE("joints that symmetries take onto each other are solved for once") {
+  // Four legs at the top; two pairs of bars, each pair with four legs' ends.
+  const Rig rig(structures::table().structure);
+  REQUIRE(rig.joints.size() == 12);
+  CHECK(rig.distinct_joints == std::vector<int>{0, 4, 6});
+  CHECK(joint_constraints(rig).size() == 3);
+  // Those of the mug lie in its mirror plane.
+  CHECK(Rig(structures::mug().structure).distinct_joints == std::vector<int>{0, 1});
+  // A line joint has two points, above each other: no symmetry of the table swaps them.
+  CHECK(Rig(structures::table_with_line_joints().structure).distinct_joints.size() == 5);
+}
+
+TEST_CASE("without relations between parts every joint is its own") {
+  Structure structure = structures::table().structure;
+  std::vector<Relation> joints;
+  for (const Relation& relation : structure.relations)
+    if (relation.type == RelationType::point_joint) joints.push_back(relation);
+  structure.relations = joints;
+  CHECK(Rig(structure).distinct_joints.size() == 12);
+}
+
+TEST_CASE("a joint that is moved away from its mirror image is no copy of another") {
+  Structure structure = structures::table().structure;
+  for (Relation& relation : structure.relations)
+    if (relation.type == RelationType::point_joint && relation.parts == std::vector<int>{0, 2})
+      relation.points(0, 0) += 0.01;
+  const Rig rig(structure);
+  // Of the four joints at the top, mirror images of each other in pairs, one is left out of its pairs.
+  CHECK(rig.distinct_joints == std::vector<int>{0, 1, 4, 6});
+}
+
+TEST_CASE("bases hold what self-symmetries leave, in as few columns as that takes") {
+  for (const StructuredShape& rest : {structures::table(), structures::mug(), structures::post_with_ring()}) {
+    const Rig rig(rest.structure);
+    for (int c = 0; c < rig.space.class_count(); ++c) {
+      const Eigen::MatrixXd& basis = rig.bases[static_cast<std::size_t>(c)];
+      const Primitive& first = rig.space.rest(rig.space.members(c).front());
+      const double strain = rig.strains[static_cast<std::size_t>(c)];
+      const Eigen::MatrixXd all = rig.space.invariant_columns(c, correction_basis(first, strain));
+      const Eigen::MatrixXd wanted = all * all.transpose(), found = basis * basis.transpose();
+      CHECK((found - wanted).norm() < 1e-9 * wanted.norm());
+      CHECK((rig.space.invariant_columns(c, basis) - basis).norm() < 1e-12 * basis.norm());
+    }
+  }
+  // A box with two mirror planes keeps 24 / 4 freedoms, a leg that has images instead keeps all.
+  const Rig table(structures::table().structure);
+  CHECK(table.bases[static_cast<std::size_t>(table.space.class_of(0))].cols() == 6);
+  CHECK(table.bases[static_cast<std::size_t>(table.space.class_of(1))].cols() == 24);
+}

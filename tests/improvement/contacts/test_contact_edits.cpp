@@ -1,0 +1,454 @@
+#include <algorithm>
+#include <cmath>
+
+#include "stackabilization/core/errors.h"
+#include "stackabilization/improvement/contact_edits.h"
+#include "stackabilization/stacking/stackability.h"
+#include "support/catch.h"
+#include "support/solids.h"
+#include "support/structures.h"
+#include "support/variants.h"
+
+namespace stackabilization {
+namespace {
+
+using Eigen::Vector3d;
+
+const Direction up(0, 0, 1);
+
+std::vector<ContactRegion> regions_of(const Shape& shape, const Direction& direction) {
+  const SeparationTree tree(shape);
+  return contact_regions({shape, tree, direction, separation(tree, tree, direction)}).regions;
+}
+
+/// The edits of a structured shape at rest.
+std::vector<ContactEdit> edits_of(const StructuredShape& rest, const std::vector<ContactRegion>& regions,
+                                  const Direction& direction, const ContactEditOptions& options = {}) {
+  const auto space = design_space(rest);
+  const Design design = space->at_rest();
+  const std::vector<Handle> handles = space->handles();
+  return contact_edits({space->rest(), space->kind(), handles, design, regions, direction}, options);
+}
+
+DeformationConstraints keep_height() {
+  DeformationConstraints constraints;
+  constraints.keep_extent = up;
+  return constraints;
+}
+
+ContactEditOptions paper() {
+  ContactEditOptions options;
+  options.family = EditFamily::paper;
+  options.bends = true;
+  return options;
+}
+
+/// A small square of contact around `upper` on part `upper_part` and `lower` on `lower_part`.
+ContactRegion region_at(ContactType type, const std::array<int, 2>& parts, const Vector3d& upper,
+                        const Vector3d& lower) {
+  ContactRegion region;
+  region.type = type;
+  region.upper_part = parts[0];
+  region.lower_part = parts[1];
+  region.area = 0.01;
+  region.upper_centre = upper;
+  region.lower_centre = lower;
+  region.long_axis = Vector3d::UnitX();
+  const double half = 0.05;
+  ContactPolygon polygon{0, 0, Points(4, 3), Points(4, 3)};
+  for (int k = 0; k < 4; ++k) {
+    const Eigen::RowVector3d corner(k == 0 || k == 3 ? -half : half, k < 2 ? -half : half, 0);
+    polygon.upper_points.row(k) = upper.transpose() + corner;
+    polygon.lower_points.row(k) = lower.transpose() + corner;
+  }
+  region.polygons = {polygon};
+  return region;
+}
+
+bool same(const Edit& a, const Edit& b) {
+  if (!(a.handle == b.handle) || a.falloff != b.falloff || a.operation.index() != b.operation.index())
+    return false;
+  if (const auto* move = std::get_if<Move>(&a.operation))
+    return (move->by - std::get<Move>(b.operation).by).norm() < 1e-6;
+  const Scale &one = std::get<Scale>(a.operation), &other = std::get<Scale>(b.operation);
+  if (std::abs(one.factor - other.factor) > 1e-6 || one.along.has_value() != other.along.has_value())
+    return false;
+  return !one.along || one.along->cross(*other.along).norm() < 1e-6;
+}
+
+bool offers(const std::vector<ContactEdit>& edits, const Edit& edit) {
+  return std::any_of(edits.begin(), edits.end(),
+                     [&](const ContactEdit& one) { return same(one.edit, edit); });
+}
+
+bool moves_along(const ContactEdit& edit, const Vector3d& axis) {
+  const auto* move = std::get_if<Move>(&edit.edit.operation);
+  return move != nullptr && std::abs(move->by.dot(axis)) > 1e-9;
+}
+
+int part_named(const StructuredShape& rest, const std::string& name) {
+  const auto& names = rest.shape.part_names;
+  return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+Edit moved(HandleKind kind, int part, int index, const Vector3d& by) {
+  return {{kind, part, index}, Move{by}};
+}
+
+/// Everything about a structured shape, turned by `rotation` around the origin.
+StructuredShape turned(StructuredShape rest, const Eigen::Matrix3d& rotation) {
+  rest.shape = transformed(rest.shape, rotation, Vector3d::Zero());
+  for (Part& part : rest.structure.parts) {
+    auto& cuboid = std::get<Cuboid>(part.primitive);
+    cuboid.corners = (cuboid.corners * rotation.transpose()).eval();
+  }
+  for (Relation& relation : rest.structure.relations) {
+    relation.points = (relation.points * rotation.transpose()).eval();
+    relation.symmetry.point = rotation * relation.symmetry.point;
+    relation.symmetry.axis = rotation * relation.symmetry.axis;
+  }
+  return rest;
+}
+
+ContactRegion turned(ContactRegion region, const Eigen::Matrix3d& rotation) {
+  region.upper_centre = rotation * region.upper_centre;
+  region.lower_centre = rotation * region.lower_centre;
+  region.long_axis = rotation * region.long_axis;
+  for (ContactPolygon& polygon : region.polygons) {
+    polygon.upper_points = (polygon.upper_points * rotation.transpose()).eval();
+    polygon.lower_points = (polygon.lower_points * rotation.transpose()).eval();
+  }
+  return region;
+}
+
+Edit turned(Edit edit, const Eigen::Matrix3d& rotation) {
+  if (auto* move = std::get_if<Move>(&edit.operation)) move->by = rotation * move->by;
+  auto* scale = std::get_if<Scale>(&edit.operation);
+  if (scale != nullptr && scale->along) scale->along = rotation * *scale->along;
+  return edit;
+}
+
+/// Straight, open at the top, outer radius 4, inner 3.5, height 10, in 11 sections.
+StructuredShape straight_cup() {
+  StructuredShape cup =
+      structures::tube_alone(structures::straight_cylinder({0, 0, 0}, {0, 0, 10}, 4, 11), 8);
+  solids::FrustumShell shell;
+  shell.outer_bottom = shell.outer_top = 4;
+  shell.inner_bottom = shell.inner_top = 3.5;
+  shell.height = 10;
+  cup.shape = solids::frustum_shell(shell);
+  cup.shape.part_names = {"tube"};
+  return cup;
+}
+
+TEST_CASE("the paper moves the corner of a table top and the foot of a leg sideways") {
+  const StructuredShape table = structures::table();
+  const auto regions = regions_of(table.shape, up);
+  REQUIRE(regions.size() == 4);
+  const auto edits = edits_of(table, regions, up, paper());
+  const int top = part_named(table, "top"), leg = regions[0].lower_part;
+  const Vector3d at = regions[0].upper_centre;
+  // Six ways for the corner and for the foot; the face of the top cannot leave its two mirror planes.
+  CHECK(edits.size() == 12);
+  for (const ContactEdit& one : edits) {
+    CHECK_FALSE(moves_along(one, Vector3d::UnitZ()));
+    CHECK(one.of_lower_copy == (one.edit.handle.part == top));
+    CHECK(one.edit.handle.kind == (one.of_lower_copy ? HandleKind::corner : HandleKind::face));
+  }
+  const int corner = 4 + (at.x() > 0 ? 1 : 0) + (at.y() > 0 ? 2 : 0);
+  const Vector3d outwards = Vector3d(at.x(), at.y(), 0).normalized();
+  for (const Vector3d& by :
+       {Vector3d(0.48, 0, 0), Vector3d(-0.48, 0, 0), Vector3d(0, 0.48, 0), Vector3d(0, -0.48, 0),
+        Vector3d(0.06 * 8 * std::sqrt(2.0) * outwards), Vector3d(-0.06 * 8 * std::sqrt(2.0) * outwards)}) {
+    CHECK(offers(edits, moved(HandleKind::corner, top, corner, by)));
+    CHECK(offers(edits, moved(HandleKind::face, leg, 4, by)));
+  }
+}
+
+TEST_CASE("the extended family goes as far as it takes to pass the other part") {
+  const StructuredShape table = structures::table();
+  const auto regions = regions_of(table.shape, up);
+  const auto edits = edits_of(table, regions, up);
+  const int top = part_named(table, "top"), leg = regions[0].lower_part;
+  const double side = regions[0].upper_centre.x() > 0 ? 1 : -1;
+  // The foot's inner side, at 3.1, has to pass the edge at 4, with the band of 0.0125 of 8.
+  CHECK(offers(edits, moved(HandleKind::face, leg, 4, {side * 1.0, 0, 0})));
+  CHECK(offers(edits, moved(HandleKind::face, leg, 4, {side * 0.48, 0, 0})));
+  CHECK_FALSE(offers(edits, moved(HandleKind::face, leg, 4, {side * 3 * 0.48, 0, 0})));
+  // The longer way is tried in one size.
+  CHECK(offers(edits, moved(HandleKind::face, leg, 4, {-side * 0.48, 0, 0})));
+  CHECK_FALSE(offers(edits, moved(HandleKind::face, leg, 4, {-side * 3 * 0.48, 0, 0})));
+  CHECK(offers(edits, moved(HandleKind::face, leg, 5, {side * 0.48, 0, 0})));
+  CHECK(offers(edits, moved(HandleKind::part, leg, 0, {side * 0.48, 0, 0})));
+  // The edge of the top at 4 shrinks to 3.1 less the band.
+  for (const Vector3d axis : {Vector3d::UnitX(), Vector3d::UnitY()})
+    CHECK(offers(edits, {{HandleKind::part, top, 0}, Scale{0.75, axis}}));
+  CHECK(edits.size() > 12);
+  CHECK(edits.size() <= 60);
+}
+
+TEST_CASE("edits that move the contacts apart let copies sink deeper") {
+  const StructuredShape table = structures::table();
+  const auto space = design_space(table);
+  const auto edits = edits_of(table, regions_of(table.shape, up), up);
+  const double before = minimal_stacking_translation(table.shape, up).length;
+  double least = before;
+  for (const ContactEdit& one : edits) {
+    const DesignOutcome outcome = space->edited(space->at_rest(), one.edit, keep_height());
+    if (outcome.refusal) continue;
+    least = std::min(least, minimal_stacking_translation(outcome.design.shape, up).length);
+  }
+  CHECK(before == Approx(6));
+  CHECK(least < 5.9);
+}
+
+TEST_CASE("edits turn with the shape") {
+  const StructuredShape table = structures::table();
+  const int top = part_named(table, "top"), bar = part_named(table, "bar_2");
+  const std::vector<ContactRegion> regions = {
+      region_at(ContactType::dot, {top, part_named(table, "leg_1")}, {-3.5, -3.5, 6}, {-3.5, -3.5, 0}),
+      region_at(ContactType::line, {top, bar}, {3.5, 0, 6}, {3.5, 0, 2})};
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const Eigen::Matrix3d rotation = solids::random_rotation(seed);
+    std::vector<ContactRegion> turned_regions;
+    for (const ContactRegion& region : regions) turned_regions.push_back(turned(region, rotation));
+    for (const ContactEditOptions& options : {ContactEditOptions{}, paper()}) {
+      const auto edits = edits_of(table, regions, up, options);
+      const auto turned_edits =
+          edits_of(turned(table, rotation), turned_regions, Direction(rotation.col(2)), options);
+      REQUIRE(edits.size() == turned_edits.size());
+      for (const ContactEdit& one : edits) CHECK(offers(turned_edits, turned(one.edit, rotation)));
+    }
+  }
+}
+
+TEST_CASE("what touches from above moves up, what is touched moves down, but not the top and bottom") {
+  const StructuredShape table = structures::table();
+  const int top = part_named(table, "top"), bar = part_named(table, "bar_1");
+  const auto on_top =
+      edits_of(table, {region_at(ContactType::dot, {top, bar}, {0, -3.5, 6}, {0, -3.5, 2})}, up);
+  CHECK(offers(on_top, moved(HandleKind::face, bar, 4, {0, 0, 0.36})));
+  CHECK(offers(on_top, moved(HandleKind::face, bar, 4, {0, 0, 3 * 0.36})));
+  CHECK(offers(on_top, moved(HandleKind::part, bar, 0, {0, 0, 0.36})));
+  for (const ContactEdit& one : on_top)
+    if (moves_along(one, Vector3d::UnitZ())) {
+      CHECK(one.edit.handle.part == bar);
+      CHECK(std::get<Move>(one.edit.operation).by.z() > 0);
+      CHECK_FALSE(one.of_lower_copy);
+    }
+  const auto between =
+      edits_of(table, {region_at(ContactType::dot, {bar, bar}, {0, -3.5, 2.4}, {0, -3.5, 2})}, up, paper());
+  CHECK(offers(between, moved(HandleKind::face, bar, 5, {0, 0, -0.36})));
+  CHECK(offers(between, moved(HandleKind::face, bar, 4, {0, 0, 0.36})));
+  CHECK_FALSE(offers(between, moved(HandleKind::face, bar, 5, {0, 0, 0.36})));
+}
+
+TEST_CASE("a part that meets itself is made flatter, but not one that makes the height") {
+  const StructuredShape table = structures::table();
+  const int bar = part_named(table, "bar_1"), leg = part_named(table, "leg_1");
+  const Scale flatter{0.9, Vector3d::UnitZ()};
+  const auto bars =
+      edits_of(table, {region_at(ContactType::dot, {bar, bar}, {0, -3.5, 2.4}, {0, -3.5, 2})}, up);
+  CHECK(offers(bars, {{HandleKind::part, bar, 0}, flatter}));
+  const auto legs =
+      edits_of(table, {region_at(ContactType::dot, {leg, leg}, {-3.5, -3.5, 5.5}, {-3.5, -3.5, 0})}, up);
+  CHECK_FALSE(offers(legs, {{HandleKind::part, leg, 0}, flatter}));
+}
+
+TEST_CASE("lines move along r and across themselves only") {
+  const StructuredShape table = structures::table();
+  const int bar = part_named(table, "bar_1");
+  const std::vector<ContactRegion> regions = {
+      region_at(ContactType::line, {bar, bar}, {1, -3.5, 2.4}, {1, -3.5, 2})};
+  for (const ContactEditOptions& options : {ContactEditOptions{}, paper()}) {
+    const auto edits = edits_of(table, regions, up, options);
+    CHECK(std::any_of(edits.begin(), edits.end(),
+                      [](const auto& e) { return moves_along(e, Vector3d::UnitY()); }));
+    CHECK(std::any_of(edits.begin(), edits.end(),
+                      [](const auto& e) { return moves_along(e, Vector3d::UnitZ()); }));
+    for (const ContactEdit& one : edits) CHECK_FALSE(moves_along(one, Vector3d::UnitX()));
+  }
+}
+
+TEST_CASE("symmetric regions count once") {
+  StructuredShape table = structures::table();
+  const auto regions = regions_of(table.shape, up);
+  const auto all = edits_of(table, regions, up), first = edits_of(table, {regions[0]}, up);
+  REQUIRE(all.size() == first.size());
+  for (std::size_t k = 0; k < all.size(); ++k) CHECK(same(all[k].edit, first[k].edit));
+
+  table.structure.relations.clear();
+  const auto each = edits_of(table, regions, up, paper());
+  CHECK(each.back().region == 3);
+  // Without symmetry the face of the top can be moved as well, by each of the four to both sides of two
+  // diagonals, and to both sides of both axes.
+  CHECK(each.size() == 4 * 12 + 8);
+  ContactEditOptions few = paper();
+  few.most_regions = 2;
+  CHECK(edits_of(table, regions, up, few).back().region == 1);
+}
+
+TEST_CASE("a round body is one region however it is turned") {
+  const StructuredShape cup = straight_cup();
+  StructuredShape round = cup;
+  Relation relation;
+  relation.type = RelationType::self_symmetry;
+  relation.parts = {0};
+  relation.symmetry = {SymmetryKind::revolution, Vector3d::Zero(), Vector3d::UnitZ(), 2};
+  round.structure.relations = {relation};
+  std::vector<ContactRegion> regions;
+  for (const double angle : {0.0, 1.0, 2.0}) {
+    const Vector3d side(4 * std::cos(angle), 4 * std::sin(angle), 0);
+    regions.push_back(
+        region_at(ContactType::dot, {0, 0}, side + Vector3d(0, 0, 6), side + Vector3d(0, 0, 3)));
+  }
+  const auto once = edits_of(round, regions, up, paper());
+  for (const ContactEdit& one : once) {
+    CHECK(one.region == 0);
+    CHECK_FALSE(moves_along(one, Vector3d::UnitX()));  // off its axis of revolution
+  }
+  CHECK_FALSE(once.empty());
+  CHECK(edits_of(cup, regions, up, paper()).back().region == 2);
+}
+
+TEST_CASE("rings scale cross-sections") {
+  const StructuredShape cup = straight_cup();
+  const auto regions = regions_of(cup.shape, up);
+  REQUIRE(regions.size() == 1);
+  REQUIRE(regions[0].type == ContactType::ring);
+  const auto edits = edits_of(cup, regions, up, paper());
+  REQUIRE(edits.size() == 4);
+  for (const double factor : {0.9, 1.1})
+    for (const int section : {0, 10})
+      CHECK(offers(edits, {{HandleKind::section, 0, section}, Scale{factor, std::nullopt}}));
+  CHECK(edits[0].edit.handle.index == 10);
+  CHECK(edits[0].of_lower_copy);
+
+  const auto extended = edits_of(cup, regions, up);
+  CHECK(offers(extended, {{HandleKind::section, 0, 0}, Scale{0.7, std::nullopt}, Falloff::linear}));
+  for (const ContactEdit& one : extended) {
+    CHECK_FALSE(moves_along(one, Vector3d::UnitZ()));
+    // A straight wall gets no waist.
+    if (one.edit.handle.kind == HandleKind::section) CHECK(one.edit.falloff == Falloff::linear);
+  }
+
+  const auto space = design_space(cup);
+  const DesignOutcome outcome =
+      space->edited(space->at_rest(),
+                    {{HandleKind::section, 0, 0}, Scale{0.7, std::nullopt}, Falloff::linear}, keep_height());
+  REQUIRE_FALSE(outcome.refusal);
+  CHECK(minimal_stacking_translation(outcome.design.shape, up).length < 6);
+}
+
+TEST_CASE("contacts amid a leg lean it by its ends") {
+  const StructuredShape tube =
+      structures::tube_alone(structures::straight_cylinder({2, 0, 0}, {2, 0, 10}, 0.5, 11), 8);
+  const std::vector<ContactRegion> regions = {region_at(ContactType::dot, {0, 0}, {2.5, 0, 6}, {1.5, 0, 4})};
+  const auto edits = edits_of(tube, regions, up);
+  const double step = 0.06;  // of the width 1
+  for (const int end : {0, 10})
+    CHECK(offers(edits, {{HandleKind::section, 0, end}, Move{{step, 0, 0}}, Falloff::linear}));
+  for (const ContactEdit& one : edits)
+    if (one.edit.handle.kind == HandleKind::section) CHECK(one.edit.falloff == Falloff::linear);
+  const auto as_published = edits_of(tube, regions, up, paper());
+  CHECK(offers(as_published, {{HandleKind::section, 0, 6}, Move{{step, 0, 0}}}));
+  for (const ContactEdit& one : as_published) CHECK(one.edit.falloff == Falloff::gaussian);
+
+  ContactEditOptions straight = paper();
+  straight.bends = false;
+  const auto leaning = edits_of(tube, regions, up, straight);
+  CHECK(offers(leaning, {{HandleKind::section, 0, 10}, Move{{step, 0, 0}}, Falloff::linear}));
+  for (const ContactEdit& one : leaning) CHECK(one.edit.falloff == Falloff::linear);
+}
+
+TEST_CASE("suggestions are ordered, different, and the same every time") {
+  const StructuredShape mug = structures::mug();
+  const auto regions = regions_of(mug.shape, Direction(0.1, 0, 1));
+  const auto edits = edits_of(mug, regions, Direction(0.1, 0, 1));
+  const auto again = edits_of(mug, regions, Direction(0.1, 0, 1));
+  REQUIRE_FALSE(edits.empty());
+  REQUIRE(edits.size() == again.size());
+  const auto space = design_space(mug);
+  for (std::size_t k = 0; k < edits.size(); ++k) {
+    CHECK(same(edits[k].edit, again[k].edit));
+    CHECK(edits[k].why == again[k].why);
+    for (std::size_t l = 0; l < k; ++l) CHECK_FALSE(same(edits[k].edit, edits[l].edit));
+    if (k > 0)
+      CHECK(std::pair(edits[k - 1].region, !edits[k - 1].of_lower_copy) <=
+            std::pair(edits[k].region, !edits[k].of_lower_copy));
+    CHECK_NOTHROW(space->edited(space->at_rest(), edits[k].edit, {}));
+  }
+}
+
+TEST_CASE("models without primitives offer what lies nearest") {
+  const StructuredShape table = structures::table(1);
+  const auto regions = regions_of(table.shape, up);
+  DesignSpaceOptions options;
+  options.kind = DeformationKind::surface;
+  const auto space = design_space(table, options);
+  const Design design = space->at_rest();
+  const auto handles = space->handles();
+  const auto edits = contact_edits({space->rest(), space->kind(), handles, design, regions, up});
+  REQUIRE_FALSE(edits.empty());
+  CHECK(edits.back().region == 3);  // the surface model knows no symmetry
+  for (const ContactEdit& one : edits) {
+    REQUIRE(one.edit.handle.kind == HandleKind::point);
+    const ContactRegion& region = regions[static_cast<std::size_t>(one.region)];
+    const Vector3d target = one.of_lower_copy ? region.upper_centre : region.lower_centre;
+    const auto distance = [&](const Handle& handle) {
+      return (table.shape.vertices.row(handle.index).transpose() - target).norm();
+    };
+    for (const Handle& handle : handles)
+      if (handle.kind == HandleKind::point) CHECK(distance(one.edit.handle) <= distance(handle));
+  }
+
+  const std::vector<Handle> wires = {{HandleKind::wire, 0, 0}, {HandleKind::wire, 0, 1}};
+  const ContactSituation by_wires{space->rest(),
+                                  DeformationKind::iwires,
+                                  wires,
+                                  design,
+                                  regions,
+                                  up,
+                                  {{0, 0, 3}, regions[0].lower_centre}};
+  for (const ContactEdit& one : contact_edits(by_wires))
+    CHECK(one.edit.handle == (one.of_lower_copy ? wires[0] : wires[1]));
+
+  DesignSpaceOptions by_curves;
+  by_curves.kind = DeformationKind::iwires;
+  const auto curves = design_space(table, by_curves);
+  const auto curve_handles = curves->handles();
+  const auto centres = curves->centres();
+  REQUIRE(centres.size() == curve_handles.size());
+  const Design drawn = curves->at_rest();
+  const auto on_curves =
+      contact_edits({curves->rest(), curves->kind(), curve_handles, drawn, regions, up, centres});
+  REQUIRE_FALSE(on_curves.empty());
+  for (const ContactEdit& one : on_curves) {
+    CHECK(one.edit.handle.kind == HandleKind::wire);
+    CHECK_NOTHROW(curves->edited(drawn, one.edit, keep_height()));
+  }
+
+  const auto squashed =
+      contact_edits({space->rest(), DeformationKind::gap_scaling, handles, design, regions, up});
+  REQUIRE(squashed.size() == 1);
+  CHECK(same(squashed[0].edit, {{HandleKind::shape, 0, 0}, Scale{0.9, Vector3d::UnitZ()}}));
+}
+
+TEST_CASE("nothing touches: nothing to suggest, and options out of range are refused") {
+  const StructuredShape table = structures::table();
+  CHECK(edits_of(table, {}, up).empty());
+  const auto refused = [&](const auto& change) {
+    ContactEditOptions options;
+    change(options);
+    CHECK_THROWS_AS(edits_of(table, {}, up, options), UsageError);
+  };
+  refused([](auto& o) { o.move_step = 0; });
+  refused([](auto& o) { o.scale_step = 1; });
+  refused([](auto& o) { o.scale_step = -0.1; });
+  refused([](auto& o) { o.multiples = {}; });
+  refused([](auto& o) { o.multiples = {1, 10}; });
+  refused([](auto& o) { o.most_regions = 0; });
+}
+
+}  // namespace
+}  // namespace stackabilization

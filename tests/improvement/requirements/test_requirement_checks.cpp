@@ -1,0 +1,268 @@
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "support/catch.h"
+#include "support/solids.h"
+#include "support/still_designs.h"
+#include "support/structures.h"
+
+using namespace stackabilization;
+using namespace stackabilization::designs;
+
+namespace {
+
+const Direction up(0, 0, 1);
+
+/// A bar of two boxes that share the four vertices between them.
+StructuredShape bar_of_two() {
+  StructuredShape bar =
+      alone(solids::box({2, 1, 1}), structures::straight_cylinder({0, 0, 0}, {1, 0, 0}, 1, 2));
+  Shape& shape = bar.shape;
+  shape.part_names = {"a", "b"};
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    shape.triangle_part[static_cast<std::size_t>(t)] = t % 2 == 0 ? 0 : 1;
+  const Eigen::Vector3d half = Eigen::Vector3d::Constant(0.5);
+  bar.structure.parts = {{"a", cuboid_of({{0.5, 0.5, 0.5}, Eigen::Matrix3d::Identity(), half}), {}},
+                         {"b", cuboid_of({{1.5, 0.5, 0.5}, Eigen::Matrix3d::Identity(), half}), {}}};
+  return bar;
+}
+
+Check check_of(const DesignSpace& space, const Requirements& requirements, const Design& design,
+               const std::string& name) {
+  for (const Check& check : RequirementChecker(space, requirements).checked(design, up).checks)
+    if (check.name == name) return check;
+  FAIL("there is no check of the " + name);
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("The target is compared without slack", "[requirements]") {
+  const Still space(cup());
+  const double reached =
+      RequirementChecker(space, frame_requirements()).checked(space.at_rest(), up).measured.value;
+  const Check passes = check_of(space, frame_requirements(reached), space.at_rest(), "target");
+  CHECK(passes.passed);
+  CHECK(passes.value == reached);
+  CHECK(passes.demanded == reached);
+  const Requirements above = frame_requirements(std::nextafter(reached, 1.0));
+  CHECK_FALSE(check_of(space, above, space.at_rest(), "target").passed);
+  CHECK_FALSE(RequirementChecker(space, above).checked(space.at_rest(), up).passed());
+}
+
+TEST_CASE("A room is compared by the length of the stack, whatever the boxes are", "[requirements]") {
+  const Still space(cup());
+  Requirements requirements = frame_requirements(0.9);  // not what is asked for
+  requirements.keep_height = false;
+  const double length = 8 + 4 * 4;
+  requirements.room = StackRoom{5, length * (1 + 1e-12)};
+  const Check fits = check_of(space, requirements, space.at_rest(), "room");
+  CHECK(fits.passed);
+  CHECK(fits.value == Approx(length));
+  CHECK(fits.demanded == requirements.room->length);
+  CHECK(RequirementChecker(space, requirements).checked(space.at_rest(), up).passed());
+  requirements.room->length = length * (1 - 1e-12);
+  CHECK_FALSE(check_of(space, requirements, space.at_rest(), "room").passed);
+  // As wide as it may be, and S with it; a fifth higher, and the stack is too.
+  CHECK(check_of(space, requirements, scaled(space.at_rest(), {3, 3, 0.99}), "room").passed);
+  CHECK_FALSE(check_of(space, requirements, scaled(space.at_rest(), {3, 3, 1.2}), "room").passed);
+}
+
+TEST_CASE("What S a design needs for a room follows from its extent and its boxes", "[requirements]") {
+  const Still space(cup());
+  Requirements requirements = frame_requirements(0.6);
+  CHECK(RequirementChecker(space, requirements).needed({}) == 0.6);
+  for (const double length : {9.0, 12.0, 30.0})
+    for (const double extent : {5.0, 8.0})
+      for (const double slenderness : {0.5, 1.0, 1.7})
+        for (const double f_max : {0.0, 0.4, 1.5, 8.0}) {
+          requirements.room = StackRoom{6, length};
+          const RequirementChecker checker(space, requirements);
+          Stackability measured{{0, 0, 1}, f_max, extent, 10, 10 * slenderness, 0};
+          measured.value = 1 - f_max / extent * slenderness;
+          INFO(length << ' ' << extent << ' ' << slenderness << ' ' << f_max);
+          CHECK(checker.reaches(measured) == (extent + 5 * f_max <= length));
+          CHECK(checker.reaches(measured) == (measured.value >= checker.needed(measured)));
+        }
+}
+
+TEST_CASE("The height is kept to a billionth, unless it need not be", "[requirements]") {
+  const Still space(cup());
+  const Design higher = scaled(space.at_rest(), {1, 1, 1 + 1.1e-9});
+  const Design nearly = scaled(space.at_rest(), {1, 1, 1 + 0.9e-9});
+  CHECK_FALSE(check_of(space, frame_requirements(), higher, "height").passed);
+  CHECK(check_of(space, frame_requirements(), nearly, "height").passed);
+  CHECK(check_of(space, frame_requirements(), higher, "height").value == Approx(1.1e-9).epsilon(1e-5));
+  // Other directions have other heights.
+  const Design wider = scaled(space.at_rest(), {1.5, 1, 1});
+  const RequirementChecker checker(space, frame_requirements());
+  CHECK(checker.checked(wider, up).checks[1].passed);
+  CHECK(checker.checked(wider, Direction(1, 0, 0)).checks[1].value == Approx(0.5));
+  Requirements free = frame_requirements();
+  free.keep_height = false;
+  CHECK(RequirementChecker(space, free).checked(higher, up).passed());
+}
+
+TEST_CASE("Relations are held against the primitives of controllers", "[requirements]") {
+  const auto moved = [](const Still& space, double fraction) {
+    Design design = space.at_rest();
+    std::get<Cuboid>(design.primitives[1]).corners.col(1).array() += fraction * std::sqrt(18.0);
+    return design;
+  };
+  const Still space(two_cubes());
+  CHECK(check_of(space, frame_requirements(), moved(space, 0.99e-6), "relations").passed);
+  const Check broken = check_of(space, frame_requirements(), moved(space, 1.01e-6), "relations");
+  CHECK_FALSE(broken.passed);
+  CHECK(broken.value == Approx(1.01e-6));
+  CHECK(broken.note == "symmetry of 'left' and 'right'");
+  const Still surface(two_cubes(), DeformationKind::surface);
+  CHECK(RequirementChecker(surface, frame_requirements()).checked(moved(surface, 0.1), up).checks.size() ==
+        3);
+}
+
+TEST_CASE("Parts keep their proportions", "[requirements]") {
+  const Still space(two_cubes());
+  const auto stretched = [&](double factor) {
+    Design design = space.at_rest();
+    std::get<Cuboid>(design.primitives[1]).corners.col(2) *= factor;
+    return design;
+  };
+  Requirements requirements = frame_requirements();
+  const RequirementChecker checker(space, requirements);
+  for (const double factor : {0.401, 1.0, 2.49}) {
+    CHECK(check_of(space, requirements, stretched(factor), "proportions").passed);
+    CHECK_FALSE(checker.out_of_proportion(stretched(factor)));
+  }
+  for (const double factor : {0.399, 2.51}) {
+    CHECK_FALSE(check_of(space, requirements, stretched(factor), "proportions").passed);
+    CHECK(checker.out_of_proportion(stretched(factor)) == "'right' would lose its proportions");
+  }
+  requirements.least_proportion = 0;
+  CHECK_FALSE(RequirementChecker(space, requirements).out_of_proportion(stretched(0.1)));
+  for (const Check& check : RequirementChecker(space, requirements).checked(stretched(0.1), up).checks)
+    CHECK(check.name != "proportions");
+}
+
+TEST_CASE("The sides of the box change by so much at most", "[requirements]") {
+  const Still space(structures::box_alone({4, 2, 1}));
+  Requirements requirements = frame_requirements();
+  requirements.box_tolerance = 0.1;
+  CHECK(check_of(space, requirements, scaled(space.at_rest(), {0.9, 1.1, 1}), "box").passed);
+  const Check wider = check_of(space, requirements, scaled(space.at_rest(), {0.95, 1.1001, 1}), "box");
+  CHECK_FALSE(wider.passed);
+  CHECK(wider.value == Approx(0.1001));
+  CHECK(wider.note == "along y");
+  CHECK_FALSE(check_of(space, requirements, scaled(space.at_rest(), {0.8999, 1, 1}), "box").passed);
+  requirements.box_tolerance = 0;
+  CHECK(check_of(space, requirements, space.at_rest(), "box").passed);
+}
+
+TEST_CASE("Parts that stay have not moved", "[requirements]") {
+  StructuredShape cubes = two_cubes();
+  cubes.structure.relations.clear();  // else the right one may change with the left one
+  const Still space(std::move(cubes));
+  const auto moved = [&](int part, double fraction) {
+    Design design = space.at_rest();
+    design.shape.vertices(8 * part, 1) += fraction * std::sqrt(18.0);
+    return design;
+  };
+  Requirements kept = frame_requirements(), editable = frame_requirements();
+  kept.kept_parts = {1};
+  editable.editable_parts = {0};
+  for (const Requirements& requirements : {kept, editable}) {
+    CHECK(check_of(space, requirements, moved(0, 0.01), "parts").passed);
+    CHECK(check_of(space, requirements, moved(1, 0.9e-9), "parts").passed);
+    const Check broken = check_of(space, requirements, moved(1, 1.1e-9), "parts");
+    CHECK_FALSE(broken.passed);
+    CHECK(broken.note == "'right'");
+  }
+}
+
+TEST_CASE("At a seam with a part that may change, the primitive has to stay", "[requirements]") {
+  Requirements requirements = frame_requirements();
+  requirements.kept_parts = {0};
+  const Still controllers(bar_of_two()), surface(bar_of_two(), DeformationKind::surface);
+  Design stretched = controllers.at_rest();
+  stretched.shape.vertices.col(0) *= 1.1;
+  CHECK(check_of(controllers, requirements, stretched, "parts").passed);
+  CHECK_FALSE(check_of(surface, requirements, stretched, "parts").passed);
+  std::get<Cuboid>(stretched.primitives[0]).corners.col(0) *= 1.1;
+  CHECK_FALSE(check_of(controllers, requirements, stretched, "parts").passed);
+  // With both kept there is no such seam.
+  requirements.kept_parts = {0, 1};
+  stretched.primitives = controllers.at_rest().primitives;
+  CHECK_FALSE(check_of(controllers, requirements, stretched, "parts").passed);
+}
+
+TEST_CASE("Walls become no thinner than asked for, or than they are", "[requirements]") {
+  const Still space(structures::box_alone({4, 4, 1}));
+  Requirements requirements = frame_requirements();
+  requirements.keep_height = false;
+  requirements.least_thickness = 0.5;
+  const auto thinned = [&](double factor) {
+    return check_of(space, requirements, scaled(space.at_rest(), {1, 1, factor}), "thickness");
+  };
+  CHECK(thinned(1).passed);
+  CHECK(thinned(0.5).passed);
+  CHECK(thinned(0.5).value == Approx(0.5));
+  CHECK_FALSE(thinned(0.4999).passed);
+  CHECK(thinned(0.4999).note == "'box'");
+  // What is thinner at rest may stay so, but become no thinner.
+  requirements.least_thickness = 2;
+  CHECK(thinned(1).passed);
+  CHECK(thinned(1).value == Approx(1));
+  CHECK_FALSE(thinned(0.999).passed);
+}
+
+TEST_CASE("Contacts are as steep as the walls of a cup", "[requirements]") {
+  const Still space(cup());
+  // A facet's middle is nearer to the axis than its ends.
+  const double angle = std::atan(std::cos(std::numbers::pi / 64) / 8) * 180 / std::numbers::pi;
+  Requirements requirements = frame_requirements();
+  requirements.least_draft_degrees = 0.999 * angle;
+  const Check draft = check_of(space, requirements, space.at_rest(), "draft");
+  CHECK(draft.value == Approx(angle));
+  CHECK(draft.passed);
+  requirements.least_draft_degrees = 1.001 * angle;
+  CHECK_FALSE(check_of(space, requirements, space.at_rest(), "draft").passed);
+}
+
+TEST_CASE("A stack stands up to the tilt at which it topples", "[requirements]") {
+  const Still space(structures::box_alone({2, 2, 4}));
+  const double tilt = std::atan(0.25) * 180 / std::numbers::pi;
+  Requirements requirements = frame_requirements();
+  requirements.standing_copies = 2;
+  requirements.least_tilt_degrees = tilt - 1e-6;
+  const Check stands = check_of(space, requirements, space.at_rest(), "standing");
+  CHECK(stands.value == Approx(tilt));
+  CHECK(stands.passed);
+  requirements.least_tilt_degrees = tilt + 1e-6;
+  CHECK_FALSE(check_of(space, requirements, space.at_rest(), "standing").passed);
+  requirements.standing_copies = 1;
+  CHECK(check_of(space, requirements, space.at_rest(), "standing").passed);
+}
+
+TEST_CASE("Checks come in order, and only those that were asked for", "[requirements]") {
+  const Still space(two_cubes());
+  Requirements all = frame_requirements();
+  all.box_tolerance = 0.1;
+  all.kept_parts = {0};
+  all.least_thickness = 0.1;
+  all.least_draft_degrees = 10;
+  all.standing_copies = 2;
+  std::vector<std::string> names;
+  for (const Check& check : RequirementChecker(space, all).checked(space.at_rest(), up).checks) {
+    names.push_back(check.name);
+    CHECK(check.passed);
+    CHECK(std::isfinite(check.value));
+  }
+  CHECK(names == std::vector<std::string>{"target", "height", "relations", "proportions", "box", "parts",
+                                          "thickness", "draft", "standing"});
+  const RequirementChecker few(space, frame_requirements());
+  CHECK(few.checked(space.at_rest(), up).checks.size() == 4);
+  CHECK(few.requirements().target == -1);
+  CHECK(&few.space() == &space);
+}

@@ -1,0 +1,252 @@
+#include "support/structures.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "support/solids.h"
+#include "support/variants.h"
+
+namespace stackabilization::structures {
+
+namespace {
+
+Shape named(Shape shape, const std::string& name) {
+  shape.part_names = {name};
+  return shape;
+}
+
+/// Circles of `around` points across the tangents of the sections, joined; open ends closed with fans.
+Shape tube(const GeneralizedCylinder& cylinder, int around) {
+  const auto n = static_cast<int>(cylinder.centres.rows());
+  const Points tangents = section_tangents(cylinder);
+  Shape shape;
+  shape.vertices.resize(n * around + (cylinder.closed ? 0 : 2), 3);
+  Eigen::Vector3d side = tangents.row(0).transpose().unitOrthogonal();
+  for (int i = 0; i < n; ++i) {
+    const Eigen::Vector3d t = tangents.row(i).transpose();
+    side = (side - side.dot(t) * t).normalized();
+    for (int k = 0; k < around; ++k) {
+      const Eigen::Vector2d p = solids::circle_point(k, around);
+      shape.vertices.row(i * around + k) =
+          cylinder.centres.row(i) + cylinder.radii(i) * (p.x() * side + p.y() * t.cross(side)).transpose();
+    }
+  }
+  std::vector<Eigen::RowVector3i> triangles;
+  for (int i = 0; i < (cylinder.closed ? n : n - 1); ++i)
+    for (int k = 0; k < around; ++k) {
+      const int a = i * around, b = (i + 1) % n * around, l = (k + 1) % around;
+      triangles.emplace_back(a + k, a + l, b + l);
+      triangles.emplace_back(a + k, b + l, b + k);
+    }
+  if (!cylinder.closed) {
+    shape.vertices.row(n * around) = cylinder.centres.row(0);
+    shape.vertices.row(n * around + 1) = cylinder.centres.row(n - 1);
+    for (int k = 0; k < around; ++k) {
+      const int l = (k + 1) % around, last = (n - 1) * around;
+      triangles.emplace_back(n * around, l, k);
+      triangles.emplace_back(n * around + 1, last + k, last + l);
+    }
+  }
+  shape.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    shape.triangles.row(static_cast<Eigen::Index>(t)) = triangles[t];
+  return make_shape(std::move(shape.vertices), std::move(shape.triangles));
+}
+
+class Assembly {
+ public:
+  int add_box(const std::string& name, const Eigen::Vector3d& low, const Eigen::Vector3d& high, int levels) {
+    Shape box = solids::box(low, high);
+    for (int level = 0; level < levels; ++level) box = solids::subdivided(box);
+    return add(name, box, cuboid_of({(low + high) / 2, Eigen::Matrix3d::Identity(), (high - low) / 2}));
+  }
+
+  int add(const std::string& name, const Shape& shape, const Primitive& primitive) {
+    structured_.shape =
+        parts().empty() ? named(shape, name) : concatenate(structured_.shape, named(shape, name));
+    parts().push_back({name, primitive, {}});
+    return static_cast<int>(parts().size()) - 1;
+  }
+
+  void mirror(std::vector<int> of, const Eigen::Vector3d& axis) {
+    Relation relation;
+    relation.type = of.size() == 1 ? RelationType::self_symmetry : RelationType::symmetry;
+    relation.parts = std::move(of);
+    relation.symmetry.axis = axis;
+    structured_.structure.relations.push_back(relation);
+  }
+
+  void joint(int a, int b, const Points& points) {
+    Relation relation;
+    relation.type = points.rows() == 1 ? RelationType::point_joint : RelationType::line_joint;
+    relation.parts = {a, b};
+    relation.points = points;
+    structured_.structure.relations.push_back(relation);
+  }
+
+  StructuredShape done() {
+    const Points& v = structured_.shape.vertices;
+    structured_.structure.diagonal = (v.colwise().maxCoeff() - v.colwise().minCoeff()).norm();
+    return std::move(structured_);
+  }
+
+ private:
+  std::vector<Part>& parts() { return structured_.structure.parts; }
+  StructuredShape structured_;
+};
+
+StructuredShape table_of(int levels, bool lines) {
+  Assembly table;
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
+  const int top = table.add_box("top", {-4, -4, 5.5}, {4, 4, 6}, levels);
+  std::vector<int> legs, bars;
+  const std::vector<Eigen::Vector2d> corners = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Eigen::Vector3d middle(3.5 * corners[k].x(), 3.5 * corners[k].y(), 0), half(0.4, 0.4, 0);
+    legs.push_back(table.add_box("leg_" + std::to_string(k + 1), middle - half,
+                                 middle + half + Eigen::Vector3d(0, 0, 5.5), levels));
+  }
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Eigen::Vector2d a = 3.5 * corners[k], b = 3.5 * corners[(k + 1) % 4];
+    const Eigen::Vector3d low(std::min(a.x(), b.x()) + 0.4 * (a.x() != b.x()) - 0.2 * (a.x() == b.x()),
+                              std::min(a.y(), b.y()) + 0.4 * (a.y() != b.y()) - 0.2 * (a.y() == b.y()), 2);
+    const Eigen::Vector3d high(std::max(a.x(), b.x()) - 0.4 * (a.x() != b.x()) + 0.2 * (a.x() == b.x()),
+                               std::max(a.y(), b.y()) - 0.4 * (a.y() != b.y()) + 0.2 * (a.y() == b.y()), 2.4);
+    bars.push_back(table.add_box("bar_" + std::to_string(k + 1), low, high, levels));
+  }
+  table.mirror({top}, x);
+  table.mirror({top}, y);
+  table.mirror({legs[0], legs[1]}, x);
+  table.mirror({legs[2], legs[3]}, x);
+  table.mirror({legs[0], legs[3]}, y);
+  table.mirror({legs[1], legs[2]}, y);
+  table.mirror({bars[0], bars[2]}, y);
+  table.mirror({bars[1], bars[3]}, x);
+  for (const int k : {0, 2}) table.mirror({bars[static_cast<std::size_t>(k)]}, x);
+  for (const int k : {1, 3}) table.mirror({bars[static_cast<std::size_t>(k)]}, y);
+  for (std::size_t k = 0; k < 4; ++k)
+    table.joint(top, legs[k], Eigen::RowVector3d(3.5 * corners[k].x(), 3.5 * corners[k].y(), 5.5));
+  for (std::size_t k = 0; k < 4; ++k)
+    for (const std::size_t end : {k, (k + 1) % 4}) {
+      const Eigen::Vector2d inwards = (corners[k] + corners[(k + 1) % 4]) / 2 - corners[end];
+      const Eigen::Vector2d at = 3.5 * corners[end] + 0.4 * inwards.normalized();
+      const Eigen::Vector3d place(at.x(), at.y(), 2.2), half(0, 0, lines ? 0.2 : 0);
+      Points points(lines ? 2 : 1, 3);
+      points.row(0) = place - half;
+      points.row(points.rows() - 1) = place + half;
+      table.joint(bars[k], legs[end], points);
+    }
+  return table.done();
+}
+
+}  // namespace
+
+GeneralizedCylinder straight_cylinder(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double radius,
+                                      int sections) {
+  GeneralizedCylinder cylinder;
+  cylinder.centres.resize(sections, 3);
+  for (int i = 0; i < sections; ++i)
+    cylinder.centres.row(i) = (a + static_cast<double>(i) / (sections - 1) * (b - a)).transpose();
+  cylinder.radii.setConstant(sections, radius);
+  return cylinder;
+}
+
+GeneralizedCylinder arc_cylinder(double arc_radius, double radius, double from, double to, int sections) {
+  GeneralizedCylinder cylinder;
+  cylinder.centres.resize(sections, 3);
+  for (int i = 0; i < sections; ++i) {
+    const double angle = from + (to - from) * i / (sections - 1);
+    cylinder.centres.row(i) << arc_radius * std::cos(angle), 0, arc_radius * std::sin(angle);
+  }
+  cylinder.radii.setConstant(sections, radius);
+  return cylinder;
+}
+
+GeneralizedCylinder ring_cylinder(double ring_radius, double radius, int sections) {
+  GeneralizedCylinder cylinder;
+  cylinder.closed = true;
+  cylinder.centres.resize(sections, 3);
+  for (int i = 0; i < sections; ++i) {
+    const Eigen::Vector2d p = ring_radius * solids::circle_point(i, sections);
+    cylinder.centres.row(i) << p.x(), p.y(), 0;
+  }
+  cylinder.radii.setConstant(sections, radius);
+  return cylinder;
+}
+
+StructuredShape box_alone(const Eigen::Vector3d& size) {
+  Assembly assembly;
+  assembly.add_box("box", -size / 2, size / 2, 2);
+  return assembly.done();
+}
+
+StructuredShape tube_alone(const GeneralizedCylinder& cylinder, int around) {
+  Assembly assembly;
+  assembly.add("tube", tube(cylinder, around), cylinder);
+  return assembly.done();
+}
+
+StructuredShape table(int levels) {
+  return table_of(levels, false);
+}
+
+StructuredShape table_with_line_joints() {
+  return table_of(1, true);
+}
+
+StructuredShape board_with_screw() {
+  Assembly assembly;
+  const int board = assembly.add_box("board", {-5, -5, -0.5}, {5, 5, 0.5}, 1),
+            screw = assembly.add_box("screw", {-0.05, -0.05, 0.5}, {0.05, 0.05, 0.6}, 0);
+  assembly.joint(board, screw, Eigen::RowVector3d(0, 0, 0.5));
+  return assembly.done();
+}
+
+StructuredShape rough_stool() {
+  Assembly stool;
+  const int top = stool.add_box("top", {-5, -5, 15}, {5, 5, 16}, 1);
+  std::vector<int> legs;
+  for (const auto& [x, y] : std::vector<std::pair<double, double>>{{-4, -4}, {4, -4}, {4, 4}, {-4, 4}}) {
+    const auto number = static_cast<int>(legs.size()) + 1;
+    const GeneralizedCylinder leg = straight_cylinder({x, y, 0}, {x, y, 15}, 0.5, 24);
+    legs.push_back(stool.add("leg_" + std::to_string(number), tube(leg, 11 + number), leg));
+    stool.joint(top, legs.back(), Eigen::RowVector3d(x, y, 15));
+  }
+  stool.mirror({top}, Eigen::Vector3d::UnitX());
+  stool.mirror({top}, Eigen::Vector3d::UnitY());
+  for (const std::size_t k : {0u, 2u}) {
+    stool.mirror({legs[k], legs[k + 1]}, Eigen::Vector3d::UnitX());
+    stool.mirror({legs[k], legs[(k + 3) % 4]}, Eigen::Vector3d::UnitY());
+  }
+  return stool.done();
+}
+
+StructuredShape mug(int around) {
+  Assembly mug;
+  const GeneralizedCylinder body = straight_cylinder({0, 0, 0}, {0, 0, 10}, 4, 11);
+  GeneralizedCylinder handle = arc_cylinder(3, 0.4, -std::numbers::pi / 2, std::numbers::pi / 2, 13);
+  handle.centres.rowwise() += Eigen::RowVector3d(4, 0, 5);
+  const int a = mug.add("body", tube(body, around), body),
+            b = mug.add("handle", tube(handle, around), handle);
+  mug.mirror({a}, Eigen::Vector3d::UnitY());
+  mug.mirror({b}, Eigen::Vector3d::UnitY());
+  mug.joint(a, b, Eigen::RowVector3d(4, 0, 2));
+  mug.joint(a, b, Eigen::RowVector3d(4, 0, 8));
+  return mug.done();
+}
+
+StructuredShape post_with_ring() {
+  Assembly assembly;
+  const GeneralizedCylinder post = straight_cylinder({3, 0, 0}, {9, 0, 0}, 0.5, 5),
+                            ring = ring_cylinder(3, 0.3, 16);
+  const int a = assembly.add("post", tube(post, 12), post), b = assembly.add("ring", tube(ring, 12), ring);
+  assembly.mirror({a}, Eigen::Vector3d::UnitY());
+  assembly.mirror({b}, Eigen::Vector3d::UnitY());
+  assembly.joint(a, b, Eigen::RowVector3d(3, 0, 0));
+  return assembly.done();
+}
+
+}  // namespace stackabilization::structures
