@@ -13,7 +13,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-void check(const DeformCommandOptions& options) {
+void check_deform_options(const DeformCommandOptions& options) {
   check_outputs(options.common, {{{"--output", options.output, OutputKind::mesh},
                                   {"--picture", options.picture, OutputKind::picture},
                                   {"--save", options.save, OutputKind::project}},
@@ -52,9 +52,9 @@ void write_result(const DeformCommandOptions& options, const DeformRun& run, con
                               {run.rest, run.result, run.edits, run.curves, deformation_notes(run)});
 }
 
-int run(const CLI::App& command, const DeformCommandOptions& options) {
+int run_deform_command(const CLI::App& command, const DeformCommandOptions& options) {
   const Stopwatch watch;
-  check(options);
+  check_deform_options(options);
   const ThreadLimit limit(options.common);
   if (options.list_handles) return list_handles(command, options, watch);
   const StructuredModel input = load_structured(command, options.common, options.analysis, bounds_of_deform);
@@ -125,7 +125,7 @@ Command make_deform_command(CLI::App& program) {
   command->add_option("--save", options->save, "Write the result as a project file")->type_name("PROJECT");
   command->add_option("--picture", options->picture, "Draw the shape before and after (.png or .svg)")
       ->type_name("FILE");
-  return {command, [command, options] { return run(*command, *options); }};
+  return {command, [command, options] { return run_deform_command(*command, *options); }};
 }
 
 }  // namespace stackabilization::apps

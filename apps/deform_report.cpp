@@ -50,7 +50,7 @@ Json refusal_json(const Refusal& refusal, const Structure& structure) {
   return {{"reason", refusal.reason}, {"relation", relation}, {"amount", refusal.amount}};
 }
 
-Json relations_json(const DeformRun& run) {
+Json relations_after_json(const DeformRun& run) {
   Json list = Json::array();
   for (std::size_t i = 0; i < run.residuals.size(); ++i) {
     Json relation = to_json(run.rest.structure.relations[i], run.rest.structure);
@@ -60,7 +60,7 @@ Json relations_json(const DeformRun& run) {
   return list;
 }
 
-Json primitives_json(const DeformRun& run) {
+Json primitives_after_json(const DeformRun& run) {
   Json list = Json::array();
   for (std::size_t i = 0; i < run.result.primitives.size(); ++i) {
     Json primitive = {{"part", run.rest.shape.part_names[i]}};
@@ -68,12 +68,6 @@ Json primitives_json(const DeformRun& run) {
     list.push_back(std::move(primitive));
   }
   return list;
-}
-
-std::vector<std::string> edit_lines(const DeformRun& run) {
-  std::vector<std::string> lines;
-  for (const Edit& edit : run.edits) lines.push_back(edit_text(edit, run.rest.shape.part_names));
-  return lines;
 }
 
 void add_residual_lines(TextTable& table, const DeformRun& run) {
@@ -84,7 +78,8 @@ void add_residual_lines(TextTable& table, const DeformRun& run) {
     table.add("Symmetries", small_percent(*largest.symmetry), "of the diagonal: the largest deviation");
 }
 
-constexpr std::array<const char*, 7> kinds = {"part", "face", "corner", "section", "point", "wire", "shape"};
+constexpr std::array<const char*, 7> handle_kind_names = {"part",  "face", "corner", "section",
+                                                          "point", "wire", "shape"};
 
 }  // namespace
 
@@ -105,7 +100,7 @@ std::string name_of(ModelKind kind) {
 void add_deformation(Json& document, const DeformRun& run) {
   const Shape& before = run.rest.shape;
   document["deformation"] = name_of(run.kind);
-  document["edits"] = edit_lines(run);
+  document["edits"] = edit_texts(run.edits, before.part_names);
   document["refusal"] =
       run.result.refusal ? refusal_json(*run.result.refusal, run.rest.structure) : Json(nullptr);
   document["size_before"] = to_json(extents(before));
@@ -119,15 +114,15 @@ void add_deformation(Json& document, const DeformRun& run) {
   const LargestResiduals largest = largest_residuals(run);
   document["displacement"] = {{"root_mean_square", moved.root_mean_square}, {"largest", moved.largest}};
   document["residuals"] = {{"joint", to_json(largest.joint)}, {"symmetry", to_json(largest.symmetry)}};
-  document["primitives"] = primitives_json(run);
-  document["relations"] = relations_json(run);
+  document["primitives"] = primitives_after_json(run);
+  document["relations"] = relations_after_json(run);
 }
 
 std::string deformation_text(const DeformRun& run, const Model& model) {
   const Shape& before = run.rest.shape;
   TextTable table;
   add_model_line(table, model);
-  const std::vector<std::string> lines = edit_lines(run);
+  const std::vector<std::string> lines = edit_texts(run.edits, before.part_names);
   for (std::size_t i = 0; i < lines.size(); ++i) table.add(i == 0 ? "Edits" : "", lines[i]);
   if (run.result.refusal) {
     if (run.result.refusal->relation) {
@@ -152,8 +147,7 @@ std::string deformation_text(const DeformRun& run, const Model& model) {
 }
 
 std::vector<std::string> deformation_notes(const DeformRun& run) {
-  std::string edits;
-  for (const std::string& line : edit_lines(run)) edits += (edits.empty() ? "" : ";  ") + line;
+  const std::string edits = joined(edit_texts(run.edits, run.rest.shape.part_names), ";  ");
   const Displacement moved = displacement(run.rest.shape, run.result.shape);
   return {edits, name_of(run.kind) + ": vertices moved by " +
                      quantity(moved.root_mean_square, run.rest.shape.unit) + " (root mean square)"};
@@ -163,7 +157,7 @@ Json handles_json(const DeformationModel& model, const Shape& shape) {
   Json list = Json::array();
   for (const Handle& handle : model.handles())
     list.push_back({{"handle", handle_text(handle, shape.part_names)},
-                    {"kind", kinds.at(static_cast<std::size_t>(handle.kind))},
+                    {"kind", handle_kind_names.at(static_cast<std::size_t>(handle.kind))},
                     {"centre", to_json(model.centre(handle))}});
   return list;
 }

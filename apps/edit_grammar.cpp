@@ -255,4 +255,11 @@ std::string edit_text(const Edit& edit, const std::vector<std::string>& part_nam
          (scale.along ? " along " + vector_text(*scale.along) : std::string()) + how;
 }
 
+std::vector<std::string> edit_texts(const std::vector<Edit>& edits,
+                                    const std::vector<std::string>& part_names) {
+  std::vector<std::string> texts;
+  for (const Edit& edit : edits) texts.push_back(edit_text(edit, part_names));
+  return texts;
+}
+
 }  // namespace stackabilization::apps

@@ -29,6 +29,10 @@ Edit parse_edit(const std::string& text, const std::vector<std::string>& part_na
 /// they were parsed). Precondition: its part, where it has one, is a row of `part_names`.
 std::string edit_text(const Edit& edit, const std::vector<std::string>& part_names);
 
+/// A text for each edit.
+std::vector<std::string> edit_texts(const std::vector<Edit>& edits,
+                                    const std::vector<std::string>& part_names);
+
 /// The handle alone.
 std::string handle_text(const Handle& handle, const std::vector<std::string>& part_names);
 

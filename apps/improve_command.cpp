@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// More copies than that are a comb.
-constexpr int most_drawn_copies = 20;
+constexpr int most_compared_copies = 20;
 
 /// The first of some lines, and how many more there are.
 std::vector<std::string> shortened(std::vector<std::string> lines) {
@@ -112,7 +112,7 @@ class Writer {
     write_improvement_picture({(folder_ / pair).string(), title}, designs);
     designs.notes = {saving_text(solution.stack, rest.shape.unit)};
     write_stacks_picture({(folder_ / stack).string(), title}, designs,
-                         std::min(solution.stack.copies, most_drawn_copies));
+                         std::min(solution.stack.copies, most_compared_copies));
     written_.insert(written_.end(), {pair, stack});
   }
 
@@ -150,13 +150,13 @@ void write_solutions(ImproveReport& report, Writer& writer) {
 }
 
 /// "0.8 3": S of the best solution, or of what came nearest, and the number of solutions.
-std::string essential(const ImproveReport& report) {
+std::string essential_improvement(const ImproveReport& report) {
   const std::vector<const SolutionReport*> shown = report.shown();
   return (shown.empty() ? "undefined" : exact_digits(shown.front()->assessment.measured.value)) + " " +
          std::to_string(report.solutions.size()) + "\n";
 }
 
-int run(const CLI::App& command, const ImproveCommandOptions& options) {
+int run_improve_command(const CLI::App& command, const ImproveCommandOptions& options) {
   const Stopwatch watch;
   check(options);
   const ThreadLimit limit(options.common);
@@ -174,7 +174,8 @@ int run(const CLI::App& command, const ImproveCommandOptions& options) {
   Json untimed = document;
   untimed.erase("seconds");  // every run fills the folder with the same bytes
   writer.write_summaries(untimed);
-  deliver(options.common, document, options.common.quiet ? essential(report) : improvement_text(report));
+  deliver(options.common, document,
+          options.common.quiet ? essential_improvement(report) : improvement_text(report));
   if (found.interrupted) throw Interrupted();
   return report.reached() ? status_done : status_no;
 }
@@ -187,7 +188,7 @@ Command make_improve_command(CLI::App& program) {
       add_command(program, "improve", "Change a design as little as possible so that it stacks as asked for",
                   "stackabilize improve table.obj --target 0.8 --keep top -o table_stackable");
   add_improve_options(*command, *options);
-  return {command, [command, options] { return run(*command, *options); }};
+  return {command, [command, options] { return run_improve_command(*command, *options); }};
 }
 
 }  // namespace stackabilization::apps

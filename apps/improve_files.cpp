@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* state_name = "search-state.json";
-constexpr std::array<const char*, 6> endings = {
+constexpr std::array<const char*, 6> solution_endings = {
     ".obj", ".3mf", ".stackabilize.json", ".json", "_before_after.png", "_stack.png"};
 
 /// Is it a name of a solution, "nearest" or "solution_3"?
@@ -29,7 +29,7 @@ bool is_solution(const std::string& name) {
 bool is_written(const std::string& file) {
   const std::vector<std::string>& summaries = summary_names();
   return file == state_name || std::find(summaries.begin(), summaries.end(), file) != summaries.end() ||
-         std::any_of(endings.begin(), endings.end(), [&](const std::string& ending) {
+         std::any_of(solution_endings.begin(), solution_endings.end(), [&](const std::string& ending) {
            return file.ends_with(ending) && is_solution(file.substr(0, file.size() - ending.size()));
          });
 }
@@ -62,7 +62,7 @@ const std::vector<std::string>& summary_names() {
 
 std::vector<std::string> solution_files(const std::string& solution) {
   std::vector<std::string> files;
-  for (const std::string ending : endings) files.push_back(solution + ending);
+  for (const std::string ending : solution_endings) files.push_back(solution + ending);
   return files;
 }
 

@@ -10,7 +10,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-const char* name_of(WrittenCheck::Verdict verdict) {
+const char* verdict_name(WrittenCheck::Verdict verdict) {
   switch (verdict) {
     case WrittenCheck::Verdict::agrees:
       return "agrees";
@@ -22,7 +22,7 @@ const char* name_of(WrittenCheck::Verdict verdict) {
   return "";
 }
 
-const char* name_of(SearchEnd end) {
+const char* search_end_name(SearchEnd end) {
   switch (end) {
     case SearchEnd::solved:
       return "solved";
@@ -40,7 +40,7 @@ const char* name_of(SearchEnd end) {
   return "";
 }
 
-const char* name_of(ChangeMeasure measure) {
+const char* change_measure_name(ChangeMeasure measure) {
   switch (measure) {
     case ChangeMeasure::distortion:
       return "distortion";
@@ -80,7 +80,7 @@ Json edits_json(const ImproveTask& task, const Candidate& candidate) {
   return list;
 }
 
-Json measured_json(const Stackability& measured) {
+Json stackability_json(const Stackability& measured) {
   return {{"direction", to_json(measured.direction)},
           {"stackability", measured.value},
           {"f_max", measured.f_max},
@@ -104,11 +104,11 @@ Json requirements_json(const Assessment& assessment) {
 Json checks_json(const SolutionReport& solution) {
   Json list = Json::array();
   for (const WrittenCheck& check : solution.written)
-    list.push_back({{"name", check.name}, {"verdict", name_of(check.verdict)}, {"note", check.note}});
+    list.push_back({{"name", check.name}, {"verdict", verdict_name(check.verdict)}, {"note", check.note}});
   return list;
 }
 
-Json relations_json(const Structure& structure, const std::vector<double>& residuals) {
+Json residuals_json(const Structure& structure, const std::vector<double>& residuals) {
   Json list = Json::array();
   for (std::size_t i = 0; i < residuals.size(); ++i)
     list.push_back(
@@ -140,7 +140,7 @@ Json diagnosis_json(const Diagnosis& diagnosis, const StructuredShape& rest) {
   Json blockers = Json::array(), remedies = Json::array();
   for (const Blocker& blocker : diagnosis.blockers)
     blockers.push_back({{"parts", parts_json({blocker.upper_part, blocker.lower_part}, rest)},
-                        {"type", apps::name_of(blocker.type)},
+                        {"type", name_of(blocker.type)},
                         {"f", blocker.f},
                         {"stackability", blocker.stackability},
                         {"reason", blocker.reason}});
@@ -160,7 +160,7 @@ Json diagnosis_json(const Diagnosis& diagnosis, const StructuredShape& rest) {
           {"text", text(diagnosis, rest)}};
 }
 
-Json wish_json(const ImproveReport& report) {
+Json target_json(const ImproveReport& report) {
   const ImproveTask& task = report.task;
   Json directions = Json::array();
   for (const Eigen::Vector3d& direction : task.directions) directions.push_back(to_json(direction));
@@ -169,11 +169,11 @@ Json wish_json(const ImproveReport& report) {
           {"copies", to_json(report.options.copies)},
           {"within", to_json(task.room)},
           {"directions", directions},
-          {"semantics", apps::name_of(measure.semantics)},
-          {"boxes", apps::name_of(measure.boxes)},
-          {"deformation", stackabilization::name_of(task.space->kind())},
+          {"semantics", name_of(measure.semantics)},
+          {"boxes", name_of(measure.boxes)},
+          {"deformation", name_of(task.space->kind())},
           {"preset", report.options.preset == ImprovementPreset::paper ? "paper" : "refined"},
-          {"least", name_of(report.options.least)},
+          {"least", change_measure_name(report.options.least)},
           {"words", wish_lines(report)}};
 }
 
@@ -195,18 +195,18 @@ Json solution_json(const ImproveReport& report, const SolutionReport& solution) 
           {"edits", edits_json(task, solution.candidate)},
           {"change",
            {{"root_mean_square", solution.change.root_mean_square}, {"largest", solution.change.largest}}},
-          {"before", measured_json(solution.before)},
-          {"after", measured_json(after)},
+          {"before", stackability_json(solution.before)},
+          {"after", stackability_json(after)},
           {"stack", stack_json(solution)},
           {"requirements", requirements_json(solution.assessment)},
-          {"relations", relations_json(task.rest().structure, solution.residuals)},
+          {"relations", residuals_json(task.rest().structure, solution.residuals)},
           {"checks", checks_json(solution)},
           {"good", solution.good()}};
 }
 
 void add_improvement(Json& document, const ImproveReport& report) {
   const Improvement& result = report.run.result;
-  document["target"] = wish_json(report);
+  document["target"] = target_json(report);
   document["reached"] = report.reached();
   document["solutions"] = Json::array();
   for (const SolutionReport& solution : report.solutions)
@@ -214,7 +214,7 @@ void add_improvement(Json& document, const ImproveReport& report) {
   document["nearest"] = report.nearest ? solution_json(report, *report.nearest) : Json(nullptr);
   document["diagnosis"] =
       result.diagnosis ? diagnosis_json(*result.diagnosis, report.task.rest()) : Json(nullptr);
-  document["search"] = {{"end", name_of(result.end)},
+  document["search"] = {{"end", search_end_name(result.end)},
                         {"expanded", result.progress.expanded},
                         {"evaluated", result.progress.evaluated},
                         {"queued", result.progress.queued}};

@@ -11,16 +11,11 @@ namespace stackabilization::apps {
 
 namespace {
 
-constexpr double max_degrees = 90;
 constexpr double max_seconds = 1e9;  ///< some thirty years
 constexpr double max_effort = 1e6;   ///< about a year
 /// A direction that nobody gave may turn by so much at each edit.
 constexpr double free_cone_degrees = 10;
-constexpr int most_solutions = 20, most_copies = 10000;
-
-void refuse(bool given, const char* option, const char* reason) {
-  if (given) throw UsageError(std::string(option) + " " + reason);
-}
+constexpr int most_solutions = 20;
 
 void check_wish(const ImproveCommandOptions& options) {
   if (options.target && (options.copies || options.within))
@@ -29,17 +24,17 @@ void check_wish(const ImproveCommandOptions& options) {
     throw UsageError("--copies and --within go together: how many copies within what length");
   if (!options.target && !options.copies)
     throw UsageError("expected --target S, or --copies N with --within LENGTH");
-  refuse(options.copies && options.directions.size() > 1, "--direction",
-         "is given once with --copies and --within: the room is along it");
+  refuse_option(options.copies && options.directions.size() > 1, "--direction",
+                "is given once with --copies and --within: the room is along it");
 }
 
 /// The gaps are measured once, along one direction.
 void check_gap_scaling(const ImproveCommandOptions& options) {
   if (options.kind != DeformationKind::gap_scaling) return;
-  refuse(options.cone_degrees && *options.cone_degrees > 0, "--cone-degrees",
-         "does not go with --model gap-scaling, which keeps the direction that it scales along");
-  refuse(options.directions.size() > 1, "--direction",
-         "is given once with --model gap-scaling, which scales along it");
+  refuse_option(options.cone_degrees && *options.cone_degrees > 0, "--cone-degrees",
+                "does not go with --model gap-scaling, which keeps the direction that it scales along");
+  refuse_option(options.directions.size() > 1, "--direction",
+                "is given once with --model gap-scaling, which scales along it");
 }
 
 void add_wish_options(CLI::App& command, ImproveCommandOptions& options) {

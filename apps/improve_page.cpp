@@ -9,7 +9,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-constexpr const char* style = R"(
+constexpr const char* page_style = R"(
 :root { color-scheme: light; --ink: #212429; --faint: #61666e; --line: #d9dce1; --good: #47803a; --bad: #c0262b; }
 * { box-sizing: border-box; }
 body { margin: 0 auto; padding: 1.5rem; max-width: 110rem; color: var(--ink); background: #fff;
@@ -178,7 +178,8 @@ std::string improvement_page(const ImproveReport& report) {
       "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
       "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, "
       "initial-scale=1\"/>\n";
-  page += element("title", model + ", made to stack") + "\n<style>" + style + "</style>\n</head>\n<body>\n";
+  page +=
+      element("title", model + ", made to stack") + "\n<style>" + page_style + "</style>\n</head>\n<body>\n";
   page += element("h1", model + ", made to stack") + "\n" + verdict(report) + "\n";
   page += element("h3", "Asked for") + "\n" + list("ul", wish_lines(report));
   if (report.run.result.diagnosis)

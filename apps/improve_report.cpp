@@ -11,13 +11,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-std::string joined(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
-
-std::string names_of(const std::vector<int>& parts, const StructuredShape& rest) {
+std::string part_list(const std::vector<int>& parts, const StructuredShape& rest) {
   std::vector<std::string> names;
   for (const int part : parts) names.push_back(rest.shape.part_names.at(static_cast<std::size_t>(part)));
   return joined(names);
@@ -30,9 +24,9 @@ void add_requirement_lines(std::vector<std::string>& lines, const ImproveReport&
   const Unit unit = rest.shape.unit;
   if (asked.keep_height) lines.emplace_back("the height along the direction stays what it is");
   if (!report.options.removed.empty()) lines.push_back("left out first: " + joined(report.options.removed));
-  if (!asked.kept_parts.empty()) lines.push_back("stays as it is: " + names_of(asked.kept_parts, rest));
+  if (!asked.kept_parts.empty()) lines.push_back("stays as it is: " + part_list(asked.kept_parts, rest));
   if (!asked.editable_parts.empty())
-    lines.push_back("only this may change: " + names_of(asked.editable_parts, rest));
+    lines.push_back("only this may change: " + part_list(asked.editable_parts, rest));
   if (asked.box_tolerance)
     lines.push_back("sides of the box change by at most " + percent(*asked.box_tolerance));
   if (asked.least_thickness)

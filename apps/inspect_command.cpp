@@ -8,12 +8,12 @@ namespace stackabilization::apps {
 
 namespace {
 
-struct Options {
+struct InspectCommandOptions {
   CommonOptions common;
   bool self_intersections = false;
 };
 
-int run(const CLI::App& command, const Options& options) {
+int run_inspect_command(const CLI::App& command, const InspectCommandOptions& options) {
   const Stopwatch watch;
   check_outputs(options.common);
   const ThreadLimit limit(options.common);
@@ -32,14 +32,14 @@ int run(const CLI::App& command, const Options& options) {
 }  // namespace
 
 Command make_inspect_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InspectCommandOptions>();
   CLI::App* const command =
       add_command(program, "inspect", "Say what is in a mesh file, and what is wrong with it",
                   "stackabilize inspect chair.obj --self-intersections");
   add_common_options(*command, options->common);
   command->add_flag("--self-intersections", options->self_intersections,
                     "Count the pairs of triangles that intersect (seconds on large meshes)");
-  return {command, [command, options] { return run(*command, *options); }};
+  return {command, [command, options] { return run_inspect_command(*command, *options); }};
 }
 
 }  // namespace stackabilization::apps

@@ -15,7 +15,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-struct Options {
+struct MapCommandOptions {
   CommonOptions common;
   StackabilityOptions stackability;
   std::optional<double> step_degrees;
@@ -31,7 +31,7 @@ struct Summary {
   double mean = 0;  ///< every sample counts the same: they are spread evenly
 };
 
-StackabilityMap map_with_progress(const StackabilitySolver& solver, const Options& options) {
+StackabilityMap map_with_progress(const StackabilitySolver& solver, const MapCommandOptions& options) {
   ProgressBar bar("Mapping");
   const DeferredInterrupts interrupts;
   MapOptions map;
@@ -72,7 +72,7 @@ Json sample_json(const MapSample& sample) {
           {"stackability", sample.stackability}};
 }
 
-Json map_json(const Options& options, const StackabilityMap& map, const Summary& summary) {
+Json map_json(const MapCommandOptions& options, const StackabilityMap& map, const Summary& summary) {
   return {{"semantics", name_of(options.stackability.semantics)},
           {"boxes", name_of(options.stackability.boxes)},
           {"step_degrees", map.step_degrees},
@@ -94,7 +94,7 @@ std::string map_text(const Model& model, const StackabilityMap& map, const Summa
   return table.text();
 }
 
-int run(const CLI::App& command, const Options& options) {
+int run_map_command(const CLI::App& command, const MapCommandOptions& options) {
   const Stopwatch watch;
   check_outputs(options.common,
                 {{{"--output", options.table}, {"--picture", options.picture, OutputKind::picture}}});
@@ -121,12 +121,13 @@ int run(const CLI::App& command, const Options& options) {
 }  // namespace
 
 Command make_map_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MapCommandOptions>();
   CLI::App* const command =
       add_command(program, "map", "Measure the stackability along every direction",
                   "stackabilize map chair.obj --step-degrees 2 -o chair.csv --picture chair.svg");
   add_common_options(*command, options->common);
-  add_number(*command, {"--step-degrees", "Angle between directions, from 0.1 to 90 (default: 2)", 0.1, 90},
+  add_number(*command,
+             {"--step-degrees", "Angle between directions, from 0.1 to 90 (default: 2)", 0.1, max_degrees},
              options->step_degrees);
   add_semantics_option(*command, options->stackability.semantics);
   add_boxes_option(*command, options->stackability.boxes);
@@ -135,7 +136,7 @@ Command make_map_command(CLI::App& program) {
       ->type_name("FILE");
   command->add_option("--picture", options->picture, "Draw the map of the hemisphere (.png or .svg)")
       ->type_name("FILE");
-  return {command, [command, options] { return run(*command, *options); }};
+  return {command, [command, options] { return run_map_command(*command, *options); }};
 }
 
 }  // namespace stackabilization::apps

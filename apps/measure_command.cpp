@@ -11,7 +11,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-struct Options {
+struct MeasureCommandOptions {
   CommonOptions common;
   std::optional<Eigen::Vector3d> direction;
   Method method = Method::exact;
@@ -20,11 +20,11 @@ struct Options {
   std::optional<std::string> picture;
 };
 
-std::string essential(const Stackability& values) {
+std::string essential_measurement(const Stackability& values) {
   return (values.box_volume > 0 ? exact_digits(values.value) : "undefined") + "\n";
 }
 
-int run(const CLI::App& command, const Options& options) {
+int run_measure_command(const CLI::App& command, const MeasureCommandOptions& options) {
   const Stopwatch watch;
   check_outputs(options.common, {{{"--picture", options.picture, OutputKind::picture}}});
   if (options.picture || options.method == Method::gl_raster) require_rendering();
@@ -46,14 +46,15 @@ int run(const CLI::App& command, const Options& options) {
   if (options.picture)
     write_measurement_picture({*options.picture, title_of(model)}, model.shape, measurement);
   deliver(options.common, document,
-          options.common.quiet ? essential(measurement.values) : measurement_text(measurement, model));
+          options.common.quiet ? essential_measurement(measurement.values)
+                               : measurement_text(measurement, model));
   return status_done;
 }
 
 }  // namespace
 
 Command make_measure_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MeasureCommandOptions>();
   options->stackability.flat_shapes = FlatShapes::measure;
   CLI::App* const command =
       add_command(program, "measure", "Measure how well a shape stacks along one direction",
@@ -73,7 +74,7 @@ Command make_measure_command(CLI::App& program) {
   add_boxes_option(*command, options->stackability.boxes);
   command->add_option("--picture", options->picture, "Draw envelopes, contacts and gap (.png or .svg)")
       ->type_name("FILE");
-  return {command, [command, options] { return run(*command, *options); }};
+  return {command, [command, options] { return run_measure_command(*command, *options); }};
 }
 
 }  // namespace stackabilization::apps

@@ -29,7 +29,7 @@ Json sampling_json(const Sampling& sampling) {
           {"half_resolution_error", to_json(sampling.half_resolution_error)}};
 }
 
-Json exact_json(const Separation& separation) {
+Json exact_f_max_json(const Separation& separation) {
   return to_json(separation.blocked ? separation.value : Rational());
 }
 
@@ -149,7 +149,7 @@ void add_measurement(Json& document, const Measurement& measurement, const Model
   document["box_volume"] = values.box_volume;
   document["stack_box_volume"] = values.stack_box_volume;
   const std::optional<Separation>& separation = measurement.separation;
-  document["exact"] = separation ? exact_json(*separation) : Json(nullptr);
+  document["exact"] = separation ? exact_f_max_json(*separation) : Json(nullptr);
   document["witness"] = separation && separation->blocked ? to_json(separation->witness) : Json(nullptr);
   const std::vector<std::string>& names = model.shape.part_names;
   document["contacts"] = separation ? to_json(measurement.contacts.regions, names) : Json(nullptr);

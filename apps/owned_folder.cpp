@@ -18,12 +18,12 @@ namespace stackabilization::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using nlohmann::json;
+using SortedJson = nlohmann::json;
 
 constexpr const char* list_name = "stackabilize-files.json";
 constexpr const char* format_name = "stackabilization files";
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
+[[noreturn]] void refuse_file(const fs::path& file, const std::string& reason) {
   throw OutputError(file.string() + " is in the way: " + reason + "; take it away, or choose another folder");
 }
 
@@ -53,10 +53,10 @@ OwnedFolder::List OwnedFolder::list() const {
   const fs::path file = path_ / list_name;
   std::error_code error;
   if (!fs::exists(file, error)) return {};
-  const json text = json::parse(read_file(file), nullptr, false);
-  if (!text.is_object() || text.value("format", json()) != format_name || !text.contains("files") ||
+  const SortedJson text = SortedJson::parse(read_file(file), nullptr, false);
+  if (!text.is_object() || text.value("format", SortedJson()) != format_name || !text.contains("files") ||
       !text.at("files").is_object())
-    refuse(file, "it is no list of files that this program wrote");
+    refuse_file(file, "it is no list of files that this program wrote");
   List list;
   for (const auto& [name, hash] : text.at("files").items())
     list[name] = hash.is_string() ? std::optional(hash.get<std::string>()) : std::nullopt;
@@ -64,9 +64,9 @@ OwnedFolder::List OwnedFolder::list() const {
 }
 
 void OwnedFolder::write(const List& list) const {
-  json files = json::object();
-  for (const auto& [name, hash] : list) files[name] = hash ? json(*hash) : json(nullptr);
-  const json text = {{"format", format_name}, {"files", std::move(files)}};
+  SortedJson files = SortedJson::object();
+  for (const auto& [name, hash] : list) files[name] = hash ? SortedJson(*hash) : SortedJson(nullptr);
+  const SortedJson text = {{"format", format_name}, {"files", std::move(files)}};
   write_output((path_ / list_name).string(), text.dump(1) + "\n");
 }
 
@@ -84,9 +84,9 @@ void OwnedFolder::check() const {
   for (const fs::path& file : files) {
     if (is_known_ && is_known_(file)) continue;
     const auto found = listed.find(file.filename().string());
-    if (found == listed.end()) refuse(file, "this program did not write it there");
+    if (found == listed.end()) refuse_file(file, "this program did not write it there");
     if (found->second && *found->second != hash_of(file))
-      refuse(file, "it was changed since this program wrote it");
+      refuse_file(file, "it was changed since this program wrote it");
   }
 }
 

@@ -5,7 +5,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-[[noreturn]] void refuse() {
+[[noreturn]] void refuse_rendering() {
   throw UsageError(
       "this program was built without rendering, so there is no --picture and no --method gl-raster "
       "(build with STACKABILIZATION_BUILD_RENDERING=ON)");
@@ -14,11 +14,11 @@ namespace {
 }  // namespace
 
 void require_rendering() {
-  refuse();
+  refuse_rendering();
 }
 
 HeightField depth_buffer_field(const Shape&, const Direction&, const Window&) {
-  refuse();
+  refuse_rendering();
 }
 
 DepthBufferMaker depth_buffer_maker(const Shape&) {
@@ -26,27 +26,27 @@ DepthBufferMaker depth_buffer_maker(const Shape&) {
 }
 
 void write_measurement_picture(const PictureFile&, const Shape&, const Measurement&) {
-  refuse();
+  refuse_rendering();
 }
 
 void write_map_picture(const PictureFile&, const StackabilityMap&) {
-  refuse();
+  refuse_rendering();
 }
 
 void write_stack_picture(const PictureFile&, const PlacedCopies&) {
-  refuse();
+  refuse_rendering();
 }
 
 void write_structure_picture(const PictureFile&, const StructuredShape&) {
-  refuse();
+  refuse_rendering();
 }
 
 void write_deformation_picture(const PictureFile&, const EditedShape&) {
-  refuse();
+  refuse_rendering();
 }
 
 void write_design_sheet(const PictureFile&, const DesignSheet&) {
-  refuse();
+  refuse_rendering();
 }
 
 std::string rendering_missing() {
@@ -54,11 +54,11 @@ std::string rendering_missing() {
 }
 
 void write_improvement_picture(const PictureFile&, const ComparedDesigns&) {
-  refuse();
+  refuse_rendering();
 }
 
 void write_stacks_picture(const PictureFile&, const ComparedDesigns&, int) {
-  refuse();
+  refuse_rendering();
 }
 
 }  // namespace stackabilization::apps

@@ -10,7 +10,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-void write(const PictureFile& file, const Drawing& drawing) {
+void write_picture(const PictureFile& file, const Drawing& drawing) {
   const DeferredInterrupts until_written;
   write_drawing(file.path, drawing);
   if (until_written.requested()) throw Interrupted();
@@ -43,26 +43,26 @@ DepthBufferMaker depth_buffer_maker(const Shape& shape) {
 void write_measurement_picture(const PictureFile& file, const Shape& shape, const Measurement& measurement) {
   PictureOptions options;
   options.title = file.title;
-  write(file, measure_picture(shape, measurement.values, measurement.contacts.regions, options));
+  write_picture(file, measure_picture(shape, measurement.values, measurement.contacts.regions, options));
 }
 
 void write_map_picture(const PictureFile& file, const StackabilityMap& map) {
   MapPictureOptions options;
   options.title = file.title;
-  write(file, map_picture(map, options));
+  write_picture(file, map_picture(map, options));
 }
 
 void write_stack_picture(const PictureFile& file, const PlacedCopies& stack) {
   StackPictureOptions options;
   options.title = file.title;
   options.notes = stack.notes;
-  write(file, stack_picture(stack.copies, stack.direction, options));
+  write_picture(file, stack_picture(stack.copies, stack.direction, options));
 }
 
 void write_structure_picture(const PictureFile& file, const StructuredShape& structured) {
   StructurePictureOptions options;
   options.title = file.title;
-  write(file, structure_picture(structured, options));
+  write_picture(file, structure_picture(structured, options));
 }
 
 void write_deformation_picture(const PictureFile& file, const EditedShape& edited) {
@@ -72,7 +72,7 @@ void write_deformation_picture(const PictureFile& file, const EditedShape& edite
   options.curves = edited.curves;
   std::vector<Handle> handles;
   for (const Edit& edit : edited.edits) handles.push_back(edit.handle);
-  write(file, deformation_picture(edited.rest, edited.result, handles, options));
+  write_picture(file, deformation_picture(edited.rest, edited.result, handles, options));
 }
 
 void write_design_sheet(const PictureFile& file, const DesignSheet& sheet) {
@@ -84,7 +84,7 @@ void write_design_sheet(const PictureFile& file, const DesignSheet& sheet) {
     tiles.push_back({tile.design.shape, tile.design.primitives, {}, tile.contacts, tile.captions});
     if (tile.edited) tiles.back().handles.push_back(*tile.edited);
   }
-  write(file, design_sheet(tiles, sheet.direction, options));
+  write_picture(file, design_sheet(tiles, sheet.direction, options));
 }
 
 std::string rendering_missing() {
@@ -95,7 +95,8 @@ void write_improvement_picture(const PictureFile& file, const ComparedDesigns& d
   ImprovementPictureOptions options;
   options.title = file.title;
   options.notes = designs.notes;
-  write(file, improvement_picture({measured_shape(designs.before), measured_shape(designs.after)}, options));
+  write_picture(
+      file, improvement_picture({measured_shape(designs.before), measured_shape(designs.after)}, options));
 }
 
 void write_stacks_picture(const PictureFile& file, const ComparedDesigns& designs, int copies) {
@@ -103,7 +104,8 @@ void write_stacks_picture(const PictureFile& file, const ComparedDesigns& design
   options.title = file.title;
   options.notes = designs.notes;
   options.copies = copies;
-  write(file, stacks_picture({measured_shape(designs.before), measured_shape(designs.after)}, options));
+  write_picture(file,
+                stacks_picture({measured_shape(designs.before), measured_shape(designs.after)}, options));
 }
 
 }  // namespace stackabilization::apps

@@ -7,13 +7,6 @@
 
 namespace stackabilization::apps {
 
-namespace {
-
-constexpr double max_degrees = 90;
-constexpr int most_copies = 10000;
-
-}  // namespace
-
 Number target_option(const std::string& description) {
   // Copies without any height of their own have S = 1; below the other end nobody wishes for anything.
   return {.name = "--target", .description = description, .min = -1000, .max = 1, .open_max = true};

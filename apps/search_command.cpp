@@ -15,7 +15,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-struct Options {
+struct SearchCommandOptions {
   CommonOptions common;
   StackabilityOptions stackability;
   std::optional<double> cone_degrees;
@@ -27,7 +27,7 @@ struct Options {
 /// Local optima that the text names; the JSON has all.
 constexpr std::size_t listed_optima = 5;
 
-SearchOptions search_options(const Options& options) {
+SearchOptions search_options(const SearchCommandOptions& options) {
   SearchOptions search;
   if (options.direction && !options.cone_degrees)
     throw UsageError("--direction is the axis of a cone here: give --cone-degrees too");
@@ -67,7 +67,7 @@ std::string search_text(const SearchResult& result) {
   return table.text();
 }
 
-int run(const CLI::App& command, const Options& options) {
+int run_search_command(const CLI::App& command, const SearchCommandOptions& options) {
   const Stopwatch watch;
   check_outputs(options.common, {{{"--picture", options.picture, OutputKind::picture}}});
   if (options.picture) require_rendering();
@@ -95,24 +95,24 @@ int run(const CLI::App& command, const Options& options) {
 }  // namespace
 
 Command make_search_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SearchCommandOptions>();
   CLI::App* const command =
       add_command(program, "search", "Find the direction along which a shape stacks best",
                   "stackabilize search chair.obj --cone-degrees 20 --direction 0 0 1");
   add_common_options(*command, options->common);
   add_semantics_option(*command, options->stackability.semantics);
   add_boxes_option(*command, options->stackability.boxes);
-  add_number(
-      *command,
-      {"--cone-degrees", "Look only within this angle around --direction (default: everywhere)", 0, 90, true},
-      options->cone_degrees);
+  add_number(*command,
+             {"--cone-degrees", "Look only within this angle around --direction (default: everywhere)", 0,
+              max_degrees, true},
+             options->cone_degrees);
   add_direction(*command, "--direction", options->direction, "Axis of the cone (default: 0 0 1)");
   add_direction(*command, "--plane", options->plane, "Look only in the plane with this normal");
   command
       ->add_option("--picture", options->picture,
                    "Draw the best direction's envelopes and contacts (.png or .svg)")
       ->type_name("FILE");
-  return {command, [command, options] { return run(*command, *options); }};
+  return {command, [command, options] { return run_search_command(*command, *options); }};
 }
 
 }  // namespace stackabilization::apps

@@ -24,7 +24,7 @@ PlacedCopies placed_copies(const StackRun& run, const Model& model, const Direct
   return stack;
 }
 
-int run(const CLI::App& command, const StackCommandOptions& options) {
+int run_stack_command(const CLI::App& command, const StackCommandOptions& options) {
   check(options);
   if (options.into) return run_nest(command, options);
   const Stopwatch watch;
@@ -65,7 +65,7 @@ Command make_stack_command(CLI::App& program) {
       add_command(program, "stack", "Stack copies of a shape, or put it into another one",
                   "stackabilize stack chair.obj -n 10 --unit m --within 2m -o stack.3mf");
   add_common_options(*command, options->common);
-  add_count(*command, {"-n", "Number of copies (default: 2)", 1, 10000}, options->copies);
+  add_count(*command, {"-n", "Number of copies (default: 2)", 1, most_copies}, options->copies);
   command->add_option("--into", options->into, "Lower MODEL into this container instead of stacking copies")
       ->type_name("CONTAINER");
   add_direction(*command, "--direction", options->direction, "Stacking direction (default: 0 0 1)");
@@ -85,7 +85,7 @@ Command make_stack_command(CLI::App& program) {
                    "Write the stack as a mesh (" + std::string(writable_extensions()) + ")")
       ->type_name("FILE");
   command->add_option("--picture", options->picture, "Draw the stack (.png or .svg)")->type_name("FILE");
-  return {command, [command, options] { return run(*command, *options); }};
+  return {command, [command, options] { return run_stack_command(*command, *options); }};
 }
 
 }  // namespace stackabilization::apps

@@ -9,10 +9,6 @@ namespace {
 
 constexpr int most_drawn_copies = 200;
 
-void refuse(bool given, const char* option, const char* reason) {
-  if (given) throw UsageError(std::string(option) + " " + reason);
-}
-
 }  // namespace
 
 void check(const StackCommandOptions& options) {
@@ -22,17 +18,18 @@ void check(const StackCommandOptions& options) {
                                   {"--picture", options.picture, OutputKind::picture}},
                                  container});
   if (options.picture) require_rendering();
-  refuse(options.picture && options.copy_count() > most_drawn_copies, "--picture",
-         "draws at most 200 copies");
-  refuse(options.best_twist && options.period, "--twist-degrees auto", "cannot be combined with --period");
+  refuse_option(options.picture && options.copy_count() > most_drawn_copies, "--picture",
+                "draws at most 200 copies");
+  refuse_option(options.best_twist && options.period, "--twist-degrees auto",
+                "cannot be combined with --period");
   if (!options.into) return;
   const char* const reason = "makes no sense with --into, which puts one MODEL into one container";
-  refuse(options.copies.has_value(), "-n", reason);
-  refuse(options.twist_degrees || options.best_twist, "--twist-degrees", reason);
-  refuse(options.period.has_value(), "--period", reason);
-  refuse(options.within.has_value(), "--within", reason);
-  refuse(options.common.model == "-" && *options.into == "-", "--into",
-         "and MODEL cannot both be standard input");
+  refuse_option(options.copies.has_value(), "-n", reason);
+  refuse_option(options.twist_degrees || options.best_twist, "--twist-degrees", reason);
+  refuse_option(options.period.has_value(), "--period", reason);
+  refuse_option(options.within.has_value(), "--within", reason);
+  refuse_option(options.common.model == "-" && *options.into == "-", "--into",
+                "and MODEL cannot both be standard input");
 }
 
 Play play_of(const StackCommandOptions& options, Unit unit) {

@@ -33,7 +33,7 @@ Json conflicts_json(const StackResult& result) {
   return conflicts;
 }
 
-Json wish_json(const Wish& wish) {
+Json stack_wish_json(const Wish& wish) {
   const StackPlan& plan = wish.plan;
   return {{"length", wish.length},
           {"met", wish.met},
@@ -63,9 +63,7 @@ void add_pose_lines(TextTable& table, const StackRun& run) {
                                                stackability_text(*run.untwisted_stackability)
                                          : "per copy");
   if (run.poses.empty()) return;
-  std::string poses;
-  for (const std::string& pose : run.poses) poses += (poses.empty() ? "" : ", then ") + pose;
-  table.add("Poses", poses);
+  table.add("Poses", joined(run.poses, ", then "));
 }
 
 void add_conflict_lines(TextTable& table, const StackRun& run, Unit unit) {
@@ -126,7 +124,7 @@ void add_stack(Json& document, const StackRun& run, const Direction& direction) 
   document["stackability"] = result.stackability;
   document["conflicts"] = conflicts_json(result);
   document["conflict_height"] = result.conflict_height;
-  document["within"] = run.wish ? wish_json(*run.wish) : Json(nullptr);
+  document["within"] = run.wish ? stack_wish_json(*run.wish) : Json(nullptr);
 }
 
 std::string stack_text(const StackRun& run, const Model& model, const Direction& direction) {

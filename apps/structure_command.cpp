@@ -11,7 +11,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-struct Options {
+struct StructureCommandOptions {
   CommonOptions common;
   AnalysisArguments analysis;
   std::optional<std::string> picture;
@@ -19,7 +19,7 @@ struct Options {
   std::optional<std::string> graph;
 };
 
-int run(const CLI::App& command, const Options& options) {
+int run_structure_command(const CLI::App& command, const StructureCommandOptions& options) {
   const Stopwatch watch;
   check_outputs(options.common, {{{"--picture", options.picture, OutputKind::picture},
                                   {"--save", options.save, OutputKind::project},
@@ -47,7 +47,7 @@ int run(const CLI::App& command, const Options& options) {
 }  // namespace
 
 Command make_structure_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<StructureCommandOptions>();
   CLI::App* const command = add_command(
       program, "structure", "Find the parts of a shape, what stands for them, and how they are related",
       "stackabilize structure chair.obj --picture chair.png --save chair.json");
@@ -60,7 +60,7 @@ Command make_structure_command(CLI::App& program) {
       ->type_name("FILE");
   command->add_option("--picture", options->picture, "Draw parts, primitives and relations (.png or .svg)")
       ->type_name("FILE");
-  return {command, [command, options] { return run(*command, *options); }};
+  return {command, [command, options] { return run_structure_command(*command, *options); }};
 }
 
 }  // namespace stackabilization::apps

@@ -16,17 +16,11 @@ Json rows_json(const Points& points) {
   return rows;
 }
 
-std::vector<std::string> names_of(const Relation& relation, const Structure& structure) {
+std::vector<std::string> part_names_of(const Relation& relation, const Structure& structure) {
   std::vector<std::string> names;
   for (const int part : relation.parts)
     names.push_back(structure.parts.at(static_cast<std::size_t>(part)).name);
   return names;
-}
-
-std::string joined(const std::vector<std::string>& names, const std::string& between) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : between) + name;
-  return text;
 }
 
 std::vector<int> triangle_counts(const Shape& shape) {
@@ -76,7 +70,7 @@ std::string symmetry_reference(const Symmetry& symmetry, const Structure& struct
          std::to_string(found - whole.begin() + 1) + " of the whole";
 }
 
-const char* name_of(SymmetryKind kind) {
+const char* symmetry_kind_name(SymmetryKind kind) {
   switch (kind) {
     case SymmetryKind::reflection:
       return "reflection";
@@ -116,7 +110,7 @@ std::string part_table(const StructuredShape& structured) {
 std::string relation_table(const Structure& structure) {
   ColumnTable table({"relation", "parts", "where", "residual"});
   for (const Relation& relation : structure.relations)
-    table.add({stackabilization::name_of(relation.type), joined(names_of(relation, structure), ", "),
+    table.add({name_of(relation.type), joined(part_names_of(relation, structure)),
                place_text(relation, structure), small_percent(relation.residual)});
   return table.text();
 }
@@ -165,7 +159,7 @@ Json to_json(const Symmetry& symmetry) {
 }
 
 Json to_json(const Relation& relation, const Structure& structure) {
-  Json json = {{"type", stackabilization::name_of(relation.type)}, {"parts", names_of(relation, structure)}};
+  Json json = {{"type", name_of(relation.type)}, {"parts", part_names_of(relation, structure)}};
   if (is_joint(relation))
     json["points"] = rows_json(relation.points);
   else
@@ -199,9 +193,9 @@ void add_structure(Json& document, const StructuredShape& structured) {
 }
 
 std::string relation_text(const Relation& relation, const Structure& structure) {
-  std::string type = stackabilization::name_of(relation.type);
+  std::string type = name_of(relation.type);
   std::replace(type.begin(), type.end(), '_', ' ');
-  return type + " of " + joined(names_of(relation, structure), " and ");
+  return type + " of " + joined(part_names_of(relation, structure), " and ");
 }
 
 std::string structure_text(const StructuredShape& structured, const Model& model) {
@@ -217,7 +211,7 @@ std::string structure_text(const StructuredShape& structured, const Model& model
                 "; fits are errors, of the part's diagonal");
   table.add("Symmetries", std::to_string(structure.symmetries.size()), "of the whole shape");
   for (std::size_t i = 0; i < structure.symmetries.size(); ++i)
-    table.add("", std::to_string(i + 1) + " " + name_of(structure.symmetries[i].kind),
+    table.add("", std::to_string(i + 1) + " " + symmetry_kind_name(structure.symmetries[i].kind),
               symmetry_text(structure.symmetries[i], structure.diagonal));
   table.add("Relations", std::to_string(structure.relations.size()), tally_text(structure));
   std::string text = table.text() + "\n" + part_table(structured);

@@ -10,7 +10,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-void check(const SuggestCommandOptions& options) {
+void check_suggest_options(const SuggestCommandOptions& options) {
   check(options.requirements);
   CommandFiles files{{}, analysis_inputs(options.analysis)};
   const bool updates = !options.save && options.destination();
@@ -26,16 +26,16 @@ void check(const SuggestCommandOptions& options) {
     throw UsageError("--all shows what cannot be applied, so it does not go with --apply");
 }
 
-std::string report(const SuggestCommandOptions& options, const SuggestRun& run, const Model& model) {
+std::string printed_text(const SuggestCommandOptions& options, const SuggestRun& run, const Model& model) {
   if (options.destination() == "-") return "";
   if (options.show_history) return history_text(run.project);
   if (options.roll_back && !options.apply) return options.common.quiet ? "" : history_text(run.project);
   return options.common.quiet ? essential_suggestions(run, options) : suggestions_text(run, options, model);
 }
 
-int run(const CLI::App& command, const SuggestCommandOptions& options) {
+int run_suggest_command(const CLI::App& command, const SuggestCommandOptions& options) {
   const Stopwatch watch;
-  check(options);
+  check_suggest_options(options);
   const ThreadLimit limit(options.common);
   const StructuredModel input = load_structured(command, options.common, options.analysis, bounds_of_designs);
   const SuggestRun result = run_suggest(options, input);
@@ -46,7 +46,7 @@ int run(const CLI::App& command, const SuggestCommandOptions& options) {
   if (options.pictures) write_suggestion_pictures(result, options, input.model);
   if (const auto destination = options.destination())
     write_output(*destination, project_text(result.project));
-  deliver(options.common, document, report(options, result, input.model));
+  deliver(options.common, document, printed_text(options, result, input.model));
   const bool asked = !options.show_history && (!options.roll_back || options.apply);
   return asked && result.possible() == 0 ? status_no : status_done;
 }
@@ -105,7 +105,7 @@ Command make_suggest_command(CLI::App& program) {
   add_analysis_options(*command, options->analysis);
   add_wishes(*command, *options);
   add_session(*command, *options);
-  return {command, [command, options] { return run(*command, *options); }};
+  return {command, [command, options] { return run_suggest_command(*command, *options); }};
 }
 
 }  // namespace stackabilization::apps

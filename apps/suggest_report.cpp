@@ -19,7 +19,7 @@ std::size_t shown(const SuggestRun& run, const SuggestCommandOptions& options) {
 }
 
 /// Where a design stands.
-Json measured_json(const Stackability& measured, const Json& energy) {
+Json standing_json(const Stackability& measured, const Json& energy) {
   return {{"direction", to_json(measured.direction)},
           {"stackability", measured.value},
           {"f_max", measured.f_max},
@@ -27,7 +27,7 @@ Json measured_json(const Stackability& measured, const Json& energy) {
           {"energy", energy}};
 }
 
-Json to_json(const Suggestion& suggestion, const SuggestRun& run) {
+Json suggestion_json(const Suggestion& suggestion, const SuggestRun& run) {
   const std::vector<std::string>& part_names = run.project.rest.shape.part_names;
   const ContactEdit& edit = suggestion.edit;
   Json json = {{"edit", edit_text(edit.edit, part_names)},
@@ -37,25 +37,19 @@ Json to_json(const Suggestion& suggestion, const SuggestRun& run) {
                 {{"region", edit.region},
                  {"type", name_of(edit.type)},
                  {"copy", edit.of_lower_copy ? "below" : "above"}}},
-               {"refusal", apps::to_json(suggestion.refusal)}};
+               {"refusal", to_json(suggestion.refusal)}};
   if (suggestion.refusal) return json;
-  json.update(measured_json(suggestion.measured, apps::to_json(suggestion.energy, run.alpha)));
+  json.update(standing_json(suggestion.measured, to_json(suggestion.energy, run.alpha)));
   return json;
 }
 
-std::vector<std::string> edit_lines(const HistoryNode& node, const std::vector<std::string>& part_names) {
-  std::vector<std::string> lines;
-  for (const Edit& edit : node.edits) lines.push_back(edit_text(edit, part_names));
-  return lines;
-}
-
-Json to_json(const Project& project) {
+Json history_json(const Project& project) {
   Json nodes = Json::array();
   for (const HistoryNode& node : project.history.nodes)
     nodes.push_back({{"parent", node.parent},
                      {"name", node.name},
-                     {"edits", edit_lines(node, project.rest.shape.part_names)},
-                     {"direction", apps::to_json(node.direction)},
+                     {"edits", edit_texts(node.edits, project.rest.shape.part_names)},
+                     {"direction", to_json(node.direction)},
                      {"stackability", node.stackability},
                      {"energy", node.energy}});
   return {{"current", project.history.current}, {"nodes", std::move(nodes)}};
@@ -93,16 +87,16 @@ std::string suggestion_table(const SuggestRun& run, const SuggestCommandOptions&
 void add_suggestions(Json& document, const SuggestRun& run, const SuggestCommandOptions& options) {
   const std::vector<std::string>& names = run.project.rest.shape.part_names;
   document["deformation"] = name_of(run.project.space.kind);
-  document["direction"] = apps::to_json(run.direction.vector());
+  document["direction"] = to_json(run.direction.vector());
   document["boxes"] = name_of(options.measure.boxes);
   document["semantics"] = name_of(options.measure.semantics);
   document["node"] = run.node;
-  document["now"] = measured_json(run.now.measured, apps::to_json(run.now.energy, run.alpha));
-  document["contacts"] = apps::to_json(run.now.contacts, names);
+  document["now"] = standing_json(run.now.measured, to_json(run.now.energy, run.alpha));
+  document["contacts"] = to_json(run.now.contacts, names);
   Json list = Json::array();
   for (std::size_t k = 0; k < shown(run, options); ++k) {
     Json one = {{"number", run.suggestions[k].refusal ? Json(nullptr) : Json(k + 1)}};
-    one.update(to_json(run.suggestions[k], run));
+    one.update(suggestion_json(run.suggestions[k], run));
     if (options.target) one["reaches_target"] = run.suggestions[k].reaches_target;
     list.push_back(std::move(one));
   }
@@ -110,7 +104,7 @@ void add_suggestions(Json& document, const SuggestRun& run, const SuggestCommand
   document["refused"] = run.suggestions.size() - run.possible();
   document["suggestions"] = std::move(list);
   document["applied"] = run.applied ? Json(*run.applied + 1) : Json(nullptr);
-  document["history"] = to_json(run.project);
+  document["history"] = history_json(run.project);
 }
 
 std::string suggestions_text(const SuggestRun& run, const SuggestCommandOptions& options,

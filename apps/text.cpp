@@ -75,6 +75,12 @@ std::string point_text(const Eigen::Vector3d& point, double size) {
   return point_text(point.unaryExpr([least](double x) { return std::abs(x) < least ? 0 : x; }));
 }
 
+std::string joined(const std::vector<std::string>& texts, const std::string& between) {
+  std::string text;
+  for (const std::string& next : texts) text += (text.empty() ? "" : between) + next;
+  return text;
+}
+
 std::string counted(long long count, const std::string& noun) {
   return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }

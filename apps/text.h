@@ -28,6 +28,8 @@ std::string vector_text(const Eigen::Vector3d& vector);
 std::string point_text(const Eigen::Vector3d& point);
 /// The same, with 0 for what is rounding beside lengths of this size.
 std::string point_text(const Eigen::Vector3d& point, double size);
+/// "seat, leg_1, leg_2"
+std::string joined(const std::vector<std::string>& texts, const std::string& between = ", ");
 /// "1 region", "4 regions"
 std::string counted(long long count, const std::string& noun);
 

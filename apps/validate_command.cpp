@@ -12,7 +12,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-struct Options {
+struct ValidateCommandOptions {
   CommonOptions common;
   std::optional<Eigen::Vector3d> direction;
 };
@@ -27,7 +27,7 @@ Json row_json(const ValidationRow& row, bool timing) {
   return json;
 }
 
-Json exact_json(const Separation& separation) {
+Json separation_json(const Separation& separation) {
   if (!separation.blocked) return nullptr;
   return {{"f_max", separation.length},
           {"exact", to_json(separation.value)},
@@ -37,8 +37,8 @@ Json exact_json(const Separation& separation) {
 void add_report(Json& document, const ValidationReport& report, bool timing) {
   document["direction"] = to_json(report.direction);
   document["height"] = report.extent;
-  document["solid"] = exact_json(report.solid);
-  document["closed"] = exact_json(report.closed);
+  document["solid"] = separation_json(report.solid);
+  document["closed"] = separation_json(report.closed);
   Json rows = Json::array();
   for (const ValidationRow& row : report.rows) rows.push_back(row_json(row, timing));
   document["checks"] = std::move(rows);
@@ -74,7 +74,7 @@ ValidationReport validated(const Model& model, const Direction& direction) {
   return report;
 }
 
-int run(const CLI::App& command, const Options& options) {
+int run_validate_command(const CLI::App& command, const ValidateCommandOptions& options) {
   const Stopwatch watch;
   check_outputs(options.common);
   const Direction direction(options.direction.value_or(Eigen::Vector3d::UnitZ()));
@@ -93,13 +93,13 @@ int run(const CLI::App& command, const Options& options) {
 }  // namespace
 
 Command make_validate_command(CLI::App& program) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ValidateCommandOptions>();
   CLI::App* const command =
       add_command(program, "validate", "Check the exact f_max against methods that share nothing with it",
                   "stackabilize validate chair.obj --direction 0 0 1");
   add_common_options(*command, options->common);
   add_direction(*command, "--direction", options->direction, "Stacking direction (default: 0 0 1)");
-  return {command, [command, options] { return run(*command, *options); }};
+  return {command, [command, options] { return run_validate_command(*command, *options); }};
 }
 
 }  // namespace stackabilization::apps

@@ -201,4 +201,8 @@ void add_parts(CLI::App& command, const std::string& name, std::vector<std::stri
   command.add_option(name, target, description)->type_size(1)->allow_extra_args(false)->type_name("PART");
 }
 
+void refuse_option(bool given, const char* option, const char* reason) {
+  if (given) throw UsageError(std::string(option) + " " + reason);
+}
+
 }  // namespace stackabilization::apps

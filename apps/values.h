@@ -33,6 +33,9 @@ struct Number {
 };
 double parse_number(const Number& number, const std::string& text);
 
+/// Largest angle between two directions, or between a direction and a surface.
+inline constexpr double max_degrees = 90;
+
 /// A length as typed: "0.5" in model units, or with a unit, "5mm". From 0 to tolerance::largest_coordinate.
 struct Length {
   double value = 0;
@@ -63,6 +66,9 @@ struct Count {
 };
 std::uint64_t parse_count(const Count& count, const std::string& text);
 
+/// Copies of a stack: more is a typing error.
+inline constexpr int most_copies = 10000;
+
 /// `target` is a whole number or std::optional of one; what it cannot hold is refused.
 template <class Target>
 void add_count(CLI::App& command, Count count, Target& target) {
@@ -91,6 +97,9 @@ void add_points(CLI::App& command, const std::string& name, std::vector<Eigen::V
 /// An option with the name of a part, any number of times.
 void add_parts(CLI::App& command, const std::string& name, std::vector<std::string>& target,
                const std::string& description);
+
+/// Throws UsageError, the option and then the reason, when an option is given that does not fit the others.
+void refuse_option(bool given, const char* option, const char* reason);
 
 /// An option whose values have names.
 template <class Value>

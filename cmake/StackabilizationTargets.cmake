@@ -28,6 +28,10 @@ endfunction()
 # Warnings and sanitizers of this project's own targets.
 function(stackabilization_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+  if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # It takes sources for headers when they are compiled together.
+    target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
+  endif()
   if(STACKABILIZATION_BUILD_FUZZERS)
     target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
   endif()

@@ -62,10 +62,26 @@ Scene side_by_side(const std::vector<Scene>& scenes, const Direction& up, const 
   return row;
 }
 
+double stack_height(const MeasuredShape& shape, int copies) {
+  return shape.measured.extent + (copies - 1) * shape.measured.f_max;
+}
+
+SceneDimension stack_dimension(const MeasuredShape& shape, int copies, Anchor side) {
+  const Eigen::Vector3d up = Direction(shape.measured.direction).unit();
+  const double height = stack_height(shape, copies);
+  return {Eigen::Vector3d::Zero(), height * up, length_text(height, shape.shape.unit), side};
+}
+
 Scene grounded_stack(const MeasuredShape& shape, int copies, const Colour& colour) {
   MeasuredShape grounded = shape;
   grounded.shape = on_ground(shape.shape, Direction(shape.measured.direction));
   return stack_of(grounded, copies, colour);
+}
+
+ScenePanel single_stack_panel(const MeasuredShape& shape, int copies, const Colour& colour,
+                              const Camera& camera) {
+  const Direction up(shape.measured.direction);
+  return scene_panel(grounded_stack(shape, copies, colour), up, camera);
 }
 
 ScenePanel stacks_panel(const ImprovedShape& shapes, int copies, const Camera& camera) {
@@ -97,9 +113,7 @@ NamedTask read_named_task(const Fields& fields) {
 }
 
 StackedTask read_stacked_task(const Fields& fields) {
-  constexpr int most_copies = 20;
-  return {read_design_task(fields.object("task")), read_camera(fields),
-          fields.whole("copies", 1, most_copies)};
+  return {read_design_task(fields.object("task")), read_camera(fields), read_copies(fields)};
 }
 
 std::vector<LegendEntry> before_after_entries() {

@@ -36,8 +36,18 @@ double read_row_height(const Fields& fields);
 /// Scenes next to each other, from left to right as `camera` sees them, each on the ground.
 Scene side_by_side(const std::vector<Scene>& scenes, const Direction& up, const Camera& camera);
 
+/// Height of equal copies above each other, model units.
+double stack_height(const MeasuredShape& shape, int copies);
+
+/// The same beside a stack whose foot is at the origin.
+SceneDimension stack_dimension(const MeasuredShape& shape, int copies, Anchor side);
+
 /// Equal copies above each other, the first one's foot at the origin.
 Scene grounded_stack(const MeasuredShape& shape, int copies, const Colour& colour);
+
+/// One such stack, or one shape alone.
+ScenePanel single_stack_panel(const MeasuredShape& shape, int copies, const Colour& colour,
+                              const Camera& camera);
 
 /// A stack before and one after, as high as they come, in one scale.
 ScenePanel stacks_panel(const ImprovedShape& shapes, int copies, const Camera& camera);

@@ -6,34 +6,26 @@
 namespace stackabilization::figures {
 namespace {
 
-struct Options {
+struct Figure01Options {
   std::vector<NamedTask> objects;
   int copies = 5;
 };
 
-Options read(const Fields& fields) {
-  Options options{{}, fields.whole("copies", 2, 20)};
+Figure01Options read_figure_01(const Fields& fields) {
+  Figure01Options options{{}, read_copies(fields, 2)};
   for (const Fields& object : fields.objects("objects")) options.objects.push_back(read_named_task(object));
   return options;
 }
 
-double stack_height(const MeasuredShape& shape, int copies) {
-  return shape.measured.extent + (copies - 1) * shape.measured.f_max;
-}
-
 /// Both stacks with their heights.
-ScenePanel panel_of(const ImprovedShape& shapes, const NamedTask& object, int copies) {
+ScenePanel panel_with_heights(const ImprovedShape& shapes, const NamedTask& object, int copies) {
   ScenePanel panel = stacks_panel(shapes, copies, object.camera);
-  const Eigen::Vector3d up = Direction(shapes.after.measured.direction).unit();
-  const auto dimension = [&](const MeasuredShape& shape, Anchor side) {
-    const double height = stack_height(shape, copies);
-    return SceneDimension{Eigen::Vector3d::Zero(), height * up, length_text(height, shape.shape.unit), side};
-  };
-  panel.over.dimensions = {dimension(shapes.before, Anchor::left), dimension(shapes.after, Anchor::right)};
+  panel.over.dimensions = {stack_dimension(shapes.before, copies, Anchor::left),
+                           stack_dimension(shapes.after, copies, Anchor::right)};
   return panel;
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make_figure_01(const Figure01Options& options, const ModelFolder& models) {
   FigureResult result;
   PanelRow row;
   row.height = 0.62;
@@ -49,7 +41,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
     kept = kept && keeps_height(shapes);
     lower = lower && after < before;
     row.panels.push_back(
-        {panel_of(shapes, object, options.copies),
+        {panel_with_heights(shapes, object, options.copies),
          std::to_string(options.copies) + " copies: " + percent_text(1 - after / before) + " less high",
          {change_text(shapes)},
          1});
@@ -72,7 +64,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_01() {
-  return figure(1, "Stacks before and after, and the height they save", read, make);
+  return figure(1, "Stacks before and after, and the height they save", read_figure_01, make_figure_01);
 }
 
 }  // namespace stackabilization::figures

@@ -9,13 +9,13 @@ namespace {
 
 constexpr int envelope_samples = 1000;
 
-struct Options {
+struct Figure02Options {
   ModelSource model;
   Direction direction;
   Camera camera;
 };
 
-Options read(const Fields& fields) {
+Figure02Options read_figure_02(const Fields& fields) {
   return {read_model_source(fields.object("model")), Direction(fields.vector("direction")),
           read_camera(fields)};
 }
@@ -45,7 +45,7 @@ ScenePanel stacked_panel(const MeasuredShape& shape, const Camera& camera) {
   return panel;
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make_figure_02(const Figure02Options& options, const ModelFolder& models) {
   const MeasuredShape shape = measured_shape(models.read(options.model), options.direction);
   const HeightField field = height_field_by_scanline(
       shape.shape, options.direction, window_around(shape.shape, options.direction, envelope_samples));
@@ -80,7 +80,8 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_02() {
-  return figure(2, "Envelopes, extent h, stacking direction r and contact regions", read, make);
+  return figure(2, "Envelopes, extent h, stacking direction r and contact regions", read_figure_02,
+                make_figure_02);
 }
 
 }  // namespace stackabilization::figures

@@ -20,7 +20,7 @@ struct Stool {
   double seat = 0.15, reach = 0.2, height = 0.45;  ///< radius of the seat, distance of the feet, height
 };
 
-struct Options {
+struct Figure03Options {
   Stool stool;
   double twist_degrees = 0;  ///< from copy to copy
   int stools = 5;
@@ -32,19 +32,19 @@ struct Options {
   Camera cup_camera;
 };
 
-Options read(const Fields& fields) {
+Figure03Options read_figure_03(const Fields& fields) {
   const Fields twisted = fields.object("twisted"), zigzag = fields.object("zigzag");
-  Options options;
+  Figure03Options options;
   options.stool = {twisted.whole("legs", 3, 8), twisted.number("seat"), twisted.number("reach"),
                    twisted.number("height")};
   if (!(options.stool.seat > 0) || !(options.stool.reach > options.stool.seat))
     twisted.refuse("reach", "a length greater than that of the seat");
   options.twist_degrees = twisted.number("twist_degrees");
-  options.stools = twisted.whole("copies", 2, 20);
+  options.stools = read_copies(twisted, 2);
   options.stool_camera = read_camera(twisted);
   options.cup = read_model_source(zigzag.object("model"));
   options.lean_degrees = zigzag.number("lean_degrees");
-  options.cups = zigzag.whole("copies", 2, 20);
+  options.cups = read_copies(zigzag, 2);
   options.cup_camera = read_camera(zigzag);
   options.enlarged = zigzag.number("enlarged");
   if (!(options.enlarged > 0)) zigzag.refuse("enlarged", "a factor above 0");
@@ -95,7 +95,7 @@ struct TwistedStacks {
   std::vector<Shape> neighbours, all;
 };
 
-TwistedStacks twisted_stacks(const Options& options) {
+TwistedStacks twisted_stacks(const Figure03Options& options) {
   const Direction up(0, 0, 1);
   const Shape stool = stool_shape(options.stool);
   StackOptions stacking;
@@ -111,7 +111,7 @@ TwistedStacks twisted_stacks(const Options& options) {
   return result;
 }
 
-Panel neighbours_panel(const TwistedStacks& stacks, const Options& options) {
+Panel neighbours_panel(const TwistedStacks& stacks, const Figure03Options& options) {
   ScenePanel panel =
       scene_panel(stack_scene(stacks.neighbours, palette::input), Direction(0, 0, 1), options.stool_camera);
   add_trajectory(panel, stacks.neighbours);
@@ -137,7 +137,7 @@ Panel neighbours_panel(const TwistedStacks& stacks, const Options& options) {
           1};
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make_figure_03(const Figure03Options& options, const ModelFolder& models) {
   const Direction up(0, 0, 1);
   const TwistedStacks stacks = twisted_stacks(options);
   if (stacks.stack.conflicts.empty()) throw InputError("the twisted stools do not get in each other's way");
@@ -187,7 +187,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 
 Figure figure_03() {
   return figure(3, "Stacks of rotated copies: conflict of copies that are no neighbours, zigzag trajectory",
-                read, make);
+                read_figure_03, make_figure_03);
 }
 
 }  // namespace stackabilization::figures

@@ -20,24 +20,24 @@ struct Bench {
 };
 
 /// A slightly different bench.
-struct Variant {
+struct BenchVariant {
   std::string name;
   double lean = 0;  ///< by which the feet stand farther out than the tops of the legs, metres
   double bar = 0;   ///< height of a bar between the legs, metres; 0: none
 };
 
-struct Options {
+struct Figure04Options {
   Bench bench;
-  std::vector<Variant> variants;
+  std::vector<BenchVariant> variants;
   double most_lean = 0;  ///< of the curve, metres
 };
 
-Options read(const Fields& fields) {
+Figure04Options read_figure_04(const Fields& fields) {
   const Fields bench = fields.object("bench");
-  Options options{{bench.number("top"), bench.number("height"), bench.number("thickness"),
-                   bench.number("leg"), bench.number("depth")},
-                  {},
-                  fields.number("most_lean")};
+  Figure04Options options{{bench.number("top"), bench.number("height"), bench.number("thickness"),
+                           bench.number("leg"), bench.number("depth")},
+                          {},
+                          fields.number("most_lean")};
   if (!(options.bench.leg > 0) || !(options.bench.thickness > 0) || !(options.bench.depth > 0) ||
       options.bench.top <= 2 * options.bench.leg || options.bench.height <= 2 * options.bench.thickness)
     fields.refuse("bench", "positive lengths, with room between the legs and below the top");
@@ -67,7 +67,7 @@ Shape prism(const Outline& outline, double depth) {
   return read_shape(text, Format::obj, "bench", options);
 }
 
-Shape bench_shape(const Bench& bench, const Variant& variant) {
+Shape bench_shape(const Bench& bench, const BenchVariant& variant) {
   const double a = bench.top / 2, under = bench.height - bench.thickness;
   const double foot = a + variant.lean;
   Shape shape = prism({{-foot, 0},
@@ -89,7 +89,7 @@ Shape bench_shape(const Bench& bench, const Variant& variant) {
 }
 
 /// The gap function across the bench, along the middle of its depth.
-CurvePlot gap_plot(const Shape& shape, const Stackability& measured, const Options& options) {
+CurvePlot bench_gap_plot(const Shape& shape, const Stackability& measured, const Figure04Options& options) {
   const Direction up(measured.direction);
   const double half = options.bench.top / 2 + options.most_lean;
   const Window window{-half, 0, 2 * half / samples, samples, 1};
@@ -113,7 +113,7 @@ double largest_gap(const Panel& panel) {
 }
 
 /// S over the lean of the legs, with the variants that have no bar.
-CurvePlot lean_plot(const Options& options, const std::vector<double>& values) {
+CurvePlot lean_plot(const Figure04Options& options, const std::vector<double>& values) {
   constexpr int steps = 80;
   CurvePlot plot;
   plot.x = {"lean of the legs in m", Range{0, options.most_lean}};
@@ -133,7 +133,7 @@ CurvePlot lean_plot(const Options& options, const std::vector<double>& values) {
   return plot;
 }
 
-FigureResult make(const Options& options, const ModelFolder&) {
+FigureResult make_figure_04(const Figure04Options& options, const ModelFolder&) {
   const Direction up(0, 0, 1);
   PanelRow shapes, gaps, curve;
   shapes.height = 0.22;
@@ -144,7 +144,7 @@ FigureResult make(const Options& options, const ModelFolder&) {
   result.kind = FigureKind::plot;
   std::vector<double> values;
   double largest_excess = -options.bench.height;
-  for (const Variant& variant : options.variants) {
+  for (const BenchVariant& variant : options.variants) {
     const Shape shape = bench_shape(options.bench, variant);
     const Stackability measured = stackability(shape, up);
     Scene scene;
@@ -153,7 +153,7 @@ FigureResult make(const Options& options, const ModelFolder&) {
                              variant.name + ": S = " + number_text(std::max(0.0, measured.value), 2),
                              {},
                              1});
-    gaps.panels.push_back({gap_plot(shape, measured, options), "", {}, 1});
+    gaps.panels.push_back({bench_gap_plot(shape, measured, options), "", {}, 1});
     largest_excess = std::max(largest_excess,
                               largest_gap(gaps.panels.back()) - (1 + tolerance::relative) * measured.f_max);
     result.numbers.push_back({"lean of the legs, " + variant.name, variant.lean, "m"});
@@ -179,7 +179,8 @@ FigureResult make(const Options& options, const ModelFolder&) {
 }  // namespace
 
 Figure figure_04() {
-  return figure(4, "Slight deformations change the gap function and S considerably", read, make);
+  return figure(4, "Slight deformations change the gap function and S considerably", read_figure_04,
+                make_figure_04);
 }
 
 }  // namespace stackabilization::figures

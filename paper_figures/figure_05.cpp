@@ -10,7 +10,7 @@
 namespace stackabilization::figures {
 namespace {
 
-struct Options {
+struct Figure05Options {
   ModelSource model;
   Direction from;             ///< the direction that is tilted
   Direction axis;             ///< about which it is tilted, right-handed
@@ -20,26 +20,26 @@ struct Options {
   Camera camera;
 };
 
-Options read(const Fields& fields) {
-  Options options{read_model_source(fields.object("model")),
-                  Direction(fields.vector("from")),
-                  Direction(fields.vector("axis")),
-                  fields.numbers("tilts"),
-                  fields.numbers("sweep"),
-                  fields.whole("copies", 2, 20),
-                  read_camera(fields)};
+Figure05Options read_figure_05(const Fields& fields) {
+  Figure05Options options{read_model_source(fields.object("model")),
+                          Direction(fields.vector("from")),
+                          Direction(fields.vector("axis")),
+                          fields.numbers("tilts"),
+                          fields.numbers("sweep"),
+                          read_copies(fields, 2),
+                          read_camera(fields)};
   if (options.sweep.size() != 2 || !(options.sweep[0] < options.sweep[1]))
     fields.refuse("sweep", "two numbers, the smaller one first");
   return options;
 }
 
-Direction tilted(const Options& options, double degrees) {
+Direction tilted(const Figure05Options& options, double degrees) {
   const RigidTransform turn = rotation_about({Eigen::Vector3d::Zero(), options.axis}, degrees);
   return Direction(turn.rotation * options.from.unit());
 }
 
 /// A stack along a direction, with an arrow that says which.
-Panel panel_of(const Shape& shape, const Stackability& measured, const Options& options) {
+Panel tilted_stack_panel(const Shape& shape, const Stackability& measured, const Figure05Options& options) {
   const Eigen::Vector3d along = Direction(measured.direction).unit();
   const Shape lowest = on_ground(shape, options.from);
   ScenePanel panel =
@@ -52,7 +52,7 @@ Panel panel_of(const Shape& shape, const Stackability& measured, const Options& 
   return {std::move(panel), "", {}, 1};
 }
 
-CurvePlot sweep_plot(const StackabilitySolver& solver, const Options& options) {
+CurvePlot sweep_plot(const StackabilitySolver& solver, const Figure05Options& options) {
   constexpr int steps = 120;
   CurvePlot plot;
   plot.x = {"tilt of the direction in degrees", Range{options.sweep[0], options.sweep[1]}};
@@ -68,7 +68,7 @@ CurvePlot sweep_plot(const StackabilitySolver& solver, const Options& options) {
   return plot;
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make_figure_05(const Figure05Options& options, const ModelFolder& models) {
   const Shape shape = models.read(options.model);
   const StackabilitySolver solver(shape);
   PanelRow stacks, plot;
@@ -80,7 +80,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
   std::vector<double> values;
   for (const double degrees : options.tilts) {
     const Stackability measured = solver.measure(tilted(options, degrees));
-    stacks.panels.push_back(panel_of(shape, measured, options));
+    stacks.panels.push_back(tilted_stack_panel(shape, measured, options));
     stacks.panels.back().title = number_text(degrees) + "°:  S = " + ratio_text(measured.value);
     const std::string at = " at " + number_text(degrees) + " degrees";
     result.numbers.push_back({"S" + at, measured.value});
@@ -101,7 +101,8 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_05() {
-  return figure(5, "Changing the stacking direction slightly changes S considerably", read, make);
+  return figure(5, "Changing the stacking direction slightly changes S considerably", read_figure_05,
+                make_figure_05);
 }
 
 }  // namespace stackabilization::figures

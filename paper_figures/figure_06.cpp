@@ -15,17 +15,16 @@ constexpr int gap_samples = 600;
 /// How nearly the two solutions are to be equally compact, relative: a tolerance of the comparison.
 constexpr double compactness_tolerance = 1e-4;
 
-struct Options {
+struct Figure06Options {
   DesignTask task;
   Camera camera;
   int copies = 1;
   double longest_edge = 0;  ///< of the triangles that gap scaling moves, fraction of the diagonal
 };
 
-Options read(const Fields& fields) {
-  constexpr int most_copies = 20;
-  Options options{read_design_task(fields.object("task")), read_camera(fields),
-                  fields.whole("copies", 1, most_copies), fields.number("longest_edge")};
+Figure06Options read_figure_06(const Fields& fields) {
+  Figure06Options options{read_design_task(fields.object("task")), read_camera(fields), read_copies(fields),
+                          fields.number("longest_edge")};
   if (!(options.longest_edge > 0)) fields.refuse("longest_edge", "a number above 0");
   return options;
 }
@@ -33,7 +32,7 @@ Options read(const Fields& fields) {
 /// Scales the gap function until a further copy adds as much height to a stack as asked for.
 class GapScaling {
  public:
-  GapScaling(const Shape& rest, const Options& options)
+  GapScaling(const Shape& rest, const Figure06Options& options)
       : direction_(options.task.space.direction),
         measure_(options.task.requirements.measure),
         rest_(refined(rest, {options.longest_edge})),
@@ -74,7 +73,7 @@ struct Shown {
 };
 
 /// f along the line of samples through the largest gap of the first shape.
-CurvePlot gap_plot(const std::vector<Shown>& shapes, const Direction& direction) {
+CurvePlot compared_gap_plot(const std::vector<Shown>& shapes, const Direction& direction) {
   const Window window = window_around(shapes.front().shape.shape, direction, gap_samples);
   CurvePlot plot;
   int row = 0;
@@ -93,7 +92,7 @@ CurvePlot gap_plot(const std::vector<Shown>& shapes, const Direction& direction)
   return plot;
 }
 
-Panel panel_of(const Shown& shown, const Options& options) {
+Panel compared_panel(const Shown& shown, const Figure06Options& options) {
   const Direction up(shown.shape.measured.direction);
   const Scene scene = side_by_side({grounded_stack(shown.shape, 1, shown.colour),
                                     grounded_stack(shown.shape, options.copies, shown.colour)},
@@ -106,7 +105,7 @@ Panel panel_of(const Shown& shown, const Options& options) {
           1};
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make_figure_06(const Figure06Options& options, const ModelFolder& models) {
   const DesignRun run = design_run(options.task, models);
   const ImprovedShape ours = improved_shape(run);
   double factor = 1;
@@ -119,14 +118,14 @@ FigureResult make(const Options& options, const ModelFolder& models) {
   PanelRow row{{}, 0.25, PanelScale::common};
   const std::string unit = unit_symbol(ours.before.shape.unit);
   for (const Shown& shown : shapes) {
-    row.panels.push_back(panel_of(shown, options));
+    row.panels.push_back(compared_panel(shown, options));
     const Stackability& measured = shown.shape.measured;
     result.numbers.push_back({shown.name + ": h", measured.extent, unit});
     result.numbers.push_back({shown.name + ": f_max", measured.f_max, unit});
     result.numbers.push_back({shown.name + ": S", measured.value});
   }
   result.numbers.push_back({"factor of the gap function", factor});
-  const PanelRow plot{{{gap_plot(shapes, options.task.space.direction), "", {}, 1}}, 0.34};
+  const PanelRow plot{{{compared_gap_plot(shapes, options.task.space.direction), "", {}, 1}}, 0.34};
   result.drawing = panel_sheet({plot, row});
   const double before = ours.before.measured.extent;
   result.claims = {{"both solutions are equally compact: a further copy adds the same height to the stack",
@@ -142,7 +141,8 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_06() {
-  return figure(6, "Gap scaling against structure-aware deformation, equally compact", read, make);
+  return figure(6, "Gap scaling against structure-aware deformation, equally compact", read_figure_06,
+                make_figure_06);
 }
 
 }  // namespace stackabilization::figures

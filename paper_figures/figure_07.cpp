@@ -9,12 +9,12 @@
 namespace stackabilization::figures {
 namespace {
 
-struct Options {
+struct Figure07Options {
   ModelSource model;
   Camera camera;
 };
 
-Options read(const Fields& fields) {
+Figure07Options read_figure_07(const Fields& fields) {
   return {read_model_source(fields.object("model")), read_camera(fields)};
 }
 
@@ -23,7 +23,7 @@ long count(const Structure& structure, RelationType type) {
                        [type](const Relation& relation) { return relation.type == type; });
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make_figure_07(const Figure07Options& options, const ModelFolder& models) {
   const StructuredShape structured = analyse_structure(models.read(options.model));
   const Structure& structure = structured.structure;
   const Direction up(0, 0, 1);
@@ -50,7 +50,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_07() {
-  return figure(7, "Point joints (green balls) and line joints (red bars)", read, make);
+  return figure(7, "Point joints (green balls) and line joints (red bars)", read_figure_07, make_figure_07);
 }
 
 }  // namespace stackabilization::figures

@@ -14,14 +14,14 @@ struct Object {
   double height = 1;  ///< of its row, fraction of the width of the sheet
 };
 
-struct Options {
+struct Figure08Options {
   std::vector<Object> objects;
   int states = 2;  ///< shown of each
 };
 
-Options read(const Fields& fields) {
+Figure08Options read_figure_08(const Fields& fields) {
   constexpr int most_states = 8;
-  Options options;
+  Figure08Options options;
   options.states = fields.whole("states", 2, most_states);
   for (const Fields& object : fields.objects("objects"))
     options.objects.push_back({read_named_task(object), read_row_height(object)});
@@ -64,7 +64,7 @@ std::vector<State> path(const DesignRun& run, int count) {
 }
 
 /// Contact parts orange, the handles that are used next red; the last state is green.
-ScenePanel panel_of(const State& state, const Camera& camera) {
+ScenePanel state_panel(const State& state, const Camera& camera) {
   const Shape& shape = state.design.shape;
   const bool last = state.next.empty();
   SceneMesh mesh{shape,
@@ -93,7 +93,7 @@ std::string caption(const State& state, std::size_t all) {
   return static_cast<std::size_t>(state.edits) == all ? "solution: " + edits : edits;
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make_figure_08(const Figure08Options& options, const ModelFolder& models) {
   FigureResult result;
   std::vector<PanelRow> rows;
   bool reached = true, better = true;
@@ -105,7 +105,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
     for (const State& state : states) {
       const std::string how = caption(state, edits);
       const double s = state.measured.measured.value;
-      rows.back().panels.push_back({panel_of(state, object.camera), "S " + ratio_text(s), {how}, 1});
+      rows.back().panels.push_back({state_panel(state, object.camera), "S " + ratio_text(s), {how}, 1});
       result.numbers.push_back({object.name + ", " + how + ": S", s});
     }
     reached = reached && run.reached();
@@ -124,7 +124,8 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_08() {
-  return figure(8, "Progress on a mug and a table: contact parts, handles, and S", read, make);
+  return figure(8, "Progress on a mug and a table: contact parts, handles, and S", read_figure_08,
+                make_figure_08);
 }
 
 }  // namespace stackabilization::figures

@@ -9,20 +9,19 @@ namespace stackabilization::figures {
 namespace {
 
 /// The same object, with some primitives.
-struct Variant {
+struct PrimitiveVariant {
   std::string name;
   DesignTask task;
 };
 
-struct Options {
-  std::vector<Variant> variants;
+struct Figure11Options {
+  std::vector<PrimitiveVariant> variants;
   Camera camera;
   int copies = 1;
 };
 
-Options read(const Fields& fields) {
-  constexpr int most_copies = 20;
-  Options options{{}, read_camera(fields), fields.whole("copies", 1, most_copies)};
+Figure11Options read_figure_11(const Fields& fields) {
+  Figure11Options options{{}, read_camera(fields), read_copies(fields)};
   for (const Fields& variant : fields.objects("variants"))
     options.variants.push_back({variant.text("name"), read_design_task(variant)});
   return options;
@@ -30,11 +29,6 @@ Options read(const Fields& fields) {
 
 double stackability_by(BoxModel boxes, const MeasuredShape& shape) {
   return stackability(shape.shape, Direction(shape.measured.direction), {Semantics::solid, boxes}).value;
-}
-
-ScenePanel stack_panel(const MeasuredShape& shape, int copies, const Colour& colour, const Camera& camera) {
-  const Direction up(shape.measured.direction);
-  return scene_panel(grounded_stack(shape, copies, colour), up, camera);
 }
 
 std::vector<std::string> captions(const MeasuredShape& shape) {
@@ -47,18 +41,19 @@ double difference(const DesignRun& a, const DesignRun& b) {
   return shape_change(a.best().design.shape, b.best().design.shape).root_mean_square;
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make_figure_11(const Figure11Options& options, const ModelFolder& models) {
   FigureResult result;
   PanelRow alone{{}, 0.24, PanelScale::common}, stacks{{}, 0.36, PanelScale::common};
   const auto show = [&](const std::string& name, const MeasuredShape& shape, const Colour& colour,
                         const std::vector<std::string>& lines) {
-    alone.panels.push_back({stack_panel(shape, 1, colour, options.camera), name, {}, 1});
-    stacks.panels.push_back({stack_panel(shape, options.copies, colour, options.camera), "", lines, 1});
+    alone.panels.push_back({single_stack_panel(shape, 1, colour, options.camera), name, {}, 1});
+    stacks.panels.push_back(
+        {single_stack_panel(shape, options.copies, colour, options.camera), "", lines, 1});
   };
   const std::vector<DesignRun> runs = design_runs(tasks_of(options.variants), models);
   bool reached = true, kept = true;
   for (std::size_t k = 0; k < runs.size(); ++k) {
-    const Variant& variant = options.variants[k];
+    const PrimitiveVariant& variant = options.variants[k];
     const DesignRun& run = runs[k];
     const ImprovedShape shapes = improved_shape(run);
     if (k == 0) show("original", shapes.before, palette::input, captions(shapes.before));
@@ -86,7 +81,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_11() {
-  return figure(11, "Cuboids against generalized cylinders on one table", read, make);
+  return figure(11, "Cuboids against generalized cylinders on one table", read_figure_11, make_figure_11);
 }
 
 }  // namespace stackabilization::figures

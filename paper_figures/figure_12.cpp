@@ -92,8 +92,7 @@ std::string without_text(const Removal& removal, const Shape& shape) {
 PanelRow stacks(const StackedTask& options, const Story& story) {
   PanelRow row{{}, 0.5, PanelScale::common};
   const auto add = [&](const std::string& title, const MeasuredShape& shape, const Colour& colour) {
-    row.panels.push_back({scene_panel(grounded_stack(shape, options.copies, colour),
-                                      Direction(shape.measured.direction), options.camera),
+    row.panels.push_back({single_stack_panel(shape, options.copies, colour, options.camera),
                           title,
                           {"S " + ratio_text(shape.measured.value)},
                           1});
@@ -114,7 +113,7 @@ PanelRow blocked(const StackedTask& options, const Story& story, const std::stri
   return {{{std::move(both), "", {why}, 1}}, 0.42};
 }
 
-FigureResult make(const StackedTask& options, const ModelFolder& models) {
+FigureResult make_figure_12(const StackedTask& options, const ModelFolder& models) {
   const Story story = story_of(options, models);
   const DesignRun& run = story.run;
   const std::string why = sentence_about_the_first_blocker(story.diagnosis(), run.rest());
@@ -143,7 +142,7 @@ FigureResult make(const StackedTask& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_12() {
-  return figure(12, "A swivel chair that is refused its target, and why", read_stacked_task, make);
+  return figure(12, "A swivel chair that is refused its target, and why", read_stacked_task, make_figure_12);
 }
 
 }  // namespace stackabilization::figures

@@ -1,11 +1,10 @@
 #include <algorithm>
 
-#include "paper_figures/figure.h"
+#include "paper_figures/before_after.h"
 #include "paper_figures/shown.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/part_names.h"
 #include "stackabilization/rendering/foot.h"
-#include "stackabilization/rendering/stacking_scene.h"
 #include "stackabilization/rendering/structure_views.h"
 #include "stackabilization/stacking/rigid_transform.h"
 #include "stackabilization/stacking/search.h"
@@ -21,16 +20,16 @@ struct Fold {
   double degrees = 0;  ///< right-handed about the joint, whose axis points to its greater coordinates
 };
 
-struct Options {
+struct Figure13Options {
   ModelSource model;
   std::vector<Fold> folds;  ///< one after the other, each about the joint where it is at rest
   int copies = 4;
   Camera camera;
 };
 
-Options read(const Fields& fields) {
-  Options options{
-      read_model_source(fields.object("model")), {}, fields.whole("copies", 2, 20), read_camera(fields)};
+Figure13Options read_figure_13(const Fields& fields) {
+  Figure13Options options{
+      read_model_source(fields.object("model")), {}, read_copies(fields, 2), read_camera(fields)};
   for (const Fields& fold : fields.objects("folds")) {
     options.folds.push_back({fold.texts("joint"), fold.texts("moves"), fold.number("degrees")});
     if (options.folds.back().joint.size() != 2) fold.refuse("joint", "the names of two parts");
@@ -76,19 +75,15 @@ ScenePanel hinged_panel(const Shape& shape, const std::vector<Points>& hinges, c
   return panel;
 }
 
-Panel stack_panel(const MeasuredShape& shape, const Options& options, const std::string& title) {
-  const Direction up(shape.measured.direction);
-  const double height = shape.measured.extent + (options.copies - 1) * shape.measured.f_max;
-  ScenePanel panel =
-      scene_panel(stack_of({on_ground(shape.shape, up), shape.measured, {}}, options.copies,
-                           title.find("folded") == std::string::npos ? palette::input : palette::output),
-                  up, options.camera);
-  panel.over.dimensions = {
-      {Eigen::Vector3d::Zero(), height * up.unit(), length_text(height, shape.shape.unit), Anchor::left}};
+Panel folding_stack_panel(const MeasuredShape& shape, const Figure13Options& options,
+                          const std::string& title) {
+  const Colour colour = title.find("folded") == std::string::npos ? palette::input : palette::output;
+  ScenePanel panel = single_stack_panel(shape, options.copies, colour, options.camera);
+  panel.over.dimensions = {stack_dimension(shape, options.copies, Anchor::left)};
   return {std::move(panel), title, {}, 1};
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make_figure_13(const Figure13Options& options, const ModelFolder& models) {
   const StructuredShape structured = analyse_structure(models.read(options.model));
   const Direction up(0, 0, 1);
   Shape shape = structured.shape;
@@ -106,8 +101,8 @@ FigureResult make(const Options& options, const ModelFolder& models) {
   stacks.height = 0.62;
   chairs.panels = {{hinged_panel(open.shape, hinges, options.camera), "(a) open", {}, 1},
                    {scene_panel(std::move(folded_scene), up, options.camera), "(b) folded", {}, 1}};
-  stacks.panels = {stack_panel(open, options, "(c) open, stacked"),
-                   stack_panel(flat, options, "(d) folded, stacked")};
+  stacks.panels = {folding_stack_panel(open, options, "(c) open, stacked"),
+                   folding_stack_panel(flat, options, "(d) folded, stacked")};
   PanelSheetOptions sheet;
   sheet.legend = {{LegendMark::line, structure_colour::line_joint, "joints about which it folds"}};
   SearchOptions search;
@@ -139,7 +134,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_13() {
-  return figure(13, "Folding about joints, then stacking", read, make);
+  return figure(13, "Folding about joints, then stacking", read_figure_13, make_figure_13);
 }
 
 }  // namespace stackabilization::figures

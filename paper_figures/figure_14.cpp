@@ -12,7 +12,7 @@ struct Piece {
   DesignTask task;
 };
 
-struct Options {
+struct Figure14Options {
   ModelSource whole;
   Direction direction;
   std::vector<Piece> pieces;
@@ -20,13 +20,12 @@ struct Options {
   int copies = 1;
 };
 
-Options read(const Fields& fields) {
-  constexpr int most_copies = 20;
-  Options options{read_model_source(fields.object("whole")),
-                  Direction(fields.vector("direction")),
-                  {},
-                  read_camera(fields),
-                  fields.whole("copies", 1, most_copies)};
+Figure14Options read_figure_14(const Fields& fields) {
+  Figure14Options options{read_model_source(fields.object("whole")),
+                          Direction(fields.vector("direction")),
+                          {},
+                          read_camera(fields),
+                          read_copies(fields)};
   for (const Fields& piece : fields.objects("pieces"))
     options.pieces.push_back({piece.text("name"), read_design_task(piece)});
   return options;
@@ -39,15 +38,14 @@ double together(const std::vector<Stackability>& pieces, double box_volume) {
   return 1 - used / box_volume;
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make_figure_14(const Figure14Options& options, const ModelFolder& models) {
   const MeasuredShape whole = measured_shape(models.read(options.whole), options.direction);
   FigureResult result;
   PanelRow row{{}, 0.6, PanelScale::common};
-  row.panels.push_back(
-      {scene_panel(grounded_stack(whole, options.copies, palette::input), options.direction, options.camera),
-       "whole",
-       {"S " + ratio_text(whole.measured.value)},
-       0.6});
+  row.panels.push_back({single_stack_panel(whole, options.copies, palette::input, options.camera),
+                        "whole",
+                        {"S " + ratio_text(whole.measured.value)},
+                        0.6});
   result.numbers.push_back({"whole: S", whole.measured.value});
   std::vector<Stackability> before, after;
   std::vector<std::string> parts, wanted = whole.shape.part_names;
@@ -87,7 +85,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_14() {
-  return figure(14, "Taken apart, each piece stacks", read, make);
+  return figure(14, "Taken apart, each piece stacks", read_figure_14, make_figure_14);
 }
 
 }  // namespace stackabilization::figures

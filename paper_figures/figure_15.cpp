@@ -5,7 +5,7 @@ namespace stackabilization::figures {
 namespace {
 
 /// Alone, and a stack that can be seen through.
-Panel panel_of(const MeasuredShape& shape, const StackedTask& options, const Colour& colour) {
+Panel see_through_panel(const MeasuredShape& shape, const StackedTask& options, const Colour& colour) {
   constexpr double see_through = 0.45;
   const Direction up(shape.measured.direction);
   Scene stack = grounded_stack(shape, options.copies, colour);
@@ -14,13 +14,13 @@ Panel panel_of(const MeasuredShape& shape, const StackedTask& options, const Col
   return {scene_panel(scene, up, options.camera), "S " + ratio_text(shape.measured.value), {}, 1};
 }
 
-FigureResult make(const StackedTask& options, const ModelFolder& models) {
+FigureResult make_figure_15(const StackedTask& options, const ModelFolder& models) {
   const DesignRun run = design_run(options.task, models);
   const ImprovedShape shapes = improved_shape(run);
-  PanelRow row{
-      {panel_of(shapes.before, options, palette::input), panel_of(shapes.after, options, palette::output)},
-      0.62,
-      PanelScale::common};
+  PanelRow row{{see_through_panel(shapes.before, options, palette::input),
+                see_through_panel(shapes.after, options, palette::output)},
+               0.62,
+               PanelScale::common};
   PanelSheetOptions sheet;
   sheet.legend = before_after_entries();
   return {panel_sheet({row}, sheet),
@@ -32,7 +32,7 @@ FigureResult make(const StackedTask& options, const ModelFolder& models) {
 }  // namespace
 
 Figure figure_15() {
-  return figure(15, "A bottle, by deformation of its surface", read_stacked_task, make);
+  return figure(15, "A bottle, by deformation of its surface", read_stacked_task, make_figure_15);
 }
 
 }  // namespace stackabilization::figures

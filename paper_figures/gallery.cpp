@@ -9,24 +9,24 @@
 namespace stackabilization::figures {
 namespace {
 
-struct Options {
+struct GalleryOptions {
   std::vector<NamedTask> objects;
   std::size_t columns = 1;
   int copies = 1;
   double height = 1;  ///< of a row of pictures, fraction of the width of the sheet
 };
 
-Options read(const Fields& fields) {
-  Options options;
-  constexpr int most_columns = 8, most_copies = 20;
+GalleryOptions read_gallery(const Fields& fields) {
+  GalleryOptions options;
+  constexpr int most_columns = 8;
   options.columns = static_cast<std::size_t>(fields.whole("columns", 1, most_columns));
-  options.copies = fields.whole("copies", 1, most_copies);
+  options.copies = read_copies(fields);
   options.height = read_row_height(fields);
   for (const Fields& object : fields.objects("objects")) options.objects.push_back(read_named_task(object));
   return options;
 }
 
-FigureResult make(const Options& options, const ModelFolder& models) {
+FigureResult make_gallery(const GalleryOptions& options, const ModelFolder& models) {
   FigureResult result;
   std::vector<PanelRow> rows;
   bool reached = true, kept = true, better = true;
@@ -56,7 +56,7 @@ FigureResult make(const Options& options, const ModelFolder& models) {
 }  // namespace
 
 Figure gallery_figure(int number, std::string title) {
-  return figure(number, std::move(title), read, make);
+  return figure(number, std::move(title), read_gallery, make_gallery);
 }
 
 }  // namespace stackabilization::figures

@@ -149,6 +149,11 @@ Camera read_camera(const Fields& fields) {
   return {camera.number("azimuth"), camera.number("elevation")};
 }
 
+int read_copies(const Fields& fields, int least) {
+  constexpr int most_copies = 20;
+  return fields.whole("copies", least, most_copies);
+}
+
 ModelSource read_model_source(const Fields& fields) {
   ModelSource source;
   source.file = fields.text("file");

@@ -64,6 +64,9 @@ struct Camera {
 /// Entry "camera": {"azimuth": 35, "elevation": 25}.
 Camera read_camera(const Fields& fields);
 
+/// Entry "copies": in a stack, from `least` to 20.
+int read_copies(const Fields& fields, int least = 1);
+
 /// A mesh file in the folder of models.
 struct ModelSource {
   std::string file;                   ///< path in the folder

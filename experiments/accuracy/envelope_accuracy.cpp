@@ -18,9 +18,7 @@
 #include "common/lattice.h"
 #include "stackabilization/stacking/stackability.h"
 
-using namespace stackabilization;
-using namespace stackabilization::experiments;
-
+namespace stackabilization::experiments {
 namespace {
 
 struct Settings {
@@ -92,8 +90,11 @@ void measure(const Experiment& experiment, const Settings& settings, Report& rep
 }
 
 }  // namespace
+}  // namespace stackabilization::experiments
 
 int main(int argc, char** argv) {
+  using namespace stackabilization;
+  using namespace stackabilization::experiments;
   Experiment experiment("envelope_accuracy", "How many pixels does a sampled gap function need?");
   Settings settings;
   experiment.app()

@@ -10,12 +10,12 @@ namespace {
 
 constexpr int around = 4;       ///< pixels a side that are looked at again
 constexpr int refinement = 32;  ///< samples per pixel there
-constexpr int side = around * refinement;
+constexpr int samples_a_side = around * refinement;
 constexpr double steep = 4;  ///< rise over run from which on a side is a wall and no slope
 constexpr std::array<std::array<int, 2>, 4> neighbours{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
 
 bool inside(int i, int j) {
-  return i >= 0 && j >= 0 && i < side && j < side;
+  return i >= 0 && j >= 0 && i < samples_a_side && j < samples_a_side;
 }
 
 /// Part of the plane about the witness in which the gap exceeds what the sampling saw.
@@ -28,7 +28,7 @@ struct Missed {
 /// The connected set of cells above `seen` that holds `start`; a step is a fall by more than `rise` below it.
 Missed missed_part(const Eigen::MatrixXd& gaps, std::array<int, 2> start, double seen, double rise) {
   const auto above = [&](int i, int j) { return inside(i, j) && gaps(i, j) > seen; };
-  Eigen::ArrayXXi reached = Eigen::ArrayXXi::Zero(side, side);
+  Eigen::ArrayXXi reached = Eigen::ArrayXXi::Zero(samples_a_side, samples_a_side);
   std::vector<std::array<int, 2>> open{start};
   reached(start[0], start[1]) = 1;
   std::array<int, 2> low = start, high = start;
@@ -61,15 +61,15 @@ std::optional<Missed> look_again(const Shape& shape, const Direction& direction,
   const Eigen::Vector3d at = frame_of(direction).to_local(solid.witness.upper_point);
   Window window;
   window.pixel_size = sampling.window.pixel_size / refinement;
-  window.columns = window.rows = side;
-  window.x = at.x() - window.pixel_size * side / 2;
-  window.y = at.y() - window.pixel_size * side / 2;
+  window.columns = window.rows = samples_a_side;
+  window.x = at.x() - window.pixel_size * samples_a_side / 2;
+  window.y = at.y() - window.pixel_size * samples_a_side / 2;
   const Eigen::MatrixXd gaps = gap(height_field_by_scanline(shape, direction, window));
   std::array<int, 2> nearest{-1, -1};
-  double least = side;
-  for (int j = 0; j < side; ++j)
-    for (int i = 0; i < side; ++i) {
-      const double distance = std::hypot(i + 0.5 - side / 2.0, j + 0.5 - side / 2.0);
+  double least = samples_a_side;
+  for (int j = 0; j < samples_a_side; ++j)
+    for (int i = 0; i < samples_a_side; ++i) {
+      const double distance = std::hypot(i + 0.5 - samples_a_side / 2.0, j + 0.5 - samples_a_side / 2.0);
       if (gaps(i, j) > sampling.f_max && distance < least) {
         least = distance;
         nearest = {i, j};

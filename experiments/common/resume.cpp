@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "common/hash.h"
+#include "common/json.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/io/write_file.h"
 
@@ -13,7 +13,6 @@ namespace stackabilization::experiments {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 fs::path record_path(const Job& job, const fs::path& folder) {
   return folder / (job.name + ".done");

@@ -22,9 +22,7 @@
 
 #include "deformation_models/findings.h"
 
-using namespace stackabilization;
-using namespace stackabilization::experiments;
-
+namespace stackabilization::experiments {
 namespace {
 
 struct Settings {
@@ -124,8 +122,11 @@ void add_options(CLI::App& app, Settings& settings) {
 }
 
 }  // namespace
+}  // namespace stackabilization::experiments
 
 int main(int argc, char** argv) {
+  using namespace stackabilization;
+  using namespace stackabilization::experiments;
   Experiment experiment("deformation_models", "Which deformation model pays least for stackability?");
   experiment.use_by_default({"cup", "mug_with_handle", "table"});
   Settings settings;

@@ -11,7 +11,7 @@
 namespace stackabilization::experiments {
 namespace {
 
-constexpr StackabilityOptions measure{Semantics::solid, BoxModel::frame};
+constexpr StackabilityOptions frame_measure{Semantics::solid, BoxModel::frame};
 const Direction upwards(0, 0, 1);
 
 StructuredShape analysed(const Shape& shape, const std::optional<PrimitiveKind>& kind) {
@@ -67,7 +67,7 @@ ImprovementOptions options_of(const Task& task, const Limits& limits) {
 Requirements requirements_of(const Variant& variant, double target) {
   Requirements requirements;
   requirements.target = target;
-  requirements.measure = measure;
+  requirements.measure = frame_measure;
   requirements.keep_height = variant.keep_height;
   return requirements;
 }
@@ -95,8 +95,8 @@ const Variant& mixed_variant() {
 
 Subject::Subject(const Shape& shape)
     : rest_(analysed(shape, {})),
-      meter_(rest_, measure.boxes),
-      at_rest_(stackability(rest_.shape, upwards, measure).value) {}
+      meter_(rest_, frame_measure.boxes),
+      at_rest_(stackability(rest_.shape, upwards, frame_measure).value) {}
 
 bool Subject::consists_of(PrimitiveKind kind) const {
   return std::all_of(rest_.structure.parts.begin(), rest_.structure.parts.end(), [&](const Part& part) {

@@ -29,9 +29,7 @@
 #include "stackabilization/rendering/depth_raster.h"
 #endif
 
-using namespace stackabilization;
-using namespace stackabilization::experiments;
-
+namespace stackabilization::experiments {
 namespace {
 
 struct Settings {
@@ -216,8 +214,11 @@ void add_plot(const ByMethod& methods, Report& report) {
 }
 
 }  // namespace
+}  // namespace stackabilization::experiments
 
 int main(int argc, char** argv) {
+  using namespace stackabilization;
+  using namespace stackabilization::experiments;
   Experiment experiment(
       "minimal_translation",
       "Do five ways to the minimal translation agree, and what does a direction cost by each?",

@@ -26,9 +26,7 @@
 #include "study/manual_work.h"
 #include "study/study_summary.h"
 
-using namespace stackabilization;
-using namespace stackabilization::experiments;
-
+namespace stackabilization::experiments {
 namespace {
 
 struct Settings {
@@ -148,8 +146,11 @@ void add_options(Settings& settings, CLI::App& app) {
 }
 
 }  // namespace
+}  // namespace stackabilization::experiments
 
 int main(int argc, char** argv) {
+  using namespace stackabilization;
+  using namespace stackabilization::experiments;
   Experiment experiment(
       "study", "What does the automatic method gain over editing by hand, with the same tool?", Inputs::none);
   Settings settings;

@@ -15,12 +15,13 @@ namespace stackabilization {
 
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
-using Triangle = Kernel::Triangle_3;
-using TrianglePrimitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive>>;
+using Cartesian = CGAL::Simple_cartesian<double>;
+using CartesianTriangle = Cartesian::Triangle_3;
+using TrianglePrimitive =
+    CGAL::AABB_triangle_primitive<Cartesian, std::vector<CartesianTriangle>::const_iterator>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Cartesian, TrianglePrimitive>>;
 
-Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
+Cartesian::Point_3 to_cgal(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
@@ -35,7 +36,7 @@ Eigen::Vector3d double_area_normal(const Shape& shape, Eigen::Index t) {
 }  // namespace
 
 struct SurfaceIndex::Data {
-  std::vector<Triangle> triangles;
+  std::vector<CartesianTriangle> triangles;
   std::vector<std::int32_t> rows;  ///< per entry of `triangles`
   Tree tree;
 };

@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// All that is below a folder: what links lead to, rights and bytes.
-std::map<std::string, std::string> contents(const fs::path& folder) {
+std::map<std::string, std::string> everything_below(const fs::path& folder) {
   std::map<std::string, std::string> all;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     std::string& what = all[entry.path().string()];
@@ -26,11 +26,6 @@ std::map<std::string, std::string> contents(const fs::path& folder) {
 }
 
 }  // namespace
-
-Arguments joined(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 const std::vector<Output>& outputs() {
   static const std::vector<Output> all = {
@@ -89,14 +84,14 @@ void Scene::check_refused(const Arguments& arguments, const std::string& words) 
   std::string text;
   for (const std::string& argument : arguments) text += argument + " ";
   INFO(text);
-  const auto before = contents(path());
+  const auto before = everything_below(path());
   const Outcome outcome = run_program(arguments);
   INFO(outcome.err);
   CHECK(outcome.status == 2);
   CHECK(outcome.out.empty());
   CHECK(is_one_sentence(outcome.err));
   CHECK(std::regex_search(outcome.err, std::regex(words)));
-  CHECK(contents(path()) == before);
+  CHECK(everything_below(path()) == before);
 }
 
 const std::map<std::string, Same>& ways_to_be_the_same() {

@@ -11,10 +11,6 @@
 /// Command lines whose inputs and outputs are one file.
 namespace stackabilization::apps {
 
-using Arguments = std::vector<std::string>;
-
-Arguments joined(Arguments a, const Arguments& b);
-
 /// An option that names what is written, and the rest of a command line that gets as far as looking at files.
 struct Output {
   std::string command, option, extension;  ///< of a file; empty: a folder

@@ -1,30 +1,8 @@
 #include "apps/resumed_run.h"
 
-#include <map>
-
-#include "apps/run_program.h"
 #include "support/catch.h"
 
 namespace stackabilization::apps {
-
-namespace {
-
-namespace fs = std::filesystem;
-using Arguments = std::vector<std::string>;
-
-Arguments joined(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    files[entry.path().filename().string()] = bytes_of(entry.path().string());
-  return files;
-}
-
-}  // namespace
 
 Arguments ResumableTask::into(const std::string& folder, const Arguments& further) const {
   return joined(joined({"improve", model.string(), "--no-pictures", "--quiet", "-o", folder}, options),

@@ -2,16 +2,17 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
+
+#include "apps/run_program.h"
 
 namespace stackabilization::apps {
 
 /// A task for `improve`. Its directions are not given, so that they are looked for.
 struct ResumableTask {
   std::filesystem::path model;
-  std::vector<std::string> options;
+  Arguments options;
 
-  std::vector<std::string> into(const std::string& folder, const std::vector<std::string>& further) const;
+  Arguments into(const std::string& folder, const Arguments& further) const;
 };
 
 /// Runs the task at once, and in pieces that a limit of expansions and a signal end, however far that is, and

@@ -23,6 +23,17 @@ std::string quoted(const std::string& argument) {
 
 }  // namespace
 
+Arguments joined(Arguments a, const Arguments& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+const std::vector<std::string>& command_names() {
+  static const std::vector<std::string> names = {"inspect",  "measure",   "search", "map",     "stack",
+                                                 "validate", "structure", "deform", "suggest", "improve"};
+  return names;
+}
+
 TemporaryFolder::TemporaryFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "stackabilize-XXXXXX").string();
   if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
@@ -52,8 +63,11 @@ std::vector<std::string> TemporaryFolder::names() const {
   return names;
 }
 
-Outcome run_program(const std::vector<std::string>& arguments, const std::string& input,
-                    const std::string& prefix) {
+Eigen::Vector3d vector_of(const nlohmann::json& numbers) {
+  return {numbers[0].get<double>(), numbers[1].get<double>(), numbers[2].get<double>()};
+}
+
+Outcome run_program(const Arguments& arguments, const std::string& input, const std::string& prefix) {
   const TemporaryFolder folder;
   std::string command = prefix;
   command.append(" ").append(quoted(STACKABILIZATION_PROGRAM));
@@ -75,7 +89,7 @@ bool is_one_sentence(const std::string& text) {
          std::count(text.begin(), text.end(), '\n') == 1 && text.size() > shortest;
 }
 
-void check_refused(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int status,
+void check_refused(const TemporaryFolder& folder, const Arguments& arguments, int status,
                    const std::string& words) {
   std::string line = "stackabilize";
   for (const std::string& argument : arguments) line += " " + argument;
@@ -93,6 +107,14 @@ void check_refused(const TemporaryFolder& folder, const std::vector<std::string>
 std::string bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
+}
+
+std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  if (!std::filesystem::exists(folder)) return files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    files[entry.path().filename().string()] = bytes_of(entry.path().string());
+  return files;
 }
 
 }  // namespace stackabilization::apps

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -8,6 +10,14 @@
 #include "stackabilization/core/shape.h"
 
 namespace stackabilization::apps {
+
+/// Of a command line, without the program.
+using Arguments = std::vector<std::string>;
+
+Arguments joined(Arguments a, const Arguments& b);
+
+/// Of all commands of `stackabilize`.
+const std::vector<std::string>& command_names();
 
 /// A folder of its own, gone with the object.
 class TemporaryFolder {
@@ -39,8 +49,10 @@ struct Outcome {
   nlohmann::json json() const { return nlohmann::json::parse(out); }
 };
 
+Eigen::Vector3d vector_of(const nlohmann::json& numbers);
+
 /// Runs `stackabilize` with these arguments and `input` on standard input. `prefix` goes before the program.
-Outcome run_program(const std::vector<std::string>& arguments, const std::string& input = "",
+Outcome run_program(const Arguments& arguments, const std::string& input = "",
                     const std::string& prefix = "");
 
 /// Is it one sentence of the program, on one line?
@@ -48,9 +60,12 @@ bool is_one_sentence(const std::string& text);
 
 /// Runs it and checks that it ends with `status`, with nothing on standard output and one sentence that
 /// contains `words`, and that `folder` has the files that it had.
-void check_refused(const TemporaryFolder& folder, const std::vector<std::string>& arguments, int status,
+void check_refused(const TemporaryFolder& folder, const Arguments& arguments, int status,
                    const std::string& words);
 
 std::string bytes_of(const std::string& path);
+
+/// Names and bytes of the files of a folder; none when there is no folder.
+std::map<std::string, std::string> contents(const std::filesystem::path& folder);
 
 }  // namespace stackabilization::apps

@@ -7,8 +7,6 @@ using namespace stackabilization::apps;
 
 namespace {
 
-using Arguments = std::vector<std::string>;
-
 struct BoxFolder : TemporaryFolder {
   std::string box = model("box.obj", solids::box({1, 2, 3}));
 };

@@ -1,9 +1,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "apps/run_program.h"
+#include "apps/table_folder.h"
 #include "stackabilization/io/read.h"
 #include "support/catch.h"
+#include "support/differences.h"
 #include "support/solids.h"
 
 using namespace stackabilization;
@@ -11,22 +12,6 @@ using namespace stackabilization::apps;
 using nlohmann::json;
 
 namespace {
-
-using Arguments = std::vector<std::string>;
-
-struct TableFolder : TemporaryFolder {
-  std::string table = model("table.obj", solids::table({}));
-  std::string project;
-
-  TableFolder() : project(*this / "table.json") {
-    REQUIRE(run_program({"structure", table, "--save", project}).status == 0);
-  }
-};
-
-Arguments joined(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 json deformed(const Arguments& arguments) {
   const Outcome outcome = run_program(joined({"deform"}, joined(arguments, {"--json", "-", "--no-timing"})));
@@ -36,19 +21,10 @@ json deformed(const Arguments& arguments) {
   return outcome.json();
 }
 
-Eigen::Vector3d vector_of(const json& numbers) {
-  return {numbers[0].get<double>(), numbers[1].get<double>(), numbers[2].get<double>()};
-}
-
-double largest_difference(const Shape& a, const Shape& b) {
-  REQUIRE(a.vertices.rows() == b.vertices.rows());
-  return (a.vertices - b.vertices).cwiseAbs().maxCoeff();
-}
-
 }  // namespace
 
 TEST_CASE("an edit is made, the others follow, and the result says what became of relations and size") {
-  const TableFolder folder;
+  const TableProject folder;
   const std::string output = folder / "wide.obj";
   const json document = deformed({folder.project, "--edit", "top scale 2 along 1 0 0", "-o", output});
   CHECK(document["command"] == "deform");
@@ -69,7 +45,7 @@ TEST_CASE("an edit is made, the others follow, and the result says what became o
 }
 
 TEST_CASE("edits spread to symmetric parts, and a mesh is analysed on the way") {
-  const TableFolder folder;
+  const TableProject folder;
   const std::string from_project = folder / "a.obj", from_mesh = folder / "b.obj";
   const std::string edit = "leg_1 scale 0.5 along 1 0 0";
   const json document = deformed({folder.project, "--edit", edit, "-o", from_project});
@@ -83,7 +59,7 @@ TEST_CASE("edits spread to symmetric parts, and a mesh is analysed on the way") 
 }
 
 TEST_CASE("an edit that changes nothing gives the mesh back") {
-  const TableFolder folder;
+  const TableProject folder;
   const std::string output = folder / "same.obj";
   const std::vector<std::pair<std::string, std::string>> idle = {
       {"controllers", "top move 0 0 0"},
@@ -95,12 +71,12 @@ TEST_CASE("an edit that changes nothing gives the mesh back") {
     const json document = deformed({folder.project, "--model", model, "--edit", edit, "-o", output});
     CHECK(document["refusal"].is_null());
     CHECK(document["displacement"]["largest"].get<double>() < 1e-11);
-    CHECK(largest_difference(read_shape(output), solids::table({})) < 1e-11);
+    CHECK(largest_difference(read_shape(output).vertices, solids::table({}).vertices) < 1e-11);
   }
 }
 
 TEST_CASE("every model makes the edits it is for") {
-  const TableFolder folder;
+  const TableProject folder;
   for (const std::string model : {"surface", "iwires", "gap-scaling"}) {
     INFO(model);
     const json document =
@@ -116,18 +92,18 @@ TEST_CASE("every model makes the edits it is for") {
 }
 
 TEST_CASE("edits are made in order, and a saved result is a new shape at rest") {
-  const TableFolder folder;
+  const TableProject folder;
   const std::string both = folder / "both.obj", last = folder / "last.obj", middle = folder / "middle.json";
   const Arguments first = {"--edit", "top scale 2"}, second = {"--edit", "leg_1 scale 0.5"};
   deformed(joined({folder.project, "-o", both}, joined(first, second)));
   const json half = deformed(joined({folder.project, "--save", middle}, first));
   const json document = deformed(joined({middle, "-o", last}, second));
   CHECK(document["size_before"] == half["size_after"]);
-  CHECK(largest_difference(read_shape(both), read_shape(last)) < 1e-6);
+  CHECK(largest_difference(read_shape(both).vertices, read_shape(last).vertices) < 1e-6);
 }
 
 TEST_CASE("what would break a wish is refused with 1, a reason, and nothing written") {
-  const TableFolder folder;
+  const TableProject folder;
   const std::string output = folder / "never.obj", project = folder / "never.json";
   const std::vector<std::string> before = folder.names();
   const std::vector<Arguments> wishes = {{"--edit", "top scale 2", "--box-tolerance", "0.1"},
@@ -150,7 +126,7 @@ TEST_CASE("what would break a wish is refused with 1, a reason, and nothing writ
 }
 
 TEST_CASE("a refusal names the relation that would break, and by how much") {
-  const TableFolder folder;
+  const TableProject folder;
   const json refusal = deformed({folder.project, "--edit", "top move 1 0 0"})["refusal"];
   REQUIRE(refusal["relation"].is_object());
   CHECK(refusal["relation"]["type"] == "self_symmetry");
@@ -161,7 +137,7 @@ TEST_CASE("a refusal names the relation that would break, and by how much") {
 }
 
 TEST_CASE("handles are listed with their centres, and all of them can be edited") {
-  const TableFolder folder;
+  const TableProject folder;
   const json document = run_program({"deform", folder.project, "--list-handles", "--json", "-"}).json();
   std::vector<std::string> handles;
   for (const json& handle : document["handles"]) {
@@ -178,7 +154,7 @@ TEST_CASE("handles are listed with their centres, and all of them can be edited"
 }
 
 TEST_CASE("extent, parts and points are kept when asked for") {
-  const TableFolder folder;
+  const TableProject folder;
   const Arguments wider = {folder.project, "--edit", "top scale 2"};
   const json kept = deformed(joined(wider, {"--keep-extent", "0", "0", "1"}));
   CHECK(kept["refusal"].is_null());
@@ -194,7 +170,7 @@ TEST_CASE("extent, parts and points are kept when asked for") {
 }
 
 TEST_CASE("wrong uses of deform and structure end with 2 and name the mistake") {
-  const TableFolder folder;
+  const TableProject folder;
   const std::string& project = folder.project;
   const std::vector<std::pair<Arguments, std::string>> cases = {
       {{"deform", project}, "expected --edit"},
@@ -244,7 +220,7 @@ TEST_CASE("wrong uses of deform and structure end with 2 and name the mistake") 
 }
 
 TEST_CASE("projects that are damaged end with 3 and one sentence") {
-  const TableFolder folder;
+  const TableProject folder;
   const std::string good = bytes_of(folder.project);
   for (std::size_t k = 1; k < 12; ++k) {
     const std::string project = folder.file("cut.json", good.substr(0, good.size() * k / 12));

@@ -4,6 +4,7 @@
 #include "apps/edit_grammar.h"
 #include "stackabilization/core/errors.h"
 #include "support/catch.h"
+#include "support/messages.h"
 
 using namespace stackabilization;
 using namespace stackabilization::apps;
@@ -18,12 +19,7 @@ Handle handle_of(const std::string& text) {
 }
 
 std::string sentence_about(const std::string& text) {
-  try {
-    parse_edit(text, parts);
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return message_of<UsageError>([&] { parse_edit(text, parts); });
 }
 
 }  // namespace

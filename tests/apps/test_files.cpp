@@ -38,7 +38,7 @@ std::set<std::string> file_options(const std::string& command) {
   return options;
 }
 
-std::vector<std::string> commands() {
+std::vector<std::string> commands_in_help() {
   const std::string help = run_program({"--help"}).out;
   const std::size_t start = help.find("Subcommands:"), stop = help.find("Example:");
   const std::string list = help.substr(start, stop - start);
@@ -54,7 +54,7 @@ std::vector<std::string> commands() {
 TEST_CASE("the table of outputs has every option of every command that names a file or a folder") {
   std::map<std::string, std::set<std::string>> known;
   for (const Output& output : outputs()) known[output.command].insert(output.option);
-  const std::vector<std::string> all = commands();
+  const std::vector<std::string> all = commands_in_help();
   CHECK(all.size() == known.size());
   for (const std::string& command : all) {
     INFO(command);

@@ -9,9 +9,6 @@ using namespace stackabilization::apps;
 
 namespace {
 
-const std::vector<std::string> commands = {"inspect",  "measure",   "search", "map",     "stack",
-                                           "validate", "structure", "deform", "suggest", "improve"};
-
 /// "--json" and "-o" in a help text; the descriptions mention options too.
 std::set<std::string> options_in(const std::string& help) {
   std::set<std::string> options;
@@ -26,7 +23,7 @@ std::set<std::string> options_in(const std::string& help) {
 TEST_CASE("help of the program and of every command shows an example that names it") {
   const Outcome program = run_program({"--help"});
   CHECK(program.status == 0);
-  for (const std::string& command : commands) {
+  for (const std::string& command : command_names()) {
     CHECK(program.out.find(command) != std::string::npos);
     const Outcome help = run_program({command, "--help"});
     CHECK(help.status == 0);
@@ -38,13 +35,14 @@ TEST_CASE("help of the program and of every command shows an example that names 
 TEST_CASE("version is told by the program and by every command") {
   const std::string version = run_program({"--version"}).out;
   CHECK(std::regex_match(version, std::regex("stackabilize [0-9]+\\.[0-9]+\\.[0-9]+\n")));
-  for (const std::string& command : commands) CHECK(run_program({command, "--version"}).out == version);
+  for (const std::string& command : command_names())
+    CHECK(run_program({command, "--version"}).out == version);
 }
 
 TEST_CASE("the manual page explains every option") {
   const std::string page = bytes_of(STACKABILIZATION_SOURCE_DIR "/docs/stackabilize.1");
   REQUIRE(!page.empty());
-  for (const std::string& command : commands) {
+  for (const std::string& command : command_names()) {
     CHECK(page.find(".It Cm " + command + "\n") != std::string::npos);
     const std::set<std::string> options = options_in(run_program({command, "--help"}).out);
     CHECK(options.size() > 8);

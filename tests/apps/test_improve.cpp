@@ -1,5 +1,5 @@
 #include <Eigen/Geometry>
-#include <algorithm>
+#include <map>
 #include <numbers>
 #include <pugixml.hpp>
 #include <set>
@@ -17,12 +17,6 @@ using nlohmann::json;
 namespace {
 
 namespace fs = std::filesystem;
-using Arguments = std::vector<std::string>;
-
-Arguments joined(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 solids::FrustumShell coarse() {
   solids::FrustumShell cup;
@@ -31,7 +25,7 @@ solids::FrustumShell coarse() {
 }
 
 /// A cup that a search of a second makes stack better, and the folder for what is found.
-struct CupFolder : TemporaryFolder {
+struct ImprovableCup : TemporaryFolder {
   std::string cup = model("cup.obj", solids::frustum_shell(coarse()));
   std::string out = *this / "out";
 
@@ -50,16 +44,6 @@ struct CupFolder : TemporaryFolder {
   std::string written(const std::string& name) const { return bytes_of((fs::path(out) / name).string()); }
   json document(const std::string& name) const { return json::parse(written(name)); }
 };
-
-/// Name and bytes of all files of a folder but its pictures.
-std::vector<std::pair<std::string, std::string>> contents(const std::string& folder) {
-  std::vector<std::pair<std::string, std::string>> files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    if (entry.path().extension() != ".png")
-      files.emplace_back(entry.path().filename().string(), bytes_of(entry.path().string()));
-  std::sort(files.begin(), files.end());
-  return files;
-}
 
 std::set<std::string> names_in(const std::string& folder) {
   std::set<std::string> names;
@@ -85,7 +69,7 @@ void check_page(const std::string& folder) {
   CHECK(references >= 4);
 }
 
-void check_solution(const CupFolder& folder, const json& solution) {
+void check_solution(const ImprovableCup& folder, const json& solution) {
   const std::string name = solution["name"];
   INFO(name);
   CHECK(folder.document(name + ".json") == solution);
@@ -116,7 +100,7 @@ void check_solution(const CupFolder& folder, const json& solution) {
 }  // namespace
 
 TEST_CASE("a cup is made to stack: solutions, best first, that are what they say") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   const Outcome outcome = run_program(folder.more(2));
   INFO(outcome.err << outcome.out);
   REQUIRE(outcome.status == 0);
@@ -139,7 +123,7 @@ TEST_CASE("a cup is made to stack: solutions, best first, that are what they say
 }
 
 TEST_CASE("suggest goes on from the solutions, and back to the shape at rest") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   REQUIRE(run_program(folder.more(2)).status == 0);
   const json solutions = folder.document("result.json")["solutions"];
   const std::string project = folder.out + "/solutions.stackabilize.json";
@@ -160,7 +144,7 @@ TEST_CASE("suggest goes on from the solutions, and back to the shape at rest") {
 }
 
 TEST_CASE("edits of a solution make the same file with deform") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   REQUIRE(run_program(folder.more()).status == 0);
   const json solution = folder.document("solution_1.json");
   const std::string again = folder / "again.obj";
@@ -173,24 +157,24 @@ TEST_CASE("edits of a solution make the same file with deform") {
 }
 
 TEST_CASE("the same bytes for any number of threads, on paper and on standard output") {
-  const CupFolder one, two;
+  const ImprovableCup one, two;
   const Outcome first = run_program(joined(one.more(), {"--threads", "1", "--json", "-"}));
   const Outcome second = run_program(joined(two.more(), {"--threads", "2", "--json", "-"}));
   CHECK(first.status == 0);
   CHECK(first.json()["solutions"] == second.json()["solutions"]);
   CHECK(first.out == one.written("result.json"));
-  std::vector<std::pair<std::string, std::string>> a = contents(one.out), b = contents(two.out);
+  const std::map<std::string, std::string> a = contents(one.out), b = contents(two.out);
   REQUIRE(a.size() == b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    CHECK(a[i].first == b[i].first);
+  for (const auto& [name, bytes] : a) {
+    INFO(name);
+    REQUIRE(b.contains(name));
     // It names the model's folder, and the list has its hash.
-    if (a[i].first != "result.json" && a[i].first != "stackabilize-files.json")
-      CHECK(a[i].second == b[i].second);
+    if (name != "result.json" && name != "stackabilize-files.json") CHECK(b.at(name) == bytes);
   }
 }
 
 TEST_CASE("so many copies within a length become a target, and the stack fits") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   const Stackability now = stackability(read_shape(folder.cup), {0, 0, 1});
   const double room = now.extent + 9 * now.f_max * 0.95;
   const Outcome outcome =
@@ -211,7 +195,7 @@ TEST_CASE("so many copies within a length become a target, and the stack fits") 
 }
 
 TEST_CASE("up is the axis of a cup that stands aslant by half a degree") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   const double angle = 0.5 * std::numbers::pi / 180;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()).toRotationMatrix();
   const std::string aslant =
@@ -226,7 +210,7 @@ TEST_CASE("up is the axis of a cup that stands aslant by half a degree") {
 }
 
 TEST_CASE("a target that is met already has one solution, the shape as it is") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   const Outcome outcome = run_program(folder.along_z({"--target", "-1", "--solutions", "3"}));
   INFO(outcome.err << outcome.out);
   CHECK(outcome.status == 0);
@@ -239,7 +223,7 @@ TEST_CASE("a target that is met already has one solution, the shape as it is") {
 }
 
 TEST_CASE("a target out of reach ends with 1, what came nearest and the reason") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   const std::string part = read_shape(folder.cup).part_names[0];
   const Outcome told = run_program(folder.along_z({"--target", "0.9", "--keep", part, "--expansions", "5"}));
   INFO(told.err << told.out);
@@ -260,7 +244,7 @@ TEST_CASE("a target out of reach ends with 1, what came nearest and the reason")
 }
 
 TEST_CASE("files of an earlier run go, other files stay") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   REQUIRE(
       run_program(folder.along_z({"--target", "0.97", "--preset", "paper", "--expansions", "3"})).status ==
       1);
@@ -283,7 +267,7 @@ TEST_CASE("files of an earlier run go, other files stay") {
 }
 
 TEST_CASE("a file of an earlier run that was changed since stays, and is named") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   REQUIRE(run_program(folder.more()).status == 0);
   const std::string project = folder.out + "/solutions.stackabilize.json";
   REQUIRE(run_program({"suggest", project, "--roll-back", "0"}).status == 0);
@@ -297,7 +281,7 @@ TEST_CASE("a file of an earlier run that was changed since stays, and is named")
 }
 
 TEST_CASE("a folder that has only the state of a search is gone on with, by its content") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   const auto far = [&](const char* expansions) {
     return folder.along_z({"--target", "0.97", "--preset", "paper", "--expansions", expansions});
   };
@@ -309,7 +293,7 @@ TEST_CASE("a folder that has only the state of a search is gone on with, by its 
 }
 
 TEST_CASE("names that mean something in HTML do not break the page") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   Shape cup = read_shape(folder.cup);
   cup.part_names[0] = "<b>a&b'\"]]>";
   const std::string model = folder.model("<i>&'\"\xc3\xa9.obj", cup);
@@ -323,8 +307,8 @@ TEST_CASE("names that mean something in HTML do not break the page") {
 }
 
 TEST_CASE("an interrupted run says what it has, and goes on to the same result") {
-  const CupFolder folder, whole;
-  const auto far = [](const CupFolder& where, std::int64_t expansions) {
+  const ImprovableCup folder, whole;
+  const auto far = [](const ImprovableCup& where, std::int64_t expansions) {
     return where.along_z(
         {"--target", "0.97", "--preset", "paper", "--expansions", std::to_string(expansions)});
   };
@@ -348,7 +332,7 @@ TEST_CASE("an interrupted run says what it has, and goes on to the same result")
 }
 
 TEST_CASE("a resumed run starts anew where there is nothing, and refuses the state of another search") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   const Outcome anew = run_program(joined(folder.more(), {"--resume"}));
   CHECK(anew.status == 0);
   CHECK(is_one_sentence(anew.err));
@@ -366,7 +350,7 @@ TEST_CASE("a resumed run starts anew where there is nothing, and refuses the sta
 }
 
 TEST_CASE("a run without --time is the same for every machine, and --effort says how much it does") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   const auto run = [&](const std::string& effort, const Arguments& further) {
     return run_program(joined({"improve", folder.cup, "--target", "0.97", "--effort", effort, "--no-pictures",
                                "--json", "-", "-o", folder.out},
@@ -382,8 +366,8 @@ TEST_CASE("a run without --time is the same for every machine, and --effort says
 }
 
 TEST_CASE("a deadline that is met is told, and its run goes on with the directions that it had") {
-  const CupFolder folder, whole;
-  const auto task = [](const CupFolder& where, const Arguments& further) {
+  const ImprovableCup folder, whole;
+  const auto task = [](const ImprovableCup& where, const Arguments& further) {
     return joined({"improve", where.cup, "--target", "0.97", "--effort", "0.01", "--no-pictures",
                    "--no-timing", "-o", where.out},
                   further);
@@ -423,7 +407,7 @@ TEST_CASE("a direction that is given is kept, one that is free may turn, and eac
 }
 
 TEST_CASE("stack and improve name the same stackability for the same copies in the same room") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   const Stackability now = stackability(read_shape(folder.cup), {0, 0, 1});
   const std::string room = std::to_string(now.extent + 4 * 0.8 * now.f_max);
   for (const Arguments& air :
@@ -463,7 +447,7 @@ TEST_CASE("a part that is not there is answered with those that are, in every op
 }
 
 TEST_CASE("wrong uses of improve end with 2, name the mistake and leave no folder") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   const std::string& cup = folder.cup;
   const Arguments good = {"improve", cup, "-o", folder.out}, target = {"--target", "0.5"};
   const std::vector<std::pair<Arguments, std::string>> cases = {
@@ -513,7 +497,7 @@ TEST_CASE("wrong uses of improve end with 2, name the mistake and leave no folde
 }
 
 TEST_CASE("improve replaces no file that it reads") {
-  const CupFolder folder;
+  const ImprovableCup folder;
   fs::create_directory(folder.out);
   const std::string model = folder.out + "/solution_2.obj";
   fs::copy_file(folder.cup, model);

@@ -14,25 +14,8 @@ using nlohmann::json;
 
 namespace {
 
-namespace fs = std::filesystem;
-using Arguments = std::vector<std::string>;
-
 /// Shares of the time that a whole run takes, after which others are killed.
 constexpr double moments[] = {0.3, 0.7, 0.95};
-
-Arguments joined(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-/// Name and bytes of all files of a folder, none when there is no folder.
-std::map<std::string, std::string> contents(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  if (!fs::exists(folder)) return files;
-  for (const auto& entry : fs::directory_iterator(folder))
-    files[entry.path().filename().string()] = bytes_of(entry.path().string());
-  return files;
-}
 
 /// Runs the program and kills it after so many seconds, if it still runs then.
 void run_and_kill(const Arguments& arguments, double seconds) {

@@ -16,11 +16,6 @@ using namespace stackabilization::apps;
 
 namespace {
 
-using Arguments = std::vector<std::string>;
-
-const Arguments commands = {"inspect",  "measure",   "search", "map",     "stack",
-                            "validate", "structure", "deform", "suggest", "improve"};
-
 struct NumericOption {
   std::string command, name, kind;
 };
@@ -30,7 +25,7 @@ std::vector<NumericOption> numeric_options() {
   std::vector<NumericOption> options;
   const std::regex line(
       "\n +(?:-[a-zA-Z],)?(--?[a-z][a-z-]*) (NUMBER|FRACTION|LENGTH|N|A\\|auto|X Y Z)[ \n]");
-  for (const std::string& command : commands) {
+  for (const std::string& command : command_names()) {
     const std::string help = run_program({command, "--help"}).out;
     for (std::sregex_iterator match(help.begin(), help.end(), line), end; match != end; ++match)
       options.push_back({command, (*match)[1], (*match)[2]});

@@ -11,13 +11,6 @@ using nlohmann::json;
 
 namespace {
 
-using Arguments = std::vector<std::string>;
-
-Arguments joined(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
 /// One quick run of every command.
 std::vector<Arguments> every_command(const std::string& model) {
   return {{"inspect", model},

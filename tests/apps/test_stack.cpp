@@ -11,9 +11,8 @@ using nlohmann::json;
 
 namespace {
 
-const solids::FrustumShell cup;
-
 struct CupFolder : TemporaryFolder {
+  solids::FrustumShell cup;
   std::string cup_file = model("cup.obj", solids::frustum_shell(cup));
 };
 
@@ -25,13 +24,13 @@ TEST_CASE("stack puts copies f_max apart and writes them as a mesh") {
   const Outcome outcome = run_program({"stack", folder.cup_file, "-n", "5", "-o", mesh, "--json", "-"});
   REQUIRE(outcome.status == 0);
   const json result = outcome.json();
-  const double f_max = solids::frustum_shell_f_max(cup);
+  const double f_max = solids::frustum_shell_f_max(folder.cup);
   CHECK(result["n"] == 5);
   REQUIRE(result["offsets"].size() == 5);
   for (int k = 0; k < 5; ++k) CHECK(result["offsets"][k].get<double>() == Approx(k * f_max).epsilon(1e-12));
   const json exact = result["exact_offsets"][4];
   CHECK(Rational(exact["numerator"], exact["denominator"]).to_double() == result["offsets"][4].get<double>());
-  const double height = cup.height + 4 * f_max;
+  const double height = folder.cup.height + 4 * f_max;
   CHECK(result["height"].get<double>() == Approx(height).epsilon(1e-12));
   CHECK(result["nesting_increment"].get<double>() == Approx(f_max).epsilon(1e-12));
   CHECK(result["stackability"].get<double>() ==
@@ -120,8 +119,8 @@ TEST_CASE("meshes are written in the units of their formats, and a unit that is 
     }
     const Shape stack = read_shape(mesh);
     const double height = stack.vertices.col(2).maxCoeff() - stack.vertices.col(2).minCoeff();
-    CHECK(height ==
-          Approx(wanted.factor * (cup.height + 2 * solids::frustum_shell_f_max(cup))).epsilon(1e-6));
+    CHECK(height == Approx(wanted.factor * (folder.cup.height + 2 * solids::frustum_shell_f_max(folder.cup)))
+                        .epsilon(1e-6));
   }
 }
 
@@ -132,7 +131,7 @@ TEST_CASE("clearances lift the copies") {
     arguments.insert(arguments.end(), more.begin(), more.end());
     return run_program(arguments).json()["nesting_increment"].get<double>();
   };
-  const double f_max = solids::frustum_shell_f_max(cup);
+  const double f_max = solids::frustum_shell_f_max(folder.cup);
   CHECK(increment({"--clearance", "0.25"}) == Approx(f_max + 0.25).epsilon(1e-12));
   CHECK(increment({"--clearance", "2.5mm"}) == Approx(f_max + 0.25).epsilon(1e-12));
   CHECK(increment({"--lateral-clearance", "0.05"}) > f_max);
@@ -140,8 +139,8 @@ TEST_CASE("clearances lift the copies") {
 
 TEST_CASE("a wish that is met ends with 0, one that is not with 1, and both say what it takes") {
   const CupFolder folder;
-  const double f_max = solids::frustum_shell_f_max(cup);
-  const double height = cup.height + 9 * f_max;
+  const double f_max = solids::frustum_shell_f_max(folder.cup);
+  const double height = folder.cup.height + 9 * f_max;
   const auto wished = [&](double length) {
     return run_program(
         {"stack", folder.cup_file, "-n", "10", "--within", std::to_string(length), "--json", "-"});

@@ -1,7 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "apps/run_program.h"
+#include "apps/table_folder.h"
 #include "support/catch.h"
 #include "support/solids.h"
 
@@ -11,16 +11,8 @@ using nlohmann::json;
 
 namespace {
 
-using Arguments = std::vector<std::string>;
-
-struct TableFolder : TemporaryFolder {
-  std::string table = model("table.obj", solids::table({}));
-};
-
-json structure_of(const std::string& model, Arguments further = {}) {
-  Arguments arguments = {"structure", model, "--json", "-", "--no-timing"};
-  arguments.insert(arguments.end(), further.begin(), further.end());
-  const Outcome outcome = run_program(arguments);
+json structure_of(const std::string& model, const Arguments& further = {}) {
+  const Outcome outcome = run_program(joined({"structure", model, "--json", "-", "--no-timing"}, further));
   INFO(outcome.err);
   REQUIRE(outcome.status == 0);
   return outcome.json();
@@ -31,10 +23,6 @@ json relations_of(const json& document, const std::string& type) {
   for (const json& relation : document["relations"])
     if (relation["type"] == type) found.push_back(relation);
   return found;
-}
-
-Eigen::Vector3d vector_of(const json& numbers) {
-  return {numbers[0].get<double>(), numbers[1].get<double>(), numbers[2].get<double>()};
 }
 
 const json& primitive_of(const json& document, const std::string& part) {

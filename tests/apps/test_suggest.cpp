@@ -1,30 +1,15 @@
 #include <algorithm>
 #include <set>
 
-#include "apps/run_program.h"
+#include "apps/table_folder.h"
 #include "stackabilization/io/read.h"
 #include "support/catch.h"
-#include "support/solids.h"
 
 using namespace stackabilization;
 using namespace stackabilization::apps;
 using nlohmann::json;
 
 namespace {
-
-using Arguments = std::vector<std::string>;
-
-struct TableFolder : TemporaryFolder {
-  std::string table = model("table.obj", solids::table({}));
-  std::string project = *this / "table.json";
-
-  TableFolder() { REQUIRE(run_program({"structure", table, "--save", project}).status == 0); }
-};
-
-Arguments joined(Arguments a, const Arguments& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
 
 json suggested(const Arguments& arguments) {
   const Outcome outcome =
@@ -51,7 +36,7 @@ double measured(const std::string& mesh) {
 }  // namespace
 
 TEST_CASE("suggestions are listed best first, with what each would do") {
-  const TableFolder folder;
+  const TableProject folder;
   const json document = suggested({folder.project, "--top", "1000"});
   CHECK(document["command"] == "suggest");
   CHECK(document["applied"].is_null());
@@ -79,7 +64,7 @@ TEST_CASE("suggestions are listed best first, with what each would do") {
 }
 
 TEST_CASE("a suggestion is what deform makes of its edit, the ends of the height fixed") {
-  const TableFolder folder;
+  const TableProject folder;
   int different = 0;
   for (const json& one : suggestions({folder.project, "--top", "4"})) {
     const Arguments deform = {
@@ -95,7 +80,7 @@ TEST_CASE("a suggestion is what deform makes of its edit, the ends of the height
 }
 
 TEST_CASE("a session: take one, take another, go back, take a third; the file is a tree") {
-  const TableFolder folder;
+  const TableProject folder;
   const json start = suggested({folder.project});
   CHECK(bytes_of(folder.project).find("history") == std::string::npos);  // looking changes nothing
   const json one = suggested({folder.project, "--apply", "1"});
@@ -121,7 +106,7 @@ TEST_CASE("a session: take one, take another, go back, take a third; the file is
 }
 
 TEST_CASE("a mesh gives the same session as its project file, once it is saved") {
-  const TableFolder folder;
+  const TableProject folder;
   const std::string saved = folder / "session.json";
   const json from_mesh = suggested({folder.table, "--save", saved, "--apply", "1"});
   const json from_project = suggested({folder.project, "--apply", "1"});
@@ -130,7 +115,7 @@ TEST_CASE("a mesh gives the same session as its project file, once it is saved")
 }
 
 TEST_CASE("other commands start from the shape at rest; structure keeps the history, deform begins anew") {
-  const TableFolder folder;
+  const TableProject folder;
   const Arguments deform = {"--edit", "top scale 1.1", "--keep-extent", "0", "0", "1"};
   const std::string before = folder / "before.obj", after = folder / "after.obj";
   REQUIRE(run_program(joined({"deform", folder.project, "-o", before}, deform)).status == 0);
@@ -145,7 +130,7 @@ TEST_CASE("other commands start from the shape at rest; structure keeps the hist
 }
 
 TEST_CASE("wishes hold: parts stay, targets are told, nothing possible ends with 1") {
-  const TableFolder folder;
+  const TableProject folder;
   for (const json& one : suggestions({folder.project, "--target", "-5"}))
     CHECK(one["reaches_target"] == true);
   for (const json& one : suggestions({folder.project, "--target", "0.99"}))
@@ -161,7 +146,7 @@ TEST_CASE("wishes hold: parts stay, targets are told, nothing possible ends with
 }
 
 TEST_CASE("an edit that changes nothing is no suggestion") {
-  const TableFolder folder;
+  const TableProject folder;
   const Arguments squash = {folder.project, "--model", "gap-scaling", "--all"};
   const json kept = suggestions(squash);
   REQUIRE(kept.size() == 1);
@@ -176,7 +161,7 @@ TEST_CASE("an edit that changes nothing is no suggestion") {
 }
 
 TEST_CASE("what improve asks of designs can be asked of suggestions") {
-  const TableFolder folder;
+  const TableProject folder;
   const json free = suggested({folder.project, "--top", "1000"});
   const json airy = suggested({folder.project, "--top", "1000", "--clearance", "0.1"});
   CHECK(airy["now"]["f_max"].get<double>() == Approx(free["now"]["f_max"].get<double>() + 0.1));
@@ -191,7 +176,7 @@ TEST_CASE("what improve asks of designs can be asked of suggestions") {
 }
 
 TEST_CASE("suggestions, and project files, do not depend on the number of threads") {
-  const TableFolder folder;
+  const TableProject folder;
   const std::string a = folder / "a.json", b = folder / "b.json";
   const json one = suggested({folder.project, "--apply", "1", "--save", a, "--threads", "1"});
   const json three = suggested({folder.project, "--apply", "1", "--save", b, "--threads", "3"});
@@ -200,7 +185,7 @@ TEST_CASE("suggestions, and project files, do not depend on the number of thread
 }
 
 TEST_CASE("wrong uses of suggest end with 2, broken histories with 3, and nothing is written") {
-  const TableFolder folder;
+  const TableProject folder;
   const std::vector<std::pair<Arguments, std::string>> cases = {
       {{folder.table, "--apply", "1"}, "--save"},
       {{folder.project, "--roll-back", "0"}, "none yet"},

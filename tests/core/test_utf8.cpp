@@ -3,6 +3,7 @@
 #include "stackabilization/io/labels.h"
 #include "support/catch.h"
 #include "support/meshes.h"
+#include "support/messages.h"
 
 using namespace stackabilization;
 using namespace stackabilization::test;
@@ -34,16 +35,6 @@ std::string triangle_of(Format format, const std::string& name) {
       [{"attributes": {"POSITION": 0}}]}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3,
       "type": "VEC3"}], "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
       "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
-}
-
-template <class Work>
-std::string message_of(const Work& work) {
-  try {
-    work();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
 }
 
 }  // namespace
@@ -78,8 +69,9 @@ TEST_CASE("labels in other encodings are refused, and so are shapes made with su
   const Shape shape = read_text(Format::obj, triangle_of(Format::obj, good));
   CHECK(with_labels(shape, good + "\n", "labels").part_names == std::vector<std::string>{good});
   for (const std::string& text : {latin + "\n", "1\nlabels " + latin + "\n0 0\n"})
-    CHECK(message_of([&] { with_labels(shape, text, "labels"); }).find("in UTF-8") != std::string::npos);
+    CHECK(message_of<InputError>([&] { with_labels(shape, text, "labels"); }).find("in UTF-8") !=
+          std::string::npos);
   Shape named = shape;
   named.part_names = {latin};
-  CHECK(message_of([&] { validate(named); }) == "the part name 'si?ge' is not UTF-8");
+  CHECK(message_of<InputError>([&] { validate(named); }) == "the part name 'si?ge' is not UTF-8");
 }

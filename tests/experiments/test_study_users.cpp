@@ -8,6 +8,7 @@
 #include "study/manual_work.h"
 #include "support/catch.h"
 #include "support/cups.h"
+#include "support/still_designs.h"
 #include "support/structures.h"
 
 using namespace stackabilization;
@@ -18,17 +19,12 @@ namespace {
 constexpr double out_of_reach = 0.99;
 const Habit habits[] = {Habit::random, Habit::greedy, Habit::careful};
 
-Requirements wish(double target) {
-  Requirements requirements;
-  requirements.target = target;
-  requirements.measure.boxes = BoxModel::frame;
-  return requirements;
-}
-
 /// A design space, a target, and a tool to reach it with.
 struct Task {
   Task(std::unique_ptr<DesignSpace> designs, double target)
-      : space(std::move(designs)), checker(*space, wish(target)), tool(checker, {0, 0, 1}) {}
+      : space(std::move(designs)),
+        checker(*space, designs::frame_requirements(target)),
+        tool(checker, {0, 0, 1}) {}
 
   std::unique_ptr<DesignSpace> space;
   RequirementChecker checker;

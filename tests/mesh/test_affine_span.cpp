@@ -44,7 +44,7 @@ void check_closed(const TriangulatedHull& hull) {
 }
 
 /// Largest distance of a point above a hull face, as a fraction of the largest coordinate.
-double overhang(const HullFaces& hull, const Points& points, double unit) {
+double overhang_of_hull(const HullFaces& hull, const Points& points, double unit) {
   double most = 0;
   for (Eigen::Index f = 0; f < hull.normals.rows(); ++f) {
     const Eigen::Vector3d normal = hull.normals.row(f).transpose();
@@ -126,7 +126,7 @@ TEST_CASE("hull faces, and boxes on them, take sets of any thickness") {
       CHECK((hull.dimension == 2) == (hull.normals.rows() == 2));
       // A hull that says it is solid has corners that are: what is built on them may rely on it.
       CHECK((hull.dimension < 3 || triangulated_hull(hull.points).dimension == 3));
-      if (relative > 1e-15) CHECK(overhang(hull, points, unit) <= 4 * relative);
+      if (relative > 1e-15) CHECK(overhang_of_hull(hull, points, unit) <= 4 * relative);
     }
     const HullSupport support(points);
     const OrientedBox box = minimal_oriented_box(support);

@@ -6,10 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "point_sets.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/mesh/boxes.h"
 #include "support/catch.h"
+#include "support/point_sets.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
@@ -23,7 +23,7 @@ double minimal_volume(const Points& points) {
 }
 
 /// Largest distance by which a point sticks out of the box.
-double overhang(const OrientedBox& box, const Points& points) {
+double overhang_of_box(const OrientedBox& box, const Points& points) {
   const Points local = (points.rowwise() - box.centre.transpose()) * box.axes;
   return (local.cwiseAbs().rowwise() - box.half_extents.transpose()).maxCoeff();
 }
@@ -142,7 +142,7 @@ TEST_CASE("extent and rectangle agree with brute force over all points") {
       CHECK(box.volume() == Approx(extent * area).epsilon(1e-12));
       CHECK(box.axes.col(2).dot(r.unit()) == Approx(1));
       check_axes(box);
-      CHECK(overhang(box, points) < 1e-13);
+      CHECK(overhang_of_box(box, points) < 1e-13);
     }
   }
 }
@@ -156,7 +156,7 @@ TEST_CASE("a turned box is its own minimal box") {
       const OrientedBox box = minimal_oriented_box(HullSupport(points));
       CHECK(box.volume() == Approx(size.prod()).epsilon(1e-12));
       check_axes(box);
-      CHECK(overhang(box, points) < 1e-12 * size.norm());
+      CHECK(overhang_of_box(box, points) < 1e-12 * size.norm());
     }
 }
 
@@ -323,7 +323,7 @@ TEST_CASE("the axis-aligned and the frame box") {
   // Tilted by 45 degrees in the y-z plane: sides 1 and (2 + 3) / sqrt 2 twice.
   const OrientedBox tilted = frame_box(points, Direction(0, 1, 1));
   CHECK(tilted.volume() == Approx(12.5));
-  CHECK(overhang(tilted, points) < 1e-14);
+  CHECK(overhang_of_box(tilted, points) < 1e-14);
   check_axes(tilted);
 }
 

@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "point_sets.h"
 #include "stackabilization/mesh/boxes.h"
 #include "support/catch.h"
+#include "support/point_sets.h"
 
 using namespace stackabilization;
 

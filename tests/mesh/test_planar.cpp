@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "mesh/planar.h"
-#include "point_sets.h"
 #include "support/catch.h"
+#include "support/point_sets.h"
 
 using namespace stackabilization;
 using point_sets::Random;

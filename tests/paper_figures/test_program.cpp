@@ -7,7 +7,8 @@ using namespace stackabilization::apps;
 
 namespace {
 
-void check_refused(const std::vector<std::string>& arguments, int status, const std::string& words) {
+void check_refused_by_program(const std::vector<std::string>& arguments, int status,
+                              const std::string& words) {
   const Outcome outcome = run_program(arguments);
   INFO(outcome.err);
   CHECK(outcome.status == status);
@@ -29,12 +30,12 @@ TEST_CASE("the program lists its figures and shows examples") {
 
 TEST_CASE("wrong usage is one sentence") {
   const TemporaryFolder folder;
-  check_refused({}, 2, "--figure, --all, --list or --page");
-  check_refused({"--figure", "2"}, 2, "-o");
-  check_refused({"--figure", "2", "--all", "-o", folder / "out"}, 2, "exclude");
-  check_refused({"--figure", "two", "-o", folder / "out"}, 2, "two");
-  check_refused({"--figure", "77", "-o", folder / "out"}, 2, "there is no figure 77");
-  check_refused({"--frobnicate"}, 2, "frobnicate");
+  check_refused_by_program({}, 2, "--figure, --all, --list or --page");
+  check_refused_by_program({"--figure", "2"}, 2, "-o");
+  check_refused_by_program({"--figure", "2", "--all", "-o", folder / "out"}, 2, "exclude");
+  check_refused_by_program({"--figure", "two", "-o", folder / "out"}, 2, "two");
+  check_refused_by_program({"--figure", "77", "-o", folder / "out"}, 2, "there is no figure 77");
+  check_refused_by_program({"--frobnicate"}, 2, "frobnicate");
   CHECK(folder.names().empty());
 }
 
@@ -54,22 +55,25 @@ TEST_CASE("no picture or page takes the place of an input") {
     arguments.insert(arguments.end(), {"--page", page});
     return arguments;
   };
-  check_refused(paged(folder / "models/cup.obj"), 2, "--page would replace the model");
-  check_refused(paged(folder / "inputs/figure_02.json"), 2, "--page would replace the input");
-  check_refused(paged(folder / "out/figure_02.png"), 2, "would replace what --page writes");
+  check_refused_by_program(paged(folder / "models/cup.obj"), 2, "--page would replace the model");
+  check_refused_by_program(paged(folder / "inputs/figure_02.json"), 2, "--page would replace the input");
+  check_refused_by_program(paged(folder / "out/figure_02.png"), 2, "would replace what --page writes");
   fs::create_symlink("../models/cup.obj", folder / "out/figure_02.png");
-  check_refused(line, 2, "would replace");
+  check_refused_by_program(line, 2, "would replace");
   fs::remove(folder / "out/figure_02.png");
   fs::create_directory(folder / "out/timings.json");
-  check_refused(line, 2, "it is a folder");
-  check_refused({"--figure", "2", "-o", folder / "figures.md"}, 2, "called like a file");
+  check_refused_by_program(line, 2, "it is a folder");
+  check_refused_by_program({"--figure", "2", "-o", folder / "figures.md"}, 2, "called like a file");
 }
 
 TEST_CASE("folders that are missing or closed are one sentence") {
   const TemporaryFolder folder;
-  check_refused({"--figure", "2", "-o", folder / "out", "--models", folder / "nowhere"}, 3, "nowhere");
-  check_refused({"--figure", "2", "-o", folder / "out", "--paper-data", folder / "nowhere"}, 3, "nowhere");
-  check_refused({"--figure", "2", "-o", folder / "out", "--inputs", folder / "nowhere"}, 3, "nowhere");
-  check_refused({"--figure", "2", "-o", folder.file("file", "") + "/out"}, 2, "is not a folder");
-  check_refused({"--page", folder / "page.md", "-o", folder / "empty"}, 3, "no figures");
+  check_refused_by_program({"--figure", "2", "-o", folder / "out", "--models", folder / "nowhere"}, 3,
+                           "nowhere");
+  check_refused_by_program({"--figure", "2", "-o", folder / "out", "--paper-data", folder / "nowhere"}, 3,
+                           "nowhere");
+  check_refused_by_program({"--figure", "2", "-o", folder / "out", "--inputs", folder / "nowhere"}, 3,
+                           "nowhere");
+  check_refused_by_program({"--figure", "2", "-o", folder.file("file", "") + "/out"}, 2, "is not a folder");
+  check_refused_by_program({"--page", folder / "page.md", "-o", folder / "empty"}, 3, "no figures");
 }

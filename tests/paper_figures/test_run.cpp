@@ -21,7 +21,7 @@ RunOptions options_for(const Folder& output, std::vector<int> figures) {
   return options;
 }
 
-RunReport made(const RunOptions& options) {
+RunReport report_of(const RunOptions& options) {
   std::ostringstream log;
   return make_figures(options, log);
 }
@@ -30,8 +30,8 @@ RunReport made(const RunOptions& options) {
 
 TEST_CASE("two runs of a figure write the same bytes, and its page says the numbers of the run") {
   const Folder first, second;
-  CHECK(made(options_for(first, {2})).figures == 1);
-  CHECK(made(options_for(second, {2})).figures == 1);
+  CHECK(report_of(options_for(first, {2})).figures == 1);
+  CHECK(report_of(options_for(second, {2})).figures == 1);
   for (const std::string name : {"figure_02.png", "figure_02.numbers.json"}) {
     CHECK(bytes_of(first.path() / name).size() > 100);
     CHECK(bytes_of(first.path() / name) == bytes_of(second.path() / name));
@@ -80,7 +80,7 @@ TEST_CASE("a model that is damaged is one sentence, and the other figures are ma
   models.file("stool.obj", "v 0 0 0\nf 1 2 3\n");
   RunOptions options = options_for(output, {2, 7});
   options.models = models.path();
-  const RunReport report = made(options);
+  const RunReport report = report_of(options);
   CHECK(report.figures == 1);
   REQUIRE(report.failures.size() == 1);
   CHECK(report.failures[0].starts_with("figure 2: "));
@@ -91,19 +91,19 @@ TEST_CASE("a model that is damaged is one sentence, and the other figures are ma
 
 TEST_CASE("folders and figures that do not exist are refused before anything is made") {
   const Folder output;
-  CHECK_THROWS_AS(made(options_for(output, {99})), UsageError);
+  CHECK_THROWS_AS(report_of(options_for(output, {99})), UsageError);
   RunOptions missing = options_for(output, {2});
   missing.models = output.path() / "nowhere";
-  CHECK_THROWS_AS(made(missing), InputError);
+  CHECK_THROWS_AS(report_of(missing), InputError);
   missing = options_for(output, {2});
   missing.paper_data = output.path() / "nowhere";
-  CHECK_THROWS_AS(made(missing), InputError);
+  CHECK_THROWS_AS(report_of(missing), InputError);
   missing = options_for(output, {2});
   missing.inputs = output.path() / "nowhere";
-  CHECK_THROWS_AS(made(missing), InputError);
+  CHECK_THROWS_AS(report_of(missing), InputError);
   RunOptions blocked = options_for(output, {2});
   blocked.output = output.file("file", "") / "folder";
-  CHECK_THROWS_AS(made(blocked), OutputError);
+  CHECK_THROWS_AS(report_of(blocked), OutputError);
   CHECK_THROWS_AS(figures_page({options_for(output, {}).inputs, output.path(), output.path() / "figures.md"}),
                   InputError);
   CHECK(std::distance(std::filesystem::directory_iterator(output.path()), {}) == 1);

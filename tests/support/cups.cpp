@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "support/solids.h"
+#include "support/still_designs.h"
 
 namespace stackabilization::cups {
 
@@ -16,16 +17,16 @@ Primitive primitive(double bottom, double top) {
   return cylinder;
 }
 
-Shape shape(double bottom, double top) {
+Shape shape(double bottom, double top, int segments) {
   const double floor = 0.2, at_floor = bottom + (top - bottom) * floor / Cups::height;
   const double inside = 1 - Cups::wall;
-  return solids::frustum_shell({bottom, top, inside * at_floor, inside * top, Cups::height, floor, 16});
+  return solids::frustum_shell({bottom, top, inside * at_floor, inside * top, Cups::height, floor, segments});
 }
 
 }  // namespace
 
-Cups::Cups() {
-  rest_.shape = shape(1, 1);
+Cups::Cups(int segments) : segments_(segments) {
+  rest_.shape = shape(1, 1, segments);
   rest_.structure.parts = {{"part", primitive(1, 1), {}}};
   rest_.structure.diagonal = std::sqrt(8 + height * height);
 }
@@ -46,9 +47,13 @@ DesignOutcome Cups::edited(const Design& now, const Edit& edit,
     return {Refusal{"missed by 0.25 of the diagonal", {}, 0.25}, now};
   Eigen::Vector2d sizes = radii(now);
   sizes[edit.handle.index] *= scaling->factor;
-  Design design{now.edits, {primitive(sizes[0], sizes[1])}, shape(sizes[0], sizes[1])};
+  Design design{now.edits, {primitive(sizes[0], sizes[1])}, shape(sizes[0], sizes[1], segments_)};
   design.edits.push_back(edit);
   return {std::nullopt, design};
+}
+
+RequirementChecker checker(double target) {
+  return {space, designs::frame_requirements(target)};
 }
 
 Eigen::Vector2d radii(const Design& design) {

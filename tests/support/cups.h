@@ -1,6 +1,6 @@
 #pragma once
 
-#include "stackabilization/improvement/design.h"
+#include "stackabilization/improvement/requirements.h"
 
 namespace stackabilization::cups {
 
@@ -14,7 +14,7 @@ class Cups : public DesignSpace {
  public:
   static constexpr double wall = 0.1, height = 4;
 
-  Cups();
+  explicit Cups(int segments = 16);
 
   const StructuredShape& rest() const override { return rest_; }
   DeformationKind kind() const override { return DeformationKind::controllers; }
@@ -25,8 +25,14 @@ class Cups : public DesignSpace {
                        const DeformationConstraints& constraints) const override;
 
  private:
+  int segments_;
   StructuredShape rest_;
 };
+
+inline const Cups space;
+
+/// Asks `space` for frame boxes and a stackability.
+RequirementChecker checker(double target);
 
 /// Radii at the bottom and at the top.
 Eigen::Vector2d radii(const Design& design);

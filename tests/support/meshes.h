@@ -8,6 +8,7 @@
 #include "stackabilization/core/shape.h"
 #include "stackabilization/io/read.h"
 #include "stackabilization/io/write.h"
+#include "support/messages.h"
 
 namespace stackabilization::test {
 
@@ -78,14 +79,9 @@ inline double area(const Shape& shape) {
   return sum;
 }
 
-/// The message of the InputError that reading ends in; empty when it does not.
+/// The message of the InputError that reading ends in.
 inline std::string refusal(Format format, const std::string& bytes, const std::string& name = "bad.file") {
-  try {
-    read_shape(bytes, format, name);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return message_of<InputError>([&] { read_shape(bytes, format, name); });
 }
 
 /// An empty folder of its own for a test, removed at the end.

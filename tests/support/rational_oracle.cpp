@@ -18,14 +18,15 @@ Point shear(const Eigen::Vector3d& p, const Eigen::Vector3d& r) {
   return {Rational(p[i]) - t * Rational(r[i]), Rational(p[j]) - t * Rational(r[j]), t};
 }
 
-Rational cross(const Point& a, const Point& b, const Point& c) {
+/// Of the triangle, in x and y; positive when counter-clockwise.
+Rational twice_area(const Point& a, const Point& b, const Point& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
 std::vector<Point> triangle(const Shape& shape, Eigen::Index t, const Eigen::Vector3d& r) {
   std::vector<Point> corners;
   for (int c = 0; c < 3; ++c) corners.push_back(shear(shape.corner(t, c), r));
-  if (cross(corners[0], corners[1], corners[2]) < zero) std::swap(corners[1], corners[2]);
+  if (twice_area(corners[0], corners[1], corners[2]) < zero) std::swap(corners[1], corners[2]);
   return corners;
 }
 
@@ -34,7 +35,7 @@ std::vector<Point> clip(const std::vector<Point>& polygon, const Point& a, const
   std::vector<Point> kept;
   for (std::size_t v = 0; v < polygon.size(); ++v) {
     const Point &p = polygon[v], &q = polygon[(v + 1) % polygon.size()];
-    const Rational side_p = cross(a, b, p), side_q = cross(a, b, q);
+    const Rational side_p = twice_area(a, b, p), side_q = twice_area(a, b, q);
     if (side_p >= zero) kept.push_back(p);
     if ((side_p > zero && side_q < zero) || (side_p < zero && side_q > zero)) {
       const Rational s = side_p / (side_p - side_q);
@@ -48,14 +49,15 @@ std::vector<Point> clip(const std::vector<Point>& polygon, const Point& a, const
 
 Rational area(const std::vector<Point>& polygon) {
   Rational sum;
-  for (std::size_t v = 2; v < polygon.size(); ++v) sum = sum + cross(polygon[0], polygon[v - 1], polygon[v]);
+  for (std::size_t v = 2; v < polygon.size(); ++v)
+    sum = sum + twice_area(polygon[0], polygon[v - 1], polygon[v]);
   return sum;
 }
 
 Rational height_over(const std::vector<Point>& base, const Point& p) {
-  const Rational whole = cross(base[0], base[1], base[2]);
+  const Rational whole = twice_area(base[0], base[1], base[2]);
   Rational sum;
-  for (int c = 0; c < 3; ++c) sum = sum + cross(base[(c + 1) % 3], base[(c + 2) % 3], p) * base[c][2];
+  for (int c = 0; c < 3; ++c) sum = sum + twice_area(base[(c + 1) % 3], base[(c + 2) % 3], p) * base[c][2];
   return sum / whole;
 }
 

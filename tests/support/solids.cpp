@@ -54,11 +54,6 @@ class Builder {
   std::vector<std::array<std::int32_t, 3>> triangles_;
 };
 
-Shape named(Shape shape, const std::string& name) {
-  shape.part_names = {name};
-  return shape;
-}
-
 /// Sweeps a profile in (rho, z) around the outline: ring corner = (rho * outline, z).
 Shape swept_around(const Polygon& profile, const Polygon& outline) {
   const std::size_t n = outline.size();
@@ -171,6 +166,13 @@ Shape box(const Eigen::Vector3d& lowest, const Eigen::Vector3d& highest) {
   return between(low, high, (Triangles(2, 3) << 0, 1, 2, 0, 2, 3).finished());
 }
 
+Shape open_box(const Eigen::Vector3d& lowest, const Eigen::Vector3d& highest) {
+  Shape shape = box(lowest, highest);
+  shape.triangles.conservativeResize(shape.triangle_count() - 2, 3);
+  shape.triangle_part.resize(static_cast<std::size_t>(shape.triangle_count()));
+  return shape;
+}
+
 double box_f_max(const Eigen::Vector3d& size, const Direction& direction) {
   double f = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis)
@@ -280,8 +282,8 @@ Shape u_shape(double size, double thickness) {
 Shape hook(const Hook& options) {
   const double l = options.length, h = options.height, t = options.thickness;
   const Shape low = box({0, 0, 0}, {l, 1, t}), high = box({0, 0, h - t}, {l, 1, h});
-  const Shape ramp = transformed(extruded_profile({{0, h - t}, {l, 0}, {l, t}, {0, h}}, 1),
-                                 Eigen::Matrix3d::Identity(), Eigen::Vector3d::UnitY());
+  const Shape ramp =
+      moved(extruded_profile({{0, h - t}, {l, 0}, {l, t}, {0, h}}, 1), Eigen::Vector3d::UnitY());
   return concatenate(concatenate(named(low, "low_bar"), named(ramp, "ramp")), named(high, "high_bar"));
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <string>
 #include <vector>
 
 #include "stackabilization/core/direction.h"
@@ -13,6 +14,11 @@
 namespace stackabilization::solids {
 
 using Polygon = std::vector<Eigen::Vector2d>;
+
+struct NamedShape {
+  std::string name;
+  Shape shape;
+};
 
 /// Point k of n on the unit circle, from angle 0 counter-clockwise. Quarter turns are exact, so for n
 /// divisible by four the extremes are exactly +-1 and opposite points are exact negatives.
@@ -26,6 +32,11 @@ Triangles triangulate(const Polygon& polygon);
 Shape box(const Eigen::Vector3d& lowest, const Eigen::Vector3d& highest);
 inline Shape box(const Eigen::Vector3d& size) {
   return box(Eigen::Vector3d::Zero(), size);
+}
+/// The box without half of its bottom and half of its top.
+Shape open_box(const Eigen::Vector3d& lowest, const Eigen::Vector3d& highest);
+inline Shape open_box(const Eigen::Vector3d& size) {
+  return open_box(Eigen::Vector3d::Zero(), size);
 }
 /// A convex body slides free after its longest chord along r: min over axes of size / |r|.
 double box_f_max(const Eigen::Vector3d& size, const Direction& direction);

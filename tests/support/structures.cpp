@@ -1,9 +1,13 @@
 #include "support/structures.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "support/solids.h"
@@ -12,11 +16,6 @@
 namespace stackabilization::structures {
 
 namespace {
-
-Shape named(Shape shape, const std::string& name) {
-  shape.part_names = {name};
-  return shape;
-}
 
 /// Circles of `around` points across the tangents of the sections, joined; open ends closed with fans.
 Shape tube(const GeneralizedCylinder& cylinder, int around) {
@@ -65,8 +64,8 @@ class Assembly {
   }
 
   int add(const std::string& name, const Shape& shape, const Primitive& primitive) {
-    structured_.shape =
-        parts().empty() ? named(shape, name) : concatenate(structured_.shape, named(shape, name));
+    structured_.shape = parts().empty() ? solids::named(shape, name)
+                                        : concatenate(structured_.shape, solids::named(shape, name));
     parts().push_back({name, primitive, {}});
     return static_cast<int>(parts().size()) - 1;
   }
@@ -175,6 +174,21 @@ GeneralizedCylinder ring_cylinder(double ring_radius, double radius, int section
   }
   cylinder.radii.setConstant(sections, radius);
   return cylinder;
+}
+
+Cuboid cuboid(const std::vector<Primitive>& primitives, int part) {
+  return std::get<Cuboid>(primitives[static_cast<std::size_t>(part)]);
+}
+
+GeneralizedCylinder cylinder(const std::vector<Primitive>& primitives, int part) {
+  return std::get<GeneralizedCylinder>(primitives[static_cast<std::size_t>(part)]);
+}
+
+int part_named(const StructuredShape& structured, const std::string& name) {
+  const std::vector<std::string>& names = structured.shape.part_names;
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw std::invalid_argument("there is no part " + name);
+  return static_cast<int>(found - names.begin());
 }
 
 StructuredShape box_alone(const Eigen::Vector3d& size) {

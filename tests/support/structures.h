@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
+#include <vector>
 
 #include "stackabilization/structure/structure.h"
 
@@ -14,6 +16,13 @@ GeneralizedCylinder straight_cylinder(const Eigen::Vector3d& a, const Eigen::Vec
 GeneralizedCylinder arc_cylinder(double arc_radius, double radius, double from, double to, int sections);
 /// Closed, in the plane z = 0 around the origin.
 GeneralizedCylinder ring_cylinder(double ring_radius, double radius, int sections);
+
+/// The primitive of a part, which has to be of that kind.
+Cuboid cuboid(const std::vector<Primitive>& primitives, int part = 0);
+GeneralizedCylinder cylinder(const std::vector<Primitive>& primitives, int part = 0);
+
+/// Row of the part of this name, which has to be there.
+int part_named(const StructuredShape& structured, const std::string& name);
 
 /// Box part of a shape and its structure.
 StructuredShape box_alone(const Eigen::Vector3d& size);

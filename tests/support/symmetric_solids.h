@@ -13,12 +13,6 @@
 /// Solids for the tests of symmetry.
 namespace stackabilization::solids {
 
-/// `shape` as a part called `name`.
-inline Shape named(Shape shape, const std::string& name) {
-  shape.part_names = {name};
-  return shape;
-}
-
 inline Shape joined(const std::vector<Shape>& shapes) {
   Shape result = shapes.front();
   for (std::size_t k = 1; k < shapes.size(); ++k) result = concatenate(result, shapes[k]);
@@ -95,7 +89,7 @@ inline std::vector<std::pair<std::string, Shape>> asymmetric_zoo() {
   missing.pop_back();
   zoo.emplace_back("chair without a leg", joined(missing));
   std::vector<Shape> displaced = chair_parts();
-  displaced.back() = transformed(displaced.back(), Eigen::Matrix3d::Identity(), {1, 0, 0});
+  displaced.back() = moved(displaced.back(), {1, 0, 0});
   zoo.emplace_back("chair with a leg at another place", joined(displaced));
   std::vector<Shape> shorter = chair_parts();
   shorter.back() = named(box({-2, 1.5, 1.5}, {-1.5, 2, 4}), "leg_4");

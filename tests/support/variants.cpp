@@ -123,6 +123,15 @@ Shape flipped(const Shape& shape) {
   return result;
 }
 
+Shape moved(const Shape& shape, const Eigen::Vector3d& by) {
+  return transformed(shape, Eigen::Matrix3d::Identity(), by);
+}
+
+Shape named(Shape shape, const std::string& name) {
+  shape.part_names = {name};
+  return shape;
+}
+
 Eigen::Matrix3d random_rotation(std::uint64_t seed) {
   Random random(seed);
   for (;;) {

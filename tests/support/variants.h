@@ -2,11 +2,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <string>
 
 #include "stackabilization/core/shape.h"
 
-/// Random shapes, and shapes that are the same set of points as a given one: what invariance tests need. All
-/// are functions of a seed, the same on every machine.
+/// Random shapes, the same on every machine for one seed, and shapes made from a given one, most of them the
+/// same set of points: what invariance tests need.
 namespace stackabilization::solids {
 
 /// SplitMix64: tiny, and unlike the distributions of <random> the same everywhere.
@@ -43,6 +44,10 @@ Shape subdivided(const Shape& shape);
 Shape permuted(const Shape& shape, std::uint64_t seed);
 /// Every triangle with the opposite orientation.
 Shape flipped(const Shape& shape);
+/// Moved without a turn.
+Shape moved(const Shape& shape, const Eigen::Vector3d& by);
+/// As one part that is called `name`.
+Shape named(Shape shape, const std::string& name);
 /// A rotation, uniform over all of them.
 Eigen::Matrix3d random_rotation(std::uint64_t seed);
 

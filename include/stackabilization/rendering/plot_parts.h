@@ -14,8 +14,6 @@ using Elements = std::vector<DrawingElement>;
 
 /// Shortest text with `digits` significant digits, locale independent: 0.5, 12.34, 14630, 1.2e-07.
 std::string number_text(double value, int digits = 4);
-/// With four digits after the point, never -0.0000: a stackability.
-std::string fixed_text(double value);
 /// The first one with the unit's symbol, when it is known.
 std::string length_text(double value, Unit unit);
 

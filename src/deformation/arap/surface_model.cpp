@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/index.h"
 #include "deformation/arap/shell_ties.h"
 #include "deformation/arap/surface_handles.h"
 #include "deformation/model/places.h"
@@ -21,12 +22,10 @@ namespace stackabilization {
 
 namespace {
 
+using detail::at;
+
 using Kernel = CGAL::Simple_cartesian<double>;
 using NeighbourSearch = CGAL::Orthogonal_k_neighbor_search<CGAL::Search_traits_3<Kernel>>;
-
-std::size_t at(std::int32_t row) {
-  return static_cast<std::size_t>(row);
-}
 
 Kernel::Point_3 to_cgal(const Eigen::RowVector3d& p) {
   return {p.x(), p.y(), p.z()};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "core/index.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/relation_residual.h"
@@ -13,10 +14,6 @@
 namespace stackabilization::detail {
 
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 int point_count(const Primitive& primitive) {
   return static_cast<int>(control_points(primitive).rows());

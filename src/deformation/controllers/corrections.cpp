@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <utility>
 
+#include "core/index.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {
@@ -12,10 +13,6 @@ namespace {
 /// How much the part that carries the handle resists corrections of what the edit left open of it: length of
 /// its columns relative to those of other parts.
 constexpr double stiffness = 0.3;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Orthogonal projection of rows of coefficients onto what they span.
 Eigen::MatrixXd row_space(const Eigen::MatrixXd& rows) {

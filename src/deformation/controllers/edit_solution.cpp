@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/index.h"
 #include "deformation/controllers/corrections.h"
 #include "deformation/controllers/prescription.h"
 #include "deformation/controllers/primitive_validity.h"
@@ -24,10 +25,6 @@ constexpr int extent_rounds = 10;
 /// these, in multiples of what relations may be off by; what is more than the second is no remainder.
 constexpr int remainder_rounds = 4;
 constexpr double settled_remainder = 0.1, largest_remainder = 10;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 bool changes_nothing(const PartEdit& edit) {
   return edit.changes.isZero(0) && edit.rotation.vec().isZero(0);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/disjoint_sets.h"
+#include "core/index.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {
@@ -14,10 +15,6 @@ namespace {
 
 /// Longest move of a control in the state that is tried out, fraction of the diagonal.
 constexpr double trial = 0.02;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// A symmetry that takes one part to another, or to itself.
 struct Way {

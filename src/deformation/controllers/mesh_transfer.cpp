@@ -6,16 +6,14 @@
 #include <queue>
 #include <set>
 
+#include "core/index.h"
+
 namespace stackabilization::detail {
 
 namespace {
 
 /// Reach of a part beyond its border with another, fraction of the diagonal of the smaller of both.
 constexpr double reach_of_parts = 0.15;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// 1 at 0, 0 from 1 on, flat at both ends.
 double fall_off(double t) {

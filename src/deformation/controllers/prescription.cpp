@@ -3,6 +3,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "core/index.h"
 #include "deformation/controllers/correction_basis.h"
 #include "deformation/model/refusal_words.h"
 #include "stackabilization/core/direction.h"
@@ -11,10 +12,6 @@
 namespace stackabilization::detail {
 
 namespace {
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix) {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;

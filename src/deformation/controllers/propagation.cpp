@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 
+#include "core/index.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {
@@ -13,10 +14,6 @@ namespace {
 constexpr double rotation_pull = 0.000001;
 /// The same for the strain.
 constexpr double strain_pull = 0.001;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// p -> linear (p - from) + to; `rotation` is that of `linear`.
 struct AffineMotion {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/index.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {
@@ -16,10 +17,6 @@ constexpr int most_steps = 20;
 constexpr double idle_ratio = 0.9;
 /// Longest step of a control, fraction of the diagonal.
 constexpr double longest_step = 0.25;
-
-std::size_t at(int i) {
-  return static_cast<std::size_t>(i);
-}
 
 Eigen::Index rows_of(const Constraint& constraint) {
   return constraint.normal ? 1 : 3;

@@ -29,7 +29,7 @@ namespace index = boost::geometry::index;
 using PlanePoint = boost::geometry::model::point<double, 2, boost::geometry::cs::cartesian>;
 using PlaneBox = boost::geometry::model::box<PlanePoint>;
 using Entry = std::pair<PlaneBox, Eigen::Index>;
-using Corners = std::array<Eigen::Vector3d, 3>;
+using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 
 /// The part of a convex polygon on one side of a bound of one coordinate.
 void clip(std::vector<Eigen::Vector3d>& polygon, int axis, double bound, double sign) {

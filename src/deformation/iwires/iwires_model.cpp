@@ -2,17 +2,18 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
+#include "core/transformed_points.h"
 #include "deformation/iwires/wire_propagation.h"
 #include "deformation/iwires/wire_surface.h"
 #include "deformation/model/vertex_constraints.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization {
@@ -26,19 +27,14 @@ using detail::WireMotion;
 using detail::WireNetwork;
 using detail::WireSurface;
 
-std::string text(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 3).ptr;
-  return {buffer, end};
-}
-
 WireStructure wires_of(const Shape& shape, const IWiresOptions& options) {
   if (!std::isfinite(options.link_distance) || options.link_distance < 0)
     throw UsageError("the link distance of wires must be finite and not negative");
   const std::vector<FeatureCurve> curves = feature_curves(shape, options.curves);
   if (curves.empty())
     throw InputError("no feature curve found: the surface has no boundary and no crease of more than " +
-                     text(options.curves.crease_angle) + " degrees that is long enough to hold on to");
+                     significant_text(options.curves.crease_angle, 3) +
+                     " degrees that is long enough to hold on to");
   return analysed_wires(shape, curves, options.relations);
 }
 
@@ -182,7 +178,7 @@ class Editing {
     const detail::PropagatedWires result = propagated(edit);
     if (!(result.excess <= 1)) {
       const double amount = result.missed_by / network_.diagonal;
-      return Refusal{result.missed + ", by " + text(amount) + " of the diagonal", {}, amount};
+      return Refusal{result.missed + ", by " + significant_text(amount, 3) + " of the diagonal", {}, amount};
     }
     maps_ = result.maps;
     nodes_ = detail::node_positions(network_, maps_, wire);
@@ -213,7 +209,7 @@ class Editing {
       const double bend = (carried.transpose() * carried - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
       if (!(bend <= tolerance::relation))
         return Refusal{"symmetry " + std::to_string(pair.symmetry) + " would no longer be one, by " +
-                           text(bend) + " of any length",
+                           significant_text(bend, 3) + " of any length",
                        {},
                        bend};
     }
@@ -238,7 +234,7 @@ std::optional<Refusal> broken_symmetry(const Shape& rest, const WireStructure& s
       const double amount = residuals[i] / diagonal;
       return Refusal{"wire " + std::to_string(pair.image) + " would no longer be the image of wire " +
                          std::to_string(pair.wire) + " under symmetry " + std::to_string(pair.symmetry) +
-                         ", by " + text(amount) + " of the diagonal",
+                         ", by " + significant_text(amount, 3) + " of the diagonal",
                      {},
                      amount};
     }
@@ -289,15 +285,14 @@ DeformationResult IWiresModel::deformed(const std::vector<Edit>& edits,
     vertices = fixed.empty() ? data_->surface.deformed(state.nodes())
                              : WireSurface(data_->rest, data_->network, fixed).deformed(state.nodes());
   const Eigen::Affine3d& whole = state.whole();
-  vertices = (vertices * whole.linear().transpose()).rowwise() + whole.translation().transpose();
+  vertices = detail::transformed(vertices, whole);
   ConstrainedVertices kept = constrained(data_->rest, std::move(vertices), constraints, fixed);
   if (kept.refusal) {
     result.refusal = kept.refusal;
     return result;
   }
   const Eigen::Affine3d back = whole.inverse();
-  const Points before =
-      (kept.vertices * back.linear().transpose()).rowwise() + back.translation().transpose();
+  const Points before = detail::transformed(kept.vertices, back);
   result.refusal = broken_symmetry(data_->rest, data_->network.structure, before, data_->network.diagonal);
   if (!result.refusal) result.shape.vertices = std::move(kept.vertices);
   return result;

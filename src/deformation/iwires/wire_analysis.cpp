@@ -15,7 +15,7 @@ namespace stackabilization {
 
 namespace {
 
-using Columns = Eigen::Matrix3Xd;
+using PointColumns = Eigen::Matrix3Xd;
 
 void check(const WireAnalysisOptions& options) {
   for (const double value :
@@ -34,15 +34,15 @@ double diagonal_of(const Shape& shape) {
   return box.diagonal().norm();
 }
 
-Columns points_of(const Shape& shape, const FeatureCurve& curve) {
-  Columns points(3, static_cast<Eigen::Index>(curve.vertices.size()));
+PointColumns points_of(const Shape& shape, const FeatureCurve& curve) {
+  PointColumns points(3, static_cast<Eigen::Index>(curve.vertices.size()));
   for (Eigen::Index i = 0; i < points.cols(); ++i)
     points.col(i) = shape.vertices.row(curve.vertices[static_cast<std::size_t>(i)]).transpose();
   return points;
 }
 
 /// Length of the polygon, and the centre of gravity of its segments.
-void measure(const Columns& points, Wire& wire) {
+void measure(const PointColumns& points, Wire& wire) {
   const Eigen::Index n = points.cols();
   for (Eigen::Index i = 0; i + (wire.curve.closed ? 0 : 1) < n; ++i) {
     const Eigen::Vector3d a = points.col(i), b = points.col((i + 1) % n);
@@ -53,7 +53,7 @@ void measure(const Columns& points, Wire& wire) {
   wire.centre /= wire.length;
 }
 
-bool take_as_straight(const Columns& points, double resolution, Wire& wire) {
+bool take_as_straight(const PointColumns& points, double resolution, Wire& wire) {
   if (wire.curve.closed) return false;
   const Eigen::Vector3d a = points.leftCols<1>(), b = points.rightCols<1>();
   if (a == b) return false;
@@ -67,7 +67,8 @@ bool take_as_straight(const Columns& points, double resolution, Wire& wire) {
 }
 
 /// The circle in the plane of `normal` that fits best (Kasa 1976: least squares of |p|^2 = 2 c.p + d).
-bool take_as_circle(const Columns& points, const Eigen::Vector3d& normal, double resolution, Wire& wire) {
+bool take_as_circle(const PointColumns& points, const Eigen::Vector3d& normal, double resolution,
+                    Wire& wire) {
   const Eigen::Index n = points.cols();
   if (n < (wire.curve.closed ? 5 : 4)) return false;
   const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
@@ -93,11 +94,11 @@ bool take_as_circle(const Columns& points, const Eigen::Vector3d& normal, double
 Wire described(const Shape& shape, const FeatureCurve& curve, const WireAnalysisOptions& options) {
   Wire wire;
   wire.curve = curve;
-  const Columns points = points_of(shape, curve);
+  const PointColumns points = points_of(shape, curve);
   measure(points, wire);
   const double resolution = options.form_tolerance * wire.length;
   if (take_as_straight(points, resolution, wire)) return wire;
-  const Columns centred = points.colwise() - points.rowwise().mean();
+  const PointColumns centred = points.colwise() - points.rowwise().mean();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centred * centred.transpose());
   const Eigen::Vector3d normal = axes.eigenvectors().col(0);
   if ((normal.transpose() * centred).cwiseAbs().maxCoeff() > resolution) return wire;
@@ -130,7 +131,7 @@ class Relations {
  private:
   int count() const { return static_cast<int>(structure_.wires.size()); }
   const Wire& wire(int k) const { return structure_.wires[static_cast<std::size_t>(k)]; }
-  const Columns& points(int k) const { return points_[static_cast<std::size_t>(k)]; }
+  const PointColumns& points(int k) const { return points_[static_cast<std::size_t>(k)]; }
   const Wire& first_of(const std::vector<int>& group) const { return wire(group.front()); }
 
   /// Puts wire k into the first group whose first member `agrees`, or into a new one.
@@ -233,7 +234,7 @@ class Relations {
 
   /// Largest distance of the images of a's points from the polygon of b.
   double mismatch(const Eigen::Isometry3d& map, int a, int b) const {
-    const Columns& onto = points(b);
+    const PointColumns& onto = points(b);
     const Eigen::Index n = onto.cols();
     double largest = 0;
     for (const auto& p : points(a).colwise()) {
@@ -270,7 +271,7 @@ class Relations {
   const WireAnalysisOptions& options_;
   WireStructure& structure_;
   double sine_, distance_;
-  std::vector<Columns> points_;
+  std::vector<PointColumns> points_;
 };
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-using Corners = Eigen::Matrix<double, 8, 3, Eigen::RowMajor>;
+using BoxCorners = Eigen::Matrix<double, 8, 3, Eigen::RowMajor>;
 
 ControlJacobian cage_jacobian(const CageBinding& binding) {
   ControlJacobian jacobian;
@@ -92,7 +92,7 @@ Eigen::Vector3d Carrier::carried(const PointBinding& binding, const Primitive& n
   if (const auto* curve = std::get_if<CurveAtRest>(&curve_))
     return curve->carried(std::get<CurveBinding>(binding), std::get<GeneralizedCylinder>(now));
   const auto& [point, weights] = std::get<CageBinding>(binding);
-  const Corners moved = std::get<Cuboid>(now).corners - std::get<Cuboid>(rest_).corners;
+  const BoxCorners moved = std::get<Cuboid>(now).corners - std::get<Cuboid>(rest_).corners;
   return point + moved.transpose() * weights;
 }
 
@@ -112,7 +112,7 @@ Points Carrier::displacements(const std::vector<PointBinding>& bindings, const P
     }
     return moved;
   }
-  const Corners corners = std::get<Cuboid>(now).corners - std::get<Cuboid>(rest_).corners;
+  const BoxCorners corners = std::get<Cuboid>(now).corners - std::get<Cuboid>(rest_).corners;
   for (std::size_t i = 0; i < bindings.size(); ++i)
     moved.row(static_cast<Eigen::Index>(i)).noalias() =
         std::get<CageBinding>(bindings[i]).weights.transpose() * corners;

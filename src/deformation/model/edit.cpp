@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization {
@@ -19,28 +19,22 @@ constexpr int least_plain = -4, most_plain = 6;
 
 constexpr std::array<const char*, 6> face_names = {"-x", "+x", "-y", "+y", "-z", "+z"};
 
-std::string chars(double value, std::chars_format format, int precision) {
-  char buffer[64];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, format, precision).ptr;
-  return {buffer, end};
-}
-
 int power_of_ten(double value) {
   return static_cast<int>(std::floor(std::log10(value)));
 }
 
 /// To as many places as give five digits of `size`: what is rounding beside it reads 0.
 std::string text(double value, double size) {
-  if (!std::isfinite(size)) return chars(value, std::chars_format::general, readable_digits);
+  if (!std::isfinite(size)) return significant_text(value, readable_digits);
   if (size == 0) return "0";
   const int power = power_of_ten(size), places = readable_digits - 1 - power;
   if (std::abs(value) <= std::pow(10.0, -places) / 2) return "0";
   if (power < least_plain || power > most_plain)
-    return chars(value, std::chars_format::general, std::max(1, places + 1 + power_of_ten(std::abs(value))));
-  std::string digits = chars(value, std::chars_format::fixed, std::max(0, places));
+    return significant_text(value, std::max(1, places + 1 + power_of_ten(std::abs(value))));
+  std::string digits = fixed_text(value, std::max(0, places));
   if (places > 0) digits.erase(digits.find_last_not_of('0') + 1);
   if (digits.back() == '.') digits.pop_back();
-  return digits == "-0" ? "0" : digits;
+  return digits;
 }
 
 std::string text(double value) {

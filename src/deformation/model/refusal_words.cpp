@@ -1,13 +1,11 @@
 #include "deformation/model/refusal_words.h"
 
-#include <charconv>
+#include "stackabilization/core/number_text.h"
 
 namespace stackabilization::detail {
 
 std::string fraction(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 3).ptr;
-  return {buffer, end};
+  return significant_text(value, 3);
 }
 
 std::string name_of(const Relation& relation, const Structure& structure) {

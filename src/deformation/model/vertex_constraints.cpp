@@ -1,7 +1,6 @@
 #include "deformation/model/vertex_constraints.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -10,17 +9,12 @@
 #include "deformation/model/places.h"
 #include "mesh/surface_index.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization {
 
 namespace {
-
-std::string text(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 4).ptr;
-  return {buffer, end};
-}
 
 /// Corners of the triangle that carry the point.
 std::vector<std::int32_t> carriers(const Shape& shape, const SurfacePoint& at) {
@@ -81,7 +75,7 @@ class Check {
  private:
   Refusal refusal(const std::string& what, double by) const {
     const double amount = diagonal_ > 0 ? by / diagonal_ : 0;
-    return {what + " by " + text(amount) + " of the diagonal", {}, amount};
+    return {what + " by " + significant_text(amount, 4) + " of the diagonal", {}, amount};
   }
 
   /// Heights over the lowest corner of the box at rest, along the unit vector `up`.

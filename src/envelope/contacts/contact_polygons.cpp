@@ -15,23 +15,23 @@ namespace stackabilization::detail {
 namespace {
 
 /// A corner of a clipped polygon: projected position and the heights of both triangles there.
-struct Corner {
+struct LoopCorner {
   double x, y, upper, lower;
 
   double gap() const { return upper - lower; }
 };
 
-Corner between(const Corner& a, const Corner& b, double t) {
+LoopCorner between(const LoopCorner& a, const LoopCorner& b, double t) {
   const auto mix = [t](double from, double to) { return from + t * (to - from); };
   return {mix(a.x, b.x), mix(a.y, b.y), mix(a.upper, b.upper), mix(a.lower, b.lower)};
 }
 
 /// What of the convex polygon has value >= 0, for a function that is linear on it.
 template <typename Value>
-std::vector<Corner> clip(const std::vector<Corner>& polygon, const Value& value) {
-  std::vector<Corner> kept;
+std::vector<LoopCorner> clip(const std::vector<LoopCorner>& polygon, const Value& value) {
+  std::vector<LoopCorner> kept;
   for (std::size_t c = 0; c < polygon.size(); ++c) {
-    const Corner &a = polygon[c], &b = polygon[(c + 1) % polygon.size()];
+    const LoopCorner &a = polygon[c], &b = polygon[(c + 1) % polygon.size()];
     const double at_a = value(a), at_b = value(b);
     if (at_a >= 0) kept.push_back(a);
     if ((at_a > 0 && at_b < 0) || (at_a < 0 && at_b > 0)) kept.push_back(between(a, b, at_a / (at_a - at_b)));
@@ -39,7 +39,7 @@ std::vector<Corner> clip(const std::vector<Corner>& polygon, const Value& value)
   return kept;
 }
 
-double cross(const ProjectedTriangle& triangle, int p, int q, double x, double y) {
+double edge_side(const ProjectedTriangle& triangle, int p, int q, double x, double y) {
   return (triangle.x[q] - triangle.x[p]) * (y - triangle.y[p]) -
          (triangle.y[q] - triangle.y[p]) * (x - triangle.x[p]);
 }
@@ -48,20 +48,20 @@ double cross(const ProjectedTriangle& triangle, int p, int q, double x, double y
 /// wildly.
 double height_over(const ProjectedTriangle& triangle, double x, double y) {
   double weighted = 0;
-  for (int c = 0; c < 3; ++c) weighted += cross(triangle, (c + 1) % 3, (c + 2) % 3, x, y) * triangle.h[c];
+  for (int c = 0; c < 3; ++c) weighted += edge_side(triangle, (c + 1) % 3, (c + 2) % 3, x, y) * triangle.h[c];
   const double height = weighted / triangle.area;
   return std::isfinite(height) ? std::clamp(height, triangle.h_low, triangle.h_high) : triangle.h_high;
 }
 
-std::vector<Corner> common_polygon(const ProjectedTriangle& upper, const ProjectedTriangle& lower) {
-  std::vector<Corner> polygon;
+std::vector<LoopCorner> common_polygon(const ProjectedTriangle& upper, const ProjectedTriangle& lower) {
+  std::vector<LoopCorner> polygon;
   for (int c = 0; c < 3; ++c) polygon.push_back({upper.x[c], upper.y[c], upper.h[c], 0});
   const double sign = lower.area < 0 ? -1 : 1;
   for (int edge = 0; edge < 3 && !polygon.empty(); ++edge)
-    polygon = clip(polygon, [&](const Corner& corner) {
-      return sign * cross(lower, edge, (edge + 1) % 3, corner.x, corner.y);
+    polygon = clip(polygon, [&](const LoopCorner& corner) {
+      return sign * edge_side(lower, edge, (edge + 1) % 3, corner.x, corner.y);
     });
-  for (Corner& corner : polygon) corner.lower = height_over(lower, corner.x, corner.y);
+  for (LoopCorner& corner : polygon) corner.lower = height_over(lower, corner.x, corner.y);
   return polygon;
 }
 
@@ -100,13 +100,13 @@ class ContactClipper {
     if (!certain && !exact_maximum(tree_.triangles[pair.upper_at], tree_.triangles[pair.lower_at],
                                    projection_.shear, projection_.semantics))
       return std::nullopt;
-    const std::vector<Corner> polygon =
-        clip(common_polygon(upper, lower), [this](const Corner& corner) { return corner.gap() - floor_; });
+    const std::vector<LoopCorner> polygon = clip(
+        common_polygon(upper, lower), [this](const LoopCorner& corner) { return corner.gap() - floor_; });
     if (polygon.empty()) return std::nullopt;
     return lift(pair, polygon);
   }
 
-  ContactPolygon lift(const ContactPair& pair, const std::vector<Corner>& polygon) const {
+  ContactPolygon lift(const ContactPair& pair, const std::vector<LoopCorner>& polygon) const {
     ContactPolygon result{pair.upper, pair.lower, Points(polygon.size(), 3), Points(polygon.size(), 3)};
     for (std::size_t c = 0; c < polygon.size(); ++c) {
       result.upper_points.row(static_cast<Eigen::Index>(c)) = lift(polygon[c], polygon[c].upper);
@@ -115,7 +115,7 @@ class ContactClipper {
     return result;
   }
 
-  Eigen::RowVector3d lift(const Corner& corner, double height) const {
+  Eigen::RowVector3d lift(const LoopCorner& corner, double height) const {
     const Shear& shear = projection_.shear;
     Eigen::RowVector3d point;
     point[shear.i] = corner.x + height * shear.sx;

@@ -91,22 +91,22 @@ double area_by_lines(const std::vector<Outline>& outlines, const OutlineBounds& 
   return length * step;
 }
 
-using Corner = Eigen::Matrix<std::int64_t, 2, 1>;
+using GridCorner = Eigen::Matrix<std::int64_t, 2, 1>;
 
-std::int64_t turn(const Corner& a, const Corner& b) {
+std::int64_t turn(const GridCorner& a, const GridCorner& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
 /// Corners of the convex hull, anticlockwise, without those amid an edge (Andrew's monotone chain).
-std::vector<Corner> hull_of(std::vector<Corner> corners) {
-  const auto before = [](const Corner& a, const Corner& b) {
+std::vector<GridCorner> hull_of(std::vector<GridCorner> corners) {
+  const auto before = [](const GridCorner& a, const GridCorner& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
   };
   std::sort(corners.begin(), corners.end(), before);
-  std::vector<Corner> hull;
+  std::vector<GridCorner> hull;
   for (int side = 0; side < 2; ++side) {
     const std::size_t least = hull.size() + 1;
-    for (const Corner& corner : corners) {
+    for (const GridCorner& corner : corners) {
       while (hull.size() > least && turn(hull.back() - hull[hull.size() - 2], corner - hull.back()) <= 0)
         hull.pop_back();
       hull.push_back(corner);
@@ -134,9 +134,9 @@ class UnionBorder {
     std::vector<std::pair<double, double>> covered;
     for (std::size_t i = 0; i < polygons_.size(); ++i) {
       const std::vector<std::size_t> others = neighbours(i);
-      const std::vector<Corner>& polygon = polygons_[i];
+      const std::vector<GridCorner>& polygon = polygons_[i];
       for (std::size_t c = 0; c < polygon.size(); ++c) {
-        const Corner &a = polygon[c], &b = polygon[(c + 1) % polygon.size()];
+        const GridCorner &a = polygon[c], &b = polygon[(c + 1) % polygon.size()];
         covered.clear();
         for (const std::size_t j : others)
           if (const auto part = covered_part(a, b, polygons_[j], j < i)) covered.push_back(*part);
@@ -152,14 +152,14 @@ class UnionBorder {
 
   /// The convex hull of the outline on the grid; nothing where that has no area.
   void add(const Outline& outline, const Eigen::Vector2d& centre) {
-    std::vector<Corner> corners;
+    std::vector<GridCorner> corners;
     OutlineBounds bounds;
     for (const Eigen::Vector2d& corner : outline)
       corners.push_back(((corner - centre) * scale_).array().round().cast<std::int64_t>());
     corners = hull_of(std::move(corners));
     if (corners.size() < 3) return;
     Outline hull;
-    for (const Corner& corner : corners) hull.push_back(corner.cast<double>());
+    for (const GridCorner& corner : corners) hull.push_back(corner.cast<double>());
     bounds.add(hull);
     bounds_.push_back(bounds);
     polygons_.push_back(std::move(corners));
@@ -176,12 +176,12 @@ class UnionBorder {
 
   /// What part of the edge from `a` (0) to `b` (1) lies inside; of edges that run along each other the one of
   /// the first outline stays. Edges that run against each other both stay: their areas cancel.
-  static std::optional<std::pair<double, double>> covered_part(const Corner& a, const Corner& b,
-                                                               const std::vector<Corner>& polygon,
+  static std::optional<std::pair<double, double>> covered_part(const GridCorner& a, const GridCorner& b,
+                                                               const std::vector<GridCorner>& polygon,
                                                                bool earlier) {
     double from = 0, to = 1;
     for (std::size_t c = 0; c < polygon.size(); ++c) {
-      const Corner &p = polygon[c], side = polygon[(c + 1) % polygon.size()] - p;
+      const GridCorner &p = polygon[c], side = polygon[(c + 1) % polygon.size()] - p;
       const std::int64_t at_a = turn(side, a - p), at_b = turn(side, b - p);
       if (at_a == 0 && at_b == 0) {
         if (!earlier || side.dot(b - a) < 0) return std::nullopt;
@@ -198,7 +198,7 @@ class UnionBorder {
   }
 
   double scale_;
-  std::vector<std::vector<Corner>> polygons_;
+  std::vector<std::vector<GridCorner>> polygons_;
   std::vector<OutlineBounds> bounds_;
 };
 

@@ -35,7 +35,7 @@ Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-struct HeightRange {
+struct CellHeights {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 
@@ -52,12 +52,12 @@ double cross2(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 }
 
 /// Heights over q of a triangle whose projection is a segment: both ends of the column it fills there.
-HeightRange heights_of_vertical(const LocalTriangle& corners, const Eigen::Vector3d& q) {
+CellHeights heights_of_vertical(const LocalTriangle& corners, const Eigen::Vector3d& q) {
   const auto [x_low, x_high] = std::minmax({corners[0].x(), corners[1].x(), corners[2].x()});
   const auto [y_low, y_high] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
   const int axis = x_high - x_low >= y_high - y_low ? 0 : 1;
   const double s = axis == 0 ? std::clamp(q.x(), x_low, x_high) : std::clamp(q.y(), y_low, y_high);
-  HeightRange range;
+  CellHeights range;
   for (int k = 0; k < 3; ++k) {
     const Eigen::Vector3d& a = corners[static_cast<std::size_t>(k)];
     const Eigen::Vector3d& b = corners[static_cast<std::size_t>((k + 1) % 3)];
@@ -73,7 +73,7 @@ HeightRange heights_of_vertical(const LocalTriangle& corners, const Eigen::Vecto
 }
 
 /// Heights over q of a triangle that the vertical line through q is known to meet.
-HeightRange heights_over(const LocalTriangle& corners, const Eigen::Vector3d& q) {
+CellHeights heights_over(const LocalTriangle& corners, const Eigen::Vector3d& q) {
   const Eigen::Vector3d ab = corners[1] - corners[0], ac = corners[2] - corners[0], aq = q - corners[0];
   const double area = cross2(ab, ac);
   const double span = std::max({std::abs(ab.x()), std::abs(ab.y()), std::abs(ac.x()), std::abs(ac.y())});
@@ -84,7 +84,7 @@ HeightRange heights_over(const LocalTriangle& corners, const Eigen::Vector3d& q)
     return heights_of_vertical(corners, q);
   const double height = corners[0].z() + (cross2(aq, ac) * ab.z() + cross2(ab, aq) * ac.z()) / area;
   const auto [low, high] = std::minmax({corners[0].z(), corners[1].z(), corners[2].z()});
-  HeightRange range;
+  CellHeights range;
   range.add(std::clamp(height, low, high));
   return range;
 }
@@ -146,7 +146,7 @@ HeightField RayCaster::cast(const Direction& direction, const Window& window, st
   if (data.triangles.empty()) return field;
 
   std::vector<LocalTriangle> local(data.triangles.size());
-  HeightRange range;
+  CellHeights range;
   for (std::size_t k = 0; k < local.size(); ++k)
     for (int corner = 0; corner < 3; ++corner) {
       Eigen::Vector3d& p = local[k][static_cast<std::size_t>(corner)];
@@ -166,10 +166,10 @@ HeightField RayCaster::cast(const Direction& direction, const Window& window, st
           Kernel::Segment_3(to_cgal(field.frame.to_world(bottom)), to_cgal(field.frame.to_world(top))),
           std::back_inserter(hits));
       all_hits += static_cast<std::int64_t>(hits.size());
-      HeightRange column;
+      CellHeights column;
       for (const Tree::Primitive_id hit : hits) {
         const auto k = static_cast<std::size_t>(hit - data.triangles.cbegin());
-        const HeightRange heights = heights_over(local[k], bottom);
+        const CellHeights heights = heights_over(local[k], bottom);
         column.add(heights.low);
         column.add(heights.high);
       }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -15,6 +14,7 @@
 #include "improvement/contacts/contact_symmetry.h"
 #include "improvement/search/refusal_reason.h"
 #include "stackabilization/core/direction_text.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/improvement/removal.h"
 #include "stackabilization/stacking/search.h"
 
@@ -28,12 +28,7 @@ constexpr int most_blockers = 4;
 constexpr std::size_t most_constraints = 3, most_removals = 3;
 
 std::string number(double value, int digits = 3) {
-  char buffer[64];
-  const double unit = std::pow(10, digits);
-  const double rounded = std::round(unit * value) / unit + 0.0;  // no -0.000
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, rounded, std::chars_format::fixed, digits).ptr;
-  return {buffer, end};
+  return fixed_text(value, digits);
 }
 
 /// With as many digits as tell it from `other`.

@@ -20,7 +20,7 @@ constexpr double multiples[] = {1.25, 1.5, 2, 3};
 /// change or raises S by less than this fraction gains nothing. For less change slopes are taken over short
 /// and over long steps in turn, until neither gains anything.
 constexpr int most_runs = 8;
-constexpr double least_progress = 0.001;
+constexpr double min_relative_progress = 0.001;
 
 /// Of longer lists that shrink to half by leaving out what is not needed the rest is refined afresh.
 constexpr std::size_t most_at_once = 6;
@@ -82,7 +82,7 @@ class MagnitudeSearch {
       const double before = problem_.nearest_stackability();
       problem_.constrain_pairs(from);
       optimised_magnitudes(problem_, {from, MagnitudeGoal::feasible});
-      if (problem_.nearest_stackability() - before < least_progress * (1 - before)) break;
+      if (problem_.nearest_stackability() - before < min_relative_progress * (1 - before)) break;
     }
   }
 
@@ -130,7 +130,7 @@ class MagnitudeSearch {
       problem_.constrain_pairs(from);
       optimised_magnitudes(problem_, {from, MagnitudeGoal::unchanged});
       pull_back();
-      idle = problem_.best_change() < before * (1 - least_progress) ? 0 : idle + 1;
+      idle = problem_.best_change() < before * (1 - min_relative_progress) ? 0 : idle + 1;
     }
     problem_.allow(options_.evaluations);
   }
@@ -178,7 +178,7 @@ class MagnitudeSearch {
         without[k] = 0;
         approach(without);
       }
-      if (!(problem_.best_change() < before * (1 - least_progress))) return;
+      if (!(problem_.best_change() < before * (1 - min_relative_progress))) return;
     }
   }
 

@@ -15,7 +15,7 @@ namespace stackabilization {
 namespace {
 
 /// An edit must lower the sum by this fraction to be worth it.
-constexpr double least_progress = 0.01;
+constexpr double min_merit_gain = 0.01;
 
 /// Pairs of triangles in a band grow with its width and with the square of the number of triangles: beyond
 /// this number contacts are looked at in a narrower band.
@@ -100,7 +100,7 @@ class Pursuit {
       if (!stopped_here()) made[k] = after(edits[k]);
     });
     if (stopped_here()) return false;
-    const double before = merit(now_) - least_progress;
+    const double before = merit(now_) - min_merit_gain;
     std::optional<std::size_t> best;
     for (std::size_t k = 0; k < made.size(); ++k)
       if (made[k] && merit(*made[k]) < (best ? merit(*made[*best]) : before)) best = k;

@@ -47,7 +47,7 @@ constexpr std::array<Rule, 20> rules = {{{"scene"},
                                          {"bufferViews/*/byteStride", 0, 252},
                                          {"buffers/*/byteLength", 0, max_bytes}}};
 
-std::string shown(const json& value) {
+std::string found_text(const json& value) {
   if (value.is_array()) return "a list of " + std::to_string(value.size());
   if (value.is_object()) return "an object";
   if (value.is_string()) return "a text";
@@ -97,7 +97,7 @@ class Checker {
   }
 
   [[noreturn]] void fail(const std::string& place, const std::string& expected, const json& found) const {
-    throw InputError(name_ + ": " + place + ": expected " + expected + ", found " + shown(found));
+    throw InputError(name_ + ": " + place + ": expected " + expected + ", found " + found_text(found));
   }
 
   const std::string& name_;

@@ -17,9 +17,9 @@ namespace stackabilization {
 namespace {
 
 /// Walks the nodes of the default scene.
-class Assembler {
+class GltfAssembler {
  public:
-  Assembler(const Source& source, const tinygltf::Model& model)
+  GltfAssembler(const Source& source, const tinygltf::Model& model)
       : name_(source.name), model_(model), visited_(model.nodes.size()), builder_(source.name) {}
 
   Shape assemble() {
@@ -253,7 +253,7 @@ class Assembler {
 
 Shape read_gltf(const Source& source, const std::optional<std::filesystem::path>& folder) {
   const tinygltf::Model model = parse_gltf(source, folder);
-  return Assembler(source, model).assemble();
+  return GltfAssembler(source, model).assemble();
 }
 
 }  // namespace stackabilization

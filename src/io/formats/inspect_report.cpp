@@ -1,5 +1,5 @@
-#include <charconv>
 
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/core/text.h"
 #include "stackabilization/io/inspect.h"
 
@@ -26,12 +26,9 @@ std::string with_unit(const std::string& text, Unit unit) {
   return symbol.empty() ? text : text + " " + symbol;
 }
 
-/// Six significant digits: a summary is for reading.
+/// A summary is for reading.
 std::string rounded(double value) {
-  char buffer[32];
-  const auto [end, error] =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6);
-  return {buffer, end};
+  return significant_text(value, 6);
 }
 
 std::string yes_no(bool value) {

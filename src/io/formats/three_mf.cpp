@@ -43,9 +43,9 @@ Points placed_vertices(const Object& object, const Transform& transform) {
 
 /// Expands the build items of a model into a Shape. Models of other entries (production extension) are read
 /// on demand.
-class Assembler {
+class ThreeMfAssembler {
  public:
-  Assembler(const Source& source, const ZipReader* archive, std::string entry, Model root)
+  ThreeMfAssembler(const Source& source, const ZipReader* archive, std::string entry, Model root)
       : name_(source.name), archive_(archive), root_(entry), builder_(source.name) {
     add_model(std::move(entry), std::move(root));
   }
@@ -241,7 +241,7 @@ class ModelWriter {
 }  // namespace
 
 Shape read_three_mf_model(const Source& source) {
-  return Assembler(source, nullptr, "", parse_model(source, "")).assemble();
+  return ThreeMfAssembler(source, nullptr, "", parse_model(source, "")).assemble();
 }
 
 Shape read_three_mf(const Source& source) {
@@ -249,7 +249,7 @@ Shape read_three_mf(const Source& source) {
   const std::string entry = model_entry(archive);
   const std::optional<std::string> text = archive.entry(entry);
   if (!text) throw InputError(source.name + ": expected the entry " + in_quotes(entry) + " in the archive");
-  return Assembler(source, &archive, entry, parse_model({*text, source.name}, entry)).assemble();
+  return ThreeMfAssembler(source, &archive, entry, parse_model({*text, source.name}, entry)).assemble();
 }
 
 std::string write_three_mf(const Shape& shape, const std::vector<PlacedCopy>& copies) {

@@ -15,7 +15,7 @@ namespace {
 using detail::Elements;
 
 constexpr int tick_count = 6;
-constexpr double legend_row = 1.9;  ///< em
+constexpr double legend_height = 1.9;  ///< em
 
 const PlotAxis& axis_of(const CurvePlot& plot, int coordinate) {
   return coordinate == 0 ? plot.x : plot.y;
@@ -246,7 +246,7 @@ PlotArea::PlotArea(const CurvePlot& plot, const Rectangle& place, double text_si
   const double left = 0.9 * text_size + label_width(y_, y_scale_, text_size) + 0.9 * text_size;
   const double right = 0.9 * text_size;
   const double bottom = (plot.x.title.empty() ? 1.8 : 3.0) * text_size;
-  const double top = legend_entries(plot).empty() ? 0.8 * text_size : legend_row * text_size;
+  const double top = legend_entries(plot).empty() ? 0.8 * text_size : legend_height * text_size;
   rectangle_ = {place.x + left, place.y + top, std::max(1.0, place.width - left - right),
                 std::max(1.0, place.height - top - bottom)};
 }

@@ -1,9 +1,9 @@
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <string_view>
 
 #include "io/formats/formats.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/rendering/drawing.h"
 
 namespace stackabilization {
@@ -11,9 +11,7 @@ namespace {
 
 /// Hundredths of a pixel are finer than anyone sees.
 std::string number(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), std::round(value * 100) / 100);
-  return {buffer.data(), end.ptr};
+  return shortest_text(std::round(value * 100) / 100);
 }
 
 std::string hex(const Colour& colour) {

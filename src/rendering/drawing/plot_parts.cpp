@@ -8,6 +8,8 @@
 #include <numbers>
 #include <sstream>
 
+#include "stackabilization/core/number_text.h"
+
 namespace stackabilization::detail {
 namespace {
 
@@ -48,26 +50,11 @@ Image gap_image(const Eigen::MatrixXd& values, double maximum) {
 
 std::string number_text(double value, int digits) {
   constexpr double largest_plain = 10000000;
-  std::array<char, 32> buffer{};
-  const auto print = [&](double number, int precision) {
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number,
-                                   std::chars_format::general, precision);
-    return std::string(buffer.data(), end.ptr);
-  };
-  const std::string text = print(value, digits);
+  const std::string text = significant_text(value, digits);
   if (text.find("e+") == std::string::npos || std::abs(value) >= largest_plain) return text;
   double rounded = 0;
   std::from_chars(text.data(), text.data() + text.size(), rounded);
-  return print(rounded, 8);
-}
-
-std::string fixed_text(double value) {
-  constexpr double unit = 10000;
-  std::array<char, 330> buffer{};
-  const double rounded = std::round(value * unit) / unit + 0.0;  // no -0
-  const auto end =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), rounded, std::chars_format::fixed, 4);
-  return {buffer.data(), end.ptr};
+  return significant_text(rounded, 8);
 }
 
 std::string length_text(double value, Unit unit) {

@@ -12,7 +12,7 @@
 namespace stackabilization {
 namespace {
 
-struct Side {
+struct DeformationSide {
   const Shape& shape;
   const std::vector<Primitive>& primitives;
   Colour colour;
@@ -25,7 +25,7 @@ struct Edited {
   const std::vector<std::vector<std::int32_t>>& curves;
 };
 
-std::vector<Points> lines_of(const Edited& edited, const Side& side) {
+std::vector<Points> lines_of(const Edited& edited, const DeformationSide& side) {
   std::vector<Points> lines = detail::lines_of(edited.handles, side.shape, side.primitives);
   for (const std::vector<std::int32_t>& curve : edited.curves)
     lines.emplace_back(side.shape.vertices(curve, Eigen::all));
@@ -40,8 +40,8 @@ Drawing deformation_picture(const StructuredShape& rest, const DeformationResult
   std::vector<Primitive> at_rest;
   if (!result.primitives.empty())  // else the handles are not those of primitives
     for (const Part& part : rest.structure.parts) at_rest.push_back(part.primitive);
-  const std::array<Side, 2> sides{{{rest.shape, at_rest, palette::input, "before"},
-                                   {result.shape, result.primitives, palette::output, "after"}}};
+  const std::array<DeformationSide, 2> sides{{{rest.shape, at_rest, palette::input, "before"},
+                                              {result.shape, result.primitives, palette::output, "after"}}};
   const Edited edited{handles, options.curves};
   const double size = options.width / 60.0, margin = 1.5 * size;
   Drawing drawing{options.width, options.height, {}};
@@ -56,7 +56,7 @@ Drawing deformation_picture(const StructuredShape& rest, const DeformationResult
                                     detail::edited_scene(sides[1].shape, sides[1].colour, handles)};
   Scene both = scenes[0];
   both.add(scenes[1]);
-  for (const Side& side : sides) both.add(SceneLines{lines_of(edited, side)});
+  for (const DeformationSide& side : sides) both.add(SceneLines{lines_of(edited, side)});
   const View view = fit_view(both, Direction(0, 0, 1), view_options);
   for (std::size_t k = 0; k < sides.size(); ++k) {
     const Rectangle place{margin + static_cast<double>(k) * (column + margin), top, column, height};

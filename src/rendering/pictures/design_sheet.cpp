@@ -11,11 +11,12 @@ namespace stackabilization {
 namespace {
 
 constexpr double picture_aspect = 0.85;  ///< height over width of a tile's picture
-constexpr double mark_lift = 0.004;      ///< of contact marks above the surface, fraction of the box diagonal
+constexpr double relative_mark_lift =
+    0.004;  ///< of contact marks above the surface, fraction of the box diagonal
 
 Scene tile_scene(const DesignTile& tile, const Colour& colour, const Direction& direction) {
   Scene scene = detail::edited_scene(tile.shape, colour, tile.handles);
-  const double lift = mark_lift * axis_aligned_box(tile.shape.vertices).half_extents.norm() * 2;
+  const double lift = relative_mark_lift * axis_aligned_box(tile.shape.vertices).half_extents.norm() * 2;
   scene.add(contact_marks(tile.contacts, EnvelopeSide::upper, lift * direction.unit()));
   scene.add(contact_marks(tile.contacts, EnvelopeSide::lower, -lift * direction.unit()));
   return scene;

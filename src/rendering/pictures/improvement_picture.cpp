@@ -3,6 +3,7 @@
 
 #include "stackabilization/core/direction_text.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/rendering/foot.h"
 #include "stackabilization/rendering/legend.h"
 #include "stackabilization/rendering/pictures.h"
@@ -13,7 +14,7 @@
 namespace stackabilization {
 namespace {
 
-struct Side {
+struct ImprovementSide {
   const MeasuredShape& what;
   Colour colour;
   std::string name;
@@ -30,21 +31,21 @@ std::vector<ContactRegion> moved(std::vector<ContactRegion> regions, const Eigen
 }
 
 /// The shape on its foot at the origin, wherever it is in its file.
-Scene scene_of(const Side& side, const Direction& up) {
+Scene scene_of(const ImprovementSide& side, const Direction& up) {
   const Eigen::Vector3d to_origin = -foot_of(side.what.shape, up);
   return touching_scene({transformed(side.what.shape, Eigen::Matrix3d::Identity(), to_origin), {side.colour}},
                         moved(side.what.contacts, to_origin), up);
 }
 
 /// What side it is, and its numbers, below the picture of it.
-detail::Elements caption(const Side& side, const Rectangle& place, double size) {
+detail::Elements caption(const ImprovementSide& side, const Rectangle& place, double size) {
   const Stackability& measured = side.what.measured;
   const Unit unit = side.what.shape.unit;
   std::vector<LegendEntry> entries{{LegendMark::swatch, side.colour, side.name}};
   if (!side.what.contacts.empty())
     entries.push_back({LegendMark::swatch, palette::contact, "where copies touch"});
   detail::Elements elements = detail::legend(entries, {place.x, place.y, place.width, 2 * size}, size);
-  const std::string numbers = "S = " + detail::fixed_text(measured.value) + " " +
+  const std::string numbers = "S = " + fixed_text(measured.value, 4) + " " +
                               direction_text(measured.direction) +
                               "     f_max = " + detail::length_text(measured.f_max, unit) +
                               "     h = " + detail::length_text(measured.extent, unit);
@@ -59,7 +60,7 @@ Drawing improvement_picture(const ImprovedShape& shapes, const ImprovementPictur
   if (shapes.before.measured.direction != shapes.after.measured.direction)
     throw UsageError("a picture of before and after needs both measured along the same direction");
   const Direction up(shapes.after.measured.direction);
-  const std::array<Side, 2> sides{
+  const std::array<ImprovementSide, 2> sides{
       {{shapes.before, palette::input, "before"}, {shapes.after, palette::output, "after"}}};
   const double size = options.width / 60.0, margin = 1.5 * size;
   Drawing drawing{options.width, options.height, {}};

@@ -3,6 +3,7 @@
 
 #include "rendering/pictures/scene_overlay.h"
 #include "stackabilization/core/direction_text.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/rendering/foot.h"
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/rendering/plot_parts.h"
@@ -109,13 +110,12 @@ Elements number_table(const Subject& s, const Rectangle& place) {
       {"contact regions", contact_summary(s.contacts)}};
   const double line = 1.75 * s.text_size;
   double y = place.y + 1.5 * s.text_size;
-  Elements elements{
-      Text{{place.x, y},
-           "Stackability  S = " + detail::fixed_text(m.value) + " " + direction_text(m.direction),
-           1.6 * s.text_size,
-           palette::ink,
-           Anchor::left,
-           true}};
+  Elements elements{Text{{place.x, y},
+                         "Stackability  S = " + fixed_text(m.value, 4) + " " + direction_text(m.direction),
+                         1.6 * s.text_size,
+                         palette::ink,
+                         Anchor::left,
+                         true}};
   y += 1.5 * s.text_size;
   elements.emplace_back(
       Text{{place.x, y},

@@ -10,13 +10,13 @@
 namespace stackabilization {
 namespace {
 
-struct HeightRange {
+struct PictureExtent {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   double left = low;  ///< leftmost point in the picture, pixels
 };
 
-HeightRange height_range(const std::vector<Shape>& copies, const Eigen::Vector3d& up, const View& view) {
-  HeightRange range;
+PictureExtent height_range(const std::vector<Shape>& copies, const Eigen::Vector3d& up, const View& view) {
+  PictureExtent range;
   for (const Shape& shape : copies)
     for (const std::int32_t vertex : shape.triangles.reshaped<Eigen::RowMajor>()) {
       const Eigen::Vector3d point = shape.vertices.row(vertex).transpose();
@@ -55,7 +55,7 @@ Drawing stack_picture(const std::vector<Shape>& copies, const Direction& directi
   const View view = fit_view(scene, direction, view_options);
   drawing.add(PlacedImage{side, render(scene, view)});
   const Eigen::Vector3d up = direction.unit();
-  const HeightRange range = height_range(copies, up, view);
+  const PictureExtent range = height_range(copies, up, view);
   const auto level = [&](double z) {
     return side.y + view.project(view.centre + (z - up.dot(view.centre)) * up).y();
   };

@@ -49,7 +49,7 @@ std::array<Stack, 2> stacks_of(const ImprovedShape& shapes, int copies, const Ei
 }
 
 /// Where things are in the picture.
-struct Stage {
+struct StackPlace {
   const View& view;
   Rectangle place;
   Eigen::Vector3d up;
@@ -61,7 +61,7 @@ struct Stage {
 };
 
 /// The height of a stack at its left, and what it is below it.
-detail::Elements labels_of(const Stack& stack, const std::string& name, int copies, const Stage& stage) {
+detail::Elements labels_of(const Stack& stack, const std::string& name, int copies, const StackPlace& stage) {
   const double size = stage.text_size, height = stack.height(copies);
   const Eigen::Vector3d& right = stage.view.right;
   const double from = stage.at(stack.shift).y(), to = stage.at(stack.shift + height * stage.up).y();
@@ -106,7 +106,7 @@ Drawing stacks_picture(const ImprovedShape& shapes, const StacksPictureOptions& 
                           stack.colour));
   const View view = fit_view(scene, direction, view_options);
   drawing.add(PlacedImage{place, render(scene, view)});
-  const Stage stage{view, place, up, size};
+  const StackPlace stage{view, place, up, size};
   drawing.add(labels_of(stacks[0], "before", options.copies, stage));
   drawing.add(labels_of(stacks[1], "after", options.copies, stage));
   return drawing;

@@ -78,7 +78,7 @@ std::vector<LegendEntry> relation_entries(const Structure& structure) {
   return entries;
 }
 
-struct Panel {
+struct StructurePanel {
   Scene scene;
   std::string heading;
   std::vector<LegendEntry> entries;
@@ -96,7 +96,7 @@ Drawing structure_picture(const StructuredShape& structured, const StructurePict
   drawing.add(heading.elements);
   const double top = heading.bottom + size, column = (options.width - 3 * margin) / 2;
   const double height = options.height - top - captions;
-  const std::array<Panel, 2> panels{
+  const std::array<StructurePanel, 2> panels{
       {{parts_scene(structured), "Parts: one colour for parts that are symmetric to each other",
         part_entries(structured)},
        {primitives_scene(structured), "What stands for them, and where they are joined",

@@ -12,7 +12,7 @@ namespace stackabilization {
 
 namespace {
 
-constexpr std::size_t batch_size = 512;  ///< directions between two reports of progress
+constexpr std::size_t directions_per_report = 512;  ///< directions between two reports of progress
 
 /// Cosine and sine, exact at multiples of a right angle.
 struct Turn {
@@ -61,7 +61,7 @@ StackabilityMap stackability_map(const StackabilitySolver& solver, const MapOpti
   StackabilityMap map;
   map.step_degrees = options.step_degrees;
   map.samples = directions(options.step_degrees);
-  for (std::size_t begin = 0; begin < map.samples.size(); begin += batch_size) {
+  for (std::size_t begin = 0; begin < map.samples.size(); begin += directions_per_report) {
     if (options.cancelled && options.cancelled()) {
       map.samples.resize(begin);
       map.cancelled = true;
@@ -69,7 +69,7 @@ StackabilityMap stackability_map(const StackabilitySolver& solver, const MapOpti
     }
     if (options.progress)
       options.progress(static_cast<double>(begin) / static_cast<double>(map.samples.size()));
-    tbb::parallel_for(begin, std::min(begin + batch_size, map.samples.size()), [&](std::size_t i) {
+    tbb::parallel_for(begin, std::min(begin + directions_per_report, map.samples.size()), [&](std::size_t i) {
       const Stackability measured = solver.measure(Direction(map.samples[i].direction));
       map.samples[i].f_max_over_height = measured.f_max / measured.extent;
       map.samples[i].stackability = measured.value;

@@ -25,7 +25,7 @@ namespace {
 
 /// Directions measured between two updates of the threshold; fixed, so that what is abandoned does not depend
 /// on the number of threads.
-constexpr std::size_t batch_size = 256;
+constexpr std::size_t trials_per_batch = 256;
 
 /// A sample is worth a closer look when its S is at most this much below the best; halved with the spacing.
 constexpr double promising_range = 0.2;
@@ -173,9 +173,10 @@ std::vector<Trial> DirectionSearch::trials() const {
 
 /// Measures trials that may come within `range` of the best.
 void DirectionSearch::measure(const std::vector<Trial>& trials, double range) {
-  for (std::size_t begin = 0; begin < trials.size(); begin += batch_size) {
+  for (std::size_t begin = 0; begin < trials.size(); begin += trials_per_batch) {
     if (!samples_.empty() && (ended() || perfect())) return;
-    const std::size_t count = std::min({batch_size, trials.size() - begin, static_cast<std::size_t>(left())});
+    const std::size_t count =
+        std::min({trials_per_batch, trials.size() - begin, static_cast<std::size_t>(left())});
     std::vector<std::optional<Stackability>> measured(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       measured[i] = solver_.measure_if_above(Direction(trials[begin + i].direction), best_ - range);

@@ -100,10 +100,10 @@ class Projection {
   int axis_ = 0;
 };
 
-using Polygon = std::vector<Exact::Point_2>;
+using ExactPolygon = std::vector<Exact::Point_2>;
 
 /// Does the line of some edge of `a` have all of `b` on its outer side or on itself?
-bool separated_by_edge(const Polygon& a, const Polygon& b) {
+bool separated_by_edge(const ExactPolygon& a, const ExactPolygon& b) {
   const CGAL::Orientation turn = CGAL::orientation(a[0], a[1], a[2]);
   for (std::size_t k = 0; k < 3; ++k) {
     bool outside = true;
@@ -114,22 +114,22 @@ bool separated_by_edge(const Polygon& a, const Polygon& b) {
   return false;
 }
 
-Polygon project(const Corners& t, const Projection& projection) {
+ExactPolygon project(const Corners& t, const Projection& projection) {
   return {projection(t[0]), projection(t[1]), projection(t[2])};
 }
 
 /// Do two triangles in one plane share area?
 bool coplanar_overlap(const Corners& a, const Corners& b) {
   const Projection projection(a);
-  const Polygon in_a = project(a, projection), in_b = project(b, projection);
+  const ExactPolygon in_a = project(a, projection), in_b = project(b, projection);
   return !separated_by_edge(in_a, in_b) && !separated_by_edge(in_b, in_a);
 }
 
 /// Does the segment from p to q, in the plane of t, run through the relative interior of t?
 bool runs_inside(const Corners& t, const Point& p, const Point& q) {
   const Projection projection(t);
-  const Polygon triangle = project(t, projection);
-  const Polygon segment = {projection(p), projection(q)};
+  const ExactPolygon triangle = project(t, projection);
+  const ExactPolygon segment = {projection(p), projection(q)};
   std::array<int, 3> side;
   for (std::size_t k = 0; k < 3; ++k) side[k] = CGAL::orientation(segment[0], segment[1], triangle[k]);
   return on_both_sides(side) && !separated_by_edge(triangle, segment);
@@ -224,14 +224,14 @@ TriangleKey key_of(const Shape& shape, const ClosedSurface& surface, std::int32_
 
 /// A shape with all that its place does not change. Of triangles that tests cannot tell apart, as those of
 /// parts in one place, they look at the first.
-struct Body {
+struct ExactBody {
   Shape shape;
   ClosedSurface surface;
   detail::SolidLocator solid;
   std::vector<std::int32_t> first;     ///< per triangle with area the first that is the same, else -1
   std::vector<std::int32_t> distinct;  ///< those, ascending
 
-  explicit Body(const Shape& source)
+  explicit ExactBody(const Shape& source)
       : shape(outward(source)),
         surface(closed_surface(shape)),
         solid(shape),
@@ -280,7 +280,7 @@ struct Body {
 }  // namespace
 
 struct CollisionTester::Data {
-  Body below, above;
+  ExactBody below, above;
 
   Data(const Shape& fixed, const Shape& lifted) : below(fixed), above(lifted) {}
 
@@ -338,7 +338,7 @@ Vector translation_by(const Direction& direction, const Rational& lift) {
 
 /// Winding numbers beside one point of every triangle: none below 0, and no surfaces that cancel each other
 /// where there is nothing on one side?
-std::optional<InteriorDefect> winding_defect(const Body& body) {
+std::optional<InteriorDefect> winding_defect(const ExactBody& body) {
   if (body.distinct.size() * body.solid.rows().size() > std::size_t{max_collision_pairs}) {
     std::atomic<std::int64_t> pairs = 0;
     tbb::parallel_for(std::size_t{0}, body.distinct.size(), [&](std::size_t k) {
@@ -386,7 +386,7 @@ bool CollisionTester::solids() const {
 
 std::optional<InteriorDefect> CollisionTester::interior_defect() const {
   if (!solids()) return InteriorDefect::open;
-  for (const Body* body : {&data_->below, &data_->above})
+  for (const ExactBody* body : {&data_->below, &data_->above})
     if (const auto defect = winding_defect(*body)) return defect;
   return std::nullopt;
 }
@@ -415,8 +415,8 @@ bool CollisionTester::interiors_overlap(const Direction& direction, const Ration
       above_touched(lifted.triangle_count());
   const bool certain =
       data_->any_touching_pair(fixed, lifted, [&](std::int32_t in_below, std::int32_t in_above) {
-        below_touched[Body::index(in_below)] = true;
-        above_touched[Body::index(in_above)] = true;
+        below_touched[ExactBody::index(in_below)] = true;
+        above_touched[ExactBody::index(in_above)] = true;
         return overlap_near(fixed, in_below, lifted, in_above);
       });
   return certain ||

@@ -1,12 +1,12 @@
 #include "stackabilization/stacking/validation.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <utility>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/mesh/exact_triangles.h"
 #include "stackabilization/stacking/collision.h"
 #include "stackabilization/stacking/minkowski.h"
@@ -16,9 +16,7 @@ namespace stackabilization {
 namespace {
 
 std::string short_number(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general, 3).ptr;
-  return {text, end};
+  return significant_text(value, 3);
 }
 
 double width_across(const Shape& shape, const Direction& direction) {

@@ -1,29 +1,23 @@
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <vector>
 
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/stacking/validation.h"
 
 namespace stackabilization {
 
 namespace {
 
-constexpr std::size_t columns = 6;
-using Line = std::array<std::string, columns>;
+constexpr std::size_t column_count = 6;
+using TableLine = std::array<std::string, column_count>;
 
-std::string number(double value, std::chars_format format, int digits) {
-  char text[64];
-  const auto end = std::to_chars(text, text + sizeof text, value, format, digits).ptr;
-  return {text, end};
-}
-
-Line line_of(const ValidationRow& row) {
+TableLine line_of(const ValidationRow& row) {
   constexpr int round_trip = 17, milliseconds = 3;
   return {row.name,
-          row.value ? number(*row.value, std::chars_format::general, round_trip) : "",
-          row.error ? number(*row.error, std::chars_format::scientific, 1) : "",
-          number(row.seconds, std::chars_format::fixed, milliseconds),
+          row.value ? significant_text(*row.value, round_trip) : "",
+          row.error ? scientific_text(*row.error, 1) : "",
+          fixed_text(row.seconds, milliseconds),
           to_string(row.verdict),
           row.note};
 }
@@ -45,16 +39,16 @@ std::string to_string(Verdict verdict) {
 }
 
 std::string table(const ValidationReport& report) {
-  std::vector<Line> lines = {{"check", "value", "error / h", "seconds", "verdict", "note"}};
+  std::vector<TableLine> lines = {{"check", "value", "error / h", "seconds", "verdict", "note"}};
   for (const ValidationRow& row : report.rows) lines.push_back(line_of(row));
-  std::array<std::size_t, columns> width = {};
-  for (const Line& line : lines)
-    for (std::size_t c = 0; c < columns; ++c) width[c] = std::max(width[c], line[c].size());
+  std::array<std::size_t, column_count> width = {};
+  for (const TableLine& line : lines)
+    for (std::size_t c = 0; c < column_count; ++c) width[c] = std::max(width[c], line[c].size());
 
   std::string text;
-  for (const Line& line : lines) {
+  for (const TableLine& line : lines) {
     std::string row;
-    for (std::size_t c = 0; c < columns; ++c) {
+    for (std::size_t c = 0; c < column_count; ++c) {
       const std::string padding(width[c] - line[c].size(), ' ');
       const bool to_the_right = c >= 1 && c <= 3;
       row += (c == 0 ? "" : "  ") + (to_the_right ? padding + line[c] : line[c] + padding);

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/transformed_points.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/structure/analysis.h"
@@ -18,10 +19,6 @@
 namespace stackabilization::detail {
 
 namespace {
-
-Points moved(const Points& points, const Eigen::Isometry3d& map) {
-  return (points * map.linear().transpose()).rowwise() + map.translation().transpose();
-}
 
 void set_control_points(Primitive& primitive, const Points& points) {
   if (auto* cuboid = std::get_if<Cuboid>(&primitive))
@@ -39,7 +36,7 @@ const Eigen::VectorXd* radii_of(const Primitive& primitive) {
 /// one.
 Primitive image_of(const Primitive& primitive, const Eigen::Isometry3d& map) {
   Primitive image = primitive;
-  Points points = moved(control_points(primitive), map);
+  Points points = transformed(control_points(primitive), map);
   if (std::holds_alternative<Cuboid>(primitive) && map.linear().determinant() < 0)
     for (Eigen::Index k = 0; k < 8; k += 2) points.row(k).swap(points.row(k + 1));
   set_control_points(image, points);
@@ -57,7 +54,7 @@ class Mean {
   /// Adds the image of `primitive` under `map`.
   void add(const Primitive& primitive, const Eigen::Isometry3d& map) {
     const std::vector<int> to = control_correspondence(primitive, first_, map);
-    const Points image = moved(control_points(primitive), map);
+    const Points image = transformed(control_points(primitive), map);
     for (std::size_t k = 0; k < to.size(); ++k) {
       points_.row(to[k]) += image.row(static_cast<Eigen::Index>(k));
       if (const Eigen::VectorXd* radii = radii_of(primitive))
@@ -83,7 +80,7 @@ class Mean {
 double miss(const Primitive& from, const Primitive& target, const Eigen::Isometry3d& map) {
   const std::vector<int> to = control_correspondence(from, target, map);
   if (to.empty()) return std::numeric_limits<double>::infinity();
-  const Points image = moved(control_points(from), map), points = control_points(target);
+  const Points image = transformed(control_points(from), map), points = control_points(target);
   double most = 0;
   for (std::size_t k = 0; k < to.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(k);
@@ -269,7 +266,7 @@ void Idealiser::idealise(const Orbit& orbit) {
   for (std::size_t k = 0; k < orbit.parts.size(); ++k) {
     Primitive& old = part(orbit.parts[k]).primitive;
     const std::vector<int> to = control_correspondence(ideal, old, orbit.from_first[k]);
-    const Points image = moved(control_points(ideal), orbit.from_first[k]);
+    const Points image = transformed(control_points(ideal), orbit.from_first[k]);
     Points points = image;
     for (std::size_t i = 0; i < to.size(); ++i) {
       points.row(to[i]) = image.row(static_cast<Eigen::Index>(i));

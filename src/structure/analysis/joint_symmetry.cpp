@@ -7,6 +7,7 @@
 #include <tuple>
 #include <utility>
 
+#include "core/transformed_points.h"
 #include "structure/analysis/idealise.h"
 #include "structure/model/symmetry_orbit.h"
 
@@ -45,10 +46,6 @@ std::vector<Action> actions_of(const Structure& structure) {
       parts[relation.parts.back()] = relation.parts.front();
   }
   return actions;
-}
-
-Points moved(const Points& points, const Eigen::Isometry3d& map) {
-  return (points * map.linear().transpose()).rowwise() + map.translation().transpose();
 }
 
 /// Largest distance between points of two joints, ends of lines either way; of a point and a line between
@@ -91,7 +88,7 @@ class JointSymmetry {
     if (a == action.parts.end() || b == action.parts.end() || a->second == b->second) return;
     Relation image = joint;
     image.parts = {std::min(a->second, b->second), std::max(a->second, b->second)};
-    image.points = moved(joint.points, isometry_of(action.symmetry));
+    image.points = transformed(joint.points, isometry_of(action.symmetry));
     const std::optional<std::size_t> found = nearest(image);
     const std::size_t target = found.value_or(joints_.size());
     if (!found) {

@@ -25,8 +25,8 @@ namespace stackabilization::detail {
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Epick = CGAL::Exact_predicates_inexact_constructions_kernel;
+using PartMesh = CGAL::Surface_mesh<Epick::Point_3>;
 
 /// Triangles that a skeleton is made from: enough for a dozen around a slender bar.
 constexpr double wanted_triangles = 2000;
@@ -38,7 +38,7 @@ constexpr double clusters = 150;
 constexpr double wrap_alpha = 24, wrap_offset = 120;
 
 struct Soup {
-  std::vector<Kernel::Point_3> points;
+  std::vector<Epick::Point_3> points;
   std::vector<std::array<std::size_t, 3>> polygons;
 };
 
@@ -62,27 +62,27 @@ Soup soup_of(const Shape& part, double cell) {
 }
 
 /// The soup as a closed, connected surface; empty when it is none.
-Mesh as_closed(Soup soup) {
-  Mesh mesh;
+PartMesh as_closed(Soup soup) {
+  PartMesh mesh;
   if (!PMP::orient_polygon_soup(soup.points, soup.polygons)) return mesh;
   PMP::polygon_soup_to_polygon_mesh(soup.points, soup.polygons, mesh);
-  auto component = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:component").first;
+  auto component = mesh.add_property_map<PartMesh::Face_index, std::size_t>("f:component").first;
   if (!CGAL::is_closed(mesh) || PMP::connected_components(mesh, component) != 1) return {};
   if (!PMP::is_outward_oriented(mesh)) PMP::reverse_face_orientations(mesh);
   return mesh;
 }
 
-void remesh(Mesh& mesh) {
+void remesh(PartMesh& mesh) {
   const double area = PMP::area(mesh);
   const double edge = std::sqrt(area / wanted_triangles * 4 / std::sqrt(3.0));
   PMP::isotropic_remeshing(mesh.faces(), edge, mesh, CGAL::parameters::number_of_iterations(2));
   mesh.collect_garbage();
 }
 
-Shape to_shape(const Mesh& mesh) {
+Shape to_shape(const PartMesh& mesh) {
   Points points(static_cast<Eigen::Index>(mesh.number_of_vertices()), 3);
   for (const auto v : mesh.vertices()) {
-    const Kernel::Point_3& p = mesh.point(v);
+    const Epick::Point_3& p = mesh.point(v);
     points.row(static_cast<Eigen::Index>(v)) << p.x(), p.y(), p.z();
   }
   Triangles triangles(static_cast<Eigen::Index>(mesh.number_of_faces()), 3);
@@ -108,7 +108,7 @@ std::optional<ClosedPart> closed_part(const Shape& part) {
     if (hull_spread(part.vertices, tolerance::relative * diagonal).length(2) < diagonal / wrap_offset)
       return std::nullopt;
     const Soup soup = soup_of(part, count > most_triangles ? diagonal / clusters : 0);
-    Mesh mesh;
+    PartMesh mesh;
     if (count <= most_triangles) mesh = as_closed(soup);
     const bool wrapped = mesh.is_empty();
     if (wrapped)

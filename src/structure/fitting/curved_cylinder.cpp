@@ -12,13 +12,12 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr int sample_count = 2048;  ///< of the surface, to find middle and radii by
-constexpr int rounds = 6;           ///< of moving the curve to the middle
-constexpr int smoothing = 2;        ///< passes over the skeleton, and over how far the curve moves
-constexpr int fewest_samples = 8;   ///< that tell where the middle of a section is
+constexpr int samples_of_surface = 2048;  ///< of the surface, to find middle and radii by
+constexpr int rounds = 6;                 ///< of moving the curve to the middle
+constexpr int smoothing = 2;              ///< passes over the skeleton, and over how far the curve moves
+constexpr int fewest_samples = 8;         ///< that tell where the middle of a section is
 constexpr double end_wall =
     0.7;  ///< |cosine| of curve and normal from which on a sample lies on an end, not around
-constexpr double least_radius = 0.01;  ///< of the largest: pointed ends keep a circle that can be scaled
 
 Eigen::Index piece_count(const Curve& curve) {
   return curve.points.rows() - (curve.closed ? 0 : 1);
@@ -104,7 +103,8 @@ struct Ring {
 class Fit {
  public:
   Fit(const FitSurface& part, const Curve& curve, int sections)
-      : samples_(surface_samples(part.shape, sample_count)), curve_(resampled(ordered(curve), sections)) {
+      : samples_(surface_samples(part.shape, samples_of_surface)),
+        curve_(resampled(ordered(curve), sections)) {
     for (int pass = 0; pass < smoothing; ++pass) curve_.points = smoothed(curve_.points, curve_.closed);
   }
 
@@ -142,7 +142,7 @@ class Fit {
     }
     const double largest = cylinder.radii.maxCoeff();
     if (!(largest > 0)) return std::nullopt;
-    cylinder.radii = cylinder.radii.cwiseMax(least_radius * largest);
+    cylinder.radii = cylinder.radii.cwiseMax(min_relative_radius * largest);
     return cylinder;
   }
 

@@ -18,10 +18,7 @@ namespace {
 /// Directions over which an outline is averaged.
 constexpr int direction_count = 48;
 
-/// A radius is at least this fraction of the largest one: pointed ends keep a circle that can be scaled.
-constexpr double least_radius = 0.01;
-
-using Segment = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
+using OutlineSegment = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
 
 /// The segments that the plane third coordinate = height cuts out of the triangles, seen from the axis.
 class Sections {
@@ -72,7 +69,7 @@ class Sections {
   }
 
  private:
-  static void cut(const Eigen::Matrix3d& local, double height, std::vector<Segment>& segments) {
+  static void cut(const Eigen::Matrix3d& local, double height, std::vector<OutlineSegment>& segments) {
     std::vector<Eigen::Vector2d> ends;
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d a = local.col(k), b = local.col((k + 1) % 3);
@@ -95,7 +92,7 @@ class Sections {
 
   Frame frame_;
   std::vector<double> heights_;
-  std::vector<std::vector<Segment>> segments_;
+  std::vector<std::vector<OutlineSegment>> segments_;
 };
 
 /// Between shells nothing is cut: there the radius runs evenly from the known one below to the one above.
@@ -181,7 +178,7 @@ std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Ax
   hold_ends(cylinder.radii);
   const double largest = cylinder.radii.maxCoeff();
   if (!(heights.range.length() > 0) || !(largest > 0)) return std::nullopt;
-  cylinder.radii = cylinder.radii.cwiseMax(least_radius * largest);
+  cylinder.radii = cylinder.radii.cwiseMax(min_relative_radius * largest);
   return cylinder;
 }
 

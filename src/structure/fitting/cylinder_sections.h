@@ -9,6 +9,9 @@
 
 namespace stackabilization::detail {
 
+/// A radius is at least this fraction of the largest one: pointed ends keep a circle that can be scaled.
+constexpr double min_relative_radius = 0.01;
+
 /// What a circle across a straight axis takes from the outline of the part there.
 enum class SectionRadius {
   outermost,  ///< the distance of its farthest point: right for bodies of revolution, however finely cut

@@ -16,9 +16,9 @@ namespace {
 constexpr double loop_share = 0.5;
 constexpr double path_share = 0.85;
 
-class Graph {
+class SkeletonGraph {
  public:
-  explicit Graph(const Skeleton& skeleton) : skeleton_(skeleton) {
+  explicit SkeletonGraph(const Skeleton& skeleton) : skeleton_(skeleton) {
     neighbours_.resize(static_cast<std::size_t>(skeleton.points.rows()));
     for (const auto& [a, b] : skeleton.edges) {
       neighbours_[static_cast<std::size_t>(a)].push_back(b);
@@ -116,7 +116,7 @@ Curve curve_through(const Skeleton& skeleton, const std::vector<int>& rows, bool
 
 std::optional<Curve> main_curve(const Skeleton& skeleton) {
   if (skeleton.edges.empty()) return std::nullopt;
-  const Graph graph(skeleton);
+  const SkeletonGraph graph(skeleton);
   const std::vector<int> ring = graph.loop();
   if (!ring.empty() && graph.length_of(ring) + graph.edge_length(ring.back(), ring.front()) >
                            loop_share * graph.total_length())

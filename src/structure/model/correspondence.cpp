@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 
+#include "core/transformed_points.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization {
@@ -65,7 +66,7 @@ std::vector<int> control_correspondence(const Primitive& a, const Primitive& b,
     candidates = box_assignments();
   }
 
-  const Points image = (from * map.linear().transpose()).rowwise() + map.translation().transpose();
+  const Points image = detail::transformed(from, map);
   const Eigen::RowVector3d middle = target.colwise().mean();
   // Assignments that differ by rounding only are equally good (flat boxes, cubes): the first of them counts.
   const double rounding = tolerance::relative * (target.rowwise() - middle).squaredNorm();

@@ -15,7 +15,7 @@ namespace {
 
 /// Enough that the errors of cuboid and cylinder differ by more than their sampling where a person sees a
 /// difference.
-constexpr int sample_count = 768;
+constexpr int samples_of_part = 768;
 
 /// Square of the distance in a half plane (height, distance from the axis) to the segment from a to b.
 double square_to_segment(const Eigen::Vector2d& point, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
@@ -59,7 +59,7 @@ Eigen::Vector3d around_axis(const Eigen::Vector3d& axis, double angle) {
 }
 
 int share(double area, double total) {
-  return static_cast<int>(std::ceil(sample_count * area / total));
+  return static_cast<int>(std::ceil(samples_of_part * area / total));
 }
 
 Points surface_points(const GeneralizedCylinder& cylinder) {
@@ -103,7 +103,7 @@ Points surface_points(const OrientedBox& box) {
     shape.triangles.row(2 * face) << ring[0], ring[1], ring[2];
     shape.triangles.row(2 * face + 1) << ring[0], ring[2], ring[3];
   }
-  return surface_samples(shape, sample_count).points;
+  return surface_samples(shape, samples_of_part).points;
 }
 
 std::vector<Frustum> frusta_of(const GeneralizedCylinder& cylinder) {
@@ -173,7 +173,7 @@ double two_sided(const Solid& solid, const FitSurface& part, double enough) {
 }  // namespace
 
 FitSurface::FitSurface(const Shape& part)
-    : shape(part), index(part), samples(surface_samples(part, sample_count)) {}
+    : shape(part), index(part), samples(surface_samples(part, samples_of_part)) {}
 
 double distance_to_surface(const OrientedBox& box, const Eigen::Vector3d& point) {
   const Eigen::Vector3d beyond = (box.axes.transpose() * (point - box.centre)).cwiseAbs() - box.half_extents;

@@ -40,7 +40,7 @@ using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive>>;
 /// own triangle: a choice of scale, below which no wall is seen.
 constexpr double lift = 0.0001;
 
-Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
+Kernel::Point_3 to_point(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
@@ -65,8 +65,8 @@ class ChordCaster {
     Eigen::AlignedBox3d box;
     for (std::int32_t t = 0; t < graph.size(); ++t) {
       if (!(graph.areas(t) > 0)) continue;
-      triangles_.emplace_back(to_cgal(shape.corner(t, 0)), to_cgal(shape.corner(t, 1)),
-                              to_cgal(shape.corner(t, 2)));
+      triangles_.emplace_back(to_point(shape.corner(t, 0)), to_point(shape.corner(t, 1)),
+                              to_point(shape.corner(t, 2)));
       rows_.push_back(t);
       for (int k = 0; k < 3; ++k) box.extend(shape.corner(t, k));
     }
@@ -99,7 +99,7 @@ class ChordCaster {
     std::int32_t triangle;
   };
   static Kernel::Ray_3 ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
-    return {to_cgal(origin), Kernel::Vector_3(direction.x(), direction.y(), direction.z())};
+    return {to_point(origin), Kernel::Vector_3(direction.x(), direction.y(), direction.z())};
   }
   bool blocked(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
     return tree_.do_intersect(ray(origin, direction));

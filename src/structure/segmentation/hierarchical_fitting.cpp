@@ -38,7 +38,7 @@ constexpr double concave_step = 0.1;
 constexpr double deep_inside = 0.2, at_the_surface = 0.4;
 
 /// Weight of the growth of the spread, beside emptiness: decides between unions that fit equally well.
-constexpr double compactness = 0.0001;
+constexpr double compactness_of_parts = 0.0001;
 
 /// Stretch of the boundary between two patches.
 struct Border {
@@ -195,8 +195,8 @@ void VolumeClustering::push(std::int32_t first, std::int32_t second) {
     const double spread = one.area * two.area / (one.area + two.area) *
                           (one.moment / one.area - two.moment / two.area).squaredNorm() /
                           (patches_.total_area() * patches_.diagonal() * patches_.diagonal());
-    cost = std::max(0.0, patches_.emptiness(both) - one.emptiness - two.emptiness) + compactness * spread +
-           step * step * std::min(one.area, two.area) / patches_.total_area();
+    cost = std::max(0.0, patches_.emptiness(both) - one.emptiness - two.emptiness) +
+           compactness_of_parts * spread + step * step * std::min(one.area, two.area) / patches_.total_area();
   }
   queue_.push({cost, a, b, one.stamp, two.stamp});
 }

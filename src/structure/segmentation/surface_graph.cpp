@@ -17,7 +17,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-using Corners = std::array<std::int32_t, 3>;
+using CornerPlaces = std::array<std::int32_t, 3>;
 
 struct Side {
   std::int32_t low, high, triangle;
@@ -26,9 +26,9 @@ struct Side {
 };
 
 /// Numbers of the corners' places: equal coordinates, equal number.
-std::vector<Corners> places_of(const Shape& shape) {
+std::vector<CornerPlaces> places_of(const Shape& shape) {
   PointIndex index;
-  std::vector<Corners> places(static_cast<std::size_t>(shape.triangle_count()));
+  std::vector<CornerPlaces> places(static_cast<std::size_t>(shape.triangle_count()));
   for (std::size_t t = 0; t < places.size(); ++t)
     for (int k = 0; k < 3; ++k)
       places[t][static_cast<std::size_t>(k)] = index.insert(shape.corner(static_cast<Eigen::Index>(t), k));
@@ -36,10 +36,10 @@ std::vector<Corners> places_of(const Shape& shape) {
 }
 
 /// Sides of the triangles that have three different corners, those along the same edge side by side.
-std::vector<Side> sorted_sides(const std::vector<Corners>& places) {
+std::vector<Side> sorted_sides(const std::vector<CornerPlaces>& places) {
   std::vector<Side> sides;
   for (std::size_t t = 0; t < places.size(); ++t) {
-    const Corners& c = places[t];
+    const CornerPlaces& c = places[t];
     if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax(c[k], c[(k + 1) % 3]);
@@ -91,7 +91,7 @@ class GraphBuilder {
   double bend(const Side& a, const Side& b) const;
 
   const Shape& shape_;
-  std::vector<Corners> places_;
+  std::vector<CornerPlaces> places_;
   std::vector<Side> sides_;
   DisjointSets joined_;
   SurfaceGraph graph_;
@@ -166,7 +166,7 @@ void GraphBuilder::link_across_edges() {
   for_each_edge(sides_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s + 1 < end; ++s) {
       const Side &a = sides_[s], &b = sides_[s + 1];
-      const Corners& corners = places_[static_cast<std::size_t>(a.triangle)];
+      const CornerPlaces& corners = places_[static_cast<std::size_t>(a.triangle)];
       const auto corner = [&](std::int32_t place) {
         const auto k = std::find(corners.begin(), corners.end(), place) - corners.begin();
         return shape_.corner(a.triangle, static_cast<int>(k));
@@ -209,7 +209,7 @@ SurfaceGraph surface_graph(const Shape& shape) {
 }
 
 std::vector<std::int32_t> connected_components(const Shape& shape) {
-  const std::vector<Corners> places = places_of(shape);
+  const std::vector<CornerPlaces> places = places_of(shape);
   DisjointSets sets(places.size());
   std::vector<std::int32_t> first(3 * places.size(), -1);
   for (std::size_t t = 0; t < places.size(); ++t)

@@ -15,7 +15,7 @@ namespace stackabilization::detail {
 namespace {
 
 /// Weight of the spread of a union beside its fitting error: what decides where both fit exactly.
-constexpr double compactness = 0.001;
+constexpr double compactness_of_patches = 0.001;
 
 class PatchClustering {
  public:
@@ -71,7 +71,7 @@ class PatchClustering {
   static double cost(const Moments& m) {
     if (!(m.area() > 0)) return 0;
     const double spread = m.second().trace() - m.first().squaredNorm() / m.area();
-    return std::min({plane_error(m), sphere_error(m), cylinder_error(m)}) + compactness * spread;
+    return std::min({plane_error(m), sphere_error(m), cylinder_error(m)}) + compactness_of_patches * spread;
   }
 
   void push(std::int32_t a, std::int32_t b) {

@@ -6,17 +6,19 @@
 #include <cmath>
 #include <numbers>
 
+#include "structure/symmetry/symmetry_candidates.h"
+
 namespace stackabilization::detail {
 
 namespace {
 
-constexpr double aligned = 0.999;        // cosine
-constexpr double across = 0.05;          // cosine
-constexpr double weight_of_whole = 0.5;  // against the share of the area of each part
-constexpr int highest_order = 12;
+constexpr double min_aligned = 0.999;     // cosine
+constexpr double weight_of_whole = 0.5;   // against the share of the area of each part
+constexpr double max_angle_error = 0.05;  // radians
+constexpr int highest_order_of_boxes = 12;
 
 bool along_box(const OrientedBox& box, const Eigen::Vector3d& axis) {
-  return (box.axes.transpose() * axis).cwiseAbs().maxCoeff() > aligned;
+  return (box.axes.transpose() * axis).cwiseAbs().maxCoeff() > min_aligned;
 }
 
 /// The orthonormal normals nearest to the given ones.
@@ -31,9 +33,9 @@ void orthogonalize(std::vector<Symmetry>& planes) {
 /// The multiple of pi / n, n as small as possible, that is nearest to `angle`; `angle` itself when none is
 /// near.
 double rational_angle(double angle) {
-  for (int order = 2; order <= highest_order; ++order) {
+  for (int order = 2; order <= highest_order_of_boxes; ++order) {
     const double step = std::numbers::pi / order, multiple = std::round(angle / step) * step;
-    if (std::abs(multiple - angle) < across) return multiple;
+    if (std::abs(multiple - angle) < max_angle_error) return multiple;
   }
   return angle;
 }
@@ -62,7 +64,7 @@ std::vector<Symmetry> canonical_reflections(const SymmetrySurface& whole,
   std::vector<Symmetry> chosen;
   for (const Ranked& each : ranked)
     if (std::all_of(chosen.begin(), chosen.end(), [&](const Symmetry& other) {
-          return std::abs(other.axis.dot(each.plane.axis)) < across;
+          return std::abs(other.axis.dot(each.plane.axis)) < nearly_across;
         }))
       chosen.push_back(to_model(whole, to_own(whole, each.plane)));  // its point next to the centroid
   if (chosen.size() > 1) orthogonalize(chosen);
@@ -83,7 +85,7 @@ Symmetry fitted_to(const std::vector<Symmetry>& chosen, const Symmetry& plane) {
   std::vector<const Symmetry*> oblique;
   for (const Symmetry& other : chosen) {
     const double cosine = other.axis.dot(result.axis);
-    if (std::abs(cosine) < across)
+    if (std::abs(cosine) < nearly_across)
       result.axis = (result.axis - cosine * other.axis).normalized();
     else
       oblique.push_back(&other);

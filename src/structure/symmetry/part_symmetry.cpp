@@ -21,7 +21,6 @@ namespace {
 using detail::SymmetrySurface;
 
 constexpr double nearly_parallel = 0.99;                         // cosine
-constexpr double nearly_across = 0.05;                           // cosine
 constexpr double least_diagonal = 0.697, most_diagonal = 0.717;  // cosine
 
 class PartSymmetry {
@@ -162,7 +161,7 @@ class PartSymmetry {
     Symmetry axis = detail::to_model(surface, axes.front());
     std::vector<Symmetry> through;
     for (const Symmetry& plane : own) {
-      if (std::abs(plane.axis.dot(axis.axis)) > nearly_across) continue;
+      if (std::abs(plane.axis.dot(axis.axis)) > detail::nearly_across) continue;
       axis.axis = (axis.axis - plane.axis * plane.axis.dot(axis.axis)).normalized();
       axis.point -= plane.axis * plane.axis.dot(axis.point - plane.point);
       through.push_back(plane);

@@ -12,7 +12,6 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr double rough_reach = 0.1;    // of candidates, own frame
 constexpr double same_normal = 0.999;  // cosine
 constexpr double same_offset = 0.02;
 constexpr double off_principal = 0.05;  // of the trace of the second moments

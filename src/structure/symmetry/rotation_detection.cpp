@@ -14,10 +14,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr double rough_reach = 0.1;     // of candidates, own frame
-constexpr double same_axis = 0.99;      // cosine
-constexpr double nearly_across = 0.05;  // cosine
-constexpr int highest_order = 12;       // of rotations without reflections through their axis
+constexpr double same_axis = 0.99;  // cosine
+constexpr int highest_order = 12;   // of rotations without reflections through their axis
 
 class RotationSearch {
  public:

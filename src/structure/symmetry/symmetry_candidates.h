@@ -8,6 +8,9 @@
 
 namespace stackabilization::detail {
 
+/// |Cosine| up to which two axes count as across each other.
+constexpr double nearly_across = 0.05;
+
 /// The reflections (own frame) of a surface that is not one of revolution: voted for, or across an axis of
 /// its box or of its second moments, or the image of one in another; refined and verified. Those across an
 /// axis of the box come first, the longest extent before others, then the rest by residual.

@@ -120,13 +120,13 @@ Points measured_points(const SymmetrySurface& surface, Effort effort) {
 }
 
 /// A symmetry under refinement.
-struct Approach {
+struct RobustFit {
   const SymmetrySurface& surface;
   Points points;
   Symmetry symmetry;
   Linearization at;
 
-  Approach(const SymmetrySurface& of, const Symmetry& start, Effort effort)
+  RobustFit(const SymmetrySurface& of, const Symmetry& start, Effort effort)
       : surface(of),
         points(measured_points(of, effort)),
         symmetry(start),
@@ -149,13 +149,13 @@ struct Approach {
 }  // namespace
 
 Symmetry approached(const SymmetrySurface& surface, const Symmetry& start, double reach, Effort effort) {
-  Approach approach(surface, start, effort);
+  RobustFit approach(surface, start, effort);
   approach.settle(reach, reach);
   return approach.symmetry;
 }
 
 Symmetry refined(const SymmetrySurface& surface, const Symmetry& start, double reach) {
-  Approach approach(surface, start, Effort::dense);
+  RobustFit approach(surface, start, Effort::dense);
   for (double scale = reach; approach.settle(scale, reach); scale *= shrink) {
     const Linearization& at = approach.at;
     const bool exact = at.distances.cwiseProduct(at.weights(scale)).maxCoeff() < tolerance::relative;

@@ -4,6 +4,9 @@
 
 namespace stackabilization::detail {
 
+/// How far candidates that are voted for may be off, own frame.
+constexpr double rough_reach = 0.1;
+
 /// The symmetry near `start` (own frame) that fits the surface best as far as distances up to about `reach`
 /// (own frame) go: Gauss-Newton steps on the distances from images of samples and vertices to the surface
 /// with Geman-McClure weights. Rotations keep their angle, revolutions are treated as the half turn.

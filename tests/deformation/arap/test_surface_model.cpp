@@ -9,14 +9,14 @@
 #include "stackabilization/deformation/surface_model.h"
 #include "stackabilization/io/read.h"
 #include "support/catch.h"
+#include "support/differences.h"
+#include "support/handles.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
 using namespace stackabilization;
 
 namespace {
-
-const Handle whole{HandleKind::shape, 0, 0};
 
 Shape model(const std::string& name) {
   return read_shape(STACKABILIZATION_SOURCE_DIR "/data/models/" + name + ".obj");
@@ -31,10 +31,6 @@ SurfaceModelOptions with(Value SurfaceModelOptions::*option, Value value) {
 
 double diagonal(const Shape& shape) {
   return (shape.vertices.colwise().maxCoeff() - shape.vertices.colwise().minCoeff()).norm();
-}
-
-double difference(const Points& a, const Points& b) {
-  return (a - b).cwiseAbs().maxCoeff();
 }
 
 /// Rings at the heights 0, 0.75, ..., 6, of which each is alone in a slice of 0.25: slices 0, 3, ..., 21, 23.
@@ -71,29 +67,31 @@ TEST_CASE("surface: edits that change nothing leave every vertex to the bit") {
   CHECK(deformed(*surface, {}).vertices == shape.vertices);
   const Handle ring{HandleKind::section, 0, 0}, point{HandleKind::point, 0, 100},
       part{HandleKind::part, 1, 0};
-  for (const Handle& handle : {whole, ring, point, part}) {
+  for (const Handle& handle : {whole_shape, ring, point, part}) {
     CHECK(deformed(*surface, {{handle, Move{}}}).vertices == shape.vertices);
     CHECK(deformed(*surface, {{handle, Rotate{}}}).vertices == shape.vertices);
     CHECK(deformed(*surface, {{handle, Scale{}}}).vertices == shape.vertices);
     const std::vector<Edit> there_and_back{{handle, Scale{0.8, {}}}, {handle, Scale{1.25, {}}}};
-    CHECK(difference(deformed(*surface, there_and_back).vertices, shape.vertices) < 1e-12 * diagonal(shape));
+    CHECK(largest_difference(deformed(*surface, there_and_back).vertices, shape.vertices) <
+          1e-12 * diagonal(shape));
   }
 }
 
 TEST_CASE("surface: the whole shape is moved, turned and scaled exactly") {
   const Shape shape = tube();
   const auto surface = surface_model(shape);
-  const Eigen::Vector3d centre = surface->centre(whole);
+  const Eigen::Vector3d centre = surface->centre(whole_shape);
   CHECK((centre - Eigen::Vector3d(0, 0, 3)).norm() < 1e-12);
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   const Eigen::Vector3d by(0.3, -4, 2);
-  const Shape now =
-      deformed(*surface, {{whole, Rotate{{1, 2, -1}, 0.7}}, {whole, Move{by}}, {whole, Scale{2, {}}}});
+  const Shape now = deformed(
+      *surface,
+      {{whole_shape, Rotate{{1, 2, -1}, 0.7}}, {whole_shape, Move{by}}, {whole_shape, Scale{2, {}}}});
   const Points expected = (2 * (shape.vertices.rowwise() - centre.transpose()) * turn.transpose()).rowwise() +
                           (centre + by).transpose();
-  CHECK(difference(now.vertices, expected) < 1e-13);
-  const Shape tall = deformed(*surface, {{whole, Scale{3, Eigen::Vector3d(0, 0, -2)}}});
+  CHECK(largest_difference(now.vertices, expected) < 1e-13);
+  const Shape tall = deformed(*surface, {{whole_shape, Scale{3, Eigen::Vector3d(0, 0, -2)}}});
   CHECK(tall.vertices.leftCols(2) == shape.vertices.leftCols(2));
   CHECK(range_along(tall, {0, 0, 1}).length() == Approx(18).epsilon(1e-14));
 }
@@ -111,7 +109,7 @@ TEST_CASE("surface: where nothing stays, a handle takes everything with it rigid
     const Points expected = ((shape.vertices.rowwise() - centre.transpose()) * turn.transpose()).rowwise() +
                             (centre + by).transpose();
     const Shape now = deformed(*surface, {{handle, Move{by}}, {handle, Rotate{{0, 3, 1}, 2.5}}});
-    CHECK(difference(now.vertices, expected) < 1e-11);
+    CHECK(largest_difference(now.vertices, expected) < 1e-11);
   }
 }
 
@@ -121,17 +119,18 @@ TEST_CASE("surface: edits of the whole and of handles commute where they should"
   const Handle ring{HandleKind::section, 0, 3}, point{HandleKind::point, 0, 200};
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.9, Eigen::Vector3d(2, 0, 1).normalized()).toRotationMatrix();
-  const Eigen::Vector3d centre = surface->centre(whole), by(1, 2, 3);
+  const Eigen::Vector3d centre = surface->centre(whole_shape), by(1, 2, 3);
   const std::vector<Edit> bend{{ring, Scale{1.3, {}}}, {point, Move{{0.2, 0, 0.1}}}};
   const Shape bent = deformed(*surface, bend);
   // About the centre of what it has become, so turn first.
-  const Edit rotate{whole, Rotate{{2, 0, 1}, 0.9}}, move{whole, Move{by}}, grow{whole, Scale{2, {}}};
+  const Edit rotate{whole_shape, Rotate{{2, 0, 1}, 0.9}}, move{whole_shape, Move{by}},
+      grow{whole_shape, Scale{2, {}}};
   const Shape now = deformed(
       *surface,
       {rotate, move, grow, {ring, Scale{1.3, {}}}, {point, Move{2 * turn * Eigen::Vector3d(0.2, 0, 0.1)}}});
   const Points expected = (2 * (bent.vertices.rowwise() - centre.transpose()) * turn.transpose()).rowwise() +
                           (centre + by).transpose();
-  CHECK(difference(now.vertices, expected) < 1e-11);
+  CHECK(largest_difference(now.vertices, expected) < 1e-11);
 }
 
 TEST_CASE("surface: a handle that comes back to a fixed place keeps it") {
@@ -183,8 +182,8 @@ TEST_CASE("surface: a thick slice is scaled across the axis only, also when it h
     CHECK(wide.vertices(v, 2) == Approx(shape.vertices(v, 2)).margin(1e-12));
   }
   const Edit turn{slice, Rotate{{1, 0, 0}, 0.6}}, back{slice, Rotate{{1, 0, 0}, -0.6}};
-  CHECK(difference(deformed(*surface, {turn, {slice, Scale{1.5, {}}}, back}).vertices, wide.vertices) <
-        1e-12);
+  CHECK(largest_difference(deformed(*surface, {turn, {slice, Scale{1.5, {}}}, back}).vertices,
+                           wide.vertices) < 1e-12);
 }
 
 TEST_CASE("surface: a symmetric edit gives a symmetric shape") {
@@ -341,7 +340,7 @@ TEST_CASE("surface: fixed parts and points stay to the bit, or the edit is refus
   REQUIRE(refused.refusal);
   CHECK(refused.refusal->amount == Approx(0.01 / diagonal(shape)));
   CHECK(refused.shape.vertices == shape.vertices);
-  CHECK(surface->deformed({{whole, Scale{1.1, {}}}}, constraints).refusal);
+  CHECK(surface->deformed({{whole_shape, Scale{1.1, {}}}}, constraints).refusal);
 }
 
 TEST_CASE("surface: with the extent kept, the base goes in and the upper half does not move") {
@@ -393,7 +392,7 @@ TEST_CASE("surface: what it cannot do is said") {
   refuses({{HandleKind::corner, 0, 0}, Move{}});
   refuses({{HandleKind::wire, 0, 0}, Move{}});
   refuses({{HandleKind::section, 0, 0}, Scale{2, Eigen::Vector3d(0, 0, 1)}});
-  refuses({whole, Scale{-1, {}}});
+  refuses({whole_shape, Scale{-1, {}}});
   CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::handle_radius, -1.0)), UsageError);
   CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::influence, std::nan(""))), UsageError);
   CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::sections, 0)), UsageError);
@@ -408,7 +407,7 @@ TEST_CASE("surface: what it cannot do is said") {
   CHECK_THROWS_AS(surface_model(Shape{}), InputError);
   // Numbers that run away are refused, not computed with.
   refuses({{HandleKind::point, 0, 0}, Move{{1e200, 0, 0}}});
-  CHECK(surface->deformed(std::vector<Edit>(11, {whole, Scale{edit_limits::max_scale, {}}})).refusal);
+  CHECK(surface->deformed(std::vector<Edit>(11, {whole_shape, Scale{edit_limits::max_scale, {}}})).refusal);
 }
 
 TEST_CASE("surface: 1000 random edits each keep the extent and give finite vertices") {

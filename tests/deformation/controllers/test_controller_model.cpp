@@ -13,29 +13,21 @@
 #include "stackabilization/io/read.h"
 #include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
+#include "support/differences.h"
+#include "support/handles.h"
 #include "support/structures.h"
 
 using namespace stackabilization;
+using structures::cuboid;
+using structures::cylinder;
 
 namespace {
-
-const Cuboid& cuboid(const std::vector<Primitive>& now, int part) {
-  return std::get<Cuboid>(now[static_cast<std::size_t>(part)]);
-}
-
-const GeneralizedCylinder& cylinder(const std::vector<Primitive>& now, int part) {
-  return std::get<GeneralizedCylinder>(now[static_cast<std::size_t>(part)]);
-}
 
 double largest_residual(const ControllerModel& model, const std::vector<Primitive>& now) {
   double largest = 0;
   for (const double residual : relation_residuals(model.rest().structure, now))
     largest = std::max(largest, residual);
   return largest;
-}
-
-double difference(const Points& a, const Points& b) {
-  return (a - b).rowwise().norm().maxCoeff();
 }
 
 const Handle kWhole{HandleKind::part, 0, 0};
@@ -62,22 +54,23 @@ TEST_CASE("a cuboid alone takes affine edits exactly") {
   const Points& before = rest.shape.vertices;
   const double diagonal = rest.structure.diagonal;
   const DeformationResult moved = model.deformed({{kWhole, Move{{1, 2, 3}}}});
-  CHECK(difference(moved.shape.vertices, before.rowwise() + Eigen::RowVector3d(1, 2, 3)) < 1e-12 * diagonal);
+  CHECK(largest_distance(moved.shape.vertices, before.rowwise() + Eigen::RowVector3d(1, 2, 3)) <
+        1e-12 * diagonal);
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -1).normalized();
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, axis).toRotationMatrix();
-  CHECK(difference(model.deformed({{kWhole, Rotate{axis, 0.7}}}).shape.vertices, before * turn.transpose()) <
-        1e-12 * diagonal);
+  CHECK(largest_distance(model.deformed({{kWhole, Rotate{axis, 0.7}}}).shape.vertices,
+                         before * turn.transpose()) < 1e-12 * diagonal);
   const Eigen::Matrix3d stretch = Eigen::Matrix3d::Identity() + 0.5 * axis * axis.transpose();
-  CHECK(difference(model.deformed({{kWhole, Scale{1.5, Eigen::Vector3d(1, 2, -1)}}}).shape.vertices,
-                   before * stretch) < 1e-12 * diagonal);
+  CHECK(largest_distance(model.deformed({{kWhole, Scale{1.5, Eigen::Vector3d(1, 2, -1)}}}).shape.vertices,
+                         before * stretch) < 1e-12 * diagonal);
   // A face moved along its normal stretches the box.
   Points longer = before;
   longer.col(0) = (before.col(0).array() + 2) * 1.25 - 2;
-  CHECK(difference(model.deformed({{{HandleKind::face, 0, 1}, Move{{1, 0, 0}}}}).shape.vertices, longer) <
-        1e-12 * diagonal);
+  CHECK(largest_distance(model.deformed({{{HandleKind::face, 0, 1}, Move{{1, 0, 0}}}}).shape.vertices,
+                         longer) < 1e-12 * diagonal);
   // Edits follow one another.
   const DeformationResult twice = model.deformed({{kWhole, Scale{2, {}}}, {kWhole, Scale{0.5, {}}}});
-  CHECK(difference(twice.shape.vertices, before) < 1e-12 * diagonal);
+  CHECK(largest_distance(twice.shape.vertices, before) < 1e-12 * diagonal);
 }
 
 TEST_CASE("generalized cylinders alone take rigid motions and uniform scalings exactly") {
@@ -96,7 +89,7 @@ TEST_CASE("generalized cylinders alone take rigid motions and uniform scalings e
     const Points expected =
         ((1.3 * (before.rowwise() - centre) * turn.transpose()).rowwise() + centre).rowwise() +
         Eigen::RowVector3d(1, 0, 0);
-    CHECK(difference(result.shape.vertices, expected) < 1e-12 * rest.structure.diagonal);
+    CHECK(largest_distance(result.shape.vertices, expected) < 1e-12 * rest.structure.diagonal);
   }
 }
 
@@ -141,10 +134,10 @@ TEST_CASE("moving the foot of one leg outwards splays all four, and every joint 
               .norm() < 1e-14);
   }
   // The bars got longer by what the legs spread at their height, not more; the top stayed nearly as it was.
-  const Cuboid& bar = cuboid(result.primitives, kBar1);
+  const Cuboid bar = cuboid(result.primitives, kBar1);
   CHECK((bar.corners.row(1) - bar.corners.row(0)).norm() > 6.2 + 0.3);
-  CHECK(difference(cuboid(result.primitives, kTop).corners, cuboid(model.rest_primitives(), kTop).corners) <
-        0.1);
+  CHECK(largest_distance(cuboid(result.primitives, kTop).corners,
+                         cuboid(model.rest_primitives(), kTop).corners) < 0.1);
 }
 
 TEST_CASE("a moved leg takes along its mirror images and what is joined to them") {
@@ -153,7 +146,7 @@ TEST_CASE("a moved leg takes along its mirror images and what is joined to them"
     const DeformationResult result = model.deformed({{{HandleKind::part, kLeg3, 0}, Move{{0.4, 0.2, 0}}}});
     REQUIRE_FALSE(result.refusal);
     CHECK(largest_residual(model, result.primitives) < 1e-9);
-    CHECK(difference(
+    CHECK(largest_distance(
               cuboid(result.primitives, kLeg3).corners,
               (cuboid(model.rest_primitives(), kLeg3).corners.rowwise() + Eigen::RowVector3d(0.4, 0.2, 0))
                   .eval()) < 1e-14);
@@ -306,8 +299,8 @@ TEST_CASE("rungs go up their legs, the seat stays as thick as it is") {
       model.deformed({{{HandleKind::part, named("rung_left"), 0}, Move{{0, 0, up}}}}, constraints);
   REQUIRE_FALSE(result.refusal);
   const auto change = [&](const char* part, Eigen::Index section) {
-    const GeneralizedCylinder &rest = cylinder(model.rest_primitives(), named(part)),
-                              &now = cylinder(result.primitives, named(part));
+    const GeneralizedCylinder rest = cylinder(model.rest_primitives(), named(part)),
+                              now = cylinder(result.primitives, named(part));
     return (now.centres.row(section) - rest.centres.row(section)).norm();
   };
   CHECK(change("rung_left", 0) == Approx(up).epsilon(0.1));
@@ -326,8 +319,8 @@ TEST_CASE("a screw goes along with its board, it is not stretched to where that 
   const DeformationResult result =
       model.deformed({{{HandleKind::face, 0, 5}, Move{{0, 0, 0.5}}}}, constraints);
   REQUIRE_FALSE(result.refusal);
-  const Points &before = cuboid(model.rest_primitives(), 1).corners,
-               &now = cuboid(result.primitives, 1).corners;
+  const Points before = cuboid(model.rest_primitives(), 1).corners,
+               now = cuboid(result.primitives, 1).corners;
   for (int k = 1; k < 8; ++k)
     CHECK((now.row(k) - now.row(0) - before.row(k) + before.row(0)).norm() < 0.2 * 0.1);
   CHECK(now(0, 2) == Approx(1).margin(1e-6));
@@ -411,19 +404,18 @@ TEST_CASE("parts of a connected surface deform it without a crack or a step") {
 
 TEST_CASE("the shape as a whole is scaled by the affine map, and cannot leave its symmetries") {
   const ControllerModel model(structures::table());
-  const Handle whole{HandleKind::shape, 0, 0};
   const Shape& rest = model.rest().shape;
-  const Eigen::RowVector3d centre = model.centre(whole).transpose();
-  const DeformationResult grown = model.deformed({{whole, Scale{1.25, {}}}});
+  const Eigen::RowVector3d centre = model.centre(whole_shape).transpose();
+  const DeformationResult grown = model.deformed({{whole_shape, Scale{1.25, {}}}});
   REQUIRE_FALSE(grown.refusal);
   const Points wanted = ((rest.vertices.rowwise() - centre) * 1.25).rowwise() + centre;
   CHECK((grown.shape.vertices - wanted).cwiseAbs().maxCoeff() < 1e-9 * model.rest().structure.diagonal);
-  const DeformationResult low = model.deformed({{whole, Scale{0.5, Eigen::Vector3d(0, 0, 2)}}});
+  const DeformationResult low = model.deformed({{whole_shape, Scale{0.5, Eigen::Vector3d(0, 0, 2)}}});
   REQUIRE_FALSE(low.refusal);
   CHECK(range_along(low.shape, {0, 0, 1}).length() ==
         Approx(range_along(rest, {0, 0, 1}).length() / 2).epsilon(1e-9));
   CHECK(largest_residual(model, low.primitives) < 1e-9);
-  const DeformationResult aside = model.deformed({{whole, Move{{1, 0, 0}}}});
+  const DeformationResult aside = model.deformed({{whole_shape, Move{{1, 0, 0}}}});
   REQUIRE(aside.refusal);
   REQUIRE(aside.refusal->relation);
   CHECK(aside.shape.vertices == rest.vertices);

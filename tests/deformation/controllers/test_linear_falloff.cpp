@@ -6,12 +6,9 @@
 #include "support/structures.h"
 
 using namespace stackabilization;
+using structures::cylinder;
 
 namespace {
-
-GeneralizedCylinder cylinder(const std::vector<Primitive>& now, int part = 0) {
-  return std::get<GeneralizedCylinder>(now[static_cast<std::size_t>(part)]);
-}
 
 /// What the edit does to the shape, which must not refuse it.
 std::vector<Primitive> made(const StructuredShape& rest, const Handle& handle, const Operation& operation,

@@ -21,7 +21,7 @@ GeneralizedCylinder cone() {
   return cone;
 }
 
-Points moved(const GeneralizedCylinder& cylinder, const Eigen::VectorXd& values) {
+Points moved_centres(const GeneralizedCylinder& cylinder, const Eigen::VectorXd& values) {
   const Eigen::Index n = cylinder.centres.rows();
   const Eigen::VectorXd moves = values.head(3 * n);
   return cylinder.centres + Eigen::Map<const Points>(moves.data(), n, 3);
@@ -57,8 +57,8 @@ TEST_CASE("corrections of straight cylinders slide, lean and stretch, but do not
   double worst = 0, slid = 0;
   const Eigen::RowVector3d along = (cylinder.centres.row(n - 1) - cylinder.centres.row(0)).normalized();
   for (Eigen::Index c = 0; c < columns.cols(); ++c) {
-    worst = std::max(worst, bend(moved(cylinder, step * columns.col(c))));
-    const Eigen::VectorXd places = moved(cylinder, columns.col(c)) * along.transpose();
+    worst = std::max(worst, bend(moved_centres(cylinder, step * columns.col(c))));
+    const Eigen::VectorXd places = moved_centres(cylinder, columns.col(c)) * along.transpose();
     for (Eigen::Index i = 2; i < n; ++i)
       slid = std::max(slid, std::abs(places(i) - 2 * places(i - 1) + places(i - 2)));
   }
@@ -86,7 +86,7 @@ TEST_CASE("a settled step leaves a cone a straight cone, however long it is") {
     amounts(c) = 0.4 * std::sin(1 + 3.0 * static_cast<double>(c));
   const Eigen::VectorXd step = columns * amounts;
   GeneralizedCylinder now = cylinder;
-  now.centres = moved(cylinder, step);
+  now.centres = moved_centres(cylinder, step);
   now.radii += step.tail(n);
   REQUIRE(bend(now.centres) > 1e-3);
   REQUIRE(profile_bend(now) > 1e-3);

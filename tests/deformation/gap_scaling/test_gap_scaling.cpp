@@ -6,6 +6,9 @@
 #include "stackabilization/envelope/separation.h"
 #include "stackabilization/io/read.h"
 #include "support/catch.h"
+#include "support/differences.h"
+#include "support/directions.h"
+#include "support/handles.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
@@ -13,25 +16,19 @@ using namespace stackabilization;
 
 namespace {
 
-const Direction up(0, 0, 1);
-
 Edit squash(double factor, const Eigen::Vector3d& along = {0, 0, 1}) {
-  return {{HandleKind::shape, 0, 0}, Scale{factor, along}};
+  return {whole_shape, Scale{factor, along}};
 }
 
-Shape squashed(const Shape& shape, double factor, const Direction& direction = up) {
+Shape squashed(const Shape& shape, double factor, const Direction& direction = upwards) {
   const DeformationResult result =
       gap_scaling(shape, direction)->deformed({squash(factor, direction.vector())});
   REQUIRE_FALSE(result.refusal);
   return result.shape;
 }
 
-double f_max(const Shape& shape, const Direction& direction = up) {
+double f_max(const Shape& shape, const Direction& direction = upwards) {
   return minimal_stacking_translation(shape, direction).length;
-}
-
-double difference(const Points& a, const Points& b) {
-  return (a - b).cwiseAbs().maxCoeff();
 }
 
 /// A slab between two rough surfaces over one n x n grid: both envelopes are linear over the same triangles.
@@ -86,7 +83,7 @@ TEST_CASE("gap scaling: the upper envelope stays, in any pose") {
     const Eigen::Vector3d by(20, -3, 7);
     const Direction direction(3 * turn * Eigen::Vector3d(0, 0, 1));
     const Shape now = squashed(transformed(upright, turn, by), 0.4, direction);
-    CHECK(difference(now.vertices, transformed(expected, turn, by).vertices) < 1e-10);
+    CHECK(largest_difference(now.vertices, transformed(expected, turn, by).vertices) < 1e-10);
   }
 }
 
@@ -99,8 +96,8 @@ TEST_CASE("gap scaling: columns along walls reach up to their ends") {
     const Direction direction(turn * Eigen::Vector3d(0, 0, 1));
     Shape expected = prism;
     expected.vertices.col(2) = 5 - 0.3 * (5 - prism.vertices.col(2).array());
-    CHECK(difference(squashed(turned, 0.3, direction).vertices,
-                     transformed(expected, turn, {1, 2, 3}).vertices) < 1e-12);
+    CHECK(largest_difference(squashed(turned, 0.3, direction).vertices,
+                             transformed(expected, turn, {1, 2, 3}).vertices) < 1e-12);
   }
 }
 
@@ -132,24 +129,25 @@ TEST_CASE("gap scaling: refined triangles follow the envelope below slopes, not 
 
 TEST_CASE("gap scaling: no edit, no change, and factors multiply") {
   const Shape shape = solids::frustum_shell({});
-  const auto model = gap_scaling(shape, up);
+  const auto model = gap_scaling(shape, upwards);
   CHECK(model->deformed({}).shape.vertices == shape.vertices);
   CHECK(model->deformed({squash(1)}).shape.vertices == shape.vertices);
-  CHECK(difference(model->deformed({squash(0.4), squash(2.5)}).shape.vertices, shape.vertices) < 1e-14);
-  CHECK(difference(model->deformed({squash(0.4), squash(0.5, {0, 0, -7})}).shape.vertices,
-                   model->deformed({squash(0.2)}).shape.vertices) < 1e-14);
-  CHECK(model->handles() == std::vector<Handle>{{HandleKind::shape, 0, 0}});
+  CHECK(largest_difference(model->deformed({squash(0.4), squash(2.5)}).shape.vertices, shape.vertices) <
+        1e-14);
+  CHECK(largest_difference(model->deformed({squash(0.4), squash(0.5, {0, 0, -7})}).shape.vertices,
+                           model->deformed({squash(0.2)}).shape.vertices) < 1e-14);
+  CHECK(model->handles() == std::vector<Handle>{whole_shape});
   CHECK((model->centre(model->handles()[0]) - Eigen::Vector3d(0, 0, 4)).norm() < 1e-14);
 }
 
 TEST_CASE("gap scaling: constraints") {
   const Shape table = solids::table({});
-  const auto model = gap_scaling(table, up);
+  const auto model = gap_scaling(table, upwards);
   DeformationConstraints constraints;
-  constraints.keep_extent = up;
+  constraints.keep_extent = upwards;
   const DeformationResult kept = model->deformed({squash(0.5)}, constraints);
   REQUIRE_FALSE(kept.refusal);
-  CHECK(difference(kept.shape.vertices, table.vertices) < 1e-14);
+  CHECK(largest_difference(kept.shape.vertices, table.vertices) < 1e-14);
   constraints = {};
   constraints.box_tolerance = 0.4;
   CHECK(model->deformed({squash(0.5)}, constraints).refusal);
@@ -168,17 +166,16 @@ TEST_CASE("gap scaling: constraints") {
 }
 
 TEST_CASE("gap scaling: what it cannot do is said") {
-  const auto model = gap_scaling(solids::box({1, 1, 1}), up);
-  const Handle whole{HandleKind::shape, 0, 0};
-  CHECK_THROWS_AS(model->deformed({{whole, Move{}}}), UsageError);
-  CHECK_THROWS_AS(model->deformed({{whole, Rotate{}}}), UsageError);
-  CHECK_THROWS_AS(model->deformed({{whole, Scale{2, {}}}}), UsageError);
+  const auto model = gap_scaling(solids::box({1, 1, 1}), upwards);
+  CHECK_THROWS_AS(model->deformed({{whole_shape, Move{}}}), UsageError);
+  CHECK_THROWS_AS(model->deformed({{whole_shape, Rotate{}}}), UsageError);
+  CHECK_THROWS_AS(model->deformed({{whole_shape, Scale{2, {}}}}), UsageError);
   CHECK_THROWS_AS(model->deformed({squash(2, {0, 0.1, 1})}), UsageError);
   CHECK_THROWS_AS(model->deformed({squash(-2)}), UsageError);
   CHECK_THROWS_AS(model->deformed({{{HandleKind::part, 0, 0}, Scale{2, Eigen::Vector3d(0, 0, 1)}}}),
                   UsageError);
   CHECK_THROWS_AS(model->centre({HandleKind::part, 0, 0}), UsageError);
-  CHECK_THROWS_AS(gap_scaling(Shape{}, up), InputError);
+  CHECK_THROWS_AS(gap_scaling(Shape{}, upwards), InputError);
 }
 
 TEST_CASE("gap scaling: 1000 random edits keep the extent and give finite vertices") {

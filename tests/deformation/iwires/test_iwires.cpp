@@ -5,6 +5,8 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/iwires_model.h"
 #include "support/catch.h"
+#include "support/differences.h"
+#include "support/handles.h"
 #include "support/solids.h"
 
 using namespace stackabilization;
@@ -54,10 +56,6 @@ Eigen::Vector3d extents(const Points& points) {
   return (points.colwise().maxCoeff() - points.colwise().minCoeff()).transpose();
 }
 
-double difference(const Points& a, const Points& b) {
-  return (a - b).rowwise().norm().maxCoeff();
-}
-
 }  // namespace
 
 TEST_CASE("the wires of a box are twelve segments in three classes") {
@@ -79,7 +77,7 @@ TEST_CASE("a box stays a box when an edge moves, with the opposite faces where t
   const DeformationResult result = model.deformed({on_wire(edge, Move{{0.125, 0.25, -0.5}})});
   REQUIRE(!result.refusal);
   const Shape expected = solids::box({0.125, 0.25, -0.5}, {1.125, 2, 3});
-  CHECK(difference(result.shape.vertices, expected.vertices) < 1e-12);
+  CHECK(largest_distance(result.shape.vertices, expected.vertices) < 1e-12);
 }
 
 TEST_CASE("a scaled edge of a box stretches the box") {
@@ -87,7 +85,7 @@ TEST_CASE("a scaled edge of a box stretches the box") {
   const IWiresModel model(box);
   const DeformationResult result = model.deformed({on_wire(wire_at(model, {0.5, 0, 0}), Scale{1.5, {}})});
   REQUIRE(!result.refusal);
-  CHECK(difference(result.shape.vertices, solids::box({-0.25, 0, 0}, {1.25, 2, 3}).vertices) < 1e-12);
+  CHECK(largest_distance(result.shape.vertices, solids::box({-0.25, 0, 0}, {1.25, 2, 3}).vertices) < 1e-12);
 }
 
 TEST_CASE("a cylinder becomes a cone frustum when one circle is scaled") {
@@ -99,7 +97,7 @@ TEST_CASE("a cylinder becomes a cone frustum when one circle is scaled") {
   Points expected = cylinder.vertices;
   for (Eigen::Index v = 0; v < expected.rows(); ++v)
     if (expected(v, 2) > 1) expected.row(v).head<2>() *= 1.5;
-  CHECK(difference(result.shape.vertices, expected) < 1e-12);
+  CHECK(largest_distance(result.shape.vertices, expected) < 1e-12);
 }
 
 TEST_CASE("a smooth closed surface has no wire to hold on to") {
@@ -116,7 +114,7 @@ TEST_CASE("the surface of a cylinder follows a scaled circle in straight lines")
   REQUIRE(!result.refusal);
   Points expected = cylinder.vertices;
   for (Eigen::Index v = 0; v < expected.rows(); ++v) expected.row(v).head<2>() *= 1 - expected(v, 2) / 4;
-  CHECK(difference(result.shape.vertices, expected) < 1e-12);
+  CHECK(largest_distance(result.shape.vertices, expected) < 1e-12);
 }
 
 TEST_CASE("a rotated edge takes its parallels along and makes the box a parallelepiped") {
@@ -132,7 +130,7 @@ TEST_CASE("a rotated edge takes its parallels along and makes the box a parallel
     expected(v, 0) = 0.5 + along * std::cos(angle);
     expected(v, 1) += along * std::sin(angle);
   }
-  CHECK(difference(result.shape.vertices, expected) < 1e-12);
+  CHECK(largest_distance(result.shape.vertices, expected) < 1e-12);
 }
 
 TEST_CASE("no edit and edits that change nothing leave every vertex") {
@@ -144,24 +142,24 @@ TEST_CASE("no edit and edits that change nothing leave every vertex") {
          {Operation(Move{}), Operation(Rotate{{1, 2, 3}, 0}), Operation(Scale{1, {}})}) {
       const DeformationResult result = model.deformed({on_wire(static_cast<int>(k), nothing)});
       REQUIRE(!result.refusal);
-      CHECK(difference(result.shape.vertices, table.vertices) < 1e-12);
+      CHECK(largest_distance(result.shape.vertices, table.vertices) < 1e-12);
     }
 }
 
 TEST_CASE("an edit of the whole shape is an affine map") {
   const Shape table = solids::table({});
   const IWiresModel model(table);
-  const Handle shape{HandleKind::shape, 0, 0};
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -1).normalized();
-  const DeformationResult result = model.deformed(
-      {{shape, Move{{1, 2, 3}}}, {shape, Rotate{axis, 0.5}}, {shape, Scale{1.25, Eigen::Vector3d(0, 0, 2)}}});
+  const DeformationResult result = model.deformed({{whole_shape, Move{{1, 2, 3}}},
+                                                   {whole_shape, Rotate{axis, 0.5}},
+                                                   {whole_shape, Scale{1.25, Eigen::Vector3d(0, 0, 2)}}});
   REQUIRE(!result.refusal);
-  const Eigen::Vector3d centre = model.centre(shape), moved = centre + Eigen::Vector3d(1, 2, 3);
+  const Eigen::Vector3d centre = model.centre(whole_shape), moved = centre + Eigen::Vector3d(1, 2, 3);
   Eigen::Matrix3d linear = Eigen::AngleAxisd(0.5, axis).toRotationMatrix();
   linear.row(2) *= 1.25;
   const Points expected =
       ((table.vertices.rowwise() - centre.transpose()) * linear.transpose()).rowwise() + moved.transpose();
-  CHECK(difference(result.shape.vertices, expected) < 1e-12);
+  CHECK(largest_distance(result.shape.vertices, expected) < 1e-12);
 }
 
 TEST_CASE("mirror images follow, and the box is stretched both ways") {
@@ -174,7 +172,7 @@ TEST_CASE("mirror images follow, and the box is stretched both ways") {
   const int edge = wire_at(model, {0, 2, 3});
   const DeformationResult result = model.deformed({on_wire(edge, Move{{0, 0.5, -1}})});
   REQUIRE(!result.refusal);
-  CHECK(difference(result.shape.vertices, solids::box({-1, -2.5, -2}, {1, 2.5, 2}).vertices) < 1e-12);
+  CHECK(largest_distance(result.shape.vertices, solids::box({-1, -2.5, -2}, {1, 2.5, 2}).vertices) < 1e-12);
   for (const double residual : wire_symmetry_residuals(box, model.wires(), result.shape.vertices))
     CHECK(residual < 1e-12);
   // Its own image under x: it cannot move along x.
@@ -193,7 +191,7 @@ TEST_CASE("a sheet stretches evenly and stays flat") {
   REQUIRE(!result.refusal);
   Points expected = flat.vertices;
   expected.col(0) *= 1.5;
-  CHECK(difference(result.shape.vertices, expected) < 1e-12);
+  CHECK(largest_distance(result.shape.vertices, expected) < 1e-12);
 }
 
 TEST_CASE("vertices of equal coordinates stay together, and separate parts stay where they are") {
@@ -205,9 +203,9 @@ TEST_CASE("vertices of equal coordinates stay together, and separate parts stay 
   REQUIRE(!result.refusal);
   const Points expected = solids::box({0, 0.5, 0.25}, {1, 2, 3}).vertices;
   const Eigen::Index n = near.vertex_count();
-  CHECK(difference(result.shape.vertices.topRows(n), expected) < 1e-12);
+  CHECK(largest_distance(result.shape.vertices.topRows(n), expected) < 1e-12);
   CHECK(result.shape.vertices.topRows(n) == result.shape.vertices.middleRows(n, n));
-  CHECK(difference(result.shape.vertices.bottomRows(n), both.vertices.bottomRows(n)) < 1e-12);
+  CHECK(largest_distance(result.shape.vertices.bottomRows(n), both.vertices.bottomRows(n)) < 1e-12);
 }
 
 TEST_CASE("a piece without wires follows its nearest wire") {
@@ -220,8 +218,8 @@ TEST_CASE("a piece without wires follows its nearest wire") {
   const DeformationResult result =
       model.deformed({on_wire(wire_at(model, {0.5, 0, 0}), Move{by.transpose()})});
   REQUIRE(!result.refusal);
-  CHECK(difference(result.shape.vertices.bottomRows(ball.vertex_count()), ball.vertices.rowwise() + by) <
-        1e-12);
+  CHECK(largest_distance(result.shape.vertices.bottomRows(ball.vertex_count()),
+                         ball.vertices.rowwise() + by) < 1e-12);
 }
 
 TEST_CASE("results move with the shape") {
@@ -236,7 +234,7 @@ TEST_CASE("results move with the shape") {
     const DeformationResult b = there.deformed({on_wire(k, Move{turn * Eigen::Vector3d(0.1, -0.2, 0.05)})});
     REQUIRE(!a.refusal);
     REQUIRE(!b.refusal);
-    CHECK(difference(transformed(a.shape, turn, by).vertices, b.shape.vertices) < 1e-9);
+    CHECK(largest_distance(transformed(a.shape, turn, by).vertices, b.shape.vertices) < 1e-9);
   }
 }
 
@@ -244,13 +242,13 @@ TEST_CASE("edits are made one after the other") {
   const IWiresModel model(solids::box({1, 2, 3}));
   const int edge = wire_at(model, {0.5, 0, 0});
   const DeformationResult result = model.deformed({on_wire(edge, Move{{0, 0.5, 0}}),
-                                                   {{HandleKind::shape, 0, 0}, Scale{2, {}}},
+                                                   {whole_shape, Scale{2, {}}},
                                                    on_wire(edge, Move{{0, 0, 1}}),
                                                    on_wire(edge, Scale{1.5, {}})});
   REQUIRE(!result.refusal);
   // The shape is scaled about its centre at rest, carried along: (0.5, 1, 1.5).
   const Shape expected = solids::box({-1, 0, -0.5}, {2, 3, 4.5});
-  CHECK(difference(result.shape.vertices, expected.vertices) < 1e-12);
+  CHECK(largest_distance(result.shape.vertices, expected.vertices) < 1e-12);
 }
 
 TEST_CASE("what is fixed stays, or the edit is refused") {
@@ -263,7 +261,7 @@ TEST_CASE("what is fixed stays, or the edit is refused") {
     const DeformationResult result = model.deformed({on_wire(k, Move{{0, 0, -0.5}})}, constraints);
     ++(result.refusal ? refused : made);
     if (result.refusal) continue;
-    CHECK(difference(extract_part(result.shape, 0).vertices, extract_part(table, 0).vertices) == 0);
+    CHECK(largest_distance(extract_part(result.shape, 0).vertices, extract_part(table, 0).vertices) == 0);
   }
   CHECK(made > 0);
   CHECK(refused >= 12);

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <memory>
 #include <numbers>
@@ -12,6 +11,8 @@
 #include "stackabilization/deformation/iwires_model.h"
 #include "stackabilization/deformation/surface_model.h"
 #include "support/catch.h"
+#include "support/handles.h"
+#include "support/messages.h"
 #include "support/structures.h"
 
 using namespace stackabilization;
@@ -21,8 +22,6 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double turn = 2 * std::numbers::pi;
 const Eigen::Vector3d size(4, 1, 2);
-const Handle whole{HandleKind::shape, 0, 0};
-
 struct NamedModel {
   std::string name;
   std::unique_ptr<DeformationModel> model;
@@ -37,15 +36,6 @@ std::vector<NamedModel> models() {
   all.push_back({"iwires", std::make_unique<IWiresModel>(rest.shape)});
   all.push_back({"gap scaling", gap_scaling(rest.shape, Direction(0, 0, 1))});
   return all;
-}
-
-std::string sentence(const std::function<void()>& work) {
-  try {
-    work();
-  } catch (const UsageError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 /// Sizes of axes that a Direction takes.
@@ -63,10 +53,10 @@ TEST_CASE("an axis means its direction, however long it is, or is refused") {
     const Eigen::Vector3d along = gap ? up : axis;
     const DeformationModel& model = *named.model;
     const auto rotated = [&](double length) {
-      return model.deformed({{whole, Rotate{length * along, 0.7}}});
+      return model.deformed({{whole_shape, Rotate{length * along, 0.7}}});
     };
     const auto scaled = [&](double length) {
-      return model.deformed({{whole, Scale{1.5, Eigen::Vector3d(length * along)}}});
+      return model.deformed({{whole_shape, Scale{1.5, Eigen::Vector3d(length * along)}}});
     };
     for (const double length : good_lengths) {
       INFO(named.name << ", axis of length " << length);
@@ -77,8 +67,9 @@ TEST_CASE("an axis means its direction, however long it is, or is refused") {
     }
     for (const double length : bad_lengths) {
       INFO(named.name << ", axis of length " << length);
-      CHECK(sentence([&] { rotated(length); }).find("a rotation needs an axis") == 0);
-      CHECK(sentence([&] { scaled(length); }).find("a scaling along an axis needs an axis") == 0);
+      CHECK(message_of<UsageError>([&] { rotated(length); }).find("a rotation needs an axis") == 0);
+      CHECK(message_of<UsageError>([&] { scaled(length); }).find("a scaling along an axis needs an axis") ==
+            0);
     }
   }
 }
@@ -102,7 +93,9 @@ TEST_CASE("moves, factors and angles beyond their limits are refused by every mo
   for (const NamedModel& named : models())
     for (const auto& [operation, words] : cases) {
       if (named.name == "gap scaling" && std::holds_alternative<Move>(operation)) continue;
-      const std::string found = sentence([&] { named.model->deformed({{whole, operation}}); });
+      const std::string found = message_of<UsageError>([&] {
+        named.model->deformed({{whole_shape, operation}});
+      });
       INFO(named.name << ": " << found);
       CHECK(found.find(words) == 0);
     }
@@ -112,9 +105,9 @@ TEST_CASE("edits at their limits are made, and are finite and right") {
   const ControllerModel model(structures::box_alone(size));
   const Points rest = model.rest().shape.vertices;
   const Eigen::Vector3d far(edit_limits::max_move * size.norm(), 0, 0);
-  const Points moved = model.deformed({{whole, Move{far}}}).shape.vertices;
+  const Points moved = model.deformed({{whole_shape, Move{far}}}).shape.vertices;
   CHECK(((moved.rowwise() - far.transpose()) - rest).cwiseAbs().maxCoeff() < 1e-9);
-  const Points turned = model.deformed({{whole, Rotate{{0, 0, 1}, -10 * turn}}}).shape.vertices;
+  const Points turned = model.deformed({{whole_shape, Rotate{{0, 0, 1}, -10 * turn}}}).shape.vertices;
   CHECK((turned - rest).cwiseAbs().maxCoeff() < 1e-12);
   for (const NamedModel& named : models())
     for (const double factor : {1 / edit_limits::max_scale, edit_limits::max_scale}) {
@@ -122,7 +115,7 @@ TEST_CASE("edits at their limits are made, and are finite and right") {
       std::vector<Edit> edits;
       // So often that nothing, or everything, would be left.
       for (int k = 0; k < 60; ++k) {
-        edits.push_back({whole, Scale{factor, Eigen::Vector3d(0, 0, 1)}});
+        edits.push_back({whole_shape, Scale{factor, Eigen::Vector3d(0, 0, 1)}});
         const DeformationResult result = named.model->deformed(edits);
         REQUIRE(result.shape.vertices.allFinite());
         if (!result.refusal) validate(result.shape);
@@ -135,19 +128,20 @@ TEST_CASE("what no model keeps is refused at the door: points far away, odd tole
       {{2, 0.5, 1}, true},         {{-30, 0.5, 1}, true},     {{2, 0.5, 60}, false}, {{1e300, 0, 0}, false},
       {{0, -1e300, 1e300}, false}, {{0, infinite, 0}, false}, {{0, NAN, 0}, false}};
   for (const NamedModel& named : models()) {
-    const Edit edit{whole, Scale{1, Eigen::Vector3d(0, 0, 1)}};
+    const Edit edit{whole_shape, Scale{1, Eigen::Vector3d(0, 0, 1)}};
     for (const auto& [point, good] : points) {
       INFO(named.name << ", point " << point.transpose());
       DeformationConstraints constraints;
       constraints.fixed_points = {point};
-      const std::string found = sentence([&] { named.model->deformed({edit}, constraints); });
+      const std::string found = message_of<UsageError>([&] { named.model->deformed({edit}, constraints); });
       CHECK(found.find(good ? "accepted" : "a fixed point lies on the surface, or at most") == 0);
     }
     for (const double tolerance : {-1e-300, -1.0, infinite, std::nan("")}) {
       DeformationConstraints constraints;
       constraints.box_tolerance = tolerance;
-      CHECK(sentence([&] { named.model->deformed({edit}, constraints); }).find("the tolerance of the box") ==
-            0);
+      CHECK(message_of<UsageError>([&] {
+              named.model->deformed({edit}, constraints);
+            }).find("the tolerance of the box") == 0);
     }
   }
 }

@@ -7,6 +7,7 @@
 #include "stackabilization/mesh/boxes.h"
 #include "support/catch.h"
 #include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 
@@ -17,7 +18,7 @@ namespace {
 StructuredShape tower() {
   StructuredShape tower;
   Shape lower = solids::box({0, 0, 0}, {2, 2, 1}), upper = solids::box({0, 0, 1}, {2, 2, 3}),
-        mast = transformed(solids::cylinder(0.5, 2, 12), Eigen::Matrix3d::Identity(), {1, 1, 3});
+        mast = solids::moved(solids::cylinder(0.5, 2, 12), {1, 1, 3});
   lower.part_names = {"lower"};
   upper.part_names = {"upper"};
   mast.part_names = {"mast"};
@@ -43,7 +44,7 @@ StructuredShape tower() {
 }
 
 /// Everything under p -> a p + t.
-DeformationResult moved(const StructuredShape& rest, double a, const Eigen::Vector3d& t) {
+DeformationResult moved_everywhere(const StructuredShape& rest, double a, const Eigen::Vector3d& t) {
   DeformationResult result{{}, transformed(rest.shape, a * Eigen::Matrix3d::Identity(), t), {}};
   for (const Part& part : rest.structure.parts) {
     Primitive primitive = part.primitive;
@@ -64,7 +65,7 @@ DeformationResult moved(const StructuredShape& rest, double a, const Eigen::Vect
 
 TEST_CASE("what nobody moved settles as it was") {
   const StructuredShape rest = tower();
-  const StructuredShape now = settled(rest, moved(rest, 1, {0, 0, 0}));
+  const StructuredShape now = settled(rest, moved_everywhere(rest, 1, {0, 0, 0}));
   CHECK(now.structure.diagonal == Approx(rest.structure.diagonal).epsilon(1e-15));
   for (std::size_t k = 0; k < rest.structure.relations.size(); ++k) {
     CHECK(now.structure.relations[k].residual == rest.structure.relations[k].residual);
@@ -76,7 +77,7 @@ TEST_CASE("what nobody moved settles as it was") {
 TEST_CASE("joints go where their parts carry them, and turns are forgotten") {
   const StructuredShape rest = tower();
   const Eigen::Vector3d shift(0, 3, -1);
-  const StructuredShape now = settled(rest, moved(rest, 2, shift));
+  const StructuredShape now = settled(rest, moved_everywhere(rest, 2, shift));
   validate(now);
   CHECK(now.structure.diagonal == Approx(2 * rest.structure.diagonal));
   for (const std::size_t k : {1, 2}) {
@@ -92,7 +93,7 @@ TEST_CASE("joints go where their parts carry them, and turns are forgotten") {
 
 TEST_CASE("refused edits and results without primitives do not settle") {
   const StructuredShape rest = tower();
-  DeformationResult result = moved(rest, 1, {0, 0, 0});
+  DeformationResult result = moved_everywhere(rest, 1, {0, 0, 0});
   result.refusal = Refusal{"a joint would open", 1, 0.1};
   CHECK_THROWS_AS(settled(rest, result), UsageError);
   result.refusal.reset();

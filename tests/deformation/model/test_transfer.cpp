@@ -49,8 +49,8 @@ Weights sampled_coordinates(const Eigen::Vector3d& point, int count) {
   return sum / sum.sum();
 }
 
-Primitive moved(Primitive primitive, const Eigen::Matrix3d& linear, const Eigen::Vector3d& by,
-                double radius_factor) {
+Primitive moved_primitive(Primitive primitive, const Eigen::Matrix3d& linear, const Eigen::Vector3d& by,
+                          double radius_factor) {
   const auto move = [&](auto& points) {
     points = ((points * linear.transpose()).rowwise() + by.transpose()).eval();
   };
@@ -157,7 +157,8 @@ TEST_CASE("points ride on a cuboid affinely, however thin it is") {
         point += random.uniform(-1, 1) * (rest.corners.row(1 << a) - rest.corners.row(0)).transpose();
       if (thickness > 0) point += 0.01 * random.in_cube();
       CHECK(carried(rest, rest, point) == point);
-      CHECK((carried(rest, moved(rest, linear, by, 1), point) - (linear * point + by)).norm() < 1e-12 * 40);
+      CHECK((carried(rest, moved_primitive(rest, linear, by, 1), point) - (linear * point + by)).norm() <
+            1e-12 * 40);
     }
   }
 }
@@ -172,8 +173,9 @@ TEST_CASE("points ride on generalized cylinders exactly through rest, rigid moti
       CHECK((carried(rest, rest, point) - point).norm() < 1e-13);
       for (const double factor : {1.0, 0.8, 1.7}) {
         const Eigen::Matrix3d linear = factor * rotation.toRotationMatrix();
-        CHECK((carried(rest, moved(rest, linear, by, factor), point) - (linear * point + by)).norm() <
-              1e-12 * 20);
+        CHECK(
+            (carried(rest, moved_primitive(rest, linear, by, factor), point) - (linear * point + by)).norm() <
+            1e-12 * 20);
       }
     }
   }

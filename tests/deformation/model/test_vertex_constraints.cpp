@@ -4,6 +4,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "support/catch.h"
+#include "support/differences.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
@@ -25,10 +26,6 @@ Points stretched(const Points& vertices, double factor, double up) {
   return out;
 }
 
-double difference(const Points& a, const Points& b) {
-  return (a - b).cwiseAbs().maxCoeff();
-}
-
 }  // namespace
 
 TEST_CASE("without an edit or a constraint, vertices stay to the bit") {
@@ -48,21 +45,24 @@ TEST_CASE("a moved shape has kept its extent") {
   DeformationConstraints constraints;
   constraints.keep_extent = Direction(0, 0, 1);
   const Points moved = stretched(table().vertices, 1, 0.7);
-  CHECK(difference(constrained(table(), moved, constraints, {}).vertices, moved) < 1e-14);
+  CHECK(largest_difference(constrained(table(), moved, constraints, {}).vertices, moved) < 1e-14);
 }
 
 TEST_CASE("the extent is restored from the end that did not move") {
   DeformationConstraints constraints;
   constraints.keep_extent = Direction(0, 0, 1);
   const Points& rest = table().vertices;  // from 0 to 6
-  CHECK(difference(constrained(table(), stretched(rest, 1.5, 0), constraints, {}).vertices, rest) < 1e-14);
-  CHECK(difference(constrained(table(), stretched(rest, 0.5, 3), constraints, {}).vertices, rest) < 1e-14);
-  // Grown by one at both ends: rest lies between them.
-  CHECK(difference(constrained(table(), stretched(rest, 8.0 / 6, -1), constraints, {}).vertices, rest) <
+  CHECK(largest_difference(constrained(table(), stretched(rest, 1.5, 0), constraints, {}).vertices, rest) <
         1e-14);
+  CHECK(largest_difference(constrained(table(), stretched(rest, 0.5, 3), constraints, {}).vertices, rest) <
+        1e-14);
+  // Grown by one at both ends: rest lies between them.
+  CHECK(largest_difference(constrained(table(), stretched(rest, 8.0 / 6, -1), constraints, {}).vertices,
+                           rest) < 1e-14);
   // Moved by two, then one more at the top: it keeps the bottom where it is now, which is nearest.
   const Points both = stretched(rest, 7.0 / 6, 2);
-  CHECK(difference(constrained(table(), both, constraints, {}).vertices, stretched(rest, 1, 2)) < 1e-14);
+  CHECK(largest_difference(constrained(table(), both, constraints, {}).vertices, stretched(rest, 1, 2)) <
+        1e-14);
 }
 
 TEST_CASE("the extent is restored along any direction, after any deformation") {

@@ -7,6 +7,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/envelope/height_field.h"
 #include "support/catch.h"
+#include "support/directions.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
@@ -23,8 +24,6 @@ struct NamedMaker {
 
 const std::vector<NamedMaker> makers = {{"rays", height_field_by_rays},
                                         {"scanline", height_field_by_scanline}};
-const Direction up(0, 0, 1);
-
 Shape triangle_sheet(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   Points points(3, 3);
   points << a.transpose(), b.transpose(), c.transpose();
@@ -44,7 +43,7 @@ double ring_radius(const Eigen::Vector2d& q, int segments) {
 
 TEST_CASE("a box has the same gap at every sample, and the window fits it", "[height_field]") {
   const Shape box = solids::box({-1, 4, 2}, {3, 7, 7});
-  const Window window = window_around(box, up, 8);
+  const Window window = window_around(box, upwards, 8);
   CHECK(window.columns == 8);
   CHECK(window.rows == 6);
   CHECK(window.pixel_size == 0.5);
@@ -52,7 +51,7 @@ TEST_CASE("a box has the same gap at every sample, and the window fits it", "[he
   CHECK(window.y == 4);
   for (const NamedMaker& maker : makers) {
     CAPTURE(maker.name);
-    const HeightField field = maker.make(box, up, window);
+    const HeightField field = maker.make(box, upwards, window);
     CHECK((field.upper.array() == 7).all());
     CHECK((field.lower.array() == 2).all());
     CHECK((gap(field).array() == 5).all());
@@ -75,10 +74,10 @@ TEST_CASE("heights run along the unit vector whatever the length of the directio
 TEST_CASE("the frustum shell's envelopes are its walls, floor and rim", "[height_field]") {
   const solids::FrustumShell cup;
   const Shape shape = solids::frustum_shell(cup);
-  const Window window = window_around(shape, up, 61);
+  const Window window = window_around(shape, upwards, 61);
   for (const NamedMaker& maker : makers) {
     CAPTURE(maker.name);
-    const HeightField field = maker.make(shape, up, window);
+    const HeightField field = maker.make(shape, upwards, window);
     int covered = 0;
     for (int j = 0; j < window.rows; ++j)
       for (int i = 0; i < window.columns; ++i) {
@@ -145,7 +144,7 @@ TEST_CASE("neighbouring triangles leave no crack between them", "[height_field]"
     CAPTURE(maker.name);
     // Samples k / 32, exactly: also on the vertices and edges over the axes. All of the disc is covered
     // twice.
-    const HeightField field = maker.make(sphere, up, {-1 - 1.0 / 64, -1 - 1.0 / 64, 1.0 / 32, 65, 65});
+    const HeightField field = maker.make(sphere, upwards, {-1 - 1.0 / 64, -1 - 1.0 / 64, 1.0 / 32, 65, 65});
     REQUIRE(field.window.sample(32, 32).norm() == 0);
     for (int j = 0; j < 65; ++j)
       for (int i = 0; i < 65; ++i)
@@ -160,16 +159,16 @@ TEST_CASE("vertical triangles count with both ends", "[height_field]") {
   const Shape single_column = triangle_sheet({2, 0, -1}, {2, 0, 5}, {2, 1, 5});
   for (const NamedMaker& maker : makers) {
     CAPTURE(maker.name);
-    const Eigen::MatrixXd along = gap(maker.make(along_row, up, on_the_wall));
+    const Eigen::MatrixXd along = gap(maker.make(along_row, upwards, on_the_wall));
     CHECK(along(0, 0) == 0);
     CHECK(along(1, 0) == 3);
     CHECK(along(2, 0) == 6);
     CHECK(std::isnan(along(3, 0)));
-    const Eigen::MatrixXd across = gap(maker.make(across_row, up, on_the_wall));
+    const Eigen::MatrixXd across = gap(maker.make(across_row, upwards, on_the_wall));
     CHECK(std::isnan(across(0, 0)));
     CHECK(across(1, 0) == 3);
     CHECK(std::isnan(across(2, 0)));
-    CHECK(gap(maker.make(single_column, up, on_the_wall))(2, 0) == 6);
+    CHECK(gap(maker.make(single_column, upwards, on_the_wall))(2, 0) == 6);
   }
 }
 
@@ -177,7 +176,7 @@ TEST_CASE("an open sheet has no gap and keeps its slope", "[height_field]") {
   const Shape sheet = triangle_sheet({0, 0, 0}, {4, 0, 4}, {0, 4, 8});
   for (const NamedMaker& maker : makers) {
     CAPTURE(maker.name);
-    const HeightField field = maker.make(sheet, up, window_around(sheet, up, 16));
+    const HeightField field = maker.make(sheet, upwards, window_around(sheet, upwards, 16));
     CHECK(maximum_gap(field).value == 0);
     CHECK(maximum_gap(field).column == 0);
     const Eigen::Vector2d q = field.window.sample(3, 5);
@@ -205,29 +204,29 @@ TEST_CASE("windows beside the shape and single samples are fine", "[height_field
   const Shape box = solids::box({1, 1, 1});
   for (const NamedMaker& maker : makers) {
     CAPTURE(maker.name);
-    const HeightField beside = maker.make(box, up, {1e6, -1e9, 3, 5, 4});
+    const HeightField beside = maker.make(box, upwards, {1e6, -1e9, 3, 5, 4});
     CHECK(maximum_gap(beside).value == 0);
     CHECK(maximum_gap(beside).column == -1);
     CHECK(gap(beside).array().isNaN().all());
-    const HeightField single = maker.make(box, up, window_around(box, up, 1));
+    const HeightField single = maker.make(box, upwards, window_around(box, upwards, 1));
     CHECK(single.upper.size() == 1);
     CHECK(maximum_gap(single).value == 1);
     // A window that is larger than the shape on every side, with one sample inside.
-    CHECK(maximum_gap(maker.make(box, up, {-7, -7, 3, 5, 5})).value == 1);
+    CHECK(maximum_gap(maker.make(box, upwards, {-7, -7, 3, 5, 5})).value == 1);
   }
 }
 
 TEST_CASE("windows of flat projections have at least one pixel", "[height_field]") {
   const Shape wall = triangle_sheet({0, 0, 0}, {2, 0, 0}, {2, 0, 6});
-  const Window flat = window_around(wall, up, 10);
+  const Window flat = window_around(wall, upwards, 10);
   CHECK(flat.columns == 10);
   CHECK(flat.rows == 1);
   CHECK(flat.sample(0, 0).y() == 0);
   const Shape point = triangle_sheet({2, 1, 3}, {2, 1, 3}, {2, 1, 3});
-  const Window single = window_around(point, up, 10);
+  const Window single = window_around(point, upwards, 10);
   CHECK(single.columns == 1);
   CHECK(single.pixel_size == 1);
-  for (const NamedMaker& maker : makers) CHECK(maximum_gap(maker.make(point, up, single)).value == 0);
+  for (const NamedMaker& maker : makers) CHECK(maximum_gap(maker.make(point, upwards, single)).value == 0);
 }
 
 TEST_CASE("a stored ray caster answers as a fresh one", "[height_field]") {
@@ -254,22 +253,22 @@ TEST_CASE("rays meet parts in one place once, and no more triangles than they ma
   CHECK(of_many.lower == field.lower);
   // A ray that enters and leaves through the insides of triangles meets two.
   const Window one{0.9, 1.4, 0.01, 1, 1};
-  CHECK(RayCaster(many).cast(up, one, 2).upper(0, 0) == 4);
-  CHECK_THROWS_AS(RayCaster(many).cast(up, one, 1), InputError);
+  CHECK(RayCaster(many).cast(upwards, one, 2).upper(0, 0) == 4);
+  CHECK_THROWS_AS(RayCaster(many).cast(upwards, one, 1), InputError);
 }
 
 TEST_CASE("impossible windows and shapes are refused", "[height_field]") {
   const Shape box = solids::box({1, 1, 1});
-  CHECK_THROWS_AS(window_around(box, up, 0), UsageError);
-  CHECK_THROWS_AS(window_around(box, up, max_resolution + 1), UsageError);
-  CHECK_THROWS_AS(window_around(Shape{}, up, 4), InputError);
+  CHECK_THROWS_AS(window_around(box, upwards, 0), UsageError);
+  CHECK_THROWS_AS(window_around(box, upwards, max_resolution + 1), UsageError);
+  CHECK_THROWS_AS(window_around(Shape{}, upwards, 4), InputError);
   CHECK_THROWS_AS(RayCaster(Shape{}), InputError);
-  CHECK_THROWS_AS(height_field_by_scanline(Shape{}, up, {0, 0, 1, 1, 1}), InputError);
+  CHECK_THROWS_AS(height_field_by_scanline(Shape{}, upwards, {0, 0, 1, 1, 1}), InputError);
   for (const NamedMaker& maker : makers) {
-    CHECK_THROWS_AS(maker.make(box, up, {0, 0, 0, 4, 4}), UsageError);
-    CHECK_THROWS_AS(maker.make(box, up, {0, 0, -1, 4, 4}), UsageError);
-    CHECK_THROWS_AS(maker.make(box, up, {std::nan(""), 0, 1, 4, 4}), UsageError);
-    CHECK_THROWS_AS(maker.make(box, up, {0, 0, 1, 0, 4}), UsageError);
-    CHECK_THROWS_AS(maker.make(box, up, {0, 0, 1, 4, 1 << 30}), UsageError);
+    CHECK_THROWS_AS(maker.make(box, upwards, {0, 0, 0, 4, 4}), UsageError);
+    CHECK_THROWS_AS(maker.make(box, upwards, {0, 0, -1, 4, 4}), UsageError);
+    CHECK_THROWS_AS(maker.make(box, upwards, {std::nan(""), 0, 1, 4, 4}), UsageError);
+    CHECK_THROWS_AS(maker.make(box, upwards, {0, 0, 1, 0, 4}), UsageError);
+    CHECK_THROWS_AS(maker.make(box, upwards, {0, 0, 1, 4, 1 << 30}), UsageError);
   }
 }

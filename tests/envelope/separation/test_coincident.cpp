@@ -9,6 +9,7 @@
 #include "stackabilization/envelope/separation.h"
 #include "stackabilization/io/read.h"
 #include "support/catch.h"
+#include "support/directions.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
@@ -16,12 +17,6 @@ using namespace stackabilization;
 using namespace stackabilization::solids;
 
 namespace {
-
-const Direction z(0, 0, 1);
-
-Shape moved(const Shape& shape, const Eigen::Vector3d& by) {
-  return transformed(shape, Eigen::Matrix3d::Identity(), by);
-}
 
 /// `count` copies of a shape of one part, a part each, moved by up to `shift` along each axis.
 Shape instances(const Shape& one, int count, double shift) {
@@ -62,7 +57,7 @@ void check_same_answer(const Separation& a, const Separation& b) {
   CHECK(a.length == b.length);
 }
 
-const std::vector<Direction>& directions() {
+const std::vector<Direction>& few_directions() {
   static const std::vector<Direction> list = {{0, 0, 1}, {1, 0, 0}, {0.3, -0.2, 1}, {1, 2, 3}};
   return list;
 }
@@ -84,7 +79,7 @@ TEST_CASE("triangles with the same three points are one, named by the first") {
   for (const TreeTriangle& triangle : tree.data().triangles) CHECK(triangle.index < 12);
   for (const TriangleCopy& copy : tree.data().copies) CHECK(copy.first == copy.copy % 12);
   for (const Semantics semantics : {Semantics::solid, Semantics::closed})
-    for (const Direction& r : directions()) {
+    for (const Direction& r : few_directions()) {
       const Separation a = separation(tree, tree, r, {semantics, {}}),
                        b = separation(one, one, r, {semantics, {}});
       check_same_answer(a, b);
@@ -119,7 +114,7 @@ TEST_CASE("a shape and some of its triangles twice are measured alike") {
     const Shape twice = concatenate(shape, permuted(flipped(shape), seed));
     const SeparationTree a(shape), b(twice);
     for (const Semantics semantics : {Semantics::solid, Semantics::closed})
-      for (const Direction& r : directions()) {
+      for (const Direction& r : few_directions()) {
         const Separation once = separation(a, a, r, {semantics, {}}),
                          doubled = separation(b, b, r, {semantics, {}});
         REQUIRE(once.blocked == doubled.blocked);
@@ -151,7 +146,7 @@ TEST_CASE("a bounded queue finds the same value, and keeps to its bound") {
     const Shape shape = triangle_soup(soup);
     const SeparationTree tree(shape);
     for (const Semantics semantics : {Semantics::solid, Semantics::closed})
-      for (const Direction& r : directions()) {
+      for (const Direction& r : few_directions()) {
         const Separation free = separation(tree, tree, r, with_queue(semantics, std::int64_t{1} << 40));
         const Enclosure wide = separation_enclosure(tree, tree, r, with_queue(semantics, 2));
         for (const std::int64_t bound : {0, 1, 2, 7, 64}) {
@@ -174,7 +169,7 @@ TEST_CASE("a bounded queue finds the same value on the shipped models") {
     INFO(name);
     const SeparationTree tree(read_shape(folder / name));
     for (const Semantics semantics : {Semantics::solid, Semantics::closed})
-      for (const Direction& r : directions()) {
+      for (const Direction& r : few_directions()) {
         const Separation free = separation(tree, tree, r, {semantics, {}});
         for (const std::int64_t bound : {0, 5}) {
           const Separation bounded = separation(tree, tree, r, with_queue(semantics, bound));
@@ -189,7 +184,7 @@ TEST_CASE("abandoning works with a full queue") {
   const SeparationTree tree(box({1, 2, 3}));
   SeparationOptions options = with_queue(Semantics::solid, 0);
   options.abandon_above = 2.0;
-  CHECK(separation_enclosure(tree, tree, z, options).abandoned);
+  CHECK(separation_enclosure(tree, tree, upwards, options).abandoned);
 }
 
 TEST_CASE("the work for parts in nearly the same place grows with their number, not its square") {
@@ -208,7 +203,7 @@ TEST_CASE("the work for parts in nearly the same place grows with their number, 
 }
 
 TEST_CASE("contacts of few coincident parts are those of all pairs of them") {
-  const Contacts contacts = contacts_of(instances(box({1, 1, 1}), 5, 0), z);
+  const Contacts contacts = contacts_of(instances(box({1, 1, 1}), 5, 0), upwards);
   CHECK(contacts.complete);
   CHECK(contacts.coincident_parts.empty());
   REQUIRE(contacts.regions.size() == 25);
@@ -222,7 +217,7 @@ TEST_CASE("contacts of few coincident parts are those of all pairs of them") {
 
 TEST_CASE("contacts of many coincident parts name the first, and say which others touch") {
   const int count = 3000;
-  const Contacts contacts = contacts_of(instances(box({1, 1, 1}), count, 0), z);
+  const Contacts contacts = contacts_of(instances(box({1, 1, 1}), count, 0), upwards);
   CHECK_FALSE(contacts.complete);
   REQUIRE(contacts.regions.size() == 1);
   CHECK(contacts.regions[0].upper_part == 0);
@@ -239,7 +234,7 @@ TEST_CASE("contacts of many nearly coincident parts name every part that touches
     const Shape shape = instances(box({1, 1, 1}), count, shift);
     ContactOptions options;
     options.max_pairs = 1000;
-    const Contacts contacts = contacts_of(shape, z, options);
+    const Contacts contacts = contacts_of(shape, upwards, options);
     CHECK_FALSE(contacts.complete);
     std::set<int> upper, lower;
     std::size_t polygons = 0;
@@ -290,7 +285,7 @@ TEST_CASE("a part of many nearly coincident pieces has one region with the area 
   Shape pieces = instances(box({1, 1, 1}), 60, 1e-3);
   pieces.triangle_part.assign(pieces.triangle_part.size(), 0);
   pieces.part_names = {"all"};
-  const Contacts contacts = contacts_of(pieces, z);
+  const Contacts contacts = contacts_of(pieces, upwards);
   REQUIRE(contacts.regions.size() == 1);
   CHECK(contacts.complete);
   CHECK(contacts.regions[0].area == Approx(1).margin(0.01));

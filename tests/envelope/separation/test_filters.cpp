@@ -32,7 +32,7 @@ Shape stretched(const Shape& shape, const Eigen::Vector3d& factors) {
 
 /// Soups in general position and on grids, slivers, details next to something large, and products that
 /// underflow.
-std::vector<Shape> zoo(std::uint64_t seeds = 4) {
+std::vector<Shape> hostile_shapes(std::uint64_t seeds = 4) {
   const double tiny = std::ldexp(1.0, -540);
   std::vector<Shape> list;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -48,7 +48,7 @@ std::vector<Shape> zoo(std::uint64_t seeds = 4) {
   return list;
 }
 
-const std::vector<Direction>& directions() {
+const std::vector<Direction>& hostile_directions() {
   static const std::vector<Direction> list = {{0, 0, 1},        {1, 0, 0},      {0, 1, 1},
                                               {0.3, -0.2, 1},   {1e-9, 0, 1},   {1e-200, 1e-17, 1},
                                               {-0.7, 0.7, 0.7}, {5e-324, 0, -3}};
@@ -98,8 +98,8 @@ double magnitude(const Shape& shape) {
 
 TEST_CASE("bounds of a pair of triangles hold the exact height difference") {
   int certain = 0, narrow = 0;
-  for (const Shape& shape : zoo())
-    for (const Direction& r : directions())
+  for (const Shape& shape : hostile_shapes())
+    for (const Direction& r : hostile_directions())
       for (const Semantics semantics : {Semantics::solid, Semantics::closed}) {
         const Projection projection(r, magnitude(shape), semantics);
         const std::vector<TreeTriangle> triangles = triangles_of(shape);
@@ -122,7 +122,7 @@ TEST_CASE("bounds of a pair of triangles hold the exact height difference") {
 }
 
 TEST_CASE("the bound of a pair of nodes holds every pair below it") {
-  for (const Shape& shape : zoo(1)) {
+  for (const Shape& shape : hostile_shapes(1)) {
     const SeparationTree tree(shape);
     const std::vector<TreeNode>& nodes = tree.data().nodes;
     const std::vector<TreeTriangle> triangles = triangles_of(shape);
@@ -132,7 +132,7 @@ TEST_CASE("the bound of a pair of nodes holds every pair below it") {
       for (std::int32_t t = nodes[n].first; t < nodes[n].first + nodes[n].count; ++t)
         leaves[static_cast<std::size_t>(tree.data().triangles[static_cast<std::size_t>(t)].index)].push_back(
             n);
-    for (const Direction& r : {directions()[0], directions()[3], directions()[6]}) {
+    for (const Direction& r : {hostile_directions()[0], hostile_directions()[3], hostile_directions()[6]}) {
       const Projection projection(r, tree.data().magnitude, Semantics::closed);
       const NodePairBound node_bound(tree.data().magnitude);
       const auto bound = [&](std::size_t a, std::size_t b) {

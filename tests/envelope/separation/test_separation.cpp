@@ -3,6 +3,8 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/envelope/separation.h"
 #include "support/catch.h"
+#include "support/directions.h"
+#include "support/f_max.h"
 #include "support/rational_oracle.h"
 #include "support/solids.h"
 #include "support/variants.h"
@@ -11,8 +13,6 @@ using namespace stackabilization;
 using namespace stackabilization::solids;
 
 namespace {
-
-const Direction z(0, 0, 1);
 
 /// Large triangles through each other; on a coarse grid, so that edges meet corners and planes coincide, if
 /// `bits` > 0.
@@ -25,33 +25,23 @@ Shape random_soup(int count, std::uint64_t seed, int bits = 0) {
   return triangle_soup(soup);
 }
 
-Rational f_max(const Shape& shape, const Direction& direction, Semantics semantics = Semantics::solid) {
-  const Separation result = minimal_stacking_translation(shape, direction, {semantics, {}});
-  REQUIRE(result.blocked);
-  return result.value;
-}
-
 Rational sep(const Shape& below, const Shape& above, const Direction& direction) {
   const Separation result = separation(SeparationTree(below), SeparationTree(above), direction);
   REQUIRE(result.blocked);
   return result.value;
 }
 
-Shape moved(const Shape& shape, const Eigen::Vector3d& by) {
-  return transformed(shape, Eigen::Matrix3d::Identity(), by);
-}
-
 Shape scaled(const Shape& shape, double factor) {
   return transformed(shape, factor * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
 }
 
-const std::vector<Direction>& directions() {
+const std::vector<Direction>& plain_directions() {
   static const std::vector<Direction> list = {{0, 0, 1},      {0, 0, -2}, {1, 0, 0},    {0, -3, 0}, {1, 1, 0},
                                               {0.3, -0.2, 1}, {1, 2, 3},  {-1, 0.1, 0}, {2, -1, -2}};
   return list;
 }
 
-std::vector<Shape> zoo() {
+std::vector<Shape> solids_and_soups() {
   return {box({1, 2, 3}),
           boxes_sharing_wall(),
           l_shape(4, 1),
@@ -69,29 +59,30 @@ std::vector<Shape> zoo() {
 }  // namespace
 
 TEST_CASE("f_max of analytic solids is the closed form, exactly") {
-  CHECK(f_max(box({1, 2, 3}), z) == Rational(3.0));
-  CHECK(f_max(boxes_sharing_wall(), z) == Rational(1.0));
-  CHECK(f_max(hook({}), z) == Rational(6.0));
-  CHECK(f_max(stair_plate({}), z) == Rational(stair_plate_f_max({})));
-  CHECK(f_max(l_shape(4, 1), Direction(1, 0, 1)) == Rational(1.0));
-  CHECK(f_max(solids::table({}), z) == Rational(6.0));
-  CHECK(f_max(torus({}), z) == Rational(2.0));
-  CHECK(f_max(torus({}), Direction(1, 0, 0)) == Rational(8.0));
-  CHECK(f_max(gridfinity_bin({}), z) == Rational(21.0));
-  CHECK(f_max(frustum_shell({}), z).to_double() == Approx(frustum_shell_f_max({})).epsilon(1e-14));
-  for (const Direction& r : directions())
-    CHECK(f_max(box({1, 2, 3}), r).to_double() == Approx(box_f_max({1, 2, 3}, r)).epsilon(1e-14));
+  CHECK(exact_f_max(box({1, 2, 3}), upwards) == Rational(3.0));
+  CHECK(exact_f_max(boxes_sharing_wall(), upwards) == Rational(1.0));
+  CHECK(exact_f_max(hook({}), upwards) == Rational(6.0));
+  CHECK(exact_f_max(stair_plate({}), upwards) == Rational(stair_plate_f_max({})));
+  CHECK(exact_f_max(l_shape(4, 1), Direction(1, 0, 1)) == Rational(1.0));
+  CHECK(exact_f_max(solids::table({}), upwards) == Rational(6.0));
+  CHECK(exact_f_max(torus({}), upwards) == Rational(2.0));
+  CHECK(exact_f_max(torus({}), Direction(1, 0, 0)) == Rational(8.0));
+  CHECK(exact_f_max(gridfinity_bin({}), upwards) == Rational(21.0));
+  CHECK(exact_f_max(frustum_shell({}), upwards).to_double() ==
+        Approx(frustum_shell_f_max({})).epsilon(1e-14));
+  for (const Direction& r : plain_directions())
+    CHECK(exact_f_max(box({1, 2, 3}), r).to_double() == Approx(box_f_max({1, 2, 3}, r)).epsilon(1e-14));
 }
 
 TEST_CASE("walls in one plane block in closed semantics only") {
-  CHECK(f_max(boxes_sharing_wall(), z, Semantics::solid) == Rational(1.0));
-  CHECK(f_max(boxes_sharing_wall(), z, Semantics::closed) == Rational(3.0));
-  CHECK(f_max(boxes_sharing_wall(), Direction(0, 0, -1), Semantics::closed) == Rational(3.0));
+  CHECK(exact_f_max(boxes_sharing_wall(), upwards, Semantics::solid) == Rational(1.0));
+  CHECK(exact_f_max(boxes_sharing_wall(), upwards, Semantics::closed) == Rational(3.0));
+  CHECK(exact_f_max(boxes_sharing_wall(), Direction(0, 0, -1), Semantics::closed) == Rational(3.0));
 }
 
 TEST_CASE("every answer equals pairwise clipping in rational arithmetic") {
-  for (const Shape& shape : zoo())
-    for (const Direction& r : directions()) {
+  for (const Shape& shape : solids_and_soups())
+    for (const Direction& r : plain_directions()) {
       const std::optional<Rational> expected = oracle_separation(shape, shape, r);
       const Separation result = minimal_stacking_translation(shape, r);
       REQUIRE(result.blocked == expected.has_value());
@@ -130,8 +121,8 @@ TEST_CASE("near-vertical slivers do not invent heights") {
 }
 
 TEST_CASE("the witness reproduces the value") {
-  for (const Shape& shape : zoo())
-    for (const Direction& r : directions()) {
+  for (const Shape& shape : solids_and_soups())
+    for (const Direction& r : plain_directions()) {
       const Separation result = minimal_stacking_translation(shape, r);
       if (!result.blocked) continue;
       const Witness& w = result.witness;
@@ -144,52 +135,52 @@ TEST_CASE("the witness reproduces the value") {
 
 TEST_CASE("f_max does not depend on how the surface is written down") {
   for (const Shape& shape : {l_shape(4, 1), hook({}), stairs({}), random_soup(20, 3)})
-    for (const Direction& r : directions()) {
+    for (const Direction& r : plain_directions()) {
       const Separation reference = minimal_stacking_translation(shape, r);
       if (!reference.blocked) continue;
-      CHECK(f_max(permuted(shape, 5), r) == reference.value);
-      CHECK(f_max(flipped(shape), r) == reference.value);
-      CHECK(f_max(shape, Direction(-r.vector())) == reference.value);
-      CHECK(f_max(shape, Direction(2 * r.vector())) * Rational(2.0) == reference.value);
-      CHECK(f_max(concatenate(shape, shape), r) == reference.value);
+      CHECK(exact_f_max(permuted(shape, 5), r) == reference.value);
+      CHECK(exact_f_max(flipped(shape), r) == reference.value);
+      CHECK(exact_f_max(shape, Direction(-r.vector())) == reference.value);
+      CHECK(exact_f_max(shape, Direction(2 * r.vector())) * Rational(2.0) == reference.value);
+      CHECK(exact_f_max(concatenate(shape, shape), r) == reference.value);
     }
 }
 
 TEST_CASE("exact motions, scalings and subdivisions keep the exact value") {
   for (const Shape& shape : {l_shape(4, 1), hook({}), solids::table({})})
-    for (const Direction& r : directions()) {
-      const Rational reference = f_max(shape, r);
-      CHECK(f_max(moved(shape, {16, -8, 0.5}), r) == reference);
-      CHECK(f_max(transformed(shape, 4 * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()), r) ==
+    for (const Direction& r : plain_directions()) {
+      const Rational reference = exact_f_max(shape, r);
+      CHECK(exact_f_max(moved(shape, {16, -8, 0.5}), r) == reference);
+      CHECK(exact_f_max(transformed(shape, 4 * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero()), r) ==
             reference * Rational(4.0));
-      CHECK(f_max(subdivided(subdivided(shape)), r) == reference);
+      CHECK(exact_f_max(subdivided(subdivided(shape)), r) == reference);
     }
 }
 
 TEST_CASE("a union stacks no better than its parts") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const Shape a = random_soup(15, seed), b = random_soup(15, seed + 50);
-    for (const Direction& r : directions()) {
-      const Rational joined = f_max(concatenate(a, b), r);
-      CHECK(joined >= f_max(a, r));
-      CHECK(joined >= f_max(b, r));
+    for (const Direction& r : plain_directions()) {
+      const Rational joined = exact_f_max(concatenate(a, b), r);
+      CHECK(joined >= exact_f_max(a, r));
+      CHECK(joined >= exact_f_max(b, r));
     }
   }
 }
 
 TEST_CASE("separations of two boxes are differences of their coordinates") {
   const Shape floor = box({-1, -1, 0}, {1, 1, 2}), cube = box({0.5, 0.5, 5}, {1.5, 1.5, 6});
-  CHECK(sep(floor, cube, z) == Rational(-3.0));
-  CHECK(sep(cube, floor, z) == Rational(6.0));
+  CHECK(sep(floor, cube, upwards) == Rational(-3.0));
+  CHECK(sep(cube, floor, upwards) == Rational(6.0));
   CHECK(sep(floor, cube, Direction(0, 0, 4)) == Rational(-0.75));
 }
 
 TEST_CASE("shapes that pass each other are not blocked") {
   const Shape a = box({1, 1, 1}), apart = box({3, 0, 0}, {4, 1, 1}), touching = box({1, 0, 0}, {2, 1, 1});
-  CHECK_FALSE(separation(SeparationTree(a), SeparationTree(apart), z).blocked);
-  CHECK_FALSE(separation(SeparationTree(a), SeparationTree(touching), z).blocked);
-  CHECK(separation(SeparationTree(a), SeparationTree(touching), z, {Semantics::closed, {}}).blocked);
-  CHECK_FALSE(separation(SeparationTree(a), SeparationTree(apart), z, {Semantics::closed, {}}).blocked);
+  CHECK_FALSE(separation(SeparationTree(a), SeparationTree(apart), upwards).blocked);
+  CHECK_FALSE(separation(SeparationTree(a), SeparationTree(touching), upwards).blocked);
+  CHECK(separation(SeparationTree(a), SeparationTree(touching), upwards, {Semantics::closed, {}}).blocked);
+  CHECK_FALSE(separation(SeparationTree(a), SeparationTree(apart), upwards, {Semantics::closed, {}}).blocked);
 }
 
 TEST_CASE("a sheet parallel to r has no area to collide with") {
@@ -198,9 +189,9 @@ TEST_CASE("a sheet parallel to r has no area to collide with") {
   Triangles triangles(1, 3);
   triangles << 0, 1, 2;
   const Shape wall = make_shape(vertices, triangles);
-  CHECK_FALSE(minimal_stacking_translation(wall, z).blocked);
-  CHECK(f_max(wall, z, Semantics::closed) == Rational(1.0));
-  CHECK(f_max(wall, Direction(0, 1, 0)) == Rational(0.0));
+  CHECK_FALSE(minimal_stacking_translation(wall, upwards).blocked);
+  CHECK(exact_f_max(wall, upwards, Semantics::closed) == Rational(1.0));
+  CHECK(exact_f_max(wall, Direction(0, 1, 0)) == Rational(0.0));
 }
 
 TEST_CASE("points and segments block in closed semantics") {
@@ -209,14 +200,14 @@ TEST_CASE("points and segments block in closed semantics") {
   Triangles triangles(2, 3);
   triangles << 0, 1, 2, 3, 4, 5;
   const Shape shape = make_shape(vertices, triangles);
-  CHECK(f_max(shape, z, Semantics::closed) == Rational(3.0));
-  CHECK(f_max(shape, z, Semantics::solid) == Rational(0.0));
+  CHECK(exact_f_max(shape, upwards, Semantics::closed) == Rational(3.0));
+  CHECK(exact_f_max(shape, upwards, Semantics::solid) == Rational(0.0));
 }
 
 TEST_CASE("the enclosure holds the exact value and is narrow") {
-  for (const Shape& shape : zoo()) {
+  for (const Shape& shape : solids_and_soups()) {
     const SeparationTree tree(shape);
-    for (const Direction& r : directions()) {
+    for (const Direction& r : plain_directions()) {
       const Separation exact = separation(tree, tree, r);
       const Enclosure bounds = separation_enclosure(tree, tree, r);
       if (!exact.blocked) {
@@ -234,21 +225,21 @@ TEST_CASE("abandoning tells only that the answer is larger") {
   const SeparationTree tree(box({1, 2, 3}));
   SeparationOptions options;
   options.abandon_above = 2.0;
-  const Enclosure early = separation_enclosure(tree, tree, z, options);
+  const Enclosure early = separation_enclosure(tree, tree, upwards, options);
   CHECK(early.abandoned);
   CHECK(early.lower > 2.0);
   CHECK(early.lower <= 3.0);
   options.abandon_above = 3.5;
-  CHECK_FALSE(separation_enclosure(tree, tree, z, options).abandoned);
+  CHECK_FALSE(separation_enclosure(tree, tree, upwards, options).abandoned);
 }
 
 TEST_CASE("huge and tiny shapes are measured alike") {
   const Shape shape = l_shape(4, 1);
   const Direction r(0.3, -0.2, 1);
-  const Rational reference = f_max(shape, r);
+  const Rational reference = exact_f_max(shape, r);
   for (const int exponent : {-190, -100, 100, 190}) {
     const double scale = std::ldexp(1.0, exponent);
-    CHECK(f_max(scaled(shape, scale), r) == reference * Rational(scale));
+    CHECK(exact_f_max(scaled(shape, scale), r) == reference * Rational(scale));
   }
   for (const int exponent : {-1000, -350, -260, -210, 200, 260, 350, 1000})
     CHECK_THROWS_AS(SeparationTree(scaled(shape, std::ldexp(1.0, exponent))), InputError);
@@ -260,7 +251,7 @@ TEST_CASE("details far below the size of a shape count") {
   const Eigen::Vector3d shrink(std::ldexp(1.0, -540), std::ldexp(1.0, -540), 1);
   const Shape shape = concatenate(transformed(detail, shrink.asDiagonal(), Eigen::Vector3d::Zero()),
                                   box({1, 1, 0}, {2, 2, 1}));
-  CHECK(f_max(shape, z) == Rational(5.0));
+  CHECK(exact_f_max(shape, upwards) == Rational(5.0));
 }
 
 TEST_CASE("a direction is slanted however little") {
@@ -270,11 +261,11 @@ TEST_CASE("a direction is slanted however little") {
   Triangles triangles(3, 3);
   triangles << 0, 1, 3, 0, 3, 2, 4, 5, 6;
   const Shape shape = make_shape(vertices, triangles);
-  CHECK(f_max(shape, Direction(0, 0, 3)) == Rational(0.0));
+  CHECK(exact_f_max(shape, Direction(0, 0, 3)) == Rational(0.0));
   for (const double slant : {1e-3, 1e-17, 1e-300, 5e-324}) {
     const Direction r(slant, 0, 3);
-    CHECK(f_max(shape, r) == *oracle_separation(shape, shape, r));
-    CHECK(f_max(shape, r) > Rational(0.1));
+    CHECK(exact_f_max(shape, r) == *oracle_separation(shape, shape, r));
+    CHECK(exact_f_max(shape, r) > Rational(0.1));
   }
 }
 
@@ -299,7 +290,7 @@ TEST_CASE("the distance from the origin does not matter") {
       CHECK(bounds.upper - bounds.lower < 1e-11);
       // The gap between a shape and its far copy is that of the shape, less the shift along r.
       const Direction along(offset);
-      CHECK(separation(tree, far_tree, along).value == f_max(shape, along) - Rational(1.0));
+      CHECK(separation(tree, far_tree, along).value == exact_f_max(shape, along) - Rational(1.0));
     }
 }
 

@@ -2,7 +2,9 @@
 
 #include "stackabilization/improvement/diagnosis.h"
 #include "support/catch.h"
+#include "support/messages.h"
 #include "support/solids.h"
+#include "support/still_designs.h"
 #include "support/structures.h"
 
 namespace stackabilization {
@@ -18,26 +20,10 @@ BestFirstResult stuck_at_rest(const RequirementChecker& checker) {
   return result;
 }
 
-int part_named(const StructuredShape& rest, const std::string& name) {
-  const auto& names = rest.shape.part_names;
-  return static_cast<int>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
 const Remedy* remedy_of(const Diagnosis& diagnosis, Remedy::Kind kind) {
   const auto found = std::find_if(diagnosis.remedies.begin(), diagnosis.remedies.end(),
                                   [&](const Remedy& remedy) { return remedy.kind == kind; });
   return found == diagnosis.remedies.end() ? nullptr : &*found;
-}
-
-bool says(const std::string& text, const std::string& what) {
-  return text.find(what) != std::string::npos;
-}
-
-Requirements reach(double target) {
-  Requirements requirements;
-  requirements.target = target;
-  requirements.measure.boxes = BoxModel::frame;
-  return requirements;
 }
 
 std::vector<int> all_parts(const StructuredShape& rest) {
@@ -49,7 +35,7 @@ std::vector<int> all_parts(const StructuredShape& rest) {
 TEST_CASE("parts that must stay are what is in the way, and freeing the legs is offered") {
   const StructuredShape table = structures::table();
   const auto space = design_space(table);
-  Requirements requirements = reach(0.8);
+  Requirements requirements = designs::frame_requirements(0.8);
   requirements.kept_parts = all_parts(table);
   const RequirementChecker checker(*space, requirements);
   BestFirstResult result = stuck_at_rest(checker);
@@ -60,46 +46,46 @@ TEST_CASE("parts that must stay are what is in the way, and freeing the legs is 
   CHECK(diagnosis.reached == Approx(0).margin(1e-9));
   REQUIRE(diagnosis.blockers.size() == 1);  // four legs, symmetric
   const Blocker& blocker = diagnosis.blockers.front();
-  CHECK(blocker.upper_part == part_named(table, "top"));
-  CHECK(says(table.shape.part_names[static_cast<std::size_t>(blocker.lower_part)], "leg_"));
+  CHECK(blocker.upper_part == structures::part_named(table, "top"));
+  CHECK(mentions(table.shape.part_names[static_cast<std::size_t>(blocker.lower_part)], "leg_"));
   CHECK(blocker.type == ContactType::dot);
   CHECK(blocker.f == Approx(6));
   CHECK(blocker.stackability == Approx(0).margin(1e-9));
-  CHECK(says(blocker.reason, "refused"));
-  CHECK(says(blocker.reason, "fixed"));
+  CHECK(mentions(blocker.reason, "refused"));
+  CHECK(mentions(blocker.reason, "fixed"));
   CHECK(diagnosis.constraints ==
         std::vector<std::string>{"'leg_1' is fixed (12 edits)", "the box would grow (1 edit)"});
 
   const std::string text = stackabilization::text(diagnosis, table);
-  CHECK(says(text, "S = 0.800 was not reached; the best is S = 0.000"));
-  CHECK(says(text, "of each copy comes down on 'top' of the copy below"));
-  CHECK(says(text, "'leg_1' is fixed (12 edits)"));
+  CHECK(mentions(text, "S = 0.800 was not reached; the best is S = 0.000"));
+  CHECK(mentions(text, "of each copy comes down on 'top' of the copy below"));
+  CHECK(mentions(text, "'leg_1' is fixed (12 edits)"));
 }
 
 TEST_CASE("what came very near to the target is told from it") {
   Diagnosis diagnosis;
   diagnosis.target = 0.4;
   diagnosis.reached = 0.39988;
-  CHECK(says(text(diagnosis, structures::table()),
-             "S = 0.400 was not reached; the best is S = 0.3999 along z."));
+  CHECK(mentions(text(diagnosis, structures::table()),
+                 "S = 0.400 was not reached; the best is S = 0.3999 along z."));
 }
 
 TEST_CASE("freeing the legs is what lets a table sink deeper") {
   const StructuredShape table = structures::table();
   const auto space = design_space(table);
-  Requirements requirements = reach(0.8);
+  Requirements requirements = designs::frame_requirements(0.8);
   for (const char* leg : {"leg_1", "leg_2", "leg_3", "leg_4"})
-    requirements.kept_parts.push_back(part_named(table, leg));
+    requirements.kept_parts.push_back(structures::part_named(table, leg));
   const RequirementChecker checker(*space, requirements);
   const Diagnosis diagnosis = diagnosed(checker, stuck_at_rest(checker));
   const Remedy* freed = remedy_of(diagnosis, Remedy::Kind::free_part);
   REQUIRE(freed != nullptr);
   CHECK(freed->parts == requirements.kept_parts);
   CHECK(freed->stackability > 0.01);
-  CHECK(says(freed->what, "'leg_1', 'leg_2', 'leg_3' and 'leg_4'"));
+  CHECK(mentions(freed->what, "'leg_1', 'leg_2', 'leg_3' and 'leg_4'"));
 
   // The same demand, said the other way round.
-  Requirements others = reach(0.8);
+  Requirements others = designs::frame_requirements(0.8);
   for (const int part : all_parts(table))
     if (std::count(requirements.kept_parts.begin(), requirements.kept_parts.end(), part) == 0)
       others.editable_parts.push_back(part);
@@ -112,7 +98,7 @@ TEST_CASE("freeing the legs is what lets a table sink deeper") {
 TEST_CASE("nothing that must stay is offered to be left out or freed without need") {
   const StructuredShape table = structures::table();
   const auto space = design_space(table);
-  const RequirementChecker checker(*space, reach(0.8));
+  const RequirementChecker checker(*space, designs::frame_requirements(0.8));
   const Diagnosis diagnosis = diagnosed(checker, stuck_at_rest(checker));
   CHECK(remedy_of(diagnosis, Remedy::Kind::free_part) == nullptr);
   for (std::size_t k = 0; k < diagnosis.remedies.size(); ++k) {
@@ -120,7 +106,7 @@ TEST_CASE("nothing that must stay is offered to be left out or freed without nee
     if (k > 0) CHECK(diagnosis.remedies[k].stackability <= diagnosis.remedies[k - 1].stackability);
   }
   REQUIRE(diagnosis.blockers.size() == 1);
-  CHECK_FALSE(says(diagnosis.blockers.front().reason, "refused"));
+  CHECK_FALSE(mentions(diagnosis.blockers.front().reason, "refused"));
 }
 
 TEST_CASE("a box that lies on its side is better stacked another way") {
@@ -129,13 +115,13 @@ TEST_CASE("a box that lies on its side is better stacked another way") {
   l.shape = solids::l_shape(4, 0.5);
   l.shape.part_names = {"box"};
   const auto space = design_space(l);
-  const RequirementChecker checker(*space, reach(0.9));
+  const RequirementChecker checker(*space, designs::frame_requirements(0.9));
   const Diagnosis diagnosis = diagnosed(checker, stuck_at_rest(checker));
   const Remedy* other = remedy_of(diagnosis, Remedy::Kind::other_direction);
   REQUIRE(other != nullptr);
   CHECK(other->stackability > 0.3);
   CHECK(checker.measured(l.shape, Direction(other->direction)).value == Approx(other->stackability));
-  CHECK(says(stackabilization::text(diagnosis, l), "stack along ("));
+  CHECK(mentions(stackabilization::text(diagnosis, l), "stack along ("));
 }
 
 }  // namespace

@@ -2,23 +2,18 @@
 #include "stackabilization/io/read.h"
 #include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
+#include "support/messages.h"
+#include "support/still_designs.h"
 
 namespace stackabilization {
 namespace {
-
-bool says(const std::string& text, const std::string& what) {
-  return text.find(what) != std::string::npos;
-}
 
 /// The failure case of the paper (Fig. 12).
 TEST_CASE("the swivel chair is kept apart by its base under the back") {
   const StructuredShape chair =
       analyse_structure(read_shape(STACKABILIZATION_SOURCE_DIR "/data/models/swivel_chair.obj"));
   const auto space = design_space(chair);
-  Requirements requirements;
-  requirements.target = 0.8;
-  requirements.measure.boxes = BoxModel::frame;
-  const RequirementChecker checker(*space, requirements);
+  const RequirementChecker checker(*space, designs::frame_requirements(0.8));
   BestFirstResult result;
   result.nearest.resize(1);
   result.nearest[0].design = space->at_rest();
@@ -28,12 +23,12 @@ TEST_CASE("the swivel chair is kept apart by its base under the back") {
   const Blocker& blocker = diagnosis.blockers.front();
   const auto name = [&](int part) { return chair.shape.part_names[static_cast<std::size_t>(part)]; };
   CHECK(name(blocker.upper_part) == "back");
-  CHECK(says(name(blocker.lower_part), "castor_"));
+  CHECK(mentions(name(blocker.lower_part), "castor_"));
   CHECK(blocker.f == Approx(result.nearest[0].measured.f_max));
   CHECK_FALSE(blocker.reason.empty());
   const std::string text = stackabilization::text(diagnosis, chair);
-  CHECK(says(text, "of each copy comes down on 'back' of the copy below"));
-  CHECK(says(text, "What would help:"));
+  CHECK(mentions(text, "of each copy comes down on 'back' of the copy below"));
+  CHECK(mentions(text, "What would help:"));
   for (const Remedy& remedy : diagnosis.remedies) CHECK(remedy.stackability > diagnosis.reached + 0.01);
 }
 

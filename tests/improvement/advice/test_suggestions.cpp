@@ -6,24 +6,17 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/suggestions.h"
 #include "support/catch.h"
+#include "support/directions.h"
+#include "support/still_designs.h"
 #include "support/structures.h"
 
 using namespace stackabilization;
 
 namespace {
 
-const Direction upwards(0, 0, 1);
-
-Requirements wish(double target = 0) {
-  Requirements requirements;
-  requirements.target = target;
-  requirements.measure.boxes = BoxModel::frame;
-  return requirements;
-}
-
 /// A design space and what is asked of it.
 struct Task {
-  explicit Task(StructuredShape rest, Requirements requirements = wish())
+  explicit Task(StructuredShape rest, Requirements requirements = designs::frame_requirements(0))
       : space(design_space(std::move(rest))), checker(*space, std::move(requirements)) {}
 
   std::vector<Suggestion> all(const SuggestionOptions& options = {}) const {
@@ -111,12 +104,12 @@ TEST_CASE("the weight of distortion changes the order, nothing else") {
 }
 
 TEST_CASE("parts that have to stay stay, and the target is told") {
-  Requirements requirements = wish();
+  Requirements requirements = designs::frame_requirements(0);
   requirements.kept_parts = {0, 1, 2, 3, 4, 5, 6, 7, 8};
   CHECK(possible(Task(structures::table(), requirements).all()) == 0);
 
-  const std::vector<Suggestion> easy = Task(structures::mug(), wish(-10)).all();
-  const std::vector<Suggestion> hard = Task(structures::mug(), wish(0.999)).all();
+  const std::vector<Suggestion> easy = Task(structures::mug(), designs::frame_requirements(-10)).all();
+  const std::vector<Suggestion> hard = Task(structures::mug(), designs::frame_requirements(0.999)).all();
   REQUIRE(possible(easy) > 0);
   CHECK(possible(easy) == possible(hard));  // the target alone refuses nothing
   for (std::size_t k = 0; k < possible(easy); ++k) {

@@ -9,15 +9,6 @@
 
 using namespace stackabilization;
 
-namespace {
-
-Shape mapped(Shape shape, const Eigen::Matrix3d& map) {
-  shape.vertices = (shape.vertices * map.transpose()).eval();
-  return shape;
-}
-
-}  // namespace
-
 TEST_CASE("a mesh at rest is the design at rest: D is 0 to the bit") {
   const StructuredShape table = structures::table(1);
   const Design design = carried_design(table, table.shape);
@@ -29,7 +20,7 @@ TEST_CASE("primitives follow an affine map of the mesh") {
   const StructuredShape table = structures::table(1);
   Eigen::Matrix3d map;
   map << 1.2, 0.1, 0, 0, 0.9, 0.2, 0.05, 0, 1.4;
-  const Design design = carried_design(table, mapped(table.shape, map));
+  const Design design = carried_design(table, transformed(table.shape, map, Eigen::Vector3d::Zero()));
   REQUIRE(design.primitives.size() == table.structure.parts.size());
   for (std::size_t part = 0; part < design.primitives.size(); ++part) {
     const Points rest = control_points(table.structure.parts[part].primitive);

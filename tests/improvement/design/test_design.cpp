@@ -9,6 +9,7 @@
 #include "stackabilization/improvement/design.h"
 #include "stackabilization/mesh/boxes.h"
 #include "support/catch.h"
+#include "support/handles.h"
 #include "support/structures.h"
 
 using namespace stackabilization;
@@ -17,20 +18,19 @@ namespace {
 
 constexpr DeformationKind kinds[] = {DeformationKind::controllers, DeformationKind::surface,
                                      DeformationKind::iwires, DeformationKind::gap_scaling};
-const Handle whole_shape{HandleKind::shape, 0, 0};
-const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+const Eigen::Vector3d z_axis = Eigen::Vector3d::UnitZ();
 
-bool same(const Primitive& a, const Primitive& b) {
+bool same_primitive(const Primitive& a, const Primitive& b) {
   if (const auto* cuboid = std::get_if<Cuboid>(&a)) return cuboid->corners == std::get<Cuboid>(b).corners;
   const auto &p = std::get<GeneralizedCylinder>(a), &q = std::get<GeneralizedCylinder>(b);
   return p.centres == q.centres && p.radii == q.radii && p.rotation.coeffs() == q.rotation.coeffs();
 }
 
-bool same(const Design& a, const Design& b) {
+bool same_design(const Design& a, const Design& b) {
   bool equal = a.edits.size() == b.edits.size() && a.primitives.size() == b.primitives.size() &&
                a.shape.vertices == b.shape.vertices && a.shape.triangles == b.shape.triangles;
   for (std::size_t k = 0; equal && k < a.primitives.size(); ++k)
-    equal = same(a.primitives[k], b.primitives[k]);
+    equal = same_primitive(a.primitives[k], b.primitives[k]);
   for (std::size_t k = 0; equal && k < a.edits.size(); ++k)
     equal = a.edits[k].handle == b.edits[k].handle && a.edits[k].falloff == b.edits[k].falloff &&
             describe(a.edits[k], a.shape.part_names) == describe(b.edits[k], b.shape.part_names);
@@ -44,7 +44,9 @@ std::unique_ptr<DesignSpace> table_designs(DeformationKind kind) {
 /// Three edits that the model takes.
 std::vector<Edit> edits_for(DeformationKind kind, const DesignSpace& space) {
   if (kind == DeformationKind::gap_scaling)
-    return {{whole_shape, Scale{0.9, up}}, {whole_shape, Scale{0.8, up}}, {whole_shape, Scale{1.1, up}}};
+    return {{whole_shape, Scale{0.9, z_axis}},
+            {whole_shape, Scale{0.8, z_axis}},
+            {whole_shape, Scale{1.1, z_axis}}};
   std::vector<Edit> edits = {{whole_shape, Scale{1.1, {}}}};
   if (kind == DeformationKind::controllers) {
     edits.push_back({{HandleKind::face, 0, 5}, Move{{0, 0, 0.3}}});
@@ -98,7 +100,7 @@ TEST_CASE("without edits a design is the shape at rest, to the bit") {
       CHECK(design.shape.vertices == rest.shape.vertices);
       REQUIRE(design.primitives.size() == rest.structure.parts.size());
       for (std::size_t k = 0; k < design.primitives.size(); ++k)
-        CHECK(same(design.primitives[k], rest.structure.parts[k].primitive));
+        CHECK(same_primitive(design.primitives[k], rest.structure.parts[k].primitive));
     }
   }
 }
@@ -116,7 +118,7 @@ TEST_CASE("edits made again from rest give the same bits as one after the other"
       now = outcome.design;
       const DesignOutcome again = space->replayed({edits.begin(), edits.begin() + k + 1}, {});
       CHECK_FALSE(again.refusal);
-      CHECK(same(again.design, now));
+      CHECK(same_design(again.design, now));
     }
     CHECK(now.edits.size() == edits.size());
   }
@@ -130,9 +132,9 @@ TEST_CASE("designs are what the models make") {
   const Design design = controllers->replayed(edits, {}).design;
   CHECK(design.shape.vertices == result.shape.vertices);
   for (std::size_t k = 0; k < design.primitives.size(); ++k)
-    CHECK(same(design.primitives[k], result.primitives[k]));
+    CHECK(same_primitive(design.primitives[k], result.primitives[k]));
   SurfaceModelOptions upright;
-  upright.axis = up;
+  upright.axis = z_axis;
   const auto surface = table_designs(DeformationKind::surface);
   const std::vector<Edit> pulls = edits_for(DeformationKind::surface, *surface);
   CHECK(surface->replayed(pulls, {}).design.shape.vertices ==
@@ -143,7 +145,7 @@ TEST_CASE("the direction is that of the gap and the axis of slices") {
   const auto sideways = design_space(structures::table(), {DeformationKind::gap_scaling, Direction(1, 0, 0)});
   CHECK_FALSE(
       sideways->edited(sideways->at_rest(), {whole_shape, Scale{0.9, Eigen::Vector3d(1, 0, 0)}}, {}).refusal);
-  CHECK_THROWS_AS(sideways->edited(sideways->at_rest(), {whole_shape, Scale{0.9, up}}, {}), UsageError);
+  CHECK_THROWS_AS(sideways->edited(sideways->at_rest(), {whole_shape, Scale{0.9, z_axis}}, {}), UsageError);
   const auto surface = design_space(structures::mug(), {DeformationKind::surface, Direction(0, 0, 1)});
   const Edit wider{{HandleKind::section, 0, 23}, Scale{1.2, {}}};
   const Shape after = surface->edited(surface->at_rest(), wider, {}).design.shape;
@@ -151,7 +153,7 @@ TEST_CASE("the direction is that of the gap and the axis of slices") {
   CHECK(moved.leftCols<2>().cwiseAbs().maxCoeff() > 0.01);
   Eigen::Index widest = 0;
   moved.rowwise().norm().maxCoeff(&widest);
-  const Range height = range_along(surface->rest().shape, up);
+  const Range height = range_along(surface->rest().shape, z_axis);
   CHECK(surface->rest().shape.vertices(widest, 2) > height.low + 0.5 * height.length());
 }
 
@@ -161,14 +163,14 @@ TEST_CASE("constraints hold in every design, or it stays what it was") {
   for (const DeformationKind kind : kinds) {
     INFO(name_of(kind));
     const auto space = table_designs(kind);
-    const double height = extent(space->rest().shape, up);
+    const double height = extent(space->rest().shape, z_axis);
     Design now = space->at_rest();
     for (const Edit& edit : edits_for(kind, *space)) {
       const DesignOutcome outcome = space->edited(now, edit, constraints);
       if (outcome.refusal)
-        CHECK(same(outcome.design, now));
+        CHECK(same_design(outcome.design, now));
       else
-        CHECK(extent(outcome.design.shape, up) == Approx(height).epsilon(1e-9));
+        CHECK(extent(outcome.design.shape, z_axis) == Approx(height).epsilon(1e-9));
       now = outcome.design;
     }
   }
@@ -184,8 +186,8 @@ TEST_CASE("a refused edit ends a replay with what the edits before it made") {
   CHECK_FALSE(first.refusal);
   const DesignOutcome stopped = space->replayed({allowed, forbidden, allowed}, constraints);
   REQUIRE(stopped.refusal);
-  CHECK(same(stopped.design, first.design));
-  CHECK(same(stopped.design.primitives[1], space->at_rest().primitives[1]));
+  CHECK(same_design(stopped.design, first.design));
+  CHECK(same_primitive(stopped.design.primitives[1], space->at_rest().primitives[1]));
 }
 
 TEST_CASE("handles that a model lacks are refused as usage") {
@@ -263,14 +265,14 @@ TEST_CASE("carried primitives fit in the least-squares sense, and stay where not
   lifted.row(0).z() += 0.5;
   const std::vector<Primitive> primitives = detail::CarriedPrimitives(table).at(lifted);
   for (std::size_t part = 1; part < primitives.size(); ++part)
-    CHECK(same(primitives[part], table.structure.parts[part].primitive));
-  CHECK_FALSE(same(primitives[0], table.structure.parts[0].primitive));
+    CHECK(same_primitive(primitives[part], table.structure.parts[part].primitive));
+  CHECK_FALSE(same_primitive(primitives[0], table.structure.parts[0].primitive));
 }
 
 TEST_CASE("the surface model carries primitives with the shape") {
   const auto space = design_space(structures::mug(), {DeformationKind::surface, {0, 0, 1}});
-  const Design design = space->edited(space->at_rest(), {whole_shape, Scale{0.5, up}}, {}).design;
-  const Range now = range_along(design.shape, up), before = range_along(space->rest().shape, up);
+  const Design design = space->edited(space->at_rest(), {whole_shape, Scale{0.5, z_axis}}, {}).design;
+  const Range now = range_along(design.shape, z_axis), before = range_along(space->rest().shape, z_axis);
   CHECK(now.length() == Approx(before.length() / 2));
   for (std::size_t part = 0; part < design.primitives.size(); ++part) {
     const auto& rest = std::get<GeneralizedCylinder>(space->rest().structure.parts[part].primitive);

@@ -66,7 +66,7 @@ StructuredShape mapped(StructuredShape structured, const Eigen::Affine3d& map, d
   return structured;
 }
 
-Eigen::Affine3d moved(const Eigen::Vector3d& by) {
+Eigen::Affine3d translation(const Eigen::Vector3d& by) {
   return Eigen::Affine3d(Eigen::Translation3d(by));
 }
 
@@ -97,7 +97,7 @@ Primitive rod(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 TEST_CASE("Moving a part apart changes distances, box and symmetry by hand-computed amounts", "[energy]") {
   const StructuredShape rest = two_posts();
-  const Design apart = with_part(design_of(rest), 1, moved({1, 0, 0}));
+  const Design apart = with_part(design_of(rest), 1, translation({1, 0, 0}));
   for (const BoxModel boxes : {BoxModel::frame, BoxModel::oriented}) {
     const Distortion d = EnergyMeter(rest, boxes).distortion(apart);
     CHECK(d.volume == Approx(0).margin(1e-14));
@@ -109,7 +109,7 @@ TEST_CASE("Moving a part apart changes distances, box and symmetry by hand-compu
   }
   // A move along the axes leaves their distance.
   const Distortion along =
-      EnergyMeter(rest, BoxModel::frame).distortion(with_part(design_of(rest), 1, moved({0, 0, 1})));
+      EnergyMeter(rest, BoxModel::frame).distortion(with_part(design_of(rest), 1, translation({0, 0, 1})));
   CHECK(along.proximity == Approx(0).margin(1e-14));
   CHECK(along.box == Approx(1.0 / 9));
 }
@@ -161,13 +161,13 @@ TEST_CASE("A symmetry that is missed at rest counts only beyond that", "[energy]
   rest.structure.relations[0].symmetry.point = {0.05, 0, 0};
   const EnergyMeter meter(rest, BoxModel::frame);
   CHECK(meter.distortion(design_of(rest)).symmetry == 0);
-  const Design worse = with_part(design_of(rest), 1, moved({-1, 0, 0}));
+  const Design worse = with_part(design_of(rest), 1, translation({-1, 0, 0}));
   CHECK(meter.distortion(worse).symmetry == Approx(8 * 1.0 / std::sqrt(33.0)));
 }
 
 TEST_CASE("Distortion has no unit", "[energy]") {
   const StructuredShape rest = structures::table();
-  const Design bent = with_part(with_part(design_of(rest), 1, moved({0.3, -0.2, 0})), 0,
+  const Design bent = with_part(with_part(design_of(rest), 1, translation({0.3, -0.2, 0})), 0,
                                 Eigen::Affine3d(Eigen::Scaling(1.1, 0.9, 1.0)));
   const Distortion small = EnergyMeter(rest, BoxModel::oriented).distortion(bent);
   CHECK(small.symmetry > 0);
@@ -198,7 +198,7 @@ TEST_CASE("The main axes are the file's or those of the minimal box", "[energy]"
 
 TEST_CASE("Alpha weighs distortion against gain", "[energy]") {
   const StructuredShape rest = two_posts();
-  const Design apart = with_part(design_of(rest), 1, moved({1, 0, 0}));
+  const Design apart = with_part(design_of(rest), 1, translation({1, 0, 0}));
   const double d = EnergyMeter(rest, BoxModel::frame).distortion(apart).total();
   CHECK(EnergyMeter(rest, BoxModel::frame, 1).energy(apart, 0.3).value == d);
   CHECK(EnergyMeter(rest, BoxModel::frame, 0).energy(apart, 0.3).value == -0.3);

@@ -10,11 +10,11 @@ using namespace stackabilization;
 
 namespace {
 
-Shape moved(const Shape& shape, const Eigen::Matrix3d& linear) {
+Shape placed(const Shape& shape, const Eigen::Matrix3d& linear) {
   return transformed(shape, linear, Eigen::Vector3d(3, -7, 0.5));
 }
 
-Eigen::Matrix3d turned() {
+Eigen::Matrix3d oblique_turn() {
   return Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, -2, 0.5).normalized()).toRotationMatrix();
 }
 
@@ -27,7 +27,7 @@ Shape chiral() {
 TEST_CASE("Moved, turned and scaled shapes are unchanged", "[shape_change]") {
   for (const Shape& shape : {solids::table({}), solids::frustum_shell({}), chiral()})
     for (const double factor : {0.01, 1.0, 250.0}) {
-      const ShapeChange change = shape_change(shape, moved(shape, factor * turned()));
+      const ShapeChange change = shape_change(shape, placed(shape, factor * oblique_turn()));
       CHECK(change.root_mean_square == Approx(0).margin(1e-13));
       CHECK(change.largest == Approx(0).margin(1e-13));
     }
@@ -42,7 +42,7 @@ TEST_CASE("A square that becomes a rectangle, in closed form", "[shape_change]")
   triangles << 0, 1, 2, 0, 2, 3;
   const Shape before = make_shape(square, triangles);
   const double a = 1.5, c = (a + 1) / (a * a + 1);
-  const Shape after = moved(before, turned() * Eigen::Vector3d(a, 1, 1).asDiagonal());
+  const Shape after = placed(before, oblique_turn() * Eigen::Vector3d(a, 1, 1).asDiagonal());
   const double left = std::hypot(c * a - 1, c - 1) / std::sqrt(8.0);
   const ShapeChange change = shape_change(before, after);
   CHECK(change.root_mean_square == Approx(left));
@@ -62,13 +62,13 @@ TEST_CASE("One corner of a long bar moved: the farthest vertex is found", "[shap
 
 TEST_CASE("A mirror image is a change", "[shape_change]") {
   const Shape shape = chiral();
-  const Shape mirrored = moved(shape, Eigen::Vector3d(-1, 1, 1).asDiagonal());
+  const Shape mirrored = placed(shape, Eigen::Vector3d(-1, 1, 1).asDiagonal());
   CHECK(shape_change(shape, mirrored).root_mean_square > 0.05);
   // That of a flat shape is not: a half turn takes it there.
   Points flat(3, 3);
   flat << 0, 0, 0, 4, 0, 0, 1, 2, 0;
   const Shape triangle = make_shape(flat, (Triangles(1, 3) << 0, 1, 2).finished());
-  CHECK(shape_change(triangle, moved(triangle, Eigen::Vector3d(-1, 1, 1).asDiagonal())).root_mean_square ==
+  CHECK(shape_change(triangle, placed(triangle, Eigen::Vector3d(-1, 1, 1).asDiagonal())).root_mean_square ==
         Approx(0).margin(1e-14));
 }
 
@@ -92,7 +92,7 @@ TEST_CASE("Degenerate shapes have finite changes", "[shape_change]") {
   const Points centred = solid.vertices.rowwise() - solid.vertices.colwise().mean();
   CHECK(shape_change(solid, point).root_mean_square ==
         Approx(std::sqrt(centred.squaredNorm() / 4) / std::sqrt(14.0)));
-  CHECK(shape_change(line, moved(line, turned())).root_mean_square == Approx(0).margin(1e-14));
+  CHECK(shape_change(line, placed(line, oblique_turn())).root_mean_square == Approx(0).margin(1e-14));
   CHECK(std::isfinite(shape_change(line, solid).root_mean_square));
   CHECK(std::isfinite(shape_change(solid, line).largest));
 }

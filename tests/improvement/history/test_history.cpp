@@ -2,6 +2,7 @@
 #include "stackabilization/improvement/history.h"
 #include "support/catch.h"
 #include "support/histories.h"
+#include "support/messages.h"
 
 using namespace stackabilization;
 using namespace stackabilization::histories;
@@ -88,13 +89,8 @@ TEST_CASE("nodes that cannot be made again are refused with their number") {
   const auto space = design_space(rest_of_file());
   History history;
   history.nodes.push_back({});
-  const auto message = [&](const Edit& edit) -> std::string {
-    try {
-      design_at(*space, apply(history, node_of({edit})), 1);
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    return "accepted";
+  const auto message = [&](const Edit& edit) {
+    return message_of<InputError>([&] { design_at(*space, apply(history, node_of({edit})), 1); });
   };
   CHECK(message({{HandleKind::part, 0, 0}, Move{{1, 0, 0}}, {}}).find("node 1 of the history") == 0);
   CHECK(message({{HandleKind::wire, 0, 3}, Move{{1, 0, 0}}, {}}).find("node 1 of the history") == 0);

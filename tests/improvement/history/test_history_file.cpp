@@ -6,6 +6,7 @@
 #include "stackabilization/structure/project_file.h"
 #include "support/catch.h"
 #include "support/histories.h"
+#include "support/messages.h"
 #include "support/variants.h"
 
 using namespace stackabilization;
@@ -24,12 +25,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 }
 
 std::string refusal(const std::string& text) {
-  try {
-    project_with_history(text, "p.json");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return message_of<InputError>([&] { project_with_history(text, "p.json"); });
 }
 
 }  // namespace

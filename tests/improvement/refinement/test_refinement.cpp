@@ -9,48 +9,30 @@
 #include "stackabilization/improvement/energy.h"
 #include "stackabilization/improvement/refinement.h"
 #include "support/catch.h"
+#include "support/cups.h"
 #include "support/solids.h"
+#include "support/still_designs.h"
 #include "support/variants.h"
 
 using namespace stackabilization;
+using cups::Cups;
+using cups::scale;
 
 namespace {
 
-constexpr double wall = 0.1;  // of the radius, which is 1
-constexpr double height = 4;
 constexpr double limit = 0.7;  // of the scale of the bottom, in spaces that refuse more
 
-/// Cups with conical walls: circles of radius b at the bottom and t at the top, and walls whose thickness is
-/// that fraction of the radius everywhere. Scaling section 0 changes b, section 1 t.
-///
-/// Where the inner wall reaches the rim, f = height wall t / (t - b), and the box keeps its proportions along
-/// z, so S = 1 - wall t / (t - b) as long as the bottom goes into the mouth.
-class Cups : public DesignSpace {
+/// Cups of eight segments whose bottoms may have a least radius.
+class BoundedCups : public Cups {
  public:
-  explicit Cups(double least_bottom = 0) : least_bottom_(least_bottom) {
-    rest_.shape = shape(1, 1);
-    rest_.structure.parts = {{"part", primitive(1, 1), {}}};
-    rest_.structure.diagonal = std::sqrt(8 + height * height);
-  }
+  explicit BoundedCups(double least_bottom = 0) : Cups(8), least_bottom_(least_bottom) {}
 
-  const StructuredShape& rest() const override { return rest_; }
-  DeformationKind kind() const override { return DeformationKind::controllers; }
-  std::vector<Handle> handles() const override {
-    return {{HandleKind::section, 0, 0}, {HandleKind::section, 0, 1}};
-  }
-  Design at_rest() const override { return {{}, {primitive(1, 1)}, rest_.shape}; }
-
-  DesignOutcome edited(const Design& now, const Edit& edit, const DeformationConstraints&) const override {
-    const Eigen::VectorXd radii = std::get<GeneralizedCylinder>(now.primitives.front()).radii;
-    const auto* scaling = std::get_if<Scale>(&edit.operation);
-    if (scaling == nullptr) return {Refusal{"a cup has radii only", {}, 0}, now};
-    const double factor = scaling->factor;
-    const double bottom = edit.handle.index == 0 ? radii[0] * factor : radii[0];
-    const double top = edit.handle.index == 1 ? radii[1] * factor : radii[1];
-    if (bottom < least_bottom_) return {Refusal{"the bottom would be too small", {}, 0}, now};
-    Design design{now.edits, {primitive(bottom, top)}, shape(bottom, top)};
-    design.edits.push_back(edit);
-    return {std::nullopt, design};
+  DesignOutcome edited(const Design& now, const Edit& edit,
+                       const DeformationConstraints& constraints) const override {
+    const DesignOutcome outcome = Cups::edited(now, edit, constraints);
+    if (!outcome.refusal && cups::radii(outcome.design)[0] < least_bottom_)
+      return {Refusal{"the bottom would be too small", {}, 0}, now};
+    return outcome;
   }
 
   Candidate candidate(const RequirementChecker& checker, const std::vector<Edit>& edits) const {
@@ -62,35 +44,17 @@ class Cups : public DesignSpace {
   }
 
  private:
-  static Primitive primitive(double bottom, double top) {
-    GeneralizedCylinder cylinder;
-    cylinder.centres = (Points(2, 3) << 0, 0, 0, 0, 0, height).finished();
-    cylinder.radii = Eigen::Vector2d(bottom, top);
-    return cylinder;
-  }
-  static Shape shape(double bottom, double top) {
-    const double floor = 0.2, at_floor = bottom + (top - bottom) * floor / height;
-    return solids::frustum_shell({bottom, top, (1 - wall) * at_floor, (1 - wall) * top, height, floor, 8});
-  }
-
-  StructuredShape rest_;
   double least_bottom_;
 };
 
-Edit scale(int section, double factor) {
-  return {{HandleKind::section, 0, section}, Scale{factor, {}}, Falloff::linear};
-}
-
 Requirements stacks(double target) {
-  Requirements requirements;
-  requirements.target = target;
-  requirements.measure.boxes = BoxModel::frame;
+  Requirements requirements = designs::frame_requirements(target);
   requirements.least_proportion = 0;
   return requirements;
 }
 
 double radius(const RefinementResult& result, int section) {
-  return std::get<GeneralizedCylinder>(result.candidate.design.primitives.front()).radii[section];
+  return cups::radii(result.candidate.design)[section];
 }
 
 double volume_change(double bottom, double top) {
@@ -103,7 +67,7 @@ RefinementOptions of_distortion() {
   return options;
 }
 
-RefinementOptions alone() {
+RefinementOptions without_joining() {
   RefinementOptions options = of_distortion();
   options.joining = 0;
   return options;
@@ -198,7 +162,7 @@ TEST_CASE("blocks that pass each other are told from those that meet") {
 }
 
 TEST_CASE("the signed changes add up to the distortion") {
-  const Cups cups;
+  const BoundedCups cups;
   for (const BoxModel boxes : {BoxModel::frame, BoxModel::oriented}) {
     const EnergyMeter meter(cups.rest(), boxes);
     for (const double factor : {0.6, 1.0, 1.4}) {
@@ -211,13 +175,13 @@ TEST_CASE("the signed changes add up to the distortion") {
       // lies along their edges.
       const double width = boxes == BoxModel::frame ? 2 : 2 * std::cos(std::numbers::pi / 8);
       const double wider = 2 * width * (std::max(0.8, factor) - 1);
-      CHECK(changes.box.sum() == Approx(wider / (2 * width + height)).margin(1e-12));
+      CHECK(changes.box.sum() == Approx(wider / (2 * width + Cups::height)).margin(1e-12));
     }
   }
 }
 
 TEST_CASE("slopes tell what a small step changes, the displacement to second order") {
-  const Cups cups;
+  const BoundedCups cups;
   const RequirementChecker checker(cups, stacks(0.6));
   detail::MagnitudeProblem problem(checker, {scale(0, 0.7), scale(1, 1.2)}, Direction(0, 0, 1),
                                    {1000, 3, ChangeMeasure::both, {}});
@@ -244,14 +208,14 @@ TEST_CASE("slopes tell what a small step changes, the displacement to second ord
 }
 
 TEST_CASE("the least taper of a cup has a closed form") {
-  const Cups cups;
+  const BoundedCups cups;
   for (const double target : {0.75, 0.8, 0.85}) {
     const RequirementChecker checker(cups, stacks(target));
-    const double bottom = 1 - wall / (1 - target);
+    const double bottom = 1 - Cups::wall / (1 - target);
     // Too much, just so, too little.
     for (const double start : {bottom - 0.1, bottom, std::sqrt(bottom)}) {
       const RefinementResult result =
-          refined_candidate(checker, cups.candidate(checker, {scale(0, start)}), alone());
+          refined_candidate(checker, cups.candidate(checker, {scale(0, start)}), without_joining());
       check_met(result, target);
       CHECK(radius(result, 0) == Approx(bottom).epsilon(1e-6));
       CHECK(radius(result, 1) == 1);
@@ -266,7 +230,7 @@ TEST_CASE("the least taper of a cup has a closed form") {
 
 TEST_CASE("of two edits those magnitudes are found that keep the volume, where D has its kink") {
   // S asks for b <= t / 2. Then 4 D = |7/12 t^2 - 1| + (t - 1) / 2 is least where the volume is kept.
-  const Cups cups;
+  const BoundedCups cups;
   const RequirementChecker checker(cups, stacks(0.8));
   const double top = std::sqrt(12.0 / 7);
   for (const auto& [b, t] : {std::pair(0.4, 1.1), std::pair(0.5, 1.2), std::pair(0.8, 1.25)}) {
@@ -280,7 +244,7 @@ TEST_CASE("of two edits those magnitudes are found that keep the volume, where D
 }
 
 TEST_CASE("what one end takes away the other may give back") {
-  const Cups cups;
+  const BoundedCups cups;
   const RequirementChecker checker(cups, stacks(0.8));
   const Candidate start = cups.candidate(checker, {scale(0, 0.5)});
   const RefinementResult result = refined_candidate(checker, start, of_distortion());
@@ -295,7 +259,7 @@ TEST_CASE("what one end takes away the other may give back") {
 
 TEST_CASE("the displacement is least where no other cup that stacks as well is nearer") {
   // On the border S = 0.8 lies b = t / 2: one number is left, and can be looked through.
-  const Cups cups;
+  const BoundedCups cups;
   const RequirementChecker checker(cups, stacks(0.8));
   const Candidate start = cups.candidate(checker, {scale(0, 0.4), scale(1, 1.1)});
   for (const ChangeMeasure least : {ChangeMeasure::displacement, ChangeMeasure::both}) {
@@ -318,7 +282,7 @@ TEST_CASE("the displacement is least where no other cup that stacks as well is n
 }
 
 TEST_CASE("a room is filled to the end, though boxes change with the design") {
-  const Cups space;
+  const BoundedCups space;
   const Direction aslant(0.2, 0, 1);
   Requirements asked = stacks(0);
   asked.keep_height = false;
@@ -328,7 +292,7 @@ TEST_CASE("a room is filled to the end, though boxes change with the design") {
   Candidate start = space.candidate(checker, {scale(1, 1.5)});
   start.direction = aslant.vector();
   start.measured = checker.measured(start.design.shape, aslant);
-  const RefinementResult result = refined_candidate(checker, start, alone());
+  const RefinementResult result = refined_candidate(checker, start, without_joining());
   REQUIRE(result.reached);
   const Stackability measured = checker.checked(result.candidate.design, aslant).measured;
   const double length = measured.extent + 5 * measured.f_max;
@@ -340,20 +304,20 @@ TEST_CASE("a room is filled to the end, though boxes change with the design") {
 }
 
 TEST_CASE("an edit that is of no use is left out, its counterpart merged") {
-  const Cups cups;
+  const BoundedCups cups;
   const RequirementChecker checker(cups, stacks(0.8));
   const Candidate start =
       cups.candidate(checker, {scale(0, 0.5), scale(1, 1.25), scale(0, 0.8), scale(1, 0.8)});
-  const RefinementResult result = refined_candidate(checker, start, alone());
+  const RefinementResult result = refined_candidate(checker, start, without_joining());
   check_met(result, 0.8);
   REQUIRE(result.candidate.design.edits.size() == 1);
   CHECK(radius(result, 0) == Approx(0.5).epsilon(1e-6));
 }
 
 TEST_CASE("edits that hardly matter leave together, even when the time is up") {
-  const Cups cups;
+  const BoundedCups cups;
   const RequirementChecker checker(cups, stacks(0.8));
-  RefinementOptions options = alone();
+  RefinementOptions options = without_joining();
   options.cancelled = [] { return true; };
   std::vector<Edit> edits{scale(0, 0.4), scale(1, 0.99999), scale(1, 0.99998)};
   edits.back().falloff = Falloff::gaussian;
@@ -365,7 +329,7 @@ TEST_CASE("edits that hardly matter leave together, even when the time is up") {
 
 TEST_CASE("proportions are kept") {
   // The kink lies at b = 0.65: b stays at what it may, and t = 2 b.
-  const Cups cups;
+  const BoundedCups cups;
   Requirements requirements = stacks(0.8);
   requirements.least_proportion = limit;
   const RequirementChecker checker(cups, requirements);
@@ -379,7 +343,7 @@ TEST_CASE("proportions are kept") {
 
 TEST_CASE("where edits are refused the best of the others is found") {
   // The kink lies at b = 0.65, which is refused: b stays at its limit, and t = 2 b.
-  const Cups cups(limit);
+  const BoundedCups cups(limit);
   const RequirementChecker checker(cups, stacks(0.8));
   const RefinementResult result =
       refined_candidate(checker, cups.candidate(checker, {scale(0, 0.75), scale(1, 1.6)}), of_distortion());
@@ -390,17 +354,17 @@ TEST_CASE("where edits are refused the best of the others is found") {
 }
 
 TEST_CASE("a target out of reach gives the largest S, and says so") {
-  const Cups cups(limit);
+  const BoundedCups cups(limit);
   const RequirementChecker checker(cups, stacks(0.8));
   const RefinementResult result =
-      refined_candidate(checker, cups.candidate(checker, {scale(0, 0.8)}), alone());
+      refined_candidate(checker, cups.candidate(checker, {scale(0, 0.8)}), without_joining());
   CHECK_FALSE(result.reached);
   CHECK(radius(result, 0) >= limit);
-  CHECK(result.candidate.measured.value == Approx(1 - wall / (1 - limit)).epsilon(0.01));
+  CHECK(result.candidate.measured.value == Approx(1 - Cups::wall / (1 - limit)).epsilon(0.01));
 }
 
 TEST_CASE("the result is never worse than what was given") {
-  const Cups cups;
+  const BoundedCups cups;
   const RequirementChecker checker(cups, stacks(0.6));
   for (const auto& [b, t] : {std::pair(0.75, 1.0), std::pair(0.7, 0.94), std::pair(0.9, 1.3)}) {
     const Candidate start = cups.candidate(checker, {scale(0, b), scale(1, t)});
@@ -417,7 +381,7 @@ TEST_CASE("the result is never worse than what was given") {
 }
 
 TEST_CASE("a refinement that is cancelled at once gives back what it was given, judged") {
-  const Cups cups;
+  const BoundedCups cups;
   const RequirementChecker checker(cups, stacks(0.8));
   RefinementOptions options;
   options.cancelled = [] { return true; };
@@ -431,7 +395,7 @@ TEST_CASE("a refinement that is cancelled at once gives back what it was given, 
 }
 
 TEST_CASE("the same bytes for any number of threads") {
-  const Cups cups;
+  const BoundedCups cups;
   const RequirementChecker checker(cups, stacks(0.8));
   const Candidate start = cups.candidate(checker, {scale(0, 0.8), scale(1, 1.1)});
   std::vector<RefinementResult> results;
@@ -445,7 +409,7 @@ TEST_CASE("the same bytes for any number of threads") {
 }
 
 TEST_CASE("options out of range are refused") {
-  const Cups cups;
+  const BoundedCups cups;
   const RequirementChecker checker(cups, stacks(0.8));
   const Candidate start = cups.candidate(checker, {scale(0, 0.8)});
   RefinementOptions options;

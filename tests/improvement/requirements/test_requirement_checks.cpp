@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "support/catch.h"
+#include "support/directions.h"
 #include "support/solids.h"
 #include "support/still_designs.h"
 #include "support/structures.h"
@@ -13,8 +14,6 @@ using namespace stackabilization;
 using namespace stackabilization::designs;
 
 namespace {
-
-const Direction up(0, 0, 1);
 
 /// A bar of two boxes that share the four vertices between them.
 StructuredShape bar_of_two() {
@@ -32,7 +31,7 @@ StructuredShape bar_of_two() {
 
 Check check_of(const DesignSpace& space, const Requirements& requirements, const Design& design,
                const std::string& name) {
-  for (const Check& check : RequirementChecker(space, requirements).checked(design, up).checks)
+  for (const Check& check : RequirementChecker(space, requirements).checked(design, upwards).checks)
     if (check.name == name) return check;
   FAIL("there is no check of the " + name);
   return {};
@@ -43,14 +42,14 @@ Check check_of(const DesignSpace& space, const Requirements& requirements, const
 TEST_CASE("The target is compared without slack", "[requirements]") {
   const Still space(cup());
   const double reached =
-      RequirementChecker(space, frame_requirements()).checked(space.at_rest(), up).measured.value;
+      RequirementChecker(space, frame_requirements()).checked(space.at_rest(), upwards).measured.value;
   const Check passes = check_of(space, frame_requirements(reached), space.at_rest(), "target");
   CHECK(passes.passed);
   CHECK(passes.value == reached);
   CHECK(passes.demanded == reached);
   const Requirements above = frame_requirements(std::nextafter(reached, 1.0));
   CHECK_FALSE(check_of(space, above, space.at_rest(), "target").passed);
-  CHECK_FALSE(RequirementChecker(space, above).checked(space.at_rest(), up).passed());
+  CHECK_FALSE(RequirementChecker(space, above).checked(space.at_rest(), upwards).passed());
 }
 
 TEST_CASE("A room is compared by the length of the stack, whatever the boxes are", "[requirements]") {
@@ -63,7 +62,7 @@ TEST_CASE("A room is compared by the length of the stack, whatever the boxes are
   CHECK(fits.passed);
   CHECK(fits.value == Approx(length));
   CHECK(fits.demanded == requirements.room->length);
-  CHECK(RequirementChecker(space, requirements).checked(space.at_rest(), up).passed());
+  CHECK(RequirementChecker(space, requirements).checked(space.at_rest(), upwards).passed());
   requirements.room->length = length * (1 - 1e-12);
   CHECK_FALSE(check_of(space, requirements, space.at_rest(), "room").passed);
   // As wide as it may be, and S with it; a fifth higher, and the stack is too.
@@ -99,11 +98,11 @@ TEST_CASE("The height is kept to a billionth, unless it need not be", "[requirem
   // Other directions have other heights.
   const Design wider = scaled(space.at_rest(), {1.5, 1, 1});
   const RequirementChecker checker(space, frame_requirements());
-  CHECK(checker.checked(wider, up).checks[1].passed);
+  CHECK(checker.checked(wider, upwards).checks[1].passed);
   CHECK(checker.checked(wider, Direction(1, 0, 0)).checks[1].value == Approx(0.5));
   Requirements free = frame_requirements();
   free.keep_height = false;
-  CHECK(RequirementChecker(space, free).checked(higher, up).passed());
+  CHECK(RequirementChecker(space, free).checked(higher, upwards).passed());
 }
 
 TEST_CASE("Relations are held against the primitives of controllers", "[requirements]") {
@@ -119,8 +118,9 @@ TEST_CASE("Relations are held against the primitives of controllers", "[requirem
   CHECK(broken.value == Approx(1.01e-6));
   CHECK(broken.note == "symmetry of 'left' and 'right'");
   const Still surface(two_cubes(), DeformationKind::surface);
-  CHECK(RequirementChecker(surface, frame_requirements()).checked(moved(surface, 0.1), up).checks.size() ==
-        3);
+  CHECK(
+      RequirementChecker(surface, frame_requirements()).checked(moved(surface, 0.1), upwards).checks.size() ==
+      3);
 }
 
 TEST_CASE("Parts keep their proportions", "[requirements]") {
@@ -142,7 +142,7 @@ TEST_CASE("Parts keep their proportions", "[requirements]") {
   }
   requirements.least_proportion = 0;
   CHECK_FALSE(RequirementChecker(space, requirements).out_of_proportion(stretched(0.1)));
-  for (const Check& check : RequirementChecker(space, requirements).checked(stretched(0.1), up).checks)
+  for (const Check& check : RequirementChecker(space, requirements).checked(stretched(0.1), upwards).checks)
     CHECK(check.name != "proportions");
 }
 
@@ -254,7 +254,7 @@ TEST_CASE("Checks come in order, and only those that were asked for", "[requirem
   all.least_draft_degrees = 10;
   all.standing_copies = 2;
   std::vector<std::string> names;
-  for (const Check& check : RequirementChecker(space, all).checked(space.at_rest(), up).checks) {
+  for (const Check& check : RequirementChecker(space, all).checked(space.at_rest(), upwards).checks) {
     names.push_back(check.name);
     CHECK(check.passed);
     CHECK(std::isfinite(check.value));
@@ -262,7 +262,7 @@ TEST_CASE("Checks come in order, and only those that were asked for", "[requirem
   CHECK(names == std::vector<std::string>{"target", "height", "relations", "proportions", "box", "parts",
                                           "thickness", "draft", "standing"});
   const RequirementChecker few(space, frame_requirements());
-  CHECK(few.checked(space.at_rest(), up).checks.size() == 4);
+  CHECK(few.checked(space.at_rest(), upwards).checks.size() == 4);
   CHECK(few.requirements().target == -1);
   CHECK(&few.space() == &space);
 }

@@ -6,17 +6,12 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/requirements.h"
 #include "support/catch.h"
+#include "support/directions.h"
 #include "support/still_designs.h"
 #include "support/structures.h"
 
 using namespace stackabilization;
 using namespace stackabilization::designs;
-
-namespace {
-
-const Direction up(0, 0, 1);
-
-}  // namespace
 
 TEST_CASE("A cup is measured as its closed form, in both box models", "[requirements]") {
   const Still space(cup());
@@ -24,14 +19,14 @@ TEST_CASE("A cup is measured as its closed form, in both box models", "[requirem
     Requirements requirements = frame_requirements();
     requirements.measure.boxes = boxes;
     const RequirementChecker checker(space, requirements);
-    const Stackability measured = checker.measured(space.rest().shape, up);
+    const Stackability measured = checker.measured(space.rest().shape, upwards);
     CHECK(measured.f_max == Approx(4));
     CHECK(measured.value == Approx(0.5));
     CHECK(measured.extent == Approx(8));
-    CHECK(checker.measured_above(space.rest().shape, up, 0.499)->value == measured.value);
-    CHECK_FALSE(checker.measured_above(space.rest().shape, up, 0.501));
-    CHECK(checker.measured_above(space.rest().shape, up, measured.value)->value == measured.value);
-    const Assessment assessment = checker.checked(space.at_rest(), up);
+    CHECK(checker.measured_above(space.rest().shape, upwards, 0.499)->value == measured.value);
+    CHECK_FALSE(checker.measured_above(space.rest().shape, upwards, 0.501));
+    CHECK(checker.measured_above(space.rest().shape, upwards, measured.value)->value == measured.value);
+    const Assessment assessment = checker.checked(space.at_rest(), upwards);
     CHECK(assessment.measured.value == Approx(measured.value).margin(1e-12));
     CHECK(assessment.separation.length == Approx(4));
     CHECK(assessment.passed());
@@ -43,7 +38,7 @@ TEST_CASE("One measurement is that of a solver, along any direction", "[requirem
       structures::table().shape,
       Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix(), {5, -3, 1});
   for (const BoxModel boxes : {BoxModel::frame, BoxModel::oriented})
-    for (const Direction& r : {up, Direction(0.3, -0.2, 1), Direction(-2, 0.1, 0.4)}) {
+    for (const Direction& r : {upwards, Direction(0.3, -0.2, 1), Direction(-2, 0.1, 0.4)}) {
       StackabilityOptions options;
       options.boxes = boxes;
       const Stackability solved = StackabilitySolver(shape, options).measure(r);
@@ -66,12 +61,12 @@ TEST_CASE("Air between copies lowers S by what it takes", "[requirements]") {
   requirements.clearance = 0.4;
   {
     const RequirementChecker checker(space, requirements);
-    CHECK(checker.measured(shape, up).f_max == Approx(4.4));
-    CHECK(checker.measured(shape, up).value == Approx(1 - 4.4 / 8));
-    CHECK(checker.checked(space.at_rest(), up).measured.value == Approx(1 - 4.4 / 8));
-    CHECK(checker.checked(space.at_rest(), up).separation.length == Approx(4));
-    CHECK_FALSE(checker.measured_above(shape, up, 0.46));
-    CHECK(checker.measured_above(shape, up, 0.44)->value == Approx(0.45));
+    CHECK(checker.measured(shape, upwards).f_max == Approx(4.4));
+    CHECK(checker.measured(shape, upwards).value == Approx(1 - 4.4 / 8));
+    CHECK(checker.checked(space.at_rest(), upwards).measured.value == Approx(1 - 4.4 / 8));
+    CHECK(checker.checked(space.at_rest(), upwards).separation.length == Approx(4));
+    CHECK_FALSE(checker.measured_above(shape, upwards, 0.46));
+    CHECK(checker.measured_above(shape, upwards, 0.44)->value == Approx(0.45));
   }
   // Sideways by p, walls of slope 1/8 meet 8 p higher; the polygon around the disc and the facets of the cup
   // add a little.
@@ -80,7 +75,7 @@ TEST_CASE("Air between copies lowers S by what it takes", "[requirements]") {
   const double most = 0.4 / std::cos(std::numbers::pi / 16) / std::cos(std::numbers::pi / 64);
   const RequirementChecker checker(space, requirements);
   for (const Stackability& measured :
-       {checker.measured(shape, up), checker.checked(space.at_rest(), up).measured}) {
+       {checker.measured(shape, upwards), checker.checked(space.at_rest(), upwards).measured}) {
     CHECK(measured.f_max >= 4 + 0.1 + 0.4 - 1e-9);
     CHECK(measured.f_max <= 4 + 0.1 + most + 1e-9);
     CHECK(measured.value == Approx(1 - measured.f_max / 8));
@@ -99,10 +94,10 @@ TEST_CASE("What requirements forbid a deformation", "[requirements]") {
   CHECK(constraints.fixed_parts == std::vector<int>{0, 3, 6, 8});
   requirements.kept_parts = {};
   requirements.editable_parts = {1};  // and the other legs with it
-  CHECK(deformation_constraints(requirements, table, up).fixed_parts == std::vector<int>{0, 5, 6, 7, 8});
+  CHECK(deformation_constraints(requirements, table, upwards).fixed_parts == std::vector<int>{0, 5, 6, 7, 8});
   requirements = {};
   requirements.keep_height = false;
-  const DeformationConstraints none = deformation_constraints(requirements, table, up);
+  const DeformationConstraints none = deformation_constraints(requirements, table, upwards);
   CHECK_FALSE(none.keep_extent);
   CHECK_FALSE(none.box_tolerance);
   CHECK(none.fixed_parts.empty());
@@ -150,9 +145,9 @@ TEST_CASE("Designs of something else, and flat ones, are refused", "[requirement
   const RequirementChecker checker(space, frame_requirements());
   Design fewer = space.at_rest();
   fewer.primitives.pop_back();
-  CHECK_THROWS_AS(checker.checked(fewer, up), UsageError);
-  CHECK_THROWS_AS(checker.checked(Still(cup()).at_rest(), up), UsageError);
+  CHECK_THROWS_AS(checker.checked(fewer, upwards), UsageError);
+  CHECK_THROWS_AS(checker.checked(Still(cup()).at_rest(), upwards), UsageError);
   const Design flat = scaled(space.at_rest(), {1, 1, 0});
-  CHECK_THROWS_AS(checker.checked(flat, up), InputError);
-  CHECK_THROWS_AS(checker.measured(flat.shape, up), InputError);
+  CHECK_THROWS_AS(checker.checked(flat, upwards), InputError);
+  CHECK_THROWS_AS(checker.measured(flat.shape, upwards), InputError);
 }

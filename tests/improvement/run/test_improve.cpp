@@ -14,18 +14,10 @@
 #include "support/cups.h"
 
 using namespace stackabilization;
+using cups::checker;
 using cups::Cups;
 
 namespace {
-
-const Cups space;
-
-RequirementChecker checker(double target) {
-  Requirements requirements;
-  requirements.target = target;
-  requirements.measure.boxes = BoxModel::frame;
-  return {space, requirements};
-}
 
 Improvement improved(ImprovementPreset preset, double target, int evaluations = 60, int solutions = 1) {
   ImprovementOptions options;
@@ -97,7 +89,7 @@ ImprovementOptions limited(double effort) {
   return options;
 }
 
-void check_same(const Improvement& a, const Improvement& b) {
+void check_same_improvement(const Improvement& a, const Improvement& b) {
   CHECK(a.end == b.end);
   CHECK(a.progress.evaluated == b.progress.evaluated);
   CHECK(a.progress.expanded == b.progress.expanded);
@@ -119,8 +111,8 @@ TEST_CASE("an effort bounds the designs measured, whatever the target and the nu
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
         results.push_back(improve(checker(target), limited(effort)));
       }
-      check_same(results[0], results[1]);
-      const double designs = designs_of_effort(effort, space.rest());
+      check_same_improvement(results[0], results[1]);
+      const double designs = designs_of_effort(effort, cups::space.rest());
       // What a refinement needs to tell which edits can leave, and the roots, come on top.
       CHECK(static_cast<double>(results[0].progress.evaluated) <= 1.1 * designs + 50);
       CHECK(results[0].end != SearchEnd::time_limit);
@@ -138,8 +130,8 @@ TEST_CASE("a run goes on to the same result from every state that it saves") {
       const Improvement whole = improve(checker(target), options);
       REQUIRE(!states.empty());
       options.search.save = {};
-      check_same(improve(checker(target), options, SavedSearch{states.front()}), whole);
-      check_same(improve(checker(target), options, SavedSearch{states.back()}), whole);
+      check_same_improvement(improve(checker(target), options, SavedSearch{states.front()}), whole);
+      check_same_improvement(improve(checker(target), options, SavedSearch{states.back()}), whole);
     }
 }
 
@@ -155,7 +147,7 @@ TEST_CASE("a run expands no more candidates than it may, and with more of them g
       fewer.search.expansions = first;
       fewer.search.save = [&](const std::string& text) { state = text; };
       CHECK(improve(checker(0.97), fewer).progress.expanded <= first);
-      check_same(improve(checker(0.97), options, SavedSearch{state}), whole);
+      check_same_improvement(improve(checker(0.97), options, SavedSearch{state}), whole);
     }
   }
   ImprovementOptions none = limited(0.02);
@@ -180,7 +172,7 @@ TEST_CASE("a run that is cancelled anywhere leaves a state from which the whole 
     CHECK(part.end == SearchEnd::cancelled);
     REQUIRE(!state.empty());
     options.search.cancelled = {};
-    check_same(improve(checker(0.75), options, SavedSearch{state}), whole);
+    check_same_improvement(improve(checker(0.75), options, SavedSearch{state}), whole);
   }
 }
 
@@ -199,7 +191,7 @@ TEST_CASE("a deadline that is met is told, and the shape is judged nevertheless"
 }
 
 TEST_CASE("efforts are shares of a fixed amount of work, less of it for larger shapes") {
-  const StructuredShape& rest = space.rest();
+  const StructuredShape& rest = cups::space.rest();
   CHECK(designs_of_effort(2, rest) == Approx(2 * designs_of_effort(1, rest)));
   CHECK(std::isinf(designs_of_effort(std::numeric_limits<double>::infinity(), rest)));
   StructuredShape larger = rest;

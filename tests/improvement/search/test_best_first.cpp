@@ -12,20 +12,14 @@
 #include "stackabilization/improvement/shape_change.h"
 #include "support/catch.h"
 #include "support/cups.h"
+#include "support/directions.h"
+#include "support/still_designs.h"
 
 namespace stackabilization {
 namespace {
 
+using cups::checker;
 using cups::Cups;
-
-const Cups space;
-
-RequirementChecker checker(double target) {
-  Requirements requirements;
-  requirements.target = target;
-  requirements.measure.boxes = BoxModel::frame;
-  return {space, requirements};
-}
 
 BestFirstOptions options() {
   BestFirstOptions options;
@@ -46,21 +40,19 @@ struct Listed {
 };
 
 std::vector<ContactEdit> suggested(const Design& design, const ContactEditOptions& how) {
-  const Direction up(0, 0, 1);
   const SeparationTree tree(design.shape);
   const auto regions =
-      contact_regions({design.shape, tree, up, separation(tree, tree, up)}, how.contacts).regions;
-  const std::vector<Handle> handles = space.handles();
-  return contact_edits({space.rest(), space.kind(), handles, design, regions, up}, how);
+      contact_regions({design.shape, tree, upwards, separation(tree, tree, upwards)}, how.contacts).regions;
+  const std::vector<Handle> handles = cups::space.handles();
+  return contact_edits({cups::space.rest(), cups::space.kind(), handles, design, regions, upwards}, how);
 }
 
 /// The first solution of Algorithm 1 for cups, without any of the library's search.
 std::optional<Listed> listed_solution(double target, const BestFirstOptions& how) {
-  const EnergyMeter meter(space.rest(), BoxModel::frame, how.alpha);
+  const EnergyMeter meter(cups::space.rest(), BoxModel::frame, how.alpha);
   const StackabilityOptions frame{Semantics::solid, BoxModel::frame};
-  const Direction up(0, 0, 1);
-  const double at_rest = stackability(space.rest().shape, up, frame).value;
-  std::vector<Listed> list = {{space.at_rest(), 0, at_rest}};
+  const double at_rest = stackability(cups::space.rest().shape, upwards, frame).value;
+  std::vector<Listed> list = {{cups::space.at_rest(), 0, at_rest}};
   for (int round = 0; round < 1000; ++round) {
     auto best = list.end();
     for (auto row = list.begin(); row != list.end(); ++row)
@@ -70,19 +62,19 @@ std::optional<Listed> listed_solution(double target, const BestFirstOptions& how
     best->taken = true;
     const Design now = best->design;
     for (const ContactEdit& suggestion : suggested(now, how.edits)) {
-      const DesignOutcome outcome = space.edited(now, suggestion.edit, {});
+      const DesignOutcome outcome = cups::space.edited(now, suggestion.edit, {});
       const auto is_same = [&](const Listed& other) {
         return (cups::radii(other.design) - cups::radii(outcome.design)).norm() < 1e-6;
       };
       if (outcome.refusal || std::any_of(list.begin(), list.end(), is_same)) continue;
-      const double value = stackability(outcome.design.shape, up, frame).value;
+      const double value = stackability(outcome.design.shape, upwards, frame).value;
       list.push_back({outcome.design, meter.energy(outcome.design, value - at_rest).value, value});
     }
   }
   return std::nullopt;
 }
 
-void check_same(const Candidate& a, const Candidate& b) {
+void check_same_candidate(const Candidate& a, const Candidate& b) {
   CHECK(a.design.shape.vertices == b.design.shape.vertices);
   CHECK(a.direction == b.direction);
   CHECK(a.measured.value == b.measured.value);
@@ -91,7 +83,7 @@ void check_same(const Candidate& a, const Candidate& b) {
   CHECK(a.design.edits.size() == b.design.edits.size());
 }
 
-void check_same(const BestFirstResult& a, const BestFirstResult& b) {
+void check_same_search(const BestFirstResult& a, const BestFirstResult& b) {
   CHECK(a.end == b.end);
   CHECK(a.progress.expanded == b.progress.expanded);
   CHECK(a.progress.evaluated == b.progress.evaluated);
@@ -99,9 +91,9 @@ void check_same(const BestFirstResult& a, const BestFirstResult& b) {
   CHECK(a.progress.best_energy == b.progress.best_energy);
   CHECK(a.progress.best_stackability == b.progress.best_stackability);
   REQUIRE(a.solutions.size() == b.solutions.size());
-  for (std::size_t k = 0; k < a.solutions.size(); ++k) check_same(a.solutions[k], b.solutions[k]);
+  for (std::size_t k = 0; k < a.solutions.size(); ++k) check_same_candidate(a.solutions[k], b.solutions[k]);
   REQUIRE(a.nearest.size() == b.nearest.size());
-  for (std::size_t k = 0; k < a.nearest.size(); ++k) check_same(a.nearest[k], b.nearest[k]);
+  for (std::size_t k = 0; k < a.nearest.size(); ++k) check_same_candidate(a.nearest[k], b.nearest[k]);
   REQUIRE(a.refusals.size() == b.refusals.size());
   for (std::size_t k = 0; k < a.refusals.size(); ++k) {
     CHECK(a.refusals[k].reason == b.refusals[k].reason);
@@ -149,7 +141,7 @@ TEST_CASE("what stacks well enough is left alone") {
   REQUIRE(result.solutions.size() == 1);
   CHECK(result.solutions[0].design.edits.empty());
   CHECK(result.solutions[0].energy.value == 0);
-  CHECK(result.solutions[0].design.shape.vertices == space.rest().shape.vertices);
+  CHECK(result.solutions[0].design.shape.vertices == cups::space.rest().shape.vertices);
   CHECK(result.progress.expanded == 0);
   CHECK(result.progress.evaluated == 1);
 }
@@ -165,7 +157,7 @@ TEST_CASE("several solutions differ, and come least energy first") {
     CHECK(one.measured.value >= 0.5);
     if (i > 0) CHECK(result.solutions[i - 1].energy.value <= one.energy.value);
     for (std::size_t j = 0; j < i; ++j) {
-      const Shape &other = result.solutions[j].design.shape, &rest = space.rest().shape;
+      const Shape &other = result.solutions[j].design.shape, &rest = cups::space.rest().shape;
       const double from_rest = std::min(shape_change(rest, one.design.shape).root_mean_square,
                                         shape_change(rest, other).root_mean_square);
       CHECK(shape_change(other, one.design.shape).root_mean_square >= 0.1 * from_rest);
@@ -191,7 +183,7 @@ TEST_CASE("a search that may change nothing is exhausted and tells what forbids 
   Requirements requirements;
   requirements.target = 0.5;
   requirements.kept_parts = {0};
-  const BestFirstResult result = best_first(RequirementChecker(space, requirements), options());
+  const BestFirstResult result = best_first(RequirementChecker(cups::space, requirements), options());
   CHECK(result.end == SearchEnd::exhausted);
   CHECK(result.progress.expanded == 1);
   REQUIRE(result.nearest.size() == 1);
@@ -211,7 +203,7 @@ TEST_CASE("the result does not depend on the number of threads") {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     results.push_back(best_first(checker(0.6), how));
   }
-  check_same(results[0], results[1]);
+  check_same_search(results[0], results[1]);
 }
 
 TEST_CASE("a search that is cancelled anywhere goes on to the same result") {
@@ -229,7 +221,7 @@ TEST_CASE("a search that is cancelled anywhere goes on to the same result") {
     interrupted.cancelled = [&] { return ++asked >= moment; };
     interrupted.save = [&](const std::string& text) { state = text; };
     if (best_first(task, interrupted).end == SearchEnd::cancelled) ++stopped;
-    check_same(best_first_resumed(task, how, {state}), whole);
+    check_same_search(best_first_resumed(task, how, {state}), whole);
   }
   CHECK(stopped >= 3);
 }
@@ -243,7 +235,7 @@ TEST_CASE("a search that ended at a limit goes on when the limit is raised") {
   how.expansions = 50;
   const BestFirstResult resumed = best_first_resumed(checker(0.6), how, {state});
   CHECK(resumed.end == SearchEnd::solved);
-  check_same(resumed, best_first(checker(0.6), how));
+  check_same_search(resumed, best_first(checker(0.6), how));
 }
 
 TEST_CASE("a search that ran out of time goes on with time of its own, and saves the same bytes") {
@@ -329,7 +321,7 @@ TEST_CASE("a saved search knows its directions, before its first step too") {
   REQUIRE(states.size() >= 2);
   CHECK(states.front() == search_at_start(checker(0.6), how));
   for (const std::string& state : states) CHECK(directions_of({state}) == how.directions);
-  check_same(best_first_resumed(checker(0.6), how, {states.front()}), whole);
+  check_same_search(best_first_resumed(checker(0.6), how, {states.front()}), whole);
   CHECK_THROWS_AS(directions_of({"{}"}), SavedSearchError);
 }
 
@@ -349,10 +341,10 @@ TEST_CASE("a limit of trials bounds the edits tried, and leaves no trace of what
     before = part.trials;
     BestFirstOptions more = how;
     more.trials = whole.trials;
-    check_same(best_first_resumed(checker(0.6), more, {state}), whole);
+    check_same_search(best_first_resumed(checker(0.6), more, {state}), whole);
   }
   how.trials = whole.trials;
-  check_same(best_first(checker(0.6), how), whole);
+  check_same_search(best_first(checker(0.6), how), whole);
 }
 
 TEST_CASE("progress is reported after every candidate") {
@@ -372,12 +364,9 @@ TEST_CASE("progress is reported after every candidate") {
 }
 
 TEST_CASE("gap scaling is searched along its own direction only, and a cone around it is refused") {
-  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  const auto squashed = design_space(space.rest(), {DeformationKind::gap_scaling, Direction(up)});
-  Requirements requirements;
-  requirements.target = 0.9;
+  const auto squashed = design_space(cups::space.rest(), {DeformationKind::gap_scaling, upwards});
+  Requirements requirements = designs::frame_requirements(0.9);
   requirements.keep_height = false;
-  requirements.measure.boxes = BoxModel::frame;
   const RequirementChecker wish(*squashed, requirements);
   BestFirstOptions how = options();
   how.expansions = 3;
@@ -389,7 +378,7 @@ TEST_CASE("gap scaling is searched along its own direction only, and a cone arou
   const BestFirstResult result = best_first(wish, how);
   CHECK(result.progress.expanded == 3);
   REQUIRE(!result.nearest.empty());
-  for (const Candidate& candidate : result.nearest) CHECK(candidate.direction == up);
+  for (const Candidate& candidate : result.nearest) CHECK(candidate.direction == upwards.vector());
 }
 
 TEST_CASE("a search refuses options out of range") {

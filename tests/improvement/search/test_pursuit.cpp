@@ -5,6 +5,7 @@
 #include "improvement/requirements/proportions.h"
 #include "improvement/search/pursuit.h"
 #include "support/catch.h"
+#include "support/still_designs.h"
 #include "support/structures.h"
 
 using namespace stackabilization;
@@ -62,9 +63,7 @@ TEST_CASE("proportions of a cylinder are those of its radii and its length") {
 TEST_CASE("a pursuit frees every contact of one height, where one edit alone would raise nothing") {
   // Bars between the legs, all at one height, in two classes of symmetric parts: both have to go up.
   const auto space = design_space(structures::table(1));
-  Requirements wanted;
-  wanted.target = 0.55;
-  wanted.measure.boxes = BoxModel::frame;
+  const Requirements wanted = designs::frame_requirements(0.55);
   const RequirementChecker checker(*space, wanted);
   const Candidate start = at_rest(checker, {0, 0, 1});
   const PursuitResult result = pursued(checker, start);

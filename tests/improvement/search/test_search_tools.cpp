@@ -11,6 +11,7 @@
 #include "stackabilization/core/errors.h"
 #include "support/catch.h"
 #include "support/cups.h"
+#include "support/directions.h"
 #include "support/solids.h"
 #include "support/structures.h"
 
@@ -177,21 +178,20 @@ TEST_CASE("reasons are counted without their amounts") {
 }
 
 TEST_CASE("symmetries fix a direction, or leave it a plane") {
-  const Direction up(0, 0, 1);
   Structure structure;
-  CHECK(!freedom_of(structure, up).fixed);
-  CHECK(!freedom_of(structure, up).plane_normal);
+  CHECK(!freedom_of(structure, upwards).fixed);
+  CHECK(!freedom_of(structure, upwards).plane_normal);
   structure.symmetries = {mirror({0, 0, 1})};
-  CHECK(!freedom_of(structure, up).plane_normal);
+  CHECK(!freedom_of(structure, upwards).plane_normal);
   structure.symmetries = {mirror({0, 0, 1}), mirror({0, 1, 0})};
-  REQUIRE(freedom_of(structure, up).plane_normal);
-  CHECK(*freedom_of(structure, up).plane_normal == Vector3d(0, 1, 0));
-  CHECK(!freedom_of(structure, up).fixed);
+  REQUIRE(freedom_of(structure, upwards).plane_normal);
+  CHECK(*freedom_of(structure, upwards).plane_normal == Vector3d(0, 1, 0));
+  CHECK(!freedom_of(structure, upwards).fixed);
   structure.symmetries = {mirror({0, 1, 0}), mirror({1, 0, 0})};
-  CHECK(freedom_of(structure, up).fixed);
+  CHECK(freedom_of(structure, upwards).fixed);
   CHECK(!freedom_of(structure, Direction(1, 0, 1)).fixed);
   structure.symmetries = {{SymmetryKind::rotation, Vector3d::Zero(), {0, 0, 1}, 3}};
-  CHECK(freedom_of(structure, up).fixed);
+  CHECK(freedom_of(structure, upwards).fixed);
   CHECK(!freedom_of(structure, Direction(1, 0, 0)).fixed);
 }
 

@@ -3,6 +3,7 @@
 #include "io/formats/bytes.h"
 #include "support/catch.h"
 #include "support/meshes.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 using namespace stackabilization::test;
@@ -29,7 +30,7 @@ std::string gltf(const std::string& nodes,
 }  // namespace
 
 TEST_CASE("GLB keeps floats, parts and the z axis") {
-  Shape shape = concatenate(cube(1.5), transformed(cube(2), Eigen::Matrix3d::Identity(), {5, 6, 7.25}));
+  Shape shape = concatenate(cube(1.5), solids::moved(cube(2), {5, 6, 7.25}));
   const Shape back = round_trip(shape, Format::gltf);
   CHECK(same_corners(back, shape));
   CHECK(same_parts(back, shape));
@@ -40,7 +41,7 @@ TEST_CASE("GLB counts in metres, whatever the unit of the shape") {
       {Unit::unknown, 1},       {Unit::metre, 1},     {Unit::centimetre, 1e-2}, {Unit::millimetre, 1e-3},
       {Unit::micrometre, 1e-6}, {Unit::inch, 0.0254}, {Unit::foot, 0.3048}};
   for (const auto& [unit, factor] : metres) {
-    Shape shape = transformed(cube(250), Eigen::Matrix3d::Identity(), {5, 6, 7.25});
+    Shape shape = solids::moved(cube(250), {5, 6, 7.25});
     shape.unit = unit;
     const Shape back = round_trip(shape, Format::gltf);
     CHECK(back.unit == Unit::metre);

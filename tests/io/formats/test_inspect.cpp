@@ -4,6 +4,7 @@
 #include "stackabilization/io/inspect.h"
 #include "support/catch.h"
 #include "support/meshes.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 using namespace stackabilization::test;
@@ -32,10 +33,6 @@ Shape exploded(const Shape& shape) {
   return make_shape(vertices, triangles);
 }
 
-Shape moved(const Shape& shape, double x, double y, double z) {
-  return transformed(shape, Eigen::Matrix3d::Identity(), {x, y, z});
-}
-
 std::int64_t self_intersections(const Shape& shape) {
   return *inspect(shape, {InspectOptions::SelfIntersections::count}).self_intersections;
 }
@@ -61,7 +58,7 @@ TEST_CASE("a cube has nothing wrong with it") {
 }
 
 TEST_CASE("a cube inside out has a negative volume, wherever it lies") {
-  Shape shape = moved(cube(), 1000, -2000, 3000);
+  Shape shape = solids::moved(cube(), {1000, -2000, 3000});
   shape.triangles.col(0).swap(shape.triangles.col(1));
   const Findings findings = inspect(shape);
   CHECK(findings.volume == Approx(-1));
@@ -89,11 +86,11 @@ TEST_CASE("edges are counted by their triangles and directions") {
 }
 
 TEST_CASE("cubes that share an edge or a corner are one component, apart they are two") {
-  CHECK(inspect(concatenate(cube(), moved(cube(), 1, 1, 0))).components == 1);
-  CHECK(inspect(concatenate(cube(), moved(cube(), 1, 1, 0))).non_manifold_edges == 1);
-  CHECK(inspect(concatenate(cube(), moved(cube(), 1, 1, 0))).volume == Approx(2));
-  CHECK(inspect(concatenate(cube(), moved(cube(), 1, 1, 1))).components == 1);
-  CHECK(inspect(concatenate(cube(), moved(cube(), 5, 0, 0))).components == 2);
+  CHECK(inspect(concatenate(cube(), solids::moved(cube(), {1, 1, 0}))).components == 1);
+  CHECK(inspect(concatenate(cube(), solids::moved(cube(), {1, 1, 0}))).non_manifold_edges == 1);
+  CHECK(inspect(concatenate(cube(), solids::moved(cube(), {1, 1, 0}))).volume == Approx(2));
+  CHECK(inspect(concatenate(cube(), solids::moved(cube(), {1, 1, 1}))).components == 1);
+  CHECK(inspect(concatenate(cube(), solids::moved(cube(), {5, 0, 0}))).components == 2);
 }
 
 TEST_CASE("degenerate and duplicate faces are found exactly") {
@@ -118,7 +115,7 @@ TEST_CASE("vertices that no triangle uses are counted and do not widen the box")
 }
 
 TEST_CASE("self-intersections are pairs that meet elsewhere than in what they share") {
-  CHECK(self_intersections(concatenate(cube(), moved(cube(), 3, 0, 0))) == 0);
+  CHECK(self_intersections(concatenate(cube(), solids::moved(cube(), {3, 0, 0}))) == 0);
   // A needle pierces the bottom and the top face away from their diagonals: three sides, the point inside.
   Points vertices(6, 3);
   vertices << 0, 0, 0, 4, 0, 0, 0, 4, 0, 1, 1, -1, 1.25, 1, 1, 1, 1.25, 1;
@@ -146,7 +143,7 @@ TEST_CASE("self-intersections are pairs that meet elsewhere than in what they sh
 }
 
 TEST_CASE("triangles in one place intersect as often as they are there, for the work of one") {
-  const Shape crossing = concatenate(cube(), moved(cube(), 0.25, 0.375, 0.5));
+  const Shape crossing = concatenate(cube(), solids::moved(cube(), {0.25, 0.375, 0.5}));
   const std::int64_t once = self_intersections(crossing);
   REQUIRE(once > 0);
   Points vertices(1000 * crossing.vertex_count(), 3);

@@ -3,6 +3,7 @@
 #include "stackabilization/io/labels.h"
 #include "support/catch.h"
 #include "support/meshes.h"
+#include "support/messages.h"
 
 using namespace stackabilization;
 using namespace stackabilization::test;
@@ -15,12 +16,7 @@ Shape tetrahedron() {
 }
 
 std::string label_refusal(const std::string& text) {
-  try {
-    with_labels(tetrahedron(), text, "bad.seg");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return message_of<InputError>([&] { with_labels(tetrahedron(), text, "bad.seg"); });
 }
 
 using Names = std::vector<std::string>;

@@ -2,13 +2,14 @@
 #include "io/formats/zip.h"
 #include "support/catch.h"
 #include "support/meshes.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 using namespace stackabilization::test;
 
 namespace {
 
-const std::string tetrahedron =
+const std::string tetrahedron_xml =
     "<mesh><vertices><vertex x='0' y='0' z='0'/><vertex x='1' y='0' z='0'/><vertex x='0' y='1' z='0'/>"
     "<vertex x='0' y='0' z='1'/></vertices><triangles><triangle v1='0' v2='2' v3='1'/><triangle v1='0' "
     "v2='1' v3='3'/>"
@@ -26,13 +27,6 @@ Shape read_model(const std::string& xml) {
 
 std::string model_refusal(const std::string& xml) {
   return refusal(Format::three_mf, zip({{"3D/3dmodel.model", xml}}));
-}
-
-double volume(const Shape& shape) {
-  double sum = 0;
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-    sum += shape.corner(t, 0).dot(shape.corner(t, 1).cross(shape.corner(t, 2))) / 6;
-  return sum;
 }
 
 }  // namespace
@@ -56,7 +50,7 @@ TEST_CASE("3MF of the same shape has the same bytes") {
 
 TEST_CASE("3MF places objects and components") {
   const std::string resources =
-      "<object id='1' name='t'>" + tetrahedron +
+      "<object id='1' name='t'>" + tetrahedron_xml +
       "</object><object id='2'><components><component objectid='1'/>"
       "<component objectid='1' transform='2 0 0 0 3 0 0 0 4 10 20 30'/></components></object>";
   const Shape shape = read_model(
@@ -67,13 +61,13 @@ TEST_CASE("3MF places objects and components") {
   CHECK(shape.vertices.row(1) == Eigen::RowVector3d(0, 1, 100));
   CHECK(shape.vertices.row(5) == Eigen::RowVector3d(-20, 12, 130));
   CHECK(shape.vertices.row(7) == Eigen::RowVector3d(-20, 10, 134));
-  CHECK(volume(extract_part(shape, 1)) == Approx(4));
+  CHECK(solids::signed_volume(extract_part(shape, 1)) == Approx(4));
 }
 
 TEST_CASE("3MF mirrored objects stay oriented outward") {
-  const Shape shape = read_model(model("<object id='1'>" + tetrahedron + "</object>",
+  const Shape shape = read_model(model("<object id='1'>" + tetrahedron_xml + "</object>",
                                        "<item objectid='1' transform='-1 0 0 0 1 0 0 0 1 0 0 0'/>"));
-  CHECK(volume(shape) == Approx(1.0 / 6));
+  CHECK(solids::signed_volume(shape) == Approx(1.0 / 6));
   CHECK(shape.part_names[0] == "object_1");
   CHECK(shape.unit == Unit::millimetre);
 }
@@ -87,7 +81,7 @@ TEST_CASE("3MF follows its relationships and paths to other models") {
             "<item objectid='5'/>",
             "requiredextensions='p' "
             "xmlns:p='http://schemas.microsoft.com/3dmanufacturing/production/2015/06'");
-  const std::string other = model("<object id='1' name='far'>" + tetrahedron + "</object>", "");
+  const std::string other = model("<object id='1' name='far'>" + tetrahedron_xml + "</object>", "");
   const Shape shape = read_text(
       Format::three_mf, zip({{"_rels/.rels", relationships}, {"a/b.model", root}, {"3D/o.model", other}}));
   CHECK(shape.part_names == std::vector<std::string>{"far"});
@@ -119,7 +113,7 @@ TEST_CASE("3MF refuses what is damaged, with file and place") {
 }
 
 TEST_CASE("3MF components that multiply beyond reason are refused") {
-  std::string resources = "<object id='0'>" + tetrahedron + "</object>";
+  std::string resources = "<object id='0'>" + tetrahedron_xml + "</object>";
   for (int level = 1; level <= 40; ++level) {
     const std::string inner = "<component objectid='" + std::to_string(level - 1) + "'/>";
     resources +=

@@ -5,6 +5,7 @@
 #include "support/catch.h"
 #include "support/picture_checks.h"
 #include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 
@@ -62,7 +63,7 @@ TEST_CASE("before and after stand side by side with their numbers") {
   CHECK(pixels_of(rasterize(unmarked), palette::contact) == 0);
   CHECK(!says(unmarked, "touch"));
   // Where the shapes are in their files does not matter: the green one is as large.
-  plain.after.shape = transformed(plain.after.shape, Eigen::Matrix3d::Identity(), {70, -30, 500});
+  plain.after.shape = solids::moved(plain.after.shape, {70, -30, 500});
   const int here = pixels_of(rasterize(unmarked), palette::output);
   const int there = pixels_of(rasterize(improvement_picture(plain, options)), palette::output);
   CHECK(std::abs(there - here) < here / 50);
@@ -71,7 +72,7 @@ TEST_CASE("before and after stand side by side with their numbers") {
 TEST_CASE("both stacks are in one scale: dimensions are as long as what they say") {
   for (const Direction& direction : {Direction(0, 0, 1), Direction(0, 0, -3), Direction(0.2, 0.1, 1)}) {
     ImprovedShape shapes = cups(direction);
-    shapes.after.shape = transformed(shapes.after.shape, Eigen::Matrix3d::Identity(), {70, -30, 500});
+    shapes.after.shape = solids::moved(shapes.after.shape, {70, -30, 500});
     StacksPictureOptions options;
     options.notes = {"less high"};
     const Drawing drawing = stacks_picture(shapes, options);

@@ -2,11 +2,13 @@
 #include <cmath>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/rendering/plot_parts.h"
 #include "support/catch.h"
 #include "support/picture_checks.h"
 #include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 
@@ -71,8 +73,7 @@ TEST_CASE("a sheet comes for shapes whose envelopes are flat or cannot be seen, 
 TEST_CASE("a stack shows every copy in its shade and states the total height") {
   const Shape cup = solids::frustum_shell({});
   std::vector<Shape> copies;
-  for (int k = 0; k < 3; ++k)
-    copies.push_back(transformed(cup, Eigen::Matrix3d::Identity(), {0, 0, 4.25 * k}));
+  for (int k = 0; k < 3; ++k) copies.push_back(solids::moved(cup, {0, 0, 4.25 * k}));
   StackPictureOptions options;
   options.width = 600;
   options.height = 450;
@@ -236,8 +237,8 @@ TEST_CASE("numbers in pictures are short and plain") {
   CHECK(detail::number_text(-9999999) == "-10000000");
   CHECK(detail::number_text(1.25e-9) == "1.25e-09");
   CHECK(detail::number_text(123456789) == "1.235e+08");
-  CHECK(detail::fixed_text(-1e-9) == "0.0000");
-  CHECK(detail::fixed_text(0.56414) == "0.5641");
+  CHECK(fixed_text(-1e-9, 4) == "0.0000");
+  CHECK(fixed_text(0.56414, 4) == "0.5641");
   CHECK(detail::length_text(21, Unit::millimetre) == "21 mm");
   CHECK(detail::length_text(21, Unit::unknown) == "21");
   CHECK(detail::ticks(-0.2, 0.9, 6) == std::vector<double>{-0.2, 0, 0.2, 0.4, 3 * 0.2, 0.8});

@@ -9,12 +9,13 @@
 #include "support/catch.h"
 #include "support/picture_checks.h"
 #include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 
 namespace {
 
-const Colour green{0.10, 0.66, 0.22};
+const Colour green_joints{0.10, 0.66, 0.22};
 
 OrientedBox box_of(const Shape& shape) {
   return axis_aligned_box(shape.vertices);
@@ -89,7 +90,7 @@ TEST_CASE("no two of many orbits share a colour, and none is the colour of a joi
     structure.relations.push_back({RelationType::symmetry, {2 * pair, 2 * pair + 1}, {}, {}, 0});
   const std::vector<Colour> colours = detail::part_colours(structure);
   for (std::size_t a = 0; a < colours.size(); ++a) {
-    CHECK(distance(colours[a], green) > 0.3);
+    CHECK(distance(colours[a], green_joints) > 0.3);
     CHECK(distance(colours[a], palette::contact) > 0.3);
     for (std::size_t b = a + 1; b < colours.size(); ++b)
       CHECK((distance(colours[a], colours[b]) == 0) == (a < 32 && b == a + 1 && a % 2 == 0));
@@ -182,7 +183,7 @@ TEST_CASE("a structure shows its parts by orbit, its joints in green and red, an
   const std::vector<Colour> colours = detail::part_colours(table.structure);
   CHECK(pixels_of(image, colours[1]) > 1000);
   CHECK(pixels_of(image, colours[0]) > 1000);
-  CHECK(pixels_of(image, green) > 40);
+  CHECK(pixels_of(image, green_joints) > 40);
   CHECK(pixels_of(image, palette::contact) > 100);
   CHECK(png_bytes(image) == png_bytes(rasterize(structure_picture(table, options))));
   StructuredShape broken = table;
@@ -193,8 +194,7 @@ TEST_CASE("a structure shows its parts by orbit, its joints in green and red, an
 TEST_CASE("a structure without relations, or with very many parts, still fits its picture") {
   StructuredShape many;
   for (int k = 0; k < 90; ++k) {
-    Shape cube =
-        transformed(solids::box({1, 1, 1}), Eigen::Matrix3d::Identity(), {1.5 * (k % 9), 1.5 * (k / 9), 0});
+    Shape cube = solids::moved(solids::box({1, 1, 1}), {1.5 * (k % 9), 1.5 * (k / 9), 0});
     cube.part_names = {"cube_" + std::to_string(k) + std::string(static_cast<std::size_t>(k), 'x')};
     many.structure.parts.push_back({cube.part_names[0], cuboid_of(box_of(cube)), {}});
     many.shape = k == 0 ? cube : concatenate(many.shape, cube);

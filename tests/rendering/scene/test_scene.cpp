@@ -5,6 +5,7 @@
 #include "stackabilization/rendering/scene.h"
 #include "support/catch.h"
 #include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 
@@ -115,8 +116,7 @@ TEST_CASE("what is nearer hides what is farther") {
   const Direction up(0, 0, 1);
   const View view = turned_view(up, small_view());
   scene.add({solids::box({1, 1, 1}), {palette::input}});
-  scene.add(
-      {transformed(solids::box({1, 1, 1}), Eigen::Matrix3d::Identity(), 5 * view.towards), {palette::upper}});
+  scene.add({solids::moved(solids::box({1, 1, 1}), 5 * view.towards), {palette::upper}});
   const Image image = render(scene, fit_view(scene, up, small_view()));
   CHECK(pixels_where(image, is_blue) > 1000);
   CHECK(pixels_where(image, is_yellow) < 50);

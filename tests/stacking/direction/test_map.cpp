@@ -11,16 +11,8 @@
 
 using namespace stackabilization;
 
-namespace {
-
-Shape small_cup() {
-  return solids::frustum_shell({.segments = 8});
-}
-
-}  // namespace
-
 TEST_CASE("a map goes ring by ring over the hemisphere") {
-  const StackabilitySolver solver(small_cup());
+  const StackabilitySolver solver(solids::frustum_shell({.segments = 8}));
   const StackabilityMap map = stackability_map(solver, {.step_degrees = 30});
   // Pole; rings at 30, 60 and 90 degrees of 8, 12 and 12 directions.
   REQUIRE(map.samples.size() == 33);
@@ -40,7 +32,8 @@ TEST_CASE("a map goes ring by ring over the hemisphere") {
 
 TEST_CASE("a map has the symmetry of its shape") {
   // The cup over an octagon looks the same after a quarter turn about z.
-  const StackabilityMap map = stackability_map(StackabilitySolver(small_cup()), {.step_degrees = 10});
+  const StackabilityMap map =
+      stackability_map(StackabilitySolver(solids::frustum_shell({.segments = 8})), {.step_degrees = 10});
   for (std::size_t begin = 1, end = 1; begin < map.samples.size(); begin = end) {
     while (end < map.samples.size() && map.samples[end].theta == map.samples[begin].theta) ++end;
     const std::size_t count = end - begin;
@@ -62,7 +55,7 @@ TEST_CASE("a step of one degree gives 20,969 directions, evenly spread") {
 }
 
 TEST_CASE("one and two threads map the same bits") {
-  const StackabilitySolver solver(small_cup());
+  const StackabilitySolver solver(solids::frustum_shell({.segments = 8}));
   const auto with_threads = [&](int count) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, count);
     return stackability_map(solver, {.step_degrees = 8});
@@ -74,7 +67,7 @@ TEST_CASE("one and two threads map the same bits") {
 }
 
 TEST_CASE("a map reports progress, can be ended, and refuses steps out of range") {
-  const StackabilitySolver solver(small_cup());
+  const StackabilitySolver solver(solids::frustum_shell({.segments = 8}));
   std::vector<double> fractions;
   int asked = 0;
   MapOptions options{.step_degrees = 4};

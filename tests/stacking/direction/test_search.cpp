@@ -27,10 +27,6 @@ double angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-Shape small_cup() {
-  return solids::frustum_shell({.segments = 8});
-}
-
 /// No direction is special, and S has many narrow peaks.
 Shape irregular() {
   return solids::triangle_soup({.seed = 8, .count = 30});
@@ -80,7 +76,7 @@ TEST_CASE("the search of a sheet ends where its copies coincide") {
 }
 
 TEST_CASE("a cup stacks best along its axis, in any pose") {
-  const Shape cup = small_cup();
+  const Shape cup = solids::frustum_shell({.segments = 8});
   const SearchOptions quick{.spacing = 0.1, .climbs = 2};
   const SearchResult upright = best_direction(StackabilitySolver(cup), quick);
   CHECK(upright.best.direction == Eigen::Vector3d(0, 0, 1));
@@ -139,7 +135,7 @@ TEST_CASE("a cone is respected") {
 }
 
 TEST_CASE("a cone that ends short of the peak gives a direction on its rim") {
-  const StackabilitySolver solver(small_cup());
+  const StackabilitySolver solver(solids::frustum_shell({.segments = 8}));
   const Eigen::Vector3d axis(std::sin(4 * degree), 0, std::cos(4 * degree));
   const SearchResult found = best_direction(solver, {.cone = DirectionCone{axis, 3 * degree}, .climbs = 2});
   CHECK(angle(found.best.direction, axis) == Approx(3 * degree).epsilon(1e-4));
@@ -247,7 +243,7 @@ TEST_CASE("a search can be ended between the steps of its last climbs") {
 }
 
 TEST_CASE("a search tries no more directions than it may, the same ones on any number of threads") {
-  for (const Shape& shape : {small_cup(), irregular()}) {
+  for (const Shape& shape : {solids::frustum_shell({.segments = 8}), irregular()}) {
     const StackabilitySolver solver(shape);
     const SearchResult whole = best_direction(solver);
     CHECK(!whole.limited);
@@ -274,7 +270,7 @@ TEST_CASE("a search tries no more directions than it may, the same ones on any n
 }
 
 TEST_CASE("a search refuses options that make no sense") {
-  const StackabilitySolver solver(small_cup());
+  const StackabilitySolver solver(solids::frustum_shell({.segments = 8}));
   const auto refused = [&](const SearchOptions& options) {
     CHECK_THROWS_AS(best_direction(solver, options), UsageError);
   };

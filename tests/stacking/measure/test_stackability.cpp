@@ -1,6 +1,5 @@
 #include <cmath>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "stackabilization/core/errors.h"
@@ -15,12 +14,7 @@ using namespace stackabilization;
 
 namespace {
 
-struct Case {
-  std::string name;
-  Shape shape;
-};
-
-std::vector<Case> shapes() {
+std::vector<solids::NamedShape> shapes() {
   return {{"cup", solids::frustum_shell({.segments = 16})},
           {"tetrahedron",
            solids::tetrahedron({Eigen::Vector3d(0, 0, 0), {2, 0.1, 0.3}, {0.2, 1.5, 0}, {0.5, 0.4, 1}})},

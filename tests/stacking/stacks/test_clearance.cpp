@@ -6,6 +6,7 @@
 #include "stackabilization/stacking/clearance.h"
 #include "stackabilization/stacking/rigid_transform.h"
 #include "support/catch.h"
+#include "support/directions.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
@@ -13,14 +14,12 @@ using namespace stackabilization;
 
 namespace {
 
-const Direction up(0, 0, 1);
-
 /// Square bin with the given apothems, walls along x and y after the turn by 45 degrees.
 Shape drafted_bin() {
   const double corner = std::numbers::sqrt2;
   const Shape bin = solids::frustum_shell(
       {3 * corner, 4 * corner, 2.5 * corner, 3.5 * corner, /*height=*/8, /*floor=*/0.5, /*segments=*/4});
-  return transformed(bin, rotation_about({Eigen::Vector3d::Zero(), up}, 45));
+  return transformed(bin, rotation_about({Eigen::Vector3d::Zero(), upwards}, 45));
 }
 
 /// Every piece of the Minkowski sum of every triangle with the polygon of corners at `radius`, none left out.
@@ -68,7 +67,7 @@ double play_length(const Shape& below, const Shape& above, const Direction& dire
 
 TEST_CASE("play does not change how boxes stack") {
   const Shape box = solids::box({1, 2, 3});
-  for (const double play : {0.0, 0.1, 0.7, 5.0}) CHECK(play_length(box, box, up, {play}) == Approx(3));
+  for (const double play : {0.0, 0.1, 0.7, 5.0}) CHECK(play_length(box, box, upwards, {play}) == Approx(3));
 }
 
 TEST_CASE("a drafted wall gains play over tangent of the draft") {
@@ -76,8 +75,8 @@ TEST_CASE("a drafted wall gains play over tangent of the draft") {
   // rim.
   const Shape bin = drafted_bin();
   for (const double play : {0.0, 0.01, 0.1, 0.25, 0.4})
-    CHECK(play_length(bin, bin, up, {play}) == Approx(4.25 + 7.5 * play).epsilon(1e-12));
-  CHECK(play_length(bin, bin, up, {0.6}) == Approx(8));
+    CHECK(play_length(bin, bin, upwards, {play}) == Approx(4.25 + 7.5 * play).epsilon(1e-12));
+  CHECK(play_length(bin, bin, upwards, {0.6}) == Approx(8));
 }
 
 TEST_CASE("a posed bin gains the same") {
@@ -94,11 +93,11 @@ TEST_CASE("posts pass each other exactly as long as the play is smaller than the
   const Shape post = solids::box({0, 0, 0}, {1, 1, 5});
   const double most = 1 / std::cos(std::numbers::pi / 16);
   const Shape beside = solids::box({1.5, 0, 1}, {2.5, 1, 4});
-  CHECK_FALSE(separation_with_play(post, beside, up, {0.49}).blocked);
-  CHECK(play_length(post, beside, up, {0.51}) == Approx(4));
+  CHECK_FALSE(separation_with_play(post, beside, upwards, {0.49}).blocked);
+  CHECK(play_length(post, beside, upwards, {0.51}) == Approx(4));
   const Shape diagonal = solids::box({1.5, 1.5, 1}, {2.5, 2.5, 4});
-  CHECK_FALSE(separation_with_play(post, diagonal, up, {0.999 * std::sqrt(0.5) / most}).blocked);
-  CHECK(play_length(post, diagonal, up, {1.001 * std::sqrt(0.5)}) == Approx(4));
+  CHECK_FALSE(separation_with_play(post, diagonal, upwards, {0.999 * std::sqrt(0.5) / most}).blocked);
+  CHECK(play_length(post, diagonal, upwards, {1.001 * std::sqrt(0.5)}) == Approx(4));
 }
 
 TEST_CASE("leaving out pieces of the Minkowski sum changes nothing") {
@@ -107,7 +106,7 @@ TEST_CASE("leaving out pieces of the Minkowski sum changes nothing") {
         solids::triangle_soup({.seed = seed, .count = 12, .size = 0.6, .grid_bits = seed % 3 == 0 ? 2 : 0});
     const Shape above = seed % 4 == 1 ? solids::subdivided(solids::torus({1, 0.4, 8, 8})) : below;
     const Shape lower = seed % 4 == 2 ? solids::subdivided(solids::torus({1, 0.4, 8, 8})) : below;
-    const Direction r = seed % 3 == 0 ? up : Direction(0.3, -0.2, seed % 2 == 0 ? 1 : -1);
+    const Direction r = seed % 3 == 0 ? upwards : Direction(0.3, -0.2, seed % 2 == 0 ? 1 : -1);
     for (const Semantics semantics : {Semantics::solid, Semantics::closed}) {
       const DilationOptions dilation{0.3, 8, DilatedSide::both};
       const Separation expected =
@@ -140,7 +139,7 @@ TEST_CASE("no shift within the play asks for more, and play is monotone") {
       const double angle = random.uniform(0, 2 * std::numbers::pi),
                    radius = play * std::sqrt(random.uniform());
       const Eigen::Vector3d shift = radius * (std::cos(angle) * frame.u + std::sin(angle) * frame.v);
-      const Shape shifted = transformed(above, Eigen::Matrix3d::Identity(), shift);
+      const Shape shifted = solids::moved(above, shift);
       most = std::max(most, separation(SeparationTree(below), SeparationTree(shifted), r).length);
     }
     CHECK(most <= with_play + 1e-12);
@@ -150,7 +149,7 @@ TEST_CASE("no shift within the play asks for more, and play is monotone") {
 
 TEST_CASE("a dilated shape keeps its parts, knows its sources and stays small") {
   Shape shape = concatenate(solids::sphere(1, 3), solids::box({2, 0, 0}, {3, 1, 1}));
-  const DilatedShape dilated = dilated_sideways(shape, up, {0.1});
+  const DilatedShape dilated = dilated_sideways(shape, upwards, {0.1});
   CHECK_NOTHROW(validate(dilated.shape));
   CHECK(dilated.shape.part_names == shape.part_names);
   REQUIRE(dilated.source_triangle.size() == static_cast<std::size_t>(dilated.shape.triangle_count()));
@@ -172,13 +171,13 @@ TEST_CASE("repeated vertices do not matter") {
       loose.vertices.row(3 * t + c) = torus.corner(t, c).transpose();
       loose.triangles(t, c) = static_cast<std::int32_t>(3 * t + c);
     }
-  CHECK(dilated_sideways(loose, up, {0.1}).shape.triangle_count() ==
-        dilated_sideways(torus, up, {0.1}).shape.triangle_count());
+  CHECK(dilated_sideways(loose, upwards, {0.1}).shape.triangle_count() ==
+        dilated_sideways(torus, upwards, {0.1}).shape.triangle_count());
 }
 
 TEST_CASE("the witness of a separation with play names the given triangles") {
   const Shape bin = drafted_bin();
-  const Separation found = separation_with_play(bin, bin, up, {0.25});
+  const Separation found = separation_with_play(bin, bin, upwards, {0.25});
   REQUIRE(found.blocked);
   CHECK(found.witness.upper_triangle < bin.triangle_count());
   CHECK(found.witness.lower_triangle < bin.triangle_count());
@@ -187,10 +186,10 @@ TEST_CASE("the witness of a separation with play names the given triangles") {
 
 TEST_CASE("play out of range is refused") {
   const Shape box = solids::box({1, 2, 3});
-  CHECK_THROWS_AS(dilated_sideways(box, up, {-0.1}), UsageError);
-  CHECK_THROWS_AS(dilated_sideways(box, up, {std::numeric_limits<double>::quiet_NaN()}), UsageError);
-  CHECK_THROWS_AS(dilated_sideways(box, up, {0.1, 7}), UsageError);
-  CHECK_THROWS_AS(dilated_sideways(box, up, {0.1, 2}), UsageError);
-  CHECK_THROWS_AS(dilated_sideways(box, up, {0.1, 1000}), UsageError);
-  CHECK_THROWS_AS(separation_with_play(box, Shape{}, up, {0.1}), InputError);
+  CHECK_THROWS_AS(dilated_sideways(box, upwards, {-0.1}), UsageError);
+  CHECK_THROWS_AS(dilated_sideways(box, upwards, {std::numeric_limits<double>::quiet_NaN()}), UsageError);
+  CHECK_THROWS_AS(dilated_sideways(box, upwards, {0.1, 7}), UsageError);
+  CHECK_THROWS_AS(dilated_sideways(box, upwards, {0.1, 2}), UsageError);
+  CHECK_THROWS_AS(dilated_sideways(box, upwards, {0.1, 1000}), UsageError);
+  CHECK_THROWS_AS(separation_with_play(box, Shape{}, upwards, {0.1}), InputError);
 }

@@ -16,12 +16,12 @@ Shape crate() {
   return concatenate(concatenate(bottom, walls), solids::box({0, 5, 0}, {6, 6, 6}));
 }
 
-const Direction up(0, 0, 2);
+const Direction twice_up(0, 0, 2);
 
 }  // namespace
 
 TEST_CASE("a box that fits sinks to the bottom of a crate") {
-  const NestResult nested = nest(crate(), solids::box({1, 1, 10}, {5, 5, 13}), up);
+  const NestResult nested = nest(crate(), solids::box({1, 1, 10}, {5, 5, 13}), twice_up);
   CHECK(nested.offset == Rational(-4.5));
   CHECK(nested.offset_length == -9);
   CHECK_FALSE(nested.on_floor);
@@ -33,17 +33,18 @@ TEST_CASE("a box too wide, or without its play, stays on the rim") {
   for (const double play : {0.0, 0.25}) {
     const double width = play == 0 ? 4.5 : 3.75;  // 0.125 on each side
     const NestResult nested =
-        nest(crate(), solids::box({3 - width / 2, 2, 0}, {3 + width / 2, 4, 3}), up, {.play = play});
+        nest(crate(), solids::box({3 - width / 2, 2, 0}, {3 + width / 2, 4, 3}), twice_up, {.play = play});
     CHECK(nested.offset_length == Approx(6));
     CHECK(nested.total_height == Approx(9));
     CHECK(nested.saving == Approx(0).margin(1e-12));
   }
-  CHECK(nest(crate(), solids::box({1.125, 2, 0}, {4.875, 4, 3}), up, {.play = 0.12}).offset_length ==
+  CHECK(nest(crate(), solids::box({1.125, 2, 0}, {4.875, 4, 3}), twice_up, {.play = 0.12}).offset_length ==
         Approx(1));
 }
 
 TEST_CASE("what passes by stands on the same floor") {
-  const NestResult nested = nest(solids::box({0, 0, 1}, {1, 1, 2}), solids::box({3, 0, 7}, {4, 1, 12}), up);
+  const NestResult nested =
+      nest(solids::box({0, 0, 1}, {1, 1, 2}), solids::box({3, 0, 7}, {4, 1, 12}), twice_up);
   CHECK_FALSE(nested.separation.blocked);
   CHECK(nested.on_floor);
   CHECK(nested.offset_length == -6);
@@ -54,7 +55,7 @@ TEST_CASE("what passes by stands on the same floor") {
 TEST_CASE("a hood longer than what it covers stands on the floor") {
   Shape hood = crate();
   hood.vertices.col(2) = -hood.vertices.col(2);
-  const NestResult nested = nest(solids::box({1, 1, 0}, {5, 5, 2}), hood, up);
+  const NestResult nested = nest(solids::box({1, 1, 0}, {5, 5, 2}), hood, twice_up);
   CHECK(nested.separation.blocked);
   CHECK(nested.separation.length == 3);
   CHECK(nested.on_floor);
@@ -63,8 +64,9 @@ TEST_CASE("a hood longer than what it covers stands on the floor") {
 }
 
 TEST_CASE("clearance lifts the content") {
-  CHECK(nest(crate(), solids::box({1, 1, 0}, {5, 5, 3}), up, {.clearance = 0.25}).offset_length == 1.25);
-  CHECK_THROWS_AS(nest(crate(), crate(), up, {.clearance = -1}), UsageError);
-  CHECK_THROWS_AS(nest(crate(), crate(), up, {.play = -1}), UsageError);
-  CHECK_THROWS_AS(nest(crate(), Shape{}, up), InputError);
+  CHECK(nest(crate(), solids::box({1, 1, 0}, {5, 5, 3}), twice_up, {.clearance = 0.25}).offset_length ==
+        1.25);
+  CHECK_THROWS_AS(nest(crate(), crate(), twice_up, {.clearance = -1}), UsageError);
+  CHECK_THROWS_AS(nest(crate(), crate(), twice_up, {.play = -1}), UsageError);
+  CHECK_THROWS_AS(nest(crate(), Shape{}, twice_up), InputError);
 }

@@ -5,14 +5,13 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/stacking/stack_search.h"
 #include "support/catch.h"
+#include "support/directions.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
 using namespace stackabilization;
 
 namespace {
-
-const Direction up(0, 0, 1);
 
 PeriodOptions period(int length, int copies) {
   PeriodOptions options;
@@ -33,7 +32,7 @@ TwistOptions twist(int copies, TwistGoal goal) {
 
 TEST_CASE("alternately flipped wedges fill their box") {
   const Shape wedge = solids::extruded_profile({{0, 0}, {2, 0}, {0, 2}}, 1);
-  const PeriodResult best = best_period_stack(wedge, up, period(2, 2));
+  const PeriodResult best = best_period_stack(wedge, upwards, period(2, 2));
   CHECK(best.stack.copies[1].offset_length == Approx(0).margin(1e-12));
   CHECK(best.stack.height == Approx(2));
   CHECK(best.stack.increment == Approx(1));
@@ -43,7 +42,7 @@ TEST_CASE("alternately flipped wedges fill their box") {
 }
 
 TEST_CASE("alternately flipped L-shapes pack without a gap") {
-  const PeriodResult best = best_period_stack(solids::l_shape(2, 1), up, period(2, 6));
+  const PeriodResult best = best_period_stack(solids::l_shape(2, 1), upwards, period(2, 6));
   CHECK(best.stack.height == Approx(9));
   CHECK(best.stack.increment == Approx(1.5));
   CHECK(best.stack.stack_volume == Approx(18));
@@ -53,9 +52,9 @@ TEST_CASE("alternately flipped L-shapes pack without a gap") {
 TEST_CASE("a longer period is never worse than the straight stack") {
   for (const std::uint64_t seed : {1, 2, 3}) {
     const Shape shape = solids::triangle_soup({.seed = seed, .count = 10, .size = 0.8});
-    const double straight = best_period_stack(shape, up, period(1, 6)).stack.stackability;
-    const PeriodResult two = best_period_stack(shape, up, period(2, 6)),
-                       three = best_period_stack(shape, up, period(3, 6));
+    const double straight = best_period_stack(shape, upwards, period(1, 6)).stack.stackability;
+    const PeriodResult two = best_period_stack(shape, upwards, period(2, 6)),
+                       three = best_period_stack(shape, upwards, period(3, 6));
     CHECK(two.stack.stackability >= straight);
     CHECK(three.stack.stackability >= straight);
     CHECK(two.poses.size() == 2);
@@ -65,14 +64,15 @@ TEST_CASE("a longer period is never worse than the straight stack") {
 
 TEST_CASE("a cup is not flipped or turned for nothing") {
   const Shape cup = solids::frustum_shell({.segments = 16});
-  CHECK(best_period_stack(cup, up, period(2, 5)).poses == std::vector<std::string>{"upright", "upright"});
-  CHECK(best_twist(cup, up, twist(5, TwistGoal::stackability)).twist_degrees == 0);
+  CHECK(best_period_stack(cup, upwards, period(2, 5)).poses ==
+        std::vector<std::string>{"upright", "upright"});
+  CHECK(best_twist(cup, upwards, twist(5, TwistGoal::stackability)).twist_degrees == 0);
 }
 
 TEST_CASE("a square bin stays untwisted") {
   const Shape bin = solids::frustum_shell({.outer_bottom = 2, .inner_bottom = 1.5, .segments = 4});
   for (const TwistGoal goal : {TwistGoal::stackability, TwistGoal::height}) {
-    const TwistResult best = best_twist(bin, up, twist(4, goal));
+    const TwistResult best = best_twist(bin, upwards, twist(4, goal));
     CHECK(best.twist_degrees == 0);
     CHECK(best.stack.height == best.untwisted_height);
   }
@@ -83,12 +83,12 @@ TEST_CASE("a post beside a column twists out of its own way") {
       concatenate(solids::box({-0.5, -0.5, 0}, {0.5, 0.5, 1}), solids::box({1.5, -0.5, 0}, {2.5, 0.5, 3.5}));
   TwistOptions options = twist(4, TwistGoal::height);
   options.stack.axis_point = Eigen::Vector3d::Zero();
-  const TwistResult best = best_twist(stair, up, options);
+  const TwistResult best = best_twist(stair, upwards, options);
   CHECK(best.untwisted_height == 14);
   CHECK(best.stack.height == Approx(6.5));
   // It pays for the height with its footprint.
   options.goal = TwistGoal::stackability;
-  CHECK(best.stack.stackability < best_twist(stair, up, options).stack.stackability);
+  CHECK(best.stack.stackability < best_twist(stair, upwards, options).stack.stackability);
 }
 
 TEST_CASE("refinement finds a twist between the samples") {
@@ -96,13 +96,13 @@ TEST_CASE("refinement finds a twist between the samples") {
   // one by one.
   const double corner = std::numbers::sqrt2;
   Shape bin = solids::frustum_shell({corner, 4 * corner, 0.75 * corner, 3.5 * corner, 6, 0.5, 4});
-  const RigidTransform turn = rotation_about({Eigen::Vector3d::Zero(), up}, -7);
+  const RigidTransform turn = rotation_about({Eigen::Vector3d::Zero(), upwards}, -7);
   for (Eigen::Index v = 0; v < bin.vertex_count(); ++v) {
     const Eigen::Vector3d p = bin.vertices.row(v).transpose();
     const bool inner = p.z() == 0.5 || (p.z() == 6 && p.head<2>().norm() < 3.75 * corner);
     if (inner) bin.vertices.row(v) = (turn.rotation * p).transpose();
   }
-  const TwistResult best = best_twist(bin, up, twist(3, TwistGoal::height));
+  const TwistResult best = best_twist(bin, upwards, twist(3, TwistGoal::height));
   CHECK(best.twist_degrees == Approx(-7).margin(0.02));
   CHECK(best.stack.height == Approx(8).margin(0.01));
   CHECK(best.untwisted_height > 9);
@@ -114,8 +114,8 @@ TEST_CASE("one and two threads find the same") {
     std::pair<TwistResult, PeriodResult> results;
     tbb::task_arena arena(threads);
     arena.execute([&] {
-      results = {best_twist(shape, up, twist(4, TwistGoal::stackability)),
-                 best_period_stack(shape, up, period(3, 5))};
+      results = {best_twist(shape, upwards, twist(4, TwistGoal::stackability)),
+                 best_period_stack(shape, upwards, period(3, 5))};
     });
     return results;
   };
@@ -129,15 +129,15 @@ TEST_CASE("one and two threads find the same") {
 
 TEST_CASE("searches refuse what they cannot search") {
   const Shape cube = solids::box({1, 1, 1});
-  CHECK_THROWS_AS(best_period_stack(cube, up, period(0, 2)), UsageError);
-  CHECK_THROWS_AS(best_period_stack(cube, up, period(6, 2)), UsageError);
+  CHECK_THROWS_AS(best_period_stack(cube, upwards, period(0, 2)), UsageError);
+  CHECK_THROWS_AS(best_period_stack(cube, upwards, period(6, 2)), UsageError);
   PeriodOptions given = period(2, 2);
   given.stack.poses.resize(2);
-  CHECK_THROWS_AS(best_period_stack(cube, up, given), UsageError);
+  CHECK_THROWS_AS(best_period_stack(cube, upwards, given), UsageError);
   TwistOptions options = twist(2, TwistGoal::height);
   options.step_degrees = 0;
-  CHECK_THROWS_AS(best_twist(cube, up, options), UsageError);
+  CHECK_THROWS_AS(best_twist(cube, upwards, options), UsageError);
   options = twist(2, TwistGoal::height);
   options.finest_degrees = 0;
-  CHECK_THROWS_AS(best_twist(cube, up, options), UsageError);
+  CHECK_THROWS_AS(best_twist(cube, upwards, options), UsageError);
 }

@@ -6,19 +6,18 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/stacking/standing.h"
 #include "support/catch.h"
+#include "support/directions.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
 namespace stackabilization {
 namespace {
 
-const Direction up(0, 0, 1);
-
 double degrees(double radians) {
   return radians * 180 / std::numbers::pi;
 }
 
-StandingOptions copies(int count) {
+StandingOptions standing_copies(int count) {
   StandingOptions options;
   options.copies = count;
   return options;
@@ -32,7 +31,7 @@ Shape gallows() {
 TEST_CASE("n cubes topple at atan(1 / n)") {
   const Shape cube = solids::box(Eigen::Vector3d(2, 2, 2));
   for (const int n : {1, 2, 3, 10, 1000000}) {
-    const Standing result = standing(cube, up, copies(n));
+    const Standing result = standing(cube, upwards, standing_copies(n));
     INFO(n);
     CHECK(result.stands);
     CHECK(result.of_solid);
@@ -49,20 +48,20 @@ TEST_CASE("a blade topples over its ends, whatever rounding makes of its edge") 
                                             Eigen::Vector3d(0.5, bend, 0), Eigen::Vector3d(3, 0.5, 4)});
     const Shape head = solids::box({3, -1, 4}, {5, 1, 5});
     INFO(bend);
-    CHECK(standing(concatenate(foot, head), up, copies(1)).tilt_degrees < -10);
+    CHECK(standing(concatenate(foot, head), upwards, standing_copies(1)).tilt_degrees < -10);
   }
 }
 
 TEST_CASE("standing does not depend on pose, unit, order or orientation of triangles") {
   const Shape shape = solids::frustum_shell({});
-  const Standing expected = standing(shape, up, copies(3));
+  const Standing expected = standing(shape, upwards, standing_copies(3));
   REQUIRE(expected.stands);
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     const Eigen::Matrix3d turn = solids::random_rotation(seed);
     const Eigen::Vector3d shift(100, -7, 3);
     Shape moved = transformed(solids::permuted(shape, seed), 0.01 * turn, shift);
     if (seed == 2) moved = solids::flipped(moved);
-    const Standing result = standing(moved, Direction(3 * turn.col(2)), copies(3));
+    const Standing result = standing(moved, Direction(3 * turn.col(2)), standing_copies(3));
     CHECK(result.tilt_degrees == Approx(expected.tilt_degrees).epsilon(1e-6));
     CHECK(result.weakest_copy == expected.weakest_copy);
     CHECK((result.centre_of_mass - (0.01 * turn * expected.centre_of_mass + shift)).norm() < 1e-9);
@@ -89,7 +88,7 @@ TEST_CASE("cups stand in each other on the foot, down to which the least tilt is
   options.band = 1e-7;
   for (const int n : {1, 2, 5}) {
     options.copies = n;
-    const Standing result = standing(shape, up, options);
+    const Standing result = standing(shape, upwards, options);
     CHECK(result.centre_of_mass.z() == Approx(height));
     const double lift = (n - 1) / 2.0 * solids::frustum_shell_f_max(cup);
     CHECK(result.tilt_degrees == Approx(degrees(std::atan2(foot, height + lift))));
@@ -100,21 +99,21 @@ TEST_CASE("cups stand in each other on the foot, down to which the least tilt is
 TEST_CASE("an overhanging shape topples, alone and where it stands on itself") {
   const double x = (4 * 0.5 + 9 * 5.5) / 13, z = (4 * 2 + 9 * 3.5) / 13;
   for (const int n : {1, 2, 3}) {
-    const Standing result = standing(gallows(), up, copies(n));
+    const Standing result = standing(gallows(), upwards, standing_copies(n));
     CHECK_FALSE(result.stands);
     CHECK(result.centre_of_mass.x() == Approx(x));
     CHECK(result.tilt_degrees == Approx(degrees(std::atan2(1 - x, z))));
     CHECK(result.weakest_copy == n - 1);  // with the least height, so the most negative tilt
   }
   // Sideways, a copy lies on the whole of its back: r = -x, foot wall down.
-  CHECK(standing(gallows(), Direction(1, 0, 0), copies(1)).stands);
+  CHECK(standing(gallows(), Direction(1, 0, 0), standing_copies(1)).stands);
 }
 
 TEST_CASE("a narrow ledge can be worse than the ground") {
   // A mushroom on a broad base: copies rest with the base on a cap of half the width.
   const Shape shape =
       solids::extruded_profile({{-4, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 6}, {-1, 6}, {-1, 1}, {-4, 1}}, 20);
-  const Standing result = standing(shape, up, copies(2));
+  const Standing result = standing(shape, upwards, standing_copies(2));
   const double z = (8 * 0.5 + 10 * 3.5) / 18;
   CHECK(result.stands);
   CHECK(result.weakest_copy == 1);
@@ -125,10 +124,10 @@ TEST_CASE("a copy that hangs beside its support falls at any tilt") {
   // A plate under a slanted bar with an arm high up beside it, on which copies rest: 2 thick, the most.
   const Shape hanger =
       solids::extruded_profile({{0, 0}, {10, 0}, {10, 1}, {0, 1}, {-2, 12}, {-4, 12}, {-4, 10}, {-2, 10}}, 6);
-  const Standing result = standing(hanger, up, copies(2));
+  const Standing result = standing(hanger, upwards, standing_copies(2));
   CHECK(result.tilt_degrees == Approx(-90));
   CHECK(result.weakest_copy == 1);
-  CHECK(standing(hanger, up, copies(1)).stands);
+  CHECK(standing(hanger, upwards, standing_copies(1)).stands);
 }
 
 TEST_CASE("supports that are points or lines carry nothing") {
@@ -136,19 +135,21 @@ TEST_CASE("supports that are points or lines carry nothing") {
     return solids::tetrahedron({Eigen::Vector3d(x, 0, 0), Eigen::Vector3d(2, 0, 3), Eigen::Vector3d(-1, 2, 3),
                                 Eigen::Vector3d(-1, -2, 3)});
   };
-  CHECK(standing(tip_down(0), up, copies(1)).tilt_degrees == 0);
-  CHECK_FALSE(standing(tip_down(0), up, copies(1)).stands);
-  CHECK(standing(tip_down(1), up, copies(1)).tilt_degrees == Approx(-degrees(std::atan2(0.75, 2.25))));
+  CHECK(standing(tip_down(0), upwards, standing_copies(1)).tilt_degrees == 0);
+  CHECK_FALSE(standing(tip_down(0), upwards, standing_copies(1)).stands);
+  CHECK(standing(tip_down(1), upwards, standing_copies(1)).tilt_degrees ==
+        Approx(-degrees(std::atan2(0.75, 2.25))));
   const auto edge_down = [](double x) { return solids::extruded_profile({{x, 0}, {1, 2}, {-1, 2}}, 5); };
-  CHECK(standing(edge_down(0), up, copies(1)).tilt_degrees == 0);
-  CHECK_FALSE(standing(edge_down(0), up, copies(1)).stands);
-  CHECK(standing(edge_down(0.6), up, copies(1)).tilt_degrees == Approx(-degrees(std::atan2(0.4, 4.0 / 3))));
+  CHECK(standing(edge_down(0), upwards, standing_copies(1)).tilt_degrees == 0);
+  CHECK_FALSE(standing(edge_down(0), upwards, standing_copies(1)).stands);
+  CHECK(standing(edge_down(0.6), upwards, standing_copies(1)).tilt_degrees ==
+        Approx(-degrees(std::atan2(0.4, 4.0 / 3))));
 }
 
 TEST_CASE("a mass beyond the end of a line falls over that end") {
   const Shape keel = solids::tetrahedron({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 1, 0),
                                           Eigen::Vector3d(1, 6, 2), Eigen::Vector3d(-1, 6, 2)});
-  CHECK(standing(keel, up, copies(1)).tilt_degrees == Approx(-degrees(std::atan2(2.25, 1))));
+  CHECK(standing(keel, upwards, standing_copies(1)).tilt_degrees == Approx(-degrees(std::atan2(2.25, 1))));
 }
 
 TEST_CASE("open surfaces and sheets with two sides have their mass in the area") {
@@ -160,7 +161,7 @@ TEST_CASE("open surfaces and sheets with two sides have their mass in the area")
     lidless.bottomRows(1) = open.triangles.row(t);
   }
   REQUIRE(lidless.rows() == 10);
-  const Standing crate = standing(make_shape(open.vertices, lidless), up, copies(1));
+  const Standing crate = standing(make_shape(open.vertices, lidless), upwards, standing_copies(1));
   CHECK_FALSE(crate.of_solid);
   CHECK(crate.centre_of_mass.z() == Approx(4 * 1.0 / 5));
   CHECK(crate.tilt_degrees == Approx(degrees(std::atan2(1, 0.8))));
@@ -169,7 +170,7 @@ TEST_CASE("open surfaces and sheets with two sides have their mass in the area")
   corners << 0, 0, 0, 3, 0, 0, 0, 3, 0;
   Triangles both(2, 3);
   both << 0, 1, 2, 0, 2, 1;
-  const Standing sheet = standing(make_shape(corners, both), up, copies(1));
+  const Standing sheet = standing(make_shape(corners, both), upwards, standing_copies(1));
   CHECK_FALSE(sheet.of_solid);
   CHECK((sheet.centre_of_mass - Eigen::Vector3d(1, 1, 0)).norm() < 1e-12);
   CHECK(sheet.tilt_degrees == Approx(90));
@@ -181,34 +182,35 @@ TEST_CASE("cavities are empty, bodies count whichever way they are turned") {
   const Shape kernel = solids::box({1.5, 1.5, 0.75}, {2.5, 2.5, 1.25});
   const double hollow = 64 * 2 - 4 * 1;
   const Shape cavity = concatenate(outer, hole), filled = concatenate(cavity, kernel);
-  CHECK(standing(cavity, up, copies(1)).centre_of_mass.z() == Approx(hollow / 60));
-  CHECK(standing(solids::flipped(cavity), up, copies(1)).centre_of_mass.z() == Approx(hollow / 60));
-  CHECK(standing(filled, up, copies(1)).centre_of_mass.z() == Approx((hollow + 0.5) / 60.5));
+  CHECK(standing(cavity, upwards, standing_copies(1)).centre_of_mass.z() == Approx(hollow / 60));
+  CHECK(standing(solids::flipped(cavity), upwards, standing_copies(1)).centre_of_mass.z() ==
+        Approx(hollow / 60));
+  CHECK(standing(filled, upwards, standing_copies(1)).centre_of_mass.z() == Approx((hollow + 0.5) / 60.5));
   for (const Shape& turned : {filled, concatenate(cavity, solids::flipped(kernel))})
-    CHECK(standing(solids::flipped(turned), up, copies(1)).centre_of_mass.z() ==
+    CHECK(standing(solids::flipped(turned), upwards, standing_copies(1)).centre_of_mass.z() ==
           Approx((hollow + 0.5) / 60.5));
   const Shape beside = solids::flipped(solids::box({4, 0, 0}, {5, 4, 2}));
-  CHECK(standing(concatenate(outer, beside), up, copies(1)).centre_of_mass.z() ==
+  CHECK(standing(concatenate(outer, beside), upwards, standing_copies(1)).centre_of_mass.z() ==
         Approx((64 * 2 + 8 * 1) / 72.0));
 }
 
 TEST_CASE("standing refuses what cannot be asked") {
   const Shape cube = solids::box(Eigen::Vector3d(1, 1, 1));
-  CHECK_THROWS_AS(standing(cube, up, copies(0)), UsageError);
+  CHECK_THROWS_AS(standing(cube, upwards, standing_copies(0)), UsageError);
   for (const double band : {0.0, 1.0, -0.1, std::numeric_limits<double>::quiet_NaN()}) {
     StandingOptions options;
     options.band = band;
-    CHECK_THROWS_AS(standing(cube, up, options), UsageError);
+    CHECK_THROWS_AS(standing(cube, upwards, options), UsageError);
   }
-  CHECK_THROWS_AS(standing(Shape{}, up), InputError);
+  CHECK_THROWS_AS(standing(Shape{}, upwards), InputError);
   Triangles one(1, 3);
   one << 0, 1, 2;
   Points straight(3, 3), upright(3, 3);
   straight << 0, 0, 0, 1, 1, 1, 2, 2, 2;
   upright << 0, 0, 0, 1, 0, 0, 0, 0, 1;
-  CHECK_THROWS_AS(standing(make_shape(straight, one), up, copies(1)), InputError);
-  CHECK_THROWS_AS(standing(make_shape(upright, one), up, copies(2)), InputError);
-  CHECK_FALSE(standing(make_shape(upright, one), up, copies(1)).stands);
+  CHECK_THROWS_AS(standing(make_shape(straight, one), upwards, standing_copies(1)), InputError);
+  CHECK_THROWS_AS(standing(make_shape(upright, one), upwards, standing_copies(2)), InputError);
+  CHECK_FALSE(standing(make_shape(upright, one), upwards, standing_copies(1)).stands);
 }
 
 }  // namespace

@@ -6,14 +6,14 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/stacking/collision.h"
 #include "support/catch.h"
+#include "support/directions.h"
+#include "support/f_max.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
 using namespace stackabilization;
 
 namespace {
-
-const Direction up(0, 0, 1);
 
 Rational ratio(const char* numerator, const char* denominator) {
   return {numerator, denominator};
@@ -28,29 +28,19 @@ Shape sheet(const std::vector<Eigen::Vector3d>& corners) {
   return make_shape(points, triangles);
 }
 
-Shape moved(const Shape& shape, const Eigen::Vector3d& by) {
-  return transformed(shape, Eigen::Matrix3d::Identity(), by);
-}
-
-Rational exact_f_max(const Shape& shape, const Direction& direction, Semantics semantics) {
-  SeparationOptions options;
-  options.semantics = semantics;
-  return minimal_stacking_translation(shape, direction, options).value;
-}
-
 }  // namespace
 
 TEST_CASE("boxes touch and overlap exactly when their intervals do", "[collision]") {
   const Shape box = solids::box({2, 3, 4});
   for (const double x : {-2.0, -1.0, 0.0, 0.5, 2.0, 2.5})
     for (const double y : {-3.0, 0.0, 1.0, 3.0}) {
-      const CollisionTester tester(box, moved(box, {x, y, 0}));
+      const CollisionTester tester(box, solids::moved(box, {x, y, 0}));
       REQUIRE(tester.solids());
       for (const double z : {-5.0, -4.0, -1.0, 0.0, 3.0, 4.0}) {
         CAPTURE(x, y, z);
-        CHECK(tester.closed_contact(up, Rational(z)) ==
+        CHECK(tester.closed_contact(upwards, Rational(z)) ==
               (std::abs(x) <= 2 && std::abs(y) <= 3 && std::abs(z) <= 4));
-        CHECK(tester.interiors_overlap(up, Rational(z)) ==
+        CHECK(tester.interiors_overlap(upwards, Rational(z)) ==
               (std::abs(x) < 2 && std::abs(y) < 3 && std::abs(z) < 4));
       }
     }
@@ -69,11 +59,11 @@ TEST_CASE("lifts are exact: a third of an oblique direction is neither more nor 
 
 TEST_CASE("a solid inside another overlaps it without touching", "[collision]") {
   const Shape large = solids::box({9, 9, 9});
-  const Shape small = moved(solids::sphere(1, 1), {4, 4, 4});
-  CHECK_FALSE(closed_contact(large, small, up, Rational(0)));
-  CHECK(interiors_overlap(large, small, up, Rational(0)));
-  CHECK(interiors_overlap(small, large, up, Rational(0)));
-  CHECK_FALSE(interiors_overlap(large, small, up, Rational(20)));
+  const Shape small = solids::moved(solids::sphere(1, 1), {4, 4, 4});
+  CHECK_FALSE(closed_contact(large, small, upwards, Rational(0)));
+  CHECK(interiors_overlap(large, small, upwards, Rational(0)));
+  CHECK(interiors_overlap(small, large, upwards, Rational(0)));
+  CHECK_FALSE(interiors_overlap(large, small, upwards, Rational(20)));
 }
 
 TEST_CASE("a solid inside another overlaps it also where every ray along an axis meets an edge",
@@ -102,21 +92,21 @@ TEST_CASE("a solid inside another overlaps it also where every ray along an axis
   faces << 0, 1, 2, 1, 0, 3, 2, 1, 3, 0, 2, 3;
   const Shape tetrahedron = make_shape(corners, faces);
   REQUIRE(CollisionTester(prism, tetrahedron).solids());
-  REQUIRE_FALSE(closed_contact(prism, tetrahedron, up, Rational(0)));
-  CHECK(interiors_overlap(prism, tetrahedron, up, Rational(0)));
-  CHECK(interiors_overlap(tetrahedron, prism, up, Rational(0)));
-  CHECK_FALSE(interiors_overlap(prism, tetrahedron, up, Rational(20000)));
+  REQUIRE_FALSE(closed_contact(prism, tetrahedron, upwards, Rational(0)));
+  CHECK(interiors_overlap(prism, tetrahedron, upwards, Rational(0)));
+  CHECK(interiors_overlap(tetrahedron, prism, upwards, Rational(0)));
+  CHECK_FALSE(interiors_overlap(prism, tetrahedron, upwards, Rational(20000)));
 }
 
 TEST_CASE("a peg in a hole of its own width slides without overlap", "[collision]") {
   const Shape u = solids::u_shape(3, 1);  // slot [1, 2] x [0, 1] x [1, 3]
   const Shape peg = solids::box({1, 0, 0}, {2, 1, 1});
   const CollisionTester tester(u, peg);
-  CHECK(tester.closed_contact(up, Rational(1.5)));
-  CHECK_FALSE(tester.interiors_overlap(up, Rational(1.5)));
-  CHECK_FALSE(tester.interiors_overlap(up, Rational(1)));
-  CHECK(tester.interiors_overlap(up, Rational(0.999)));
-  CHECK(interiors_overlap(u, moved(peg, {0.001, 0, 0}), up, Rational(1.5)));
+  CHECK(tester.closed_contact(upwards, Rational(1.5)));
+  CHECK_FALSE(tester.interiors_overlap(upwards, Rational(1.5)));
+  CHECK_FALSE(tester.interiors_overlap(upwards, Rational(1)));
+  CHECK(tester.interiors_overlap(upwards, Rational(0.999)));
+  CHECK(interiors_overlap(u, solids::moved(peg, {0.001, 0, 0}), upwards, Rational(1.5)));
 }
 
 TEST_CASE("edges that lie in a face tell a standing roof from a piercing one", "[collision]") {
@@ -124,22 +114,22 @@ TEST_CASE("edges that lie in a face tell a standing roof from a piercing one", "
   // A square bar along y that stands on an edge, its diagonal upright.
   const Shape bar = solids::extruded_profile({{0, 0}, {1, 1}, {0, 2}, {-1, 1}}, 4);
   const CollisionTester tester(slab, bar);
-  CHECK(tester.closed_contact(up, Rational(0)));
-  CHECK_FALSE(tester.interiors_overlap(up, Rational(0)));
-  CHECK(tester.interiors_overlap(up, Rational(-1)));  // two edges in the slab's top, faces on both sides
-  CHECK(tester.interiors_overlap(up, Rational(-2)));
-  CHECK(tester.closed_contact(up, Rational(-3)));
-  CHECK_FALSE(tester.interiors_overlap(up, Rational(-3)));
+  CHECK(tester.closed_contact(upwards, Rational(0)));
+  CHECK_FALSE(tester.interiors_overlap(upwards, Rational(0)));
+  CHECK(tester.interiors_overlap(upwards, Rational(-1)));  // two edges in the slab's top, faces on both sides
+  CHECK(tester.interiors_overlap(upwards, Rational(-2)));
+  CHECK(tester.closed_contact(upwards, Rational(-3)));
+  CHECK_FALSE(tester.interiors_overlap(upwards, Rational(-3)));
 }
 
 TEST_CASE("a bar through a slab of the same width is found by its walls alone", "[collision]") {
   // All contacts are between coplanar faces and edges in faces.
   const Shape slab = solids::box({4, 2, 1});
   const Shape bar = solids::box({1, 0, -3}, {2, 2, 4});
-  CHECK(interiors_overlap(slab, bar, up, Rational(0)));
-  CHECK(interiors_overlap(bar, slab, up, Rational(0)));
-  CHECK(interiors_overlap(slab, moved(bar, {2, 0, 0}), up, Rational(0)));
-  CHECK_FALSE(interiors_overlap(slab, moved(bar, {3, 0, 0}), up, Rational(0)));
+  CHECK(interiors_overlap(slab, bar, upwards, Rational(0)));
+  CHECK(interiors_overlap(bar, slab, upwards, Rational(0)));
+  CHECK(interiors_overlap(slab, solids::moved(bar, {2, 0, 0}), upwards, Rational(0)));
+  CHECK_FALSE(interiors_overlap(slab, solids::moved(bar, {3, 0, 0}), upwards, Rational(0)));
 }
 
 TEST_CASE("the order of triangles, a subdivision and the roles do not matter", "[collision]") {
@@ -149,15 +139,15 @@ TEST_CASE("the order of triangles, a subdivision and the roles do not matter", "
   int overlaps = 0;
   for (const double lift : {-9.0, -1.0, 0.0, 0.75, 7.0, 8.5, 9.5}) {
     CAPTURE(lift);
-    const bool touch = closed_contact(cup, torus, up, Rational(lift));
-    const bool overlap = interiors_overlap(cup, torus, up, Rational(lift));
+    const bool touch = closed_contact(cup, torus, upwards, Rational(lift));
+    const bool overlap = interiors_overlap(cup, torus, upwards, Rational(lift));
     overlaps += overlap;
-    CHECK(closed_contact(fine, torus, up, Rational(lift)) == touch);
-    CHECK(interiors_overlap(fine, torus, up, Rational(lift)) == overlap);
-    CHECK(closed_contact(shuffled, torus, up, Rational(lift)) == touch);
-    CHECK(interiors_overlap(shuffled, torus, up, Rational(lift)) == overlap);
-    CHECK(closed_contact(torus, cup, up, Rational(-lift)) == touch);
-    CHECK(interiors_overlap(torus, cup, up, Rational(-lift)) == overlap);
+    CHECK(closed_contact(fine, torus, upwards, Rational(lift)) == touch);
+    CHECK(interiors_overlap(fine, torus, upwards, Rational(lift)) == overlap);
+    CHECK(closed_contact(shuffled, torus, upwards, Rational(lift)) == touch);
+    CHECK(interiors_overlap(shuffled, torus, upwards, Rational(lift)) == overlap);
+    CHECK(closed_contact(torus, cup, upwards, Rational(-lift)) == touch);
+    CHECK(interiors_overlap(torus, cup, upwards, Rational(-lift)) == overlap);
   }
   CHECK(overlaps > 2);
   CHECK(overlaps < 7);
@@ -186,17 +176,17 @@ TEST_CASE("hooks and wine glasses are free below f_max, and the search from the 
           "[collision]") {
   const Shape hook = solids::hook({}), glass = solids::wine_glass(16);
   const CollisionTester hooks(hook, hook), glasses(glass, glass);
-  CHECK_FALSE(hooks.interiors_overlap(up, Rational(2)));
-  CHECK(hooks.interiors_overlap(up, Rational(5.5)));
-  CHECK_FALSE(glasses.closed_contact(up, Rational(9)));
-  CHECK(glasses.interiors_overlap(up, Rational(12.5)));
+  CHECK_FALSE(hooks.interiors_overlap(upwards, Rational(2)));
+  CHECK(hooks.interiors_overlap(upwards, Rational(5.5)));
+  CHECK_FALSE(glasses.closed_contact(upwards, Rational(9)));
+  CHECK(glasses.interiors_overlap(upwards, Rational(12.5)));
 
-  const auto hook_bracket = translation_by_bisection(hooks, up);
+  const auto hook_bracket = translation_by_bisection(hooks, upwards);
   REQUIRE(hook_bracket);
   CHECK(hook_bracket->colliding < 6);
   CHECK(hook_bracket->free >= 6);
   CHECK(hook_bracket->free == Approx(6).epsilon(1e-8));
-  const auto glass_bracket = translation_by_bisection(glasses, up);
+  const auto glass_bracket = translation_by_bisection(glasses, upwards);
   REQUIRE(glass_bracket);
   CHECK(glass_bracket->colliding < 13);
   CHECK(glass_bracket->free == Approx(13).epsilon(1e-8));
@@ -209,7 +199,7 @@ TEST_CASE("the search from the top handles two shapes, lengths of r and a clear 
   REQUIRE(bracket);
   CHECK(bracket->free == Approx(-7.0 / 4).epsilon(1e-8));
   CHECK(bracket->colliding < -7.0 / 4);
-  CHECK_FALSE(translation_by_bisection(CollisionTester(box, moved(lid, {5, 0, 0})), up));
+  CHECK_FALSE(translation_by_bisection(CollisionTester(box, solids::moved(lid, {5, 0, 0})), upwards));
 }
 
 TEST_CASE("open sheets can touch but have no interior", "[collision]") {
@@ -217,14 +207,14 @@ TEST_CASE("open sheets can touch but have no interior", "[collision]") {
   const Shape needle = sheet({{1, 1, 1}, {1, 1, 5}, {1, 2, 5}});
   const CollisionTester tester(floor, needle);
   CHECK_FALSE(tester.solids());
-  CHECK(tester.closed_contact(up, Rational(-1)));
-  CHECK(tester.closed_contact(up, Rational(-5)));
-  CHECK_FALSE(tester.closed_contact(up, Rational(-0.999)));
-  CHECK_FALSE(tester.closed_contact(up, Rational(-5.001)));
-  CHECK_THROWS_AS(tester.interiors_overlap(up, Rational(-2)), InputError);
+  CHECK(tester.closed_contact(upwards, Rational(-1)));
+  CHECK(tester.closed_contact(upwards, Rational(-5)));
+  CHECK_FALSE(tester.closed_contact(upwards, Rational(-0.999)));
+  CHECK_FALSE(tester.closed_contact(upwards, Rational(-5.001)));
+  CHECK_THROWS_AS(tester.interiors_overlap(upwards, Rational(-2)), InputError);
   BisectionOptions options;
   options.semantics = Semantics::closed;
-  const auto bracket = translation_by_bisection(tester, up, options);
+  const auto bracket = translation_by_bisection(tester, upwards, options);
   REQUIRE(bracket);
   CHECK(bracket->free == Approx(-1).epsilon(1e-8));
 }
@@ -236,11 +226,11 @@ TEST_CASE("triangles without area neither touch nor open a solid", "[collision]"
   box.triangle_part.push_back(0);
   const CollisionTester tester(box, box);
   CHECK(tester.solids());
-  CHECK(tester.interiors_overlap(up, Rational(0.5)));
-  CHECK_FALSE(tester.interiors_overlap(up, Rational(1)));
+  CHECK(tester.interiors_overlap(upwards, Rational(0.5)));
+  CHECK_FALSE(tester.interiors_overlap(upwards, Rational(1)));
   const Shape line = sheet({{0, 0, 0}, {1, 1, 1}, {2, 2, 2}});
-  CHECK_FALSE(closed_contact(line, box, up, Rational(0)));
-  CHECK_FALSE(closed_contact(box, line, up, Rational(0)));
+  CHECK_FALSE(closed_contact(line, box, upwards, Rational(0)));
+  CHECK_FALSE(closed_contact(box, line, upwards, Rational(0)));
 }
 
 TEST_CASE("solids are recognised without shared indices and with touching parts", "[collision]") {
@@ -250,9 +240,9 @@ TEST_CASE("solids are recognised without shared indices and with touching parts"
     for (int k = 0; k < 3; ++k) corners.push_back(box.corner(t, k));
   const Shape loose = sheet(corners);
   CHECK(CollisionTester(loose, box).solids());
-  CHECK(interiors_overlap(loose, box, up, Rational(0.5)));
+  CHECK(interiors_overlap(loose, box, upwards, Rational(0.5)));
   // Two boxes along one edge: four triangles meet there, two of each part.
-  CHECK(CollisionTester(concatenate(loose, moved(loose, {1, 1, 0})), box).solids());
+  CHECK(CollisionTester(concatenate(loose, solids::moved(loose, {1, 1, 0})), box).solids());
   corners.resize(corners.size() - 3);
   CHECK_FALSE(CollisionTester(sheet(corners), box).solids());
 }
@@ -264,19 +254,21 @@ TEST_CASE("parts in one place are as one", "[collision]") {
   const CollisionTester one_against(box, other), many_against(many, other), themselves(many, many);
   CHECK(themselves.interior_defect() == std::nullopt);
   for (const double z : {-1.0, -0.5, 0.0, 3.5, 4.0, 4.5}) {
-    CHECK(many_against.closed_contact(up, Rational(z)) == one_against.closed_contact(up, Rational(z)));
-    CHECK(many_against.interiors_overlap(up, Rational(z)) == one_against.interiors_overlap(up, Rational(z)));
-    CHECK(themselves.closed_contact(up, Rational(z)) == (z <= 4));
-    CHECK(themselves.interiors_overlap(up, Rational(z)) == (z < 4));
+    CHECK(many_against.closed_contact(upwards, Rational(z)) ==
+          one_against.closed_contact(upwards, Rational(z)));
+    CHECK(many_against.interiors_overlap(upwards, Rational(z)) ==
+          one_against.interiors_overlap(upwards, Rational(z)));
+    CHECK(themselves.closed_contact(upwards, Rational(z)) == (z <= 4));
+    CHECK(themselves.interiors_overlap(upwards, Rational(z)) == (z < 4));
   }
   // A wedge that shares faces with the box, but not all of their neighbours.
   Shape wedge = box;
   for (Eigen::Index v = 0; v < wedge.vertex_count(); ++v)
     if (wedge.vertices(v, 2) == 4) wedge.vertices(v, 0) = 0;
-  const Shape both = concatenate(wedge, box), bar = moved(solids::box({1, 1, 1}), {1, 1, 0});
-  CHECK_FALSE(interiors_overlap(wedge, bar, up, Rational(3)));
-  CHECK(interiors_overlap(both, bar, up, Rational(3)));
-  CHECK(interiors_overlap(concatenate(box, wedge), bar, up, Rational(3)));
+  const Shape both = concatenate(wedge, box), bar = solids::moved(solids::box({1, 1, 1}), {1, 1, 0});
+  CHECK_FALSE(interiors_overlap(wedge, bar, upwards, Rational(3)));
+  CHECK(interiors_overlap(both, bar, upwards, Rational(3)));
+  CHECK(interiors_overlap(concatenate(box, wedge), bar, upwards, Rational(3)));
 }
 
 TEST_CASE("more pairs of near triangles than can be tested are refused, however they are met",
@@ -285,11 +277,11 @@ TEST_CASE("more pairs of near triangles than can be tested are refused, however 
   const Shape box = transformed(solids::box({2, 3, 4}), aslant, Eigen::Vector3d::Zero());
   Shape nearly_one = box;
   for (int k = 1; k < 800; ++k)
-    nearly_one = concatenate(nearly_one, moved(box, {1e-9 * k, 2e-9 * k, 1e-9 * k}));
+    nearly_one = concatenate(nearly_one, solids::moved(box, {1e-9 * k, 2e-9 * k, 1e-9 * k}));
   const CollisionTester tester(nearly_one, nearly_one);
-  CHECK_THROWS_AS(tester.closed_contact(up, Rational(0)), InputError);
-  CHECK_THROWS_AS(tester.interiors_overlap(up, Rational(0)), InputError);
-  CHECK_FALSE(tester.closed_contact(up, Rational(10)));
+  CHECK_THROWS_AS(tester.closed_contact(upwards, Rational(0)), InputError);
+  CHECK_THROWS_AS(tester.interiors_overlap(upwards, Rational(0)), InputError);
+  CHECK_FALSE(tester.closed_contact(upwards, Rational(10)));
   CHECK(tester.interior_defect() == InteriorDefect::undecided);
 }
 
@@ -301,7 +293,7 @@ TEST_CASE("impossible searches and shapes are refused", "[collision]") {
   no_steps.steps = 0;
   no_width.relative_width = 0;
   not_a_width.relative_width = std::nan("");
-  CHECK_THROWS_AS(translation_by_bisection(tester, up, no_steps), UsageError);
-  CHECK_THROWS_AS(translation_by_bisection(tester, up, no_width), UsageError);
-  CHECK_THROWS_AS(translation_by_bisection(tester, up, not_a_width), UsageError);
+  CHECK_THROWS_AS(translation_by_bisection(tester, upwards, no_steps), UsageError);
+  CHECK_THROWS_AS(translation_by_bisection(tester, upwards, no_width), UsageError);
+  CHECK_THROWS_AS(translation_by_bisection(tester, upwards, not_a_width), UsageError);
 }

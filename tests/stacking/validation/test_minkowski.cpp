@@ -1,10 +1,11 @@
-#include <string>
 #include <vector>
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/envelope/separation.h"
 #include "stackabilization/stacking/minkowski.h"
 #include "support/catch.h"
+#include "support/directions.h"
+#include "support/f_max.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
@@ -12,18 +13,11 @@ using namespace stackabilization;
 
 namespace {
 
-const Direction up(0, 0, 1);
-
-struct NamedShape {
-  std::string name;
-  Shape shape;
-};
-
 Shape rod(double x, double z) {
   return solids::box({x, 0, z}, {x + 1, 1, z + 1});
 }
 
-std::vector<NamedShape> small_solids() {
+std::vector<solids::NamedShape> small_solids() {
   const Shape box = solids::box({1, 2, 3});
   return {{"box", box},
           {"turned box", transformed(box, solids::random_rotation(3), {0.1, 0.2, 0.3})},
@@ -42,15 +36,11 @@ std::vector<NamedShape> small_solids() {
           {"roof", solids::extruded_profile({{0, 0}, {2, 2}, {4, 0}, {4, 0.5}, {2, 2.5}, {0, 0.5}}, 1)}};
 }
 
-Rational exact_f_max(const Shape& shape, const Direction& direction) {
-  return minimal_stacking_translation(shape, direction).value;
-}
-
 }  // namespace
 
 TEST_CASE("the Minkowski sum gives the exact separation, as one rational number", "[minkowski]") {
   const std::vector<Direction> directions = {{0, 0, 1}, {1, 0, 0}, {0.3, -0.2, 1}, {-1, 2, 0.5}};
-  for (const NamedShape& solid : small_solids())
+  for (const solids::NamedShape& solid : small_solids())
     for (const Direction& direction : directions) {
       CAPTURE(solid.name, direction.vector().transpose());
       const Rational sum = minkowski_translation(solid.shape, direction);
@@ -61,15 +51,15 @@ TEST_CASE("the Minkowski sum gives the exact separation, as one rational number"
 }
 
 TEST_CASE("Minkowski sums of boxes, tetrahedra and stairs have closed forms", "[minkowski]") {
-  CHECK(minkowski_translation(solids::box({1, 2, 3}), up) == Rational(3));
+  CHECK(minkowski_translation(solids::box({1, 2, 3}), upwards) == Rational(3));
   CHECK(minkowski_translation(solids::box({1, 2, 3}), Direction(0, 0, -4)) == Rational(0.75));
   CHECK(minkowski_translation(solids::box({1, 2, 3}), Direction(3, 3, 3)) == Rational("1", "3"));
-  CHECK(minkowski_translation(solids::stair_plate({3, 1, 0.75, 2, 0.25}), up) == Rational(1));
+  CHECK(minkowski_translation(solids::stair_plate({3, 1, 0.75, 2, 0.25}), upwards) == Rational(1));
   CHECK(minkowski_translation(solids::l_shape(3, 1), Direction(1, 0, 1)) == Rational(1));
 }
 
 TEST_CASE("a passage that the solid just fits into stays open", "[minkowski]") {
-  CHECK(minkowski_translation(solids::boxes_sharing_wall(), up) == Rational(1));
+  CHECK(minkowski_translation(solids::boxes_sharing_wall(), upwards) == Rational(1));
   // A peg below, a socket of its width above: peg and socket walls slide along each other from lift 4.5 down
   // to 2.5.
   const Shape plug = solids::extruded_profile({{0, 0.25},
@@ -85,12 +75,12 @@ TEST_CASE("a passage that the solid just fits into stays open", "[minkowski]") {
                                                {1, 2.5},
                                                {0, 2.5}},
                                               1);
-  CHECK(minkowski_translation(plug, up) == Rational(2.5));
-  CHECK(exact_f_max(plug, up) == Rational(2.5));
+  CHECK(minkowski_translation(plug, upwards) == Rational(2.5));
+  CHECK(exact_f_max(plug, upwards) == Rational(2.5));
 }
 
 TEST_CASE("hooks are blocked from above although they are free below", "[minkowski]") {
-  CHECK(minkowski_translation(solids::hook({}), up) == Rational(6));
+  CHECK(minkowski_translation(solids::hook({}), upwards) == Rational(6));
 }
 
 TEST_CASE("orientation, subdivision and order do not change a Minkowski sum", "[minkowski]") {
@@ -104,19 +94,19 @@ TEST_CASE("orientation, subdivision and order do not change a Minkowski sum", "[
 }
 
 TEST_CASE("what has no Minkowski sum here is refused", "[minkowski]") {
-  CHECK_THROWS_AS(minkowski_translation(solids::torus({}), up), UsageError);
-  CHECK_THROWS_AS(minkowski_translation(Shape{}, up), InputError);
+  CHECK_THROWS_AS(minkowski_translation(solids::torus({}), upwards), UsageError);
+  CHECK_THROWS_AS(minkowski_translation(Shape{}, upwards), InputError);
   Shape open = solids::box({1, 1, 1});
   open.triangles.conservativeResize(11, 3);
   open.triangle_part.resize(11);
-  CHECK_THROWS_AS(minkowski_translation(open, up), InputError);
+  CHECK_THROWS_AS(minkowski_translation(open, upwards), InputError);
   Shape flat = solids::box({1, 1, 1});
   flat.vertices.col(2).setZero();
-  CHECK_THROWS_AS(minkowski_translation(flat, up), InputError);
+  CHECK_THROWS_AS(minkowski_translation(flat, upwards), InputError);
   // A bow tie prism crosses itself.
   const Shape square = solids::prism({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, 1);
   Shape crossed = square;
   for (Eigen::Index v = 0; v < crossed.vertex_count(); ++v)
     if (square.vertices(v, 1) == 1) crossed.vertices(v, 0) = 1 - square.vertices(v, 0);
-  CHECK_THROWS_AS(minkowski_translation(crossed, up), InputError);
+  CHECK_THROWS_AS(minkowski_translation(crossed, upwards), InputError);
 }

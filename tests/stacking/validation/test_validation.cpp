@@ -1,41 +1,22 @@
-#include <algorithm>
 #include <sstream>
 #include <string>
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/stacking/validation.h"
+#include "stacking/validation/report_rows.h"
 #include "support/catch.h"
+#include "support/directions.h"
+#include "support/messages.h"
 #include "support/solids.h"
 
 using namespace stackabilization;
 
 namespace {
 
-const Direction up(0, 0, 1);
-
-const ValidationRow& row_of(const ValidationReport& report, const std::string& name) {
-  const auto found = std::find_if(report.rows.begin(), report.rows.end(),
-                                  [&](const ValidationRow& row) { return row.name == name; });
-  INFO("row " << name);
-  REQUIRE(found != report.rows.end());
-  return *found;
-}
-
-bool mentions(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
-
 ValidationOptions coarse() {
   ValidationOptions options;
   options.resolutions = {16, 64, 256};
   return options;
-}
-
-Shape open_box() {
-  Shape box = solids::box({2, 2, 1});
-  box.triangles.conservativeResize(10, 3);
-  box.triangle_part.resize(10);
-  return box;
 }
 
 }  // namespace
@@ -73,7 +54,7 @@ TEST_CASE("a part thinner than a pixel is told of", "[validation]") {
   // A flat slab with a needle that no sample of these grids meets.
   const Shape slab = solids::box({0, 0, 0}, {4, 4, 1});
   const Shape needle = solids::box({1.0003, 1.0003, 1}, {1.0004, 1.0004, 3});
-  const ValidationReport report = validate_translation(concatenate(slab, needle), up, coarse());
+  const ValidationReport report = validate_translation(concatenate(slab, needle), upwards, coarse());
   CAPTURE(table(report));
   CHECK(report.passed);
   CHECK(report.solid.value == Rational(3));
@@ -86,14 +67,14 @@ TEST_CASE("a part thinner than a pixel is told of", "[validation]") {
 }
 
 TEST_CASE("hooks pass: the search starts at the top", "[validation]") {
-  const ValidationReport report = validate_translation(solids::hook({}), up, coarse());
+  const ValidationReport report = validate_translation(solids::hook({}), upwards, coarse());
   CAPTURE(table(report));
   CHECK(report.passed);
   CHECK(*row_of(report, "collision search from the top, solid").value == Approx(6).epsilon(1e-8));
 }
 
 TEST_CASE("walls along the direction count in closed semantics only", "[validation]") {
-  const ValidationReport report = validate_translation(solids::boxes_sharing_wall(), up, coarse());
+  const ValidationReport report = validate_translation(solids::boxes_sharing_wall(), upwards, coarse());
   CAPTURE(table(report));
   CHECK(report.passed);
   CHECK(report.solid.value == Rational(1));
@@ -101,14 +82,15 @@ TEST_CASE("walls along the direction count in closed semantics only", "[validati
   // An odd number of columns puts samples on the common wall.
   ValidationOptions odd;
   odd.resolutions = {31};
-  const ValidationReport on_the_wall = validate_translation(solids::boxes_sharing_wall(), up, odd);
+  const ValidationReport on_the_wall = validate_translation(solids::boxes_sharing_wall(), upwards, odd);
   CHECK(on_the_wall.passed);
   CHECK(row_of(on_the_wall, "scanline 31").value == Approx(3));
   CHECK(mentions(row_of(on_the_wall, "scanline 31").note, "wall along the direction"));
 }
 
 TEST_CASE("open shapes skip what needs an interior, and say so", "[validation]") {
-  const ValidationReport report = validate_translation(open_box(), Direction(0.1, 0, 1), coarse());
+  const ValidationReport report =
+      validate_translation(solids::open_box({2, 2, 1}), Direction(0.1, 0, 1), coarse());
   CAPTURE(table(report));
   CHECK(report.passed);
   CHECK(row_of(report, "overlap of interiors").verdict == Verdict::skipped);
@@ -122,7 +104,7 @@ TEST_CASE("a projection without area is checked as far as it can be", "[validati
   points << 0, 0, 0, 2, 0, 0, 2, 0, 6;
   Triangles triangles(1, 3);
   triangles << 0, 1, 2;
-  const ValidationReport report = validate_translation(make_shape(points, triangles), up, coarse());
+  const ValidationReport report = validate_translation(make_shape(points, triangles), upwards, coarse());
   CAPTURE(table(report));
   CHECK(report.passed);
   CHECK_FALSE(report.solid.blocked);
@@ -135,7 +117,7 @@ TEST_CASE("a flat sheet across the direction is free as soon as it is lifted", "
   points << 0, 0, 1, 8, 0, 1, 8, 8, 1, 0, 8, 1;
   Triangles triangles(2, 3);
   triangles << 0, 1, 2, 0, 2, 3;
-  const ValidationReport report = validate_translation(make_shape(points, triangles), up, coarse());
+  const ValidationReport report = validate_translation(make_shape(points, triangles), upwards, coarse());
   CAPTURE(table(report));
   CHECK(report.passed);
   CHECK(report.extent == 0);
@@ -154,7 +136,7 @@ TEST_CASE("contact is not asked for where triangles without area attain f_max", 
       make_shape((Points(3, 3) << 0.5, 0.5, 0, 0.5, 0.5, 3, 0.5, 0.5, 7).finished(), triangle);
   for (const Shape& shape : {make_shape(line, triangle), make_shape(point, triangle),
                              concatenate(solids::box({1, 1, 1}), needle)}) {
-    const ValidationReport report = validate_translation(shape, up, coarse());
+    const ValidationReport report = validate_translation(shape, upwards, coarse());
     CAPTURE(table(report));
     CHECK(report.passed);
     CHECK(row_of(report, "contact at closed f_max").verdict == Verdict::skipped);
@@ -172,7 +154,7 @@ TEST_CASE("a height field maker that exceeds the exact value is caught", "[valid
          return field;
        }});
   options.further_rasters.push_back({"coarse heights", options.further_rasters[0].make, 0.02});
-  const ValidationReport report = validate_translation(solids::box({1, 1, 1}), up, options);
+  const ValidationReport report = validate_translation(solids::box({1, 1, 1}), upwards, options);
   CHECK_FALSE(report.passed);
   CHECK(row_of(report, "too high 8").verdict == Verdict::disagrees);
   CHECK(row_of(report, "too high 8").error == Approx(0.01));
@@ -191,7 +173,7 @@ TEST_CASE("a height field maker that says why may exceed the exact value, and no
     return field;
   };
   options.further_rasters.push_back({"tilted", too_high, 1e-5, "corners move"});
-  const ValidationReport report = validate_translation(solids::box({1, 1, 1}), up, options);
+  const ValidationReport report = validate_translation(solids::box({1, 1, 1}), upwards, options);
   CAPTURE(table(report));
   CHECK(report.passed);
   for (const std::string name : {"tilted 8", "tilted 16"}) {
@@ -199,13 +181,13 @@ TEST_CASE("a height field maker that says why may exceed the exact value, and no
     CHECK(row_of(report, name).note == "above the exact value: corners move");
   }
   options.further_rasters.push_back({"bound", too_high, 1e-5, ""});
-  CHECK_FALSE(validate_translation(solids::box({1, 1, 1}), up, options).passed);
+  CHECK_FALSE(validate_translation(solids::box({1, 1, 1}), upwards, options).passed);
 }
 
 TEST_CASE("a table has one line per check between heading and verdict", "[validation]") {
   ValidationOptions options;
   options.resolutions = {8};
-  const ValidationReport report = validate_translation(solids::box({1, 1, 0.1}), up, options);
+  const ValidationReport report = validate_translation(solids::box({1, 1, 0.1}), upwards, options);
   std::istringstream lines(table(report));
   std::size_t count = 0;
   std::string line, last;
@@ -224,7 +206,7 @@ TEST_CASE("checks that would look at too many triangles are skipped with the rea
   ValidationOptions options;
   options.resolutions = {8, 16, 32};
   options.max_ray_hits = 2 * 8 * 16;  // two for each ray of 16 samples along the longer side
-  const ValidationReport report = validate_translation(box, up, options);
+  const ValidationReport report = validate_translation(box, upwards, options);
   CHECK(report.passed);
   CHECK(row_of(report, "rays 8").verdict == Verdict::agrees);
   CHECK(row_of(report, "rays 16").verdict != Verdict::skipped);
@@ -239,8 +221,8 @@ TEST_CASE("impossible validations are refused", "[validation]") {
   none.resolutions = {};
   unsorted.resolutions = {64, 32};
   no_margin.collision_margin = 0;
-  CHECK_THROWS_AS(validate_translation(box, up, none), UsageError);
-  CHECK_THROWS_AS(validate_translation(box, up, unsorted), UsageError);
-  CHECK_THROWS_AS(validate_translation(box, up, no_margin), UsageError);
-  CHECK_THROWS_AS(validate_translation(Shape{}, up), InputError);
+  CHECK_THROWS_AS(validate_translation(box, upwards, none), UsageError);
+  CHECK_THROWS_AS(validate_translation(box, upwards, unsorted), UsageError);
+  CHECK_THROWS_AS(validate_translation(box, upwards, no_margin), UsageError);
+  CHECK_THROWS_AS(validate_translation(Shape{}, upwards), InputError);
 }

@@ -16,7 +16,7 @@ using namespace stackabilization;
 
 namespace {
 
-int count(const Structure& structure, RelationType type) {
+int count_of_type(const Structure& structure, RelationType type) {
   return static_cast<int>(std::count_if(structure.relations.begin(), structure.relations.end(),
                                         [&](const Relation& relation) { return relation.type == type; }));
 }
@@ -60,9 +60,9 @@ TEST_CASE("a table: five parts, four pairs, four point joints, all exactly symme
   validate(table);
   CHECK(structure.parts.size() == 5);
   CHECK(structure.diagonal == Approx(std::sqrt(64 + 64 + 36)));
-  CHECK(count(structure, RelationType::symmetry) >= 4);
-  CHECK(count(structure, RelationType::point_joint) == 4);
-  CHECK(count(structure, RelationType::line_joint) == 0);
+  CHECK(count_of_type(structure, RelationType::symmetry) >= 4);
+  CHECK(count_of_type(structure, RelationType::point_joint) == 4);
+  CHECK(count_of_type(structure, RelationType::line_joint) == 0);
   CHECK(worst_miss(structure) < 1e-13 * 12);
   for (const Symmetry& plane : structure.symmetries)
     if (plane.kind == SymmetryKind::reflection) CHECK(worst_joint_miss(structure, plane) < 1e-13 * 12);
@@ -77,9 +77,9 @@ TEST_CASE("a chair in an odd pose with noise: relations hold exactly between the
   for (Eigen::Index v = 0; v < chair.vertex_count(); ++v)
     chair.vertices.row(v) += 0.01 * random.in_cube().transpose();
   const StructuredShape result = analyse_structure(chair);
-  CHECK(count(result.structure, RelationType::symmetry) >= 2);
-  CHECK(count(result.structure, RelationType::point_joint) +
-            count(result.structure, RelationType::line_joint) >=
+  CHECK(count_of_type(result.structure, RelationType::symmetry) >= 2);
+  CHECK(count_of_type(result.structure, RelationType::point_joint) +
+            count_of_type(result.structure, RelationType::line_joint) >=
         5);
   CHECK(worst_miss(result.structure) < 1e-12 * result.structure.diagonal);
 }
@@ -89,7 +89,7 @@ TEST_CASE("a cup with handle: two point joints in the plane of the handle") {
   REQUIRE(cup.structure.parts.size() == 2);
   CHECK(std::holds_alternative<GeneralizedCylinder>(cup.structure.parts[0].primitive));
   CHECK(std::holds_alternative<GeneralizedCylinder>(cup.structure.parts[1].primitive));
-  CHECK(count(cup.structure, RelationType::point_joint) == 2);
+  CHECK(count_of_type(cup.structure, RelationType::point_joint) == 2);
   for (const Relation& relation : cup.structure.relations)
     if (relation.type == RelationType::point_joint) CHECK(relation.points(0, 1) == Approx(0).margin(1e-12));
   CHECK(worst_miss(cup.structure) < 1e-13 * cup.structure.diagonal);
@@ -121,11 +121,7 @@ namespace {
 
 /// A box of which one side is missing, so that its surface is open.
 Shape open_panel(const Eigen::Vector3d& lowest, const Eigen::Vector3d& highest, const std::string& name) {
-  Shape panel = solids::box(lowest, highest);
-  panel.triangles.conservativeResize(10, 3);
-  panel.triangle_part.resize(10);
-  panel.part_names = {name};
-  return panel;
+  return solids::named(solids::open_box(lowest, highest), name);
 }
 
 /// Two sides, three boards and a back that touch in faces, all `thickness` thick.

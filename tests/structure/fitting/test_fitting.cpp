@@ -84,7 +84,7 @@ Shape part_where(const Shape& shape, Keep keep) {
   return make_shape(shape.vertices, Triangles(shape.triangles(rows, Eigen::all)));
 }
 
-Shape moved(const Shape& shape, std::uint64_t seed, double scale) {
+Shape posed(const Shape& shape, std::uint64_t seed, double scale) {
   return transformed(shape, scale * solids::random_rotation(seed), {3, -7, 11});
 }
 
@@ -243,7 +243,7 @@ TEST_CASE("fits move and grow with the part") {
   const GeneralizedCylinder rest = cylinder_of(fit_primitive(cup));
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const double scale = std::pow(10.0, static_cast<double>(seed) * 3 - 6);
-    const FittedPrimitive fitted = fit_primitive(moved(cup, seed, scale));
+    const FittedPrimitive fitted = fit_primitive(posed(cup, seed, scale));
     const GeneralizedCylinder& cylinder = cylinder_of(fitted);
     const Eigen::Vector3d axis = solids::random_rotation(seed).col(2);
     CHECK(farthest_from_line(cylinder.centres, {3, -7, 11}, axis) < 1e-7 * std::max(1.0, scale));
@@ -252,7 +252,7 @@ TEST_CASE("fits move and grow with the part") {
       CHECK(cylinder.radii(same_way ? i : 23 - i) == Approx(scale * rest.radii(i)).epsilon(1e-6));
   }
   const FittedPrimitive bent = fit_primitive(arc_tube(3, 0.4, 1.25 * pi));
-  const FittedPrimitive elsewhere = fit_primitive(moved(arc_tube(3, 0.4, 1.25 * pi), 7, 50));
+  const FittedPrimitive elsewhere = fit_primitive(posed(arc_tube(3, 0.4, 1.25 * pi), 7, 50));
   CHECK(length_of(cylinder_of(elsewhere)) == Approx(50 * length_of(cylinder_of(bent))).epsilon(0.005));
   CHECK(cylinder_of(elsewhere).radii.mean() == Approx(50 * cylinder_of(bent).radii.mean()).epsilon(0.02));
 }
@@ -273,9 +273,8 @@ TEST_CASE("the kind that holds a part better is chosen, unless the user says oth
 }
 
 TEST_CASE("a part of several shells is one part") {
-  const Shape dumbbell =
-      concatenate(concatenate(solids::cylinder(1, 2, 24), solids::cylinder(0.25, 8, 24)),
-                  transformed(solids::cylinder(1, 2, 24), Eigen::Matrix3d::Identity(), {0, 0, 6}));
+  const Shape dumbbell = concatenate(concatenate(solids::cylinder(1, 2, 24), solids::cylinder(0.25, 8, 24)),
+                                     solids::moved(solids::cylinder(1, 2, 24), {0, 0, 6}));
   const GeneralizedCylinder cylinder = cylinder_of(fit_primitive(dumbbell));
   for (Eigen::Index i = 0; i < cylinder.radii.size(); ++i) {
     const double height = cylinder.centres(i, 2);

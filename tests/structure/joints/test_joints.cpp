@@ -5,17 +5,12 @@
 #include "stackabilization/structure/joints.h"
 #include "support/catch.h"
 #include "support/solids.h"
+#include "support/symmetric_solids.h"
 #include "support/variants.h"
 
 using namespace stackabilization;
 
 namespace {
-
-Shape assembled(const std::vector<Shape>& parts) {
-  Shape all = parts[0];
-  for (std::size_t k = 1; k < parts.size(); ++k) all = concatenate(all, parts[k]);
-  return all;
-}
 
 /// Axis-aligned boxes stand in for primitives; closed surfaces do not look at them.
 std::vector<Part> boxes_around(const Shape& shape) {
@@ -29,11 +24,6 @@ std::vector<Part> boxes_around(const Shape& shape) {
 
 std::vector<Relation> joints_of(const Shape& shape, const JointOptions& options = {}) {
   return find_joints(shape, boxes_around(shape), options);
-}
-
-Shape finer(Shape shape, int levels) {
-  for (int k = 0; k < levels; ++k) shape = solids::subdivided(shape);
-  return shape;
 }
 
 void check_points(const Relation& joint, const std::vector<Eigen::Vector3d>& wanted, double margin) {
@@ -66,8 +56,8 @@ GeneralizedCylinder half_ring_curve() {
 
 TEST_CASE("a leg flush under a plate has a point joint at the middle of its top, however fine the mesh") {
   for (int level = 0; level < 4; ++level) {
-    const Shape shape = assembled({finer(solids::box({0, 0, 4}, {10, 10, 5}), 3 - level),
-                                   finer(solids::box({2, 3, 0}, {3, 4, 4}), level)});
+    const Shape shape = solids::joined({solids::finely(solids::box({0, 0, 4}, {10, 10, 5}), 3 - level),
+                                        solids::finely(solids::box({2, 3, 0}, {3, 4, 4}), level)});
     const std::vector<Relation> joints = joints_of(shape);
     REQUIRE(joints.size() == 1);
     CHECK(joints[0].type == RelationType::point_joint);
@@ -85,7 +75,8 @@ TEST_CASE("gap, overlap, piercing and containment all give one joint in the midd
   for (const Case& one :
        {Case{0, 3.95, 3.975}, Case{0, 4.5, 4.25}, Case{0, 5, 4.5}, Case{0, 7, 4.5}, Case{4.25, 4.75, 4.5}})
     for (int level = 0; level < 3; level += 2) {
-      const Shape shape = assembled({plate, finer(solids::box({1, 2, one.bottom}, {2, 3, one.top}), level)});
+      const Shape shape =
+          solids::joined({plate, solids::finely(solids::box({1, 2, one.bottom}, {2, 3, one.top}), level)});
       const std::vector<Relation> joints = joints_of(shape);
       INFO("from " << one.bottom << " to " << one.top << ", level " << level);
       REQUIRE(joints.size() == 1);
@@ -97,12 +88,12 @@ TEST_CASE("gap, overlap, piercing and containment all give one joint in the midd
 
 TEST_CASE("a gap wider than the reach is no joint") {
   const Shape plate = solids::box({-5, -5, 4}, {5, 5, 5});
-  CHECK(joints_of(assembled({plate, solids::box({1, 2, 0}, {2, 3, 3.7})})).empty());
-  CHECK(joints_of(assembled({plate, solids::box({1, 2, 0}, {2, 3, 3.7})}), {.reach = 0.05}).size() == 1);
+  CHECK(joints_of(solids::joined({plate, solids::box({1, 2, 0}, {2, 3, 3.7})})).empty());
+  CHECK(joints_of(solids::joined({plate, solids::box({1, 2, 0}, {2, 3, 3.7})}), {.reach = 0.05}).size() == 1);
 }
 
 TEST_CASE("two boxes that share an edge have a line joint with exactly its ends") {
-  const Shape shape = assembled({solids::box({0, 0, 0}, {1, 8, 1}), solids::box({1, 1, 1}, {2, 7, 2})});
+  const Shape shape = solids::joined({solids::box({0, 0, 0}, {1, 8, 1}), solids::box({1, 1, 1}, {2, 7, 2})});
   const std::vector<Relation> joints = joints_of(shape);
   REQUIRE(joints.size() == 1);
   CHECK(joints[0].type == RelationType::line_joint);
@@ -111,12 +102,13 @@ TEST_CASE("two boxes that share an edge have a line joint with exactly its ends"
 
 TEST_CASE("a rail under a plate has a line joint along its middle, and the ends of a short one are a point") {
   const Shape plate = solids::box({-10, -10, 0}, {10, 10, 1});
-  const std::vector<Relation> line = joints_of(assembled({plate, solids::box({-6, 2, -1}, {6, 2.5, 0})}));
+  const std::vector<Relation> line =
+      joints_of(solids::joined({plate, solids::box({-6, 2, -1}, {6, 2.5, 0})}));
   REQUIRE(line.size() == 1);
   CHECK(line[0].type == RelationType::line_joint);
   check_points(line[0], {{-6, 2.25, 0}, {6, 2.25, 0}}, 1e-9);
   const std::vector<Relation> point =
-      joints_of(assembled({plate, solids::box({-0.5, 2, -4}, {0.5, 2.125, 0})}));
+      joints_of(solids::joined({plate, solids::box({-0.5, 2, -4}, {0.5, 2.125, 0})}));
   REQUIRE(point.size() == 1);
   CHECK(point[0].type == RelationType::point_joint);
 }
@@ -125,7 +117,7 @@ TEST_CASE("a rim on a cup is joined at four sides of the ring, not at the middle
   const solids::Polygon wall = {{0, 0}, {3, 0}, {3, 5}, {2.75, 5}, {2.75, 0.25}, {0, 0.25}};
   const solids::Polygon ring = {{2.5, 5}, {3.25, 5}, {3.25, 5.5}, {2.5, 5.5}};
   const std::vector<Relation> joints = joints_of(
-      assembled({solids::surface_of_revolution(wall, 32), solids::surface_of_revolution(ring, 32)}));
+      solids::joined({solids::surface_of_revolution(wall, 32), solids::surface_of_revolution(ring, 32)}));
   REQUIRE(joints.size() == 4);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const Relation& joint : joints) {
@@ -140,8 +132,8 @@ TEST_CASE("a rim on a cup is joined at four sides of the ring, not at the middle
   CHECK(sum.head<2>().norm() == Approx(0).margin(1e-9));
   // The sides follow the shape: here along and across the direction of a knob.
   const Shape knobbed =
-      assembled({solids::surface_of_revolution(wall, 32), solids::surface_of_revolution(ring, 32),
-                 solids::box({3, -1, 1}, {6, 1, 2})});
+      solids::joined({solids::surface_of_revolution(wall, 32), solids::surface_of_revolution(ring, 32),
+                      solids::box({3, -1, 1}, {6, 1, 2})});
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Eigen::Vector3d(1, 2, 2) / 3).toRotationMatrix();
   for (const Shape& shape : {knobbed, transformed(knobbed, turn, {1, 2, 3})}) {
     int along = 0;
@@ -157,13 +149,14 @@ TEST_CASE("a rim on a cup is joined at four sides of the ring, not at the middle
   }
   // A tube on a plate meets it in a ring as well, but is thin enough to stand on one point.
   const solids::Polygon tube = {{0.5, 0}, {0.75, 0}, {0.75, 20}, {0.5, 20}};
-  CHECK(joints_of(assembled({solids::box({-9, -9, -1}, {9, 9, 0}), solids::surface_of_revolution(tube, 16)}))
+  CHECK(joints_of(
+            solids::joined({solids::box({-9, -9, -1}, {9, 9, 0}), solids::surface_of_revolution(tube, 16)}))
             .size() == 1);
 }
 
 TEST_CASE("a handle on a body has two point joints, flush or grown into it") {
   for (const double depth : {0.0, 0.25}) {
-    const Shape shape = assembled({solids::box({-4, -1, -5}, {depth, 2, 5}), half_ring()});
+    const Shape shape = solids::joined({solids::box({-4, -1, -5}, {depth, 2, 5}), half_ring()});
     std::vector<Part> parts = boxes_around(shape);
     parts[1].primitive = half_ring_curve();
     const std::vector<Relation> joints = find_joints(shape, parts);
@@ -180,17 +173,17 @@ TEST_CASE("a handle on a body has two point joints, flush or grown into it") {
 TEST_CASE("a cuboid that hangs on pegs has a line joint, a bar between two arms has two points") {
   const Shape plate = solids::box({-10, -10, 0}, {10, 10, 1}), rail = solids::box({-6, 2, -3}, {6, 3, -2});
   const Shape pegs =
-      assembled({solids::box({-5, 2, -2}, {-4, 3, 0.5}), solids::box({4, 2, -2}, {5, 3, 0.5}), rail});
-  const Shape hung = assembled({plate, make_shape(pegs.vertices, pegs.triangles)});
+      solids::joined({solids::box({-5, 2, -2}, {-4, 3, 0.5}), solids::box({4, 2, -2}, {5, 3, 0.5}), rail});
+  const Shape hung = solids::joined({plate, make_shape(pegs.vertices, pegs.triangles)});
   const std::vector<Relation> line = joints_of(hung);
   REQUIRE(line.size() == 1);
   CHECK(line[0].type == RelationType::line_joint);
   check_points(line[0], {{-5, 2.5, 0.25}, {5, 2.5, 0.25}}, 1e-9);
 
-  const Shape arms = assembled({solids::box({-7, 0, 0}, {-6, 1, 8}), solids::box({6, 0, 0}, {7, 1, 8}),
-                                solids::box({-7, 0, -1}, {7, 1, 0})});
+  const Shape arms = solids::joined({solids::box({-7, 0, 0}, {-6, 1, 8}), solids::box({6, 0, 0}, {7, 1, 8}),
+                                     solids::box({-7, 0, -1}, {7, 1, 0})});
   const Shape held =
-      assembled({make_shape(arms.vertices, arms.triangles), solids::box({-6, 0, 5}, {6, 1, 6})});
+      solids::joined({make_shape(arms.vertices, arms.triangles), solids::box({-6, 0, 5}, {6, 1, 6})});
   const std::vector<Relation> points = joints_of(held);
   REQUIRE(points.size() == 2);
   CHECK(points[0].type == RelationType::point_joint);
@@ -210,7 +203,7 @@ TEST_CASE("open surfaces meet as well") {
   corners << 0, 0, 4, 9, 0, 4, 9, 9, 4, 0, 9, 4;
   Triangles two(2, 3);
   two << 0, 1, 2, 0, 2, 3;
-  const std::vector<Relation> joints = joints_of(assembled({leg, make_shape(corners, two)}));
+  const std::vector<Relation> joints = joints_of(solids::joined({leg, make_shape(corners, two)}));
   REQUIRE(joints.size() == 1);
   check_points(joints[0], {{1.5, 1.5, 4}}, 1e-9);
 }
@@ -218,19 +211,19 @@ TEST_CASE("open surfaces meet as well") {
 TEST_CASE("bars that overlap inside a leg are joined to the leg alone") {
   const Shape leg = solids::box({0, 0, 0}, {2, 2, 10}), along_x = solids::box({0.5, 0.5, 4}, {9, 1.5, 5});
   const Shape along_y = solids::box({0.5, 0.5, 4}, {1.5, 9, 5});
-  const std::vector<Relation> joints = joints_of(assembled({leg, along_x, along_y}));
+  const std::vector<Relation> joints = joints_of(solids::joined({leg, along_x, along_y}));
   REQUIRE(joints.size() == 2);
   CHECK(joints[0].parts == std::vector<int>{0, 1});
   CHECK(joints[1].parts == std::vector<int>{0, 2});
   check_points(joints[0], {{1.25, 1, 4.5}}, 1e-9);
-  CHECK(joints_of(assembled({along_x, along_y})).size() == 1);
+  CHECK(joints_of(solids::joined({along_x, along_y})).size() == 1);
 }
 
 TEST_CASE("joints move with the shape, in any pose and at any scale") {
   solids::Random random(11);
   const Shape shape =
-      assembled({solids::box({-4, -1, -5}, {0.25, 2, 5}), finer(half_ring(), 1),
-                 solids::box({-4, -8, 5}, {0, 8, 5.5}), solids::box({-3, -9, -5}, {-2, -1, -4})});
+      solids::joined({solids::box({-4, -1, -5}, {0.25, 2, 5}), solids::finely(half_ring(), 1),
+                      solids::box({-4, -8, 5}, {0, 8, 5.5}), solids::box({-3, -9, -5}, {-2, -1, -4})});
   const auto joints_with_handle = [](const Shape& one) {
     std::vector<Part> parts = boxes_around(one);
     parts[1].primitive = half_ring_curve();  // of closed surfaces only the kind matters

@@ -32,7 +32,7 @@ GeneralizedCylinder curve(int count, bool closed) {
   return cylinder;
 }
 
-Points moved(const Primitive& primitive, const Eigen::Isometry3d& map) {
+Points mapped_points(const Primitive& primitive, const Eigen::Isometry3d& map) {
   return (control_points(primitive) * map.linear().transpose()).rowwise() + map.translation().transpose();
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("corners of a moved and relabelled box find their images") {
     const Primitive image = cuboid_of(other);
     const std::vector<int> to = control_correspondence(box, image, map);
     REQUIRE(to.size() == 8);
-    const Points wanted = moved(box, map), found = control_points(image);
+    const Points wanted = mapped_points(box, map), found = control_points(image);
     for (int k = 0; k < 8; ++k)
       CHECK((wanted.row(k) - found.row(to[static_cast<std::size_t>(k)])).norm() < 1e-12);
   }
@@ -95,7 +95,7 @@ TEST_CASE("curves are matched both ways, closed ones from every start") {
         const GeneralizedCylinder a = curve(7, closed);
         Eigen::Isometry3d map = isometry_of({.point = random.in_cube(), .axis = random.on_sphere()});
         GeneralizedCylinder b = a;
-        const Points image = moved(a, map);
+        const Points image = mapped_points(a, map);
         std::vector<int> wanted(7);
         for (int k = 0; k < 7; ++k) {
           wanted[static_cast<std::size_t>(k)] = reversed ? (13 - k - shift) % 7 : (k + shift) % 7;

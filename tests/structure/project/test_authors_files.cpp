@@ -6,7 +6,9 @@
 #include "structure/analysis/idealise.h"
 #include "structure/model/nearest_box.h"
 #include "support/catch.h"
+#include "support/messages.h"
 #include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 
@@ -18,7 +20,7 @@ Shape gate() {
   shape = concatenate(shape, solids::box({-2, -1, -2}, {-1.5, 1, 1.5}));
   shape = concatenate(shape, solids::box({1.5, -1, -2}, {2, 1, 1.5}));
   shape.part_names = {"plate", "left", "right"};
-  return transformed(shape, Eigen::Matrix3d::Identity(), {5, -2, 3});
+  return solids::moved(shape, {5, -2, 3});
 }
 
 /// Lines as the authors' program writes them: CRLF, tabs, blanks at the end, exponents of three digits.
@@ -39,13 +41,8 @@ Structure structure_of(const std::string& control_text, const std::string& group
   return authors_structure(gate(), {control_text, "a.ctrl"}, {group_text, "a.grp"});
 }
 
-std::string refusal(const std::string& control_text, const std::string& group_text) {
-  try {
-    structure_of(control_text, group_text);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+std::string refusal_of_files(const std::string& control_text, const std::string& group_text) {
+  return message_of<InputError>([&] { structure_of(control_text, group_text); });
 }
 
 }  // namespace
@@ -153,7 +150,7 @@ TEST_CASE("damaged files are refused with file, line and what was expected") {
             "left plate",
             "a.grp: "},
        }) {
-    const std::string message = refusal(damage.control, damage.group);
+    const std::string message = refusal_of_files(damage.control, damage.group);
     INFO(message);
     CHECK(message.find(damage.message) != std::string::npos);
   }

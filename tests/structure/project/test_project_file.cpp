@@ -10,6 +10,7 @@
 #include "stackabilization/structure/project_file.h"
 #include "structure/model/nearest_box.h"
 #include "support/catch.h"
+#include "support/messages.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
@@ -77,13 +78,8 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-std::string refusal(const std::string& text) {
-  try {
-    project_of_text(text, "p.json");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
+std::string refusal_of_project(const std::string& text) {
+  return message_of<InputError>([&] { project_of_text(text, "p.json"); });
 }
 
 }  // namespace
@@ -249,14 +245,14 @@ TEST_CASE("damaged projects are refused with the place and what was expected") {
       {"\"mesh\": {", "\"mesh\": {{", "p.json:"},
   };
   for (const Damage& damage : damages) {
-    const std::string message = refusal(replaced(text, damage.from, damage.to));
+    const std::string message = refusal_of_project(replaced(text, damage.from, damage.to));
     INFO(message);
     CHECK(message.find(damage.message) != std::string::npos);
   }
-  CHECK(refusal("").find("p.json:1: expected JSON") == 0);
-  CHECK(refusal("{\n\n]").find("p.json:3: expected JSON") == 0);
-  CHECK(refusal(std::string(100000, '[')).find("nested too deeply") != std::string::npos);
-  CHECK(refusal("[]").find("expected an object, found a list of 0") != std::string::npos);
+  CHECK(refusal_of_project("").find("p.json:1: expected JSON") == 0);
+  CHECK(refusal_of_project("{\n\n]").find("p.json:3: expected JSON") == 0);
+  CHECK(refusal_of_project(std::string(100000, '[')).find("nested too deeply") != std::string::npos);
+  CHECK(refusal_of_project("[]").find("expected an object, found a list of 0") != std::string::npos);
 }
 
 TEST_CASE("any cut and any flipped byte is read or refused, never worse") {
@@ -269,7 +265,7 @@ TEST_CASE("any cut and any flipped byte is read or refused, never worse") {
       damaged.resize(random.below(text.size()));
     else
       damaged[random.below(text.size())] = static_cast<char>(random.below(256));
-    refused += refusal(damaged) != "accepted";
+    refused += refusal_of_project(damaged) != "accepted";
   }
   CHECK(refused > 300);
 }
@@ -278,7 +274,7 @@ TEST_CASE("contradicting relations and names that are no text are refused") {
   StructuredShape project = pair_project();
   project.structure.relations.push_back(project.structure.relations[0]);
   project.structure.relations[1].symmetry.point.x() = 0.5;
-  CHECK(refusal(project_text(project))
+  CHECK(refusal_of_project(project_text(project))
             .find("p.json: relation 0 (symmetry of 'right' and 'left') and relation 1") == 0);
   project = pair_project();
   project.shape.part_names[0] = project.structure.parts[0].name = "\xff";

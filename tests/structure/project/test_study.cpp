@@ -55,7 +55,7 @@ Counts as_lines(Counts points, Counts& lines, const Counts& listed_lines) {
   return points;
 }
 
-struct Score {
+struct RelationScore {
   int listed = 0, found = 0, both = 0;
 
   void add(const Counts& hand, const Counts& ours, const std::string& type) {
@@ -85,7 +85,7 @@ TEST_CASE("the relations listed by hand for the study are found") {
     return;
   }
   const std::string root = std::string(folder) + "/" + study;
-  Score pairs, selves, joints;
+  RelationScore pairs, selves, joints;
   for (const std::string& name :
        {std::string("Tasks/IKEA-cup"), std::string("Tasks/cup"), std::string("Tasks/cup-handle-01"),
         std::string("Tasks/stool-01"), std::string("Tasks/table-midbar"), std::string("table"),
@@ -96,7 +96,7 @@ TEST_CASE("the relations listed by hand for the study are found") {
     options.segmentation.method = SegmentationMethod::given;
     const Structure ours = analyse_structure(shape, options).structure;
     std::cout << name << "\n";
-    Score pair, self, joint;
+    RelationScore pair, self, joint;
     pair.add(counts_of(hand, RelationType::symmetry), counts_of(ours, RelationType::symmetry), "pair");
     const Counts hand_lines = counts_of(hand, RelationType::line_joint);
     Counts lines = counts_of(ours, RelationType::line_joint);

@@ -23,7 +23,7 @@ std::vector<FoundSymmetry> of_kind(const std::vector<FoundSymmetry>& found, Symm
   return result;
 }
 
-int count(const std::vector<FoundSymmetry>& found, SymmetryKind kind) {
+int count_of_kind(const std::vector<FoundSymmetry>& found, SymmetryKind kind) {
   return static_cast<int>(of_kind(found, kind).size());
 }
 
@@ -67,15 +67,15 @@ TEST_CASE("a box has the three planes through its middle, longest extent first, 
 
 TEST_CASE("a square prism has five planes, a cube nine, and the rotations that follow") {
   const auto prism = find_symmetries(solids::box({2, 2, 5}));
-  CHECK(count(prism, SymmetryKind::reflection) == 5);
+  CHECK(count_of_kind(prism, SymmetryKind::reflection) == 5);
   CHECK(has_plane(prism, {1, 1, 0}, {1, 1, 0}, 1e-9));
   CHECK(has_plane(prism, {1, 1, 0}, {1, -1, 0}, 1e-9));
   CHECK(has_order(prism, 4, {0, 0, 1}));
-  CHECK(count(prism, SymmetryKind::rotation) == 5);
+  CHECK(count_of_kind(prism, SymmetryKind::rotation) == 5);
 
   const auto cube = find_symmetries(solids::box({2, 2, 2}));
-  CHECK(count(cube, SymmetryKind::reflection) == 9);
-  CHECK(count(cube, SymmetryKind::rotation) == 3 + 4 + 6);
+  CHECK(count_of_kind(cube, SymmetryKind::reflection) == 9);
+  CHECK(count_of_kind(cube, SymmetryKind::rotation) == 3 + 4 + 6);
   CHECK(has_order(cube, 4, {1, 0, 0}));
   CHECK(has_order(cube, 3, {1, -1, 1}));
   CHECK(has_order(cube, 2, {1, 1, 0}));
@@ -85,8 +85,8 @@ TEST_CASE("a prism over a regular polygon has a plane per side and one across") 
   for (const int sides : {3, 5, 6, 12}) {
     CAPTURE(sides);
     const auto found = find_symmetries(solids::cylinder(1, 1.5, sides));
-    CHECK(count(found, SymmetryKind::reflection) == sides + 1);
-    CHECK(count(found, SymmetryKind::revolution) == 0);
+    CHECK(count_of_kind(found, SymmetryKind::reflection) == sides + 1);
+    CHECK(count_of_kind(found, SymmetryKind::revolution) == 0);
     CHECK(has_plane(found, {0, 0, 0.75}, {0, 0, 1}, 1e-8));
     for (int k = 0; k < sides; ++k) {
       const double angle = std::numbers::pi * k / sides + std::numbers::pi / 2;
@@ -102,17 +102,17 @@ TEST_CASE("what is round is a revolution and not a heap of planes") {
     const auto cylinder = find_symmetries(solids::cylinder(1, 3, segments));
     CHECK(cylinder.size() == 2);
     CHECK(has_plane(cylinder, {0, 0, 1.5}, {0, 0, 1}, 1e-8));
-    REQUIRE(count(cylinder, SymmetryKind::revolution) == 1);
+    REQUIRE(count_of_kind(cylinder, SymmetryKind::revolution) == 1);
     const Symmetry axis = cylinder.back().symmetry;
     CHECK(axis.axis.cross(Eigen::Vector3d::UnitZ()).norm() <= 1e-8);
     CHECK(axis.point.head<2>().norm() <= 1e-8);
   }
   const auto cup = find_symmetries(solids::frustum_shell({}));
   CHECK(cup.size() == 1);
-  CHECK(count(cup, SymmetryKind::revolution) == 1);
+  CHECK(count_of_kind(cup, SymmetryKind::revolution) == 1);
   const auto sphere = find_symmetries(solids::sphere(1, 3));
-  CHECK(count(sphere, SymmetryKind::revolution) == 3);
-  CHECK(count(sphere, SymmetryKind::reflection) == 3);
+  CHECK(count_of_kind(sphere, SymmetryKind::revolution) == 3);
+  CHECK(count_of_kind(sphere, SymmetryKind::reflection) == 3);
 }
 
 TEST_CASE("a handle leaves a cup the plane through it") {
@@ -132,10 +132,10 @@ TEST_CASE("a chair has its plane, with a label on one side as well") {
 
 TEST_CASE("a twisted bar has rotations but no reflection") {
   const auto found = find_symmetries(solids::twisted_bar());
-  CHECK(count(found, SymmetryKind::reflection) == 0);
-  CHECK(count(found, SymmetryKind::revolution) == 0);
+  CHECK(count_of_kind(found, SymmetryKind::reflection) == 0);
+  CHECK(count_of_kind(found, SymmetryKind::revolution) == 0);
   CHECK(has_order(found, 2, {0, 0, 1}));
-  CHECK(count(found, SymmetryKind::rotation) == 3);
+  CHECK(count_of_kind(found, SymmetryKind::rotation) == 3);
 }
 
 TEST_CASE("asymmetric solids have no symmetry") {
@@ -160,7 +160,7 @@ TEST_CASE("planes move along with the shape") {
     CHECK(has_plane(planes, shift, turn.col(0), 1e-7 * std::max(1.0, scale)));
     CHECK(planes.front().symmetry.axis.cross(turn.col(0)).norm() <= 1e-7);
     const auto box = find_symmetries(moved(crate));
-    CHECK(count(box, SymmetryKind::reflection) == 3);
+    CHECK(count_of_kind(box, SymmetryKind::reflection) == 3);
     for (int k = 0; k < 3; ++k)
       CHECK(box[static_cast<std::size_t>(k)].symmetry.axis.cross(turn.col(2 - k)).norm() <= 1e-7);
   }
@@ -195,17 +195,17 @@ TEST_CASE("noise of one percent hides no symmetry") {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     CAPTURE(seed);
     const auto box = find_symmetries(solids::noisy(solids::finely(solids::box({2, 3, 4}), 2), 0.01, seed));
-    CHECK(count(box, SymmetryKind::reflection) == 3);
+    CHECK(count_of_kind(box, SymmetryKind::reflection) == 3);
     for (int k = 0; k < 3; ++k) CHECK(has_plane(box, {1, 1.5, 2}, Eigen::Vector3d::Unit(k), 0.06));
     const auto prism =
         find_symmetries(solids::noisy(solids::finely(solids::cylinder(1, 1.5, 5), 1), 0.01, seed));
-    CHECK(count(prism, SymmetryKind::reflection) == 6);
+    CHECK(count_of_kind(prism, SymmetryKind::reflection) == 6);
     const auto chair = find_symmetries(solids::noisy(solids::finely(solids::chair(), 1), 0.01, seed));
     CHECK(chair.size() == 1);
     CHECK(has_plane(chair, {0, 0, 4}, {1, 0, 0}, 0.1));
   }
   const auto cup = find_symmetries(solids::noisy(solids::cup_with_handle(), 0.01, 1));
-  CHECK(count(cup, SymmetryKind::reflection) == 1);
+  CHECK(count_of_kind(cup, SymmetryKind::reflection) == 1);
   CHECK(has_plane(cup, {0, 0, 4}, {0, 1, 0}, 0.15));
 }
 

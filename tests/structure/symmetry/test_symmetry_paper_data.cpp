@@ -89,7 +89,7 @@ std::optional<Shape> shape_of(const fs::path& list) {
   }
 }
 
-struct Score {
+struct SymmetryScore {
   int listed = 0, found = 0, both = 0;
   void count(bool is_listed, bool is_found) {
     listed += is_listed;
@@ -111,7 +111,7 @@ TEST_CASE("the symmetries that the authors listed by hand are found") {
     if (entry.path().extension() == ".grp") lists.push_back(entry.path());
   std::sort(lists.begin(), lists.end());
 
-  Score pairs, own;
+  SymmetryScore pairs, own;
   for (const fs::path& list : lists) {
     const std::optional<Shape> shape = shape_of(list);
     if (!shape) continue;
@@ -119,7 +119,7 @@ TEST_CASE("the symmetries that the authors listed by hand are found") {
     const std::vector<Relation> relations = symmetry_relations(*shape, find_symmetries(*shape));
     const Symmetries listed = listed_in(list), found = found_in(*shape, relations);
 
-    Score of_pairs, of_own;
+    SymmetryScore of_pairs, of_own;
     std::set<Pair> all = listed.pairs;
     all.insert(found.pairs.begin(), found.pairs.end());
     for (const Pair& pair : all) of_pairs.count(listed.pairs.count(pair) > 0, found.pairs.count(pair) > 0);

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "stackabilization/core/shape.h"
+
+namespace stackabilization::detail {
+
+/// Moves every row by `map`: one product, then one sum per coordinate.
+template <int Mode>
+Points transformed(const Points& points, const Eigen::Transform<double, 3, Mode>& map) {
+  return (points * map.linear().transpose()).rowwise() + map.translation().transpose();
+}
+
+}  // namespace stackabilization::detail
