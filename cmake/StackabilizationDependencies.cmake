@@ -4,8 +4,6 @@ set(CMAKE_POLICY_DEFAULT_CMP0167 NEW)
 find_package(CGAL 5.5 REQUIRED)
 find_package(Eigen3 3.3 REQUIRED NO_MODULE)
 include(CGAL_Eigen3_support)
-# CGAL has a module of that name, which looks for something else.
-find_package(OpenMesh CONFIG REQUIRED)
 find_package(Boost 1.74 REQUIRED)
 find_package(TBB CONFIG REQUIRED)
 find_package(pugixml REQUIRED)

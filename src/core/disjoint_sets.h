@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -32,6 +33,14 @@ class DisjointSets {
     std::size_t roots = 0;
     for (std::size_t i = 0; i < parent_.size(); ++i) roots += parent_[i] == i;
     return roots;
+  }
+
+  /// Per member the number of its set, 0, 1, ... in order of their least members.
+  std::vector<std::int32_t> numbers() {
+    std::vector<std::int32_t> numbers(parent_.size());
+    std::int32_t next = 0;
+    for (std::size_t i = 0; i < parent_.size(); ++i) numbers[i] = root(i) == i ? next++ : numbers[root(i)];
+    return numbers;
   }
 
  private:

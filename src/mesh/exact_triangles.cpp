@@ -23,7 +23,9 @@ struct Sheaf {
 
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, const Sheaf*>;
 
-std::vector<Sheaf> sheaves_of(std::vector<Corners> triangles) {
+std::vector<Sheaf> sheaves_of(const Triangles& rows) {
+  std::vector<Corners> triangles;
+  for (const auto row : rows.rowwise()) triangles.push_back({row(0), row(1), row(2)});
   for (Corners& corners : triangles) std::sort(corners.begin(), corners.end());
   std::sort(triangles.begin(), triangles.end());
   std::vector<Sheaf> sheaves;
@@ -96,11 +98,17 @@ bool are_collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eig
   return CGAL::collinear(point_of(a), point_of(b), point_of(c));
 }
 
-std::int64_t count_self_intersections(const std::vector<Eigen::Vector3d>& points,
-                                      const std::vector<std::array<std::int32_t, 3>>& triangles) {
+std::vector<std::int32_t> triangles_with_area(const Shape& shape) {
+  std::vector<std::int32_t> rows;
+  for (std::int32_t t = 0; t < shape.triangle_count(); ++t)
+    if (!are_collinear(shape.corner(t, 0), shape.corner(t, 1), shape.corner(t, 2))) rows.push_back(t);
+  return rows;
+}
+
+std::int64_t count_self_intersections(const Points& points, const Triangles& triangles) {
   std::vector<Point> exact_points;
-  exact_points.reserve(points.size());
-  for (const Eigen::Vector3d& point : points) exact_points.push_back(point_of(point));
+  exact_points.reserve(static_cast<std::size_t>(points.rows()));
+  for (const auto point : points.rowwise()) exact_points.push_back(point_of(point.transpose()));
 
   const std::vector<Sheaf> sheaves = sheaves_of(triangles);
   std::vector<Box> boxes;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mesh/affine_span.h"
+#include "mesh/edge_table.h"
 #include "mesh/planar.h"
 #include "stackabilization/mesh/convex_hull.h"
 
@@ -124,18 +125,12 @@ class FaceMerger {
 };
 
 void FaceMerger::find_neighbours() {
-  std::vector<std::array<int, 4>> sides;  // smaller and larger vertex, triangle, corner
-  for (int t = 0; t < triangle_count(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax({hull_.triangles(t, k), hull_.triangles(t, (k + 1) % 3)});
-      sides.push_back({low, high, t, k});
-    }
-  std::sort(sides.begin(), sides.end());
+  const detail::EdgeTable edges(hull_.triangles);
   neighbours_.resize(hull_.triangles.rows());
-  for (std::size_t i = 0; i + 1 < sides.size(); i += 2) {
-    const auto &a = sides[i], &b = sides[i + 1];
-    neighbours_[a[2]][a[3]] = b[2];
-    neighbours_[b[2]][b[3]] = a[2];
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    const detail::TriangleSide &a = edges[e].front(), &b = edges[e].back();
+    neighbours_[a.triangle][a.corner] = b.triangle;
+    neighbours_[b.triangle][b.corner] = a.triangle;
   }
 }
 

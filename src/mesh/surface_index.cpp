@@ -1,29 +1,18 @@
 #include "mesh/surface_index.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "mesh/triangle_tree.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization {
 
 namespace {
-
-using Cartesian = CGAL::Simple_cartesian<double>;
-using CartesianTriangle = Cartesian::Triangle_3;
-using TrianglePrimitive =
-    CGAL::AABB_triangle_primitive<Cartesian, std::vector<CartesianTriangle>::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Cartesian, TrianglePrimitive>>;
-
-Cartesian::Point_3 to_cgal(const Eigen::Vector3d& p) {
-  return {p.x(), p.y(), p.z()};
-}
 
 Eigen::Vector3d double_area_normal(const Shape& shape, Eigen::Index t) {
   return (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0));
@@ -36,25 +25,20 @@ Eigen::Vector3d double_area_normal(const Shape& shape, Eigen::Index t) {
 }  // namespace
 
 struct SurfaceIndex::Data {
-  std::vector<CartesianTriangle> triangles;
-  std::vector<std::int32_t> rows;  ///< per entry of `triangles`
-  Tree tree;
+  detail::TriangleTree<CGAL::Simple_cartesian<double>> tree;
+
+  Data(const Shape& shape, std::vector<std::int32_t> rows) : tree(shape, std::move(rows)) {
+    // Built now, so that queries from several threads change nothing.
+    tree.prepare_nearest();
+  }
 };
 
 SurfaceIndex::SurfaceIndex(const Shape& shape) {
-  auto data = std::make_unique<Data>();
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-    if (!(double_area_normal(shape, t).norm() > 0)) continue;
-    data->triangles.emplace_back(to_cgal(shape.corner(t, 0)), to_cgal(shape.corner(t, 1)),
-                                 to_cgal(shape.corner(t, 2)));
-    data->rows.push_back(static_cast<std::int32_t>(t));
-  }
-  if (data->triangles.empty()) no_area();
-  data->tree.insert(data->triangles.cbegin(), data->triangles.cend());
-  data->tree.build();
-  // Hints for far points; built now, so that queries from several threads change nothing.
-  data->tree.accelerate_distance_queries();
-  data_ = std::move(data);
+  std::vector<std::int32_t> rows;
+  for (std::int32_t t = 0; t < shape.triangle_count(); ++t)
+    if (double_area_normal(shape, t).norm() > 0) rows.push_back(t);
+  if (rows.empty()) no_area();
+  data_ = std::make_unique<const Data>(shape, std::move(rows));
 }
 
 SurfaceIndex::SurfaceIndex(SurfaceIndex&&) noexcept = default;
@@ -62,10 +46,8 @@ SurfaceIndex& SurfaceIndex::operator=(SurfaceIndex&&) noexcept = default;
 SurfaceIndex::~SurfaceIndex() = default;
 
 SurfacePoint SurfaceIndex::nearest(const Eigen::Vector3d& point) const {
-  const auto [place, triangle] = data_->tree.closest_point_and_primitive(to_cgal(point));
-  const Eigen::Vector3d nearest(place.x(), place.y(), place.z());
-  return {data_->rows[static_cast<std::size_t>(triangle - data_->triangles.cbegin())], nearest,
-          (nearest - point).norm()};
+  const detail::TreePoint found = data_->tree.nearest(point);
+  return {found.triangle, found.point, (found.point - point).norm()};
 }
 
 SurfaceSamples surface_samples(const Shape& shape, int count) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "mesh/barycentric.h"
 #include "mesh/surface_index.h"
 #include "stackabilization/core/tolerances.h"
 
@@ -18,7 +19,7 @@ struct Shell {
   std::optional<SurfaceIndex> index;
 };
 
-Shell shell_of(const Places& places, const std::vector<Eigen::Index>& rows) {
+Shell shell_of(const WeldedMesh& places, const std::vector<Eigen::Index>& rows) {
   Shell shell;
   shell.triangles = places.triangles(rows, Eigen::all);
   const std::vector<std::int32_t> corners(shell.triangles.data(),
@@ -33,7 +34,7 @@ Shell shell_of(const Places& places, const std::vector<Eigen::Index>& rows) {
   return shell;
 }
 
-std::vector<Shell> separated(const Places& places, const std::vector<std::int32_t>& shells) {
+std::vector<Shell> separated(const WeldedMesh& places, const std::vector<std::int32_t>& shells) {
   std::vector<std::vector<Eigen::Index>> rows(
       static_cast<std::size_t>(*std::max_element(shells.begin(), shells.end())) + 1);
   for (Eigen::Index t = 0; t < places.triangles.rows(); ++t)
@@ -46,7 +47,7 @@ std::vector<Shell> separated(const Places& places, const std::vector<std::int32_
 
 }  // namespace
 
-std::vector<Tie> shell_ties(const Places& places, const std::vector<std::int32_t>& shells, double reach) {
+std::vector<Tie> shell_ties(const WeldedMesh& places, const std::vector<std::int32_t>& shells, double reach) {
   std::vector<Tie> ties;
   if (std::all_of(shells.begin(), shells.end(), [](std::int32_t shell) { return shell == 0; })) return ties;
   const std::vector<Shell> separate = separated(places, shells);
@@ -59,7 +60,7 @@ std::vector<Tie> shell_ties(const Places& places, const std::vector<std::int32_t
         continue;
       const SurfacePoint nearest = other.index->nearest(point);
       if (nearest.distance > reach) continue;
-      const Eigen::Vector3d weights = corner_weights(other.surface, nearest);
+      const Eigen::Vector3d weights = barycentric_weights(other.surface, nearest.triangle, nearest.point);
       for (int k = 0; k < 3; ++k)
         if (weights(k) > tolerance::relative)
           ties.push_back({static_cast<std::int32_t>(p), other.triangles(nearest.triangle, k), weights(k)});

@@ -69,10 +69,11 @@ const std::vector<std::int32_t>& entry(const Sets& sets, int index, const char* 
 
 }  // namespace
 
-SurfaceHandles::SurfaceHandles(const Shape& shape, const Places& places, const SurfaceModelOptions& options)
+SurfaceHandles::SurfaceHandles(const Shape& shape, const WeldedMesh& places,
+                               const SurfaceModelOptions& options)
     : parts_(static_cast<std::size_t>(shape.part_count())),
       place_of_vertex_(places.of_vertex),
-      vertex_of_place_(places.vertex),
+      vertex_of_place_(places.first_vertex),
       points_(places.points),
       areas_(Eigen::VectorXd::Zero(places.points.rows())) {
   validate(options);

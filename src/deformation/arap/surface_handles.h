@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "deformation/model/places.h"
+#include "mesh/welded_mesh.h"
 #include "stackabilization/deformation/surface_model.h"
 
 namespace stackabilization::detail {
 
 /// What a handle of the surface model takes hold of.
 struct HeldSurface {
-  std::vector<std::int32_t> places;  ///< ascending rows of Places::points, at least one
+  std::vector<std::int32_t> places;  ///< ascending rows of WeldedMesh::points, at least one
   Eigen::VectorXd
       weights;  ///< per place, summing to one: their mean is the centre, also when they have moved
 };
@@ -20,7 +20,7 @@ struct HeldSurface {
 class SurfaceHandles {
  public:
   /// Throws UsageError for options outside their ranges.
-  SurfaceHandles(const Shape& shape, const Places& places, const SurfaceModelOptions& options);
+  SurfaceHandles(const Shape& shape, const WeldedMesh& places, const SurfaceModelOptions& options);
 
   std::vector<Handle> all() const;
   /// Throws UsageError when there is no such handle.

@@ -13,8 +13,9 @@
 #include "core/index.h"
 #include "deformation/arap/shell_ties.h"
 #include "deformation/arap/surface_handles.h"
-#include "deformation/model/places.h"
 #include "deformation/model/vertex_constraints.h"
+#include "mesh/barycentric.h"
+#include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 
@@ -108,7 +109,7 @@ struct RigidMotion {
 };
 
 RigidMotion motion_at(const Shape& rest, const SurfacePoint& point, const RotatedPoints& now) {
-  const Eigen::Vector3d weights = detail::corner_weights(rest, point);
+  const Eigen::Vector3d weights = detail::barycentric_weights(rest, point.triangle, point.point);
   Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
   RigidMotion motion{{}, Eigen::Vector3d::Zero()};
   for (int k = 0; k < 3; ++k) {
@@ -124,7 +125,7 @@ class SurfaceModel : public DeformationModel {
  public:
   SurfaceModel(const Shape& shape, const SurfaceModelOptions& options)
       : shape_(shape),
-        places_(detail::places_of(shape)),
+        places_(detail::weld(shape)),
         handles_(shape, places_, options),
         options_(options),
         diagonal_((places_.points.colwise().maxCoeff() - places_.points.colwise().minCoeff()).norm()),
@@ -150,7 +151,7 @@ class SurfaceModel : public DeformationModel {
   std::vector<std::int32_t> vertices_at(const std::vector<bool>& places) const;
 
   Shape shape_;
-  detail::Places places_;
+  detail::WeldedMesh places_;
   detail::SurfaceHandles handles_;
   SurfaceModelOptions options_;
   double diagonal_;

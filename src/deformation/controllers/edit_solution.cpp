@@ -10,6 +10,7 @@
 #include "deformation/controllers/primitive_validity.h"
 #include "deformation/controllers/propagation.h"
 #include "deformation/model/refusal_words.h"
+#include "mesh/barycentric.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/relation_residual.h"
@@ -243,9 +244,7 @@ class EditSolution {
     std::vector<Constraint> constraints;
     for (const Eigen::Vector3d& point : task_.constraints.fixed_points) {
       const SurfacePoint nearest = mesh_.surface.nearest(point);
-      Eigen::Matrix3d corners;
-      for (int k = 0; k < 3; ++k) corners.col(k) = task_.shape.corner(nearest.triangle, k);
-      const Eigen::Vector3d weights = barycentric(corners, nearest.point);
+      const Eigen::Vector3d weights = barycentric_weights(task_.shape, nearest.triangle, nearest.point);
       Constraint constraint;
       for (int k = 0; k < 3; ++k)
         for (Rider rider : mesh_.transfer.riders(task_.shape.triangles(nearest.triangle, k))) {
@@ -257,13 +256,6 @@ class EditSolution {
       constraints.push_back(std::move(constraint));
     }
     return constraints;
-  }
-
-  static Eigen::Vector3d barycentric(const Eigen::Matrix3d& corners, const Eigen::Vector3d& point) {
-    Eigen::Matrix<double, 3, 2> edges;
-    edges << corners.col(1) - corners.col(0), corners.col(2) - corners.col(0);
-    const Eigen::Vector2d weights = edges.completeOrthogonalDecomposition().solve(point - corners.col(0));
-    return {1 - weights.sum(), weights(0), weights(1)};
   }
 
   /// Classes that nothing moved keep the very numbers they had.

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "deformation/model/places.h"
 #include "deformation/model/vertex_constraints.h"
+#include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/mesh/boxes.h"
@@ -110,7 +110,7 @@ class GapScaling : public DeformationModel {
 
 GapScaling::GapScaling(const Shape& shape, const Direction& direction)
     : shape_(shape), up_(direction.unit()), depth_(Eigen::VectorXd::Zero(shape.vertex_count())) {
-  const detail::Places places = detail::places_of(shape);
+  const detail::WeldedMesh places = detail::weld(shape);
   const OrientedBox box = axis_aligned_box(places.points);
   centre_ = box.centre;
   const Frame frame = frame_of(direction);

@@ -3,12 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "core/disjoint_sets.h"
-#include "deformation/model/places.h"
+#include "mesh/edge_table.h"
+#include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization {
@@ -32,40 +33,30 @@ void check(const FeatureCurveOptions& options) {
       throw UsageError("angles and lengths of feature curves must be finite and not negative");
 }
 
-Eigen::Vector3d point_at(const detail::Places& surface, int place) {
+Eigen::Vector3d point_at(const detail::WeldedMesh& surface, int place) {
   return surface.points.row(place).transpose();
 }
 
-Eigen::Vector3d unit_normal(const detail::Places& surface, Eigen::Index triangle) {
+Eigen::Vector3d unit_normal(const detail::WeldedMesh& surface, Eigen::Index triangle) {
   const auto at = [&](int k) { return point_at(surface, surface.triangles(triangle, k)); };
   return (at(1) - at(0)).cross(at(2) - at(0)).stableNormalized();
 }
 
-/// One side of a triangle.
-struct Side {
-  Eigen::Index triangle;
-  bool forward;  ///< from the lesser to the greater place
-};
-
 /// The graph of feature edges.
 class FeatureGraph {
  public:
-  FeatureGraph(const detail::Places& surface, const FeatureCurveOptions& options)
+  FeatureGraph(const detail::WeldedMesh& surface, const FeatureCurveOptions& options)
       : surface_(surface),
         crease_cosine_(std::cos(options.crease_angle * std::numbers::pi / 180)),
         corner_cosine_(std::cos(options.corner_angle * std::numbers::pi / 180)),
         neighbours_(static_cast<std::size_t>(surface.points.rows())),
         cut_(neighbours_.size(), 0) {
-    std::map<std::pair<int, int>, std::vector<Side>> edges;
-    for (Eigen::Index t = 0; t < surface.triangles.rows(); ++t)
-      for (int k = 0; k < 3; ++k) {
-        const int a = surface.triangles(t, k), b = surface.triangles(t, (k + 1) % 3);
-        if (a != b) edges[std::minmax(a, b)].push_back({t, a < b});
-      }
-    for (const auto& [edge, sides] : edges)
-      if (is_feature(sides)) {
-        neighbours_[static_cast<std::size_t>(edge.first)].push_back(edge.second);
-        neighbours_[static_cast<std::size_t>(edge.second)].push_back(edge.first);
+    const detail::EdgeTable edges(surface.triangles, detail::EdgeTable::Collapsed::keep);
+    for (std::size_t e = 0; e < edges.size(); ++e)
+      if (is_feature(edges[e])) {
+        const detail::TriangleSide& side = edges[e].front();
+        neighbours_[static_cast<std::size_t>(side.low)].push_back(side.high);
+        neighbours_[static_cast<std::size_t>(side.high)].push_back(side.low);
       }
   }
 
@@ -139,7 +130,7 @@ class FeatureGraph {
   const Chained& neighbours(int place) const { return neighbours_[static_cast<std::size_t>(place)]; }
   Eigen::Vector3d point(int place) const { return point_at(surface_, place); }
 
-  bool is_feature(const std::vector<Side>& sides) const {
+  bool is_feature(std::span<const detail::TriangleSide> sides) const {
     if (sides.size() == 1) return true;
     for (std::size_t i = 0; i < sides.size(); ++i)
       for (std::size_t j = i + 1; j < sides.size(); ++j) {
@@ -178,13 +169,13 @@ class FeatureGraph {
     return chain;
   }
 
-  const detail::Places& surface_;
+  const detail::WeldedMesh& surface_;
   double crease_cosine_, corner_cosine_;
   std::vector<Chained> neighbours_;
   std::vector<char> cut_;
 };
 
-double length_of(const detail::Places& surface, const Chain& chain) {
+double length_of(const detail::WeldedMesh& surface, const Chain& chain) {
   double length = 0;
   const std::size_t n = chain.places.size();
   for (std::size_t i = 0; i + (chain.closed ? 0 : 1) < n; ++i)
@@ -193,7 +184,7 @@ double length_of(const detail::Places& surface, const Chain& chain) {
 }
 
 /// Which chains are long enough to matter.
-std::vector<char> significant(const detail::Places& surface, const FeatureGraph& graph,
+std::vector<char> significant(const detail::WeldedMesh& surface, const FeatureGraph& graph,
                               const std::vector<Chain>& chains, double smallest) {
   DisjointSets networks(static_cast<std::size_t>(surface.points.rows()));
   for (const Chain& chain : chains)
@@ -216,7 +207,7 @@ std::vector<char> significant(const detail::Places& surface, const FeatureGraph&
 
 std::vector<FeatureCurve> feature_curves(const Shape& shape, const FeatureCurveOptions& options) {
   check(options);
-  const detail::Places surface = detail::places_of(shape);
+  const detail::WeldedMesh surface = detail::weld(shape);
   FeatureGraph graph(surface, options);
   const double smallest = options.smallest_length *
                           (surface.points.colwise().maxCoeff() - surface.points.colwise().minCoeff()).norm();
@@ -228,7 +219,7 @@ std::vector<FeatureCurve> feature_curves(const Shape& shape, const FeatureCurveO
     if (!keep[i]) continue;
     FeatureCurve curve{{}, chains[i].closed};
     for (const int place : chains[i].places)
-      curve.vertices.push_back(surface.vertex[static_cast<std::size_t>(place)]);
+      curve.vertices.push_back(surface.first_vertex[static_cast<std::size_t>(place)]);
     curves.push_back(std::move(curve));
   }
   return curves;

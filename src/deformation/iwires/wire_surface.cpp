@@ -33,7 +33,7 @@ std::array<double, 3> cotangent_weights(const std::array<Eigen::Vector3d, 3>& p)
 WireSurface::WireSurface(const Shape& rest, const WireNetwork& network,
                          const std::vector<std::int32_t>& pinned)
     : network_(network),
-      surface_(places_of(rest)),
+      surface_(weld(rest)),
       rest_(rest.vertices),
       node_of_(place_count(), -1),
       pinned_(place_count(), 0) {

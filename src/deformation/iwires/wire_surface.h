@@ -10,7 +10,7 @@
 
 #include "deformation/iwires/wire_fit.h"
 #include "deformation/iwires/wire_network.h"
-#include "deformation/model/places.h"
+#include "mesh/welded_mesh.h"
 
 /// Not installed.
 namespace stackabilization::detail {
@@ -67,7 +67,7 @@ class WireSurface {
                   const std::vector<Eigen::Vector3d>& moved, Eigen::MatrixXd& right) const;
 
   const WireNetwork& network_;
-  Places surface_;
+  WeldedMesh surface_;
   Points rest_;
   std::vector<int> node_of_;                  ///< of each place, -1 off the wires
   std::vector<char> pinned_;                  ///< of each place

@@ -6,8 +6,9 @@
 #include <string>
 #include <utility>
 
-#include "deformation/model/places.h"
+#include "mesh/barycentric.h"
 #include "mesh/surface_index.h"
+#include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/number_text.h"
 #include "stackabilization/core/tolerances.h"
@@ -18,7 +19,7 @@ namespace {
 
 /// Corners of the triangle that carry the point.
 std::vector<std::int32_t> carriers(const Shape& shape, const SurfacePoint& at) {
-  const Eigen::Vector3d weights = detail::corner_weights(shape, at);
+  const Eigen::Vector3d weights = detail::barycentric_weights(shape, at.triangle, at.point);
   std::vector<std::int32_t> rows;
   for (int k = 0; k < 3; ++k)
     if (!(weights(k) <= tolerance::relative)) rows.push_back(shape.triangles(at.triangle, k));
@@ -176,7 +177,7 @@ std::vector<std::int32_t> fixed_vertices(const Shape& rest, const DeformationCon
       for (const std::int32_t v : carriers(rest, surface.nearest(point))) rows.push_back(v);
   }
   if (rows.empty()) return rows;
-  const std::vector<std::int32_t> place = detail::places_of(rest).of_vertex;
+  const std::vector<std::int32_t> place = detail::weld(rest).of_vertex;
   std::vector<bool> is_fixed(place.size());
   for (const std::int32_t v : rows)
     is_fixed[static_cast<std::size_t>(place[static_cast<std::size_t>(v)])] = true;

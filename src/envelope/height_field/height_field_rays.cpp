@@ -1,6 +1,3 @@
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -18,23 +15,17 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/triangle_tree.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/envelope/height_field.h"
+#include "stackabilization/mesh/exact_triangles.h"
 
 namespace stackabilization {
 
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using TriangleIterator = std::vector<Kernel::Triangle_3>::const_iterator;
-using Tree =
-    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, TriangleIterator>>>;
-
-Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
-  return {p.x(), p.y(), p.z()};
-}
-
 struct CellHeights {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -91,10 +82,10 @@ CellHeights heights_over(const LocalTriangle& corners, const Eigen::Vector3d& q)
 
 /// Rows of triangles, ascending: of those with the same three points, in whatever order, the first. Written
 /// apart from what separations do about copies, since rays check separations.
-std::vector<Eigen::Index> distinct_triangles(const Shape& shape) {
-  std::vector<std::pair<std::array<std::array<double, 3>, 3>, Eigen::Index>> triangles;
+std::vector<std::int32_t> distinct_triangles(const Shape& shape) {
+  std::vector<std::pair<std::array<std::array<double, 3>, 3>, std::int32_t>> triangles;
   triangles.reserve(static_cast<std::size_t>(shape.triangle_count()));
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+  for (std::int32_t t = 0; t < shape.triangle_count(); ++t) {
     std::array<std::array<double, 3>, 3> corners;
     for (int k = 0; k < 3; ++k)
       Eigen::Vector3d::Map(corners[static_cast<std::size_t>(k)].data()) = shape.corner(t, k);
@@ -102,10 +93,19 @@ std::vector<Eigen::Index> distinct_triangles(const Shape& shape) {
     triangles.emplace_back(corners, t);
   }
   std::sort(triangles.begin(), triangles.end());
-  std::vector<Eigen::Index> rows;
+  std::vector<std::int32_t> rows;
   for (std::size_t k = 0; k < triangles.size(); ++k)
     if (k == 0 || triangles[k].first != triangles[k - 1].first) rows.push_back(triangles[k].second);
   std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+std::vector<std::int32_t> rows_of_tree(const Shape& shape) {
+  validate(shape);
+  std::vector<std::int32_t> rows = distinct_triangles(shape);
+  std::erase_if(rows, [&](std::int32_t t) {
+    return are_collinear(shape.corner(t, 0), shape.corner(t, 1), shape.corner(t, 2));
+  });
   return rows;
 }
 
@@ -113,24 +113,12 @@ std::vector<Eigen::Index> distinct_triangles(const Shape& shape) {
 
 struct RayCaster::Data {
   Shape shape;
-  std::vector<Kernel::Triangle_3> triangles;  // those with area, of those with the same points one
-  std::vector<Eigen::Index> rows;             // their rows in the shape
-  Tree tree;
+  detail::TriangleTree<Kernel> tree;  ///< of triangles with area, of those with the same points one
   double diagonal = 0;
 
-  explicit Data(const Shape& source) : shape(source) {
-    validate(shape);
-    for (const Eigen::Index t : distinct_triangles(shape)) {
-      const Kernel::Triangle_3 triangle(to_cgal(shape.corner(t, 0)), to_cgal(shape.corner(t, 1)),
-                                        to_cgal(shape.corner(t, 2)));
-      if (triangle.is_degenerate()) continue;
-      triangles.push_back(triangle);
-      rows.push_back(t);
-    }
-    tree.insert(triangles.cbegin(), triangles.cend());
-    tree.build();
-    if (triangles.empty()) return;
-    const CGAL::Bbox_3 box = tree.bbox();
+  explicit Data(const Shape& source) : shape(source), tree(shape, rows_of_tree(shape)) {
+    if (tree.rows().empty()) return;
+    const CGAL::Bbox_3 box = tree.box();
     diagonal = std::hypot(box.xmax() - box.xmin(), box.ymax() - box.ymin(), box.zmax() - box.zmin());
   }
 };
@@ -143,32 +131,31 @@ RayCaster::~RayCaster() = default;
 HeightField RayCaster::cast(const Direction& direction, const Window& window, std::int64_t max_hits) const {
   const Data& data = *data_;
   HeightField field = empty_height_field(data.shape, direction, window);
-  if (data.triangles.empty()) return field;
+  if (data.tree.rows().empty()) return field;
 
-  std::vector<LocalTriangle> local(data.triangles.size());
+  std::vector<LocalTriangle> local(data.tree.rows().size());
   CellHeights range;
   for (std::size_t k = 0; k < local.size(); ++k)
     for (int corner = 0; corner < 3; ++corner) {
       Eigen::Vector3d& p = local[k][static_cast<std::size_t>(corner)];
-      p = field.frame.to_local(data.shape.corner(data.rows[k], corner));
+      p = field.frame.to_local(data.shape.corner(data.tree.rows()[k], corner));
       range.add(p.z());
     }
 
   std::atomic<std::int64_t> all_hits = 0;
-  const auto cast_row = [&](int j, std::vector<Tree::Primitive_id>& hits) {
+  const auto cast_row = [&](int j, std::vector<std::size_t>& hits) {
     for (int i = 0; i < window.columns && all_hits <= max_hits; ++i) {
       const Eigen::Vector2d sample = window.sample(i, j);
       // Overshooting by the diagonal keeps the segment long, so rounding its ends barely tilts it.
       const Eigen::Vector3d bottom(sample.x(), sample.y(), range.low - data.diagonal);
       const Eigen::Vector3d top(sample.x(), sample.y(), range.high + data.diagonal);
       hits.clear();
-      data.tree.all_intersected_primitives(
-          Kernel::Segment_3(to_cgal(field.frame.to_world(bottom)), to_cgal(field.frame.to_world(top))),
-          std::back_inserter(hits));
+      data.tree.append_met(Kernel::Segment_3(detail::to_cgal<Kernel>(field.frame.to_world(bottom)),
+                                             detail::to_cgal<Kernel>(field.frame.to_world(top))),
+                           hits);
       all_hits += static_cast<std::int64_t>(hits.size());
       CellHeights column;
-      for (const Tree::Primitive_id hit : hits) {
-        const auto k = static_cast<std::size_t>(hit - data.triangles.cbegin());
+      for (const std::size_t k : hits) {
         const CellHeights heights = heights_over(local[k], bottom);
         column.add(heights.low);
         column.add(heights.high);
@@ -178,7 +165,7 @@ HeightField RayCaster::cast(const Direction& direction, const Window& window, st
     }
   };
   tbb::parallel_for(tbb::blocked_range<int>(0, window.rows), [&](const tbb::blocked_range<int>& rows) {
-    std::vector<Tree::Primitive_id> hits;
+    std::vector<std::size_t> hits;
     for (int j = rows.begin(); j < rows.end(); ++j) cast_row(j, hits);
   });
   if (all_hits > max_hits)

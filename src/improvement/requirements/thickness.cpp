@@ -1,22 +1,22 @@
 #include "improvement/requirements/thickness.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 #include <optional>
 #include <utility>
 
+#include "mesh/barycentric.h"
 #include "mesh/surface_index.h"
+#include "mesh/triangle_tree.h"
+#include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/mesh/exact_triangles.h"
 #include "structure/model/bounding_diagonal.h"
 #include "structure/segmentation/surface_graph.h"
 
@@ -25,16 +25,9 @@ namespace stackabilization {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using TrianglePrimitive =
-    CGAL::AABB_triangle_primitive<Kernel, std::vector<Kernel::Triangle_3>::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive>>;
 
 /// Samples of a part on its own, when none of the common ones found material in it.
 constexpr int samples_per_part = 16;
-
-Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
-  return {p.x(), p.y(), p.z()};
-}
 
 struct Hit {
   double distance;  ///< from the start of the ray, model units
@@ -45,35 +38,13 @@ struct Hit {
   }
 };
 
-/// Barycentric weights of the point of a triangle's plane that is nearest to `point`.
-Eigen::Vector3d weights_of(const Shape& shape, Eigen::Index triangle, const Eigen::Vector3d& point) {
-  const Eigen::Vector3d a = shape.corner(triangle, 0), b = shape.corner(triangle, 1),
-                        c = shape.corner(triangle, 2);
-  const Eigen::Vector3d normal = (b - a).cross(c - a);
-  const double v = normal.dot((point - a).cross(c - a)) / normal.squaredNorm();
-  const double w = normal.dot((b - a).cross(point - a)) / normal.squaredNorm();
-  return {1 - v - w, v, w};
-}
-
-Eigen::Vector3d point_at(const Shape& shape, Eigen::Index triangle, const Eigen::Vector3d& weights) {
-  return weights(0) * shape.corner(triangle, 0) + weights(1) * shape.corner(triangle, 1) +
-         weights(2) * shape.corner(triangle, 2);
-}
-
 class MaterialFinder {
  public:
   explicit MaterialFinder(const Shape& shape)
-      : shape_(shape), shell_(detail::connected_components(shape)), diagonal_(bounding_diagonal(shape)) {
-    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-      const Kernel::Triangle_3 triangle(to_cgal(shape.corner(t, 0)), to_cgal(shape.corner(t, 1)),
-                                        to_cgal(shape.corner(t, 2)));
-      if (triangle.is_degenerate()) continue;
-      triangles_.push_back(triangle);
-      rows_.push_back(static_cast<std::int32_t>(t));
-    }
-    tree_.insert(triangles_.cbegin(), triangles_.cend());
-    tree_.build();
-  }
+      : shape_(shape),
+        shell_(detail::connected_components(detail::weld(shape))),
+        diagonal_(bounding_diagonal(shape)),
+        tree_(shape, triangles_with_area(shape)) {}
 
   /// The place at `point` of a triangle, if there is material on one side of it.
   std::optional<ThicknessProbe> probe(std::int32_t triangle, const Eigen::Vector3d& point) const;
@@ -85,22 +56,21 @@ class MaterialFinder {
   const Shape& shape_;
   std::vector<std::int32_t> shell_;  ///< per triangle
   double diagonal_;
-  std::vector<Kernel::Triangle_3> triangles_;  ///< those with area
-  std::vector<std::int32_t> rows_;             ///< of them in the shape
-  Tree tree_;
+  detail::TriangleTree<Kernel> tree_;
 };
 
 /// Crossings of the triangle's shell with a ray that leaves it, nearest first, one for each edge or corner
 /// that is met.
 std::vector<Hit> MaterialFinder::hits(std::int32_t triangle, const Eigen::Vector3d& point,
                                       const Eigen::Vector3d& along) const {
-  std::vector<Tree::Primitive_id> met;
-  const Kernel::Segment_3 ray(to_cgal(point), to_cgal(point + 2 * diagonal_ * along));
-  tree_.all_intersected_primitives(ray, std::back_inserter(met));
+  std::vector<std::size_t> met;
+  tree_.append_met(Kernel::Segment_3(detail::to_cgal<Kernel>(point),
+                                     detail::to_cgal<Kernel>(point + 2 * diagonal_ * along)),
+                   met);
   const double reach = tolerance::relative * diagonal_;
   std::vector<Hit> found;
-  for (const Tree::Primitive_id id : met) {
-    const std::int32_t other = rows_[static_cast<std::size_t>(id - triangles_.cbegin())];
+  for (const std::size_t entry : met) {
+    const std::int32_t other = tree_.rows()[entry];
     if (shell_[static_cast<std::size_t>(other)] != shell_[static_cast<std::size_t>(triangle)]) continue;
     const Eigen::Vector3d a = shape_.corner(other, 0);
     const Eigen::Vector3d normal =
@@ -124,8 +94,8 @@ std::optional<ThicknessProbe> MaterialFinder::probe(std::int32_t triangle,
   const bool outward = behind.size() % 2 == 1;
   const Hit& far = outward ? behind.front() : before.front();
   const Eigen::Vector3d end = point + (outward ? -far.distance : far.distance) * normal;
-  ThicknessProbe probe{triangle, far.triangle, weights_of(shape_, triangle, point),
-                       weights_of(shape_, far.triangle, end), 0};
+  ThicknessProbe probe{triangle, far.triangle, detail::barycentric_weights(shape_, triangle, point),
+                       detail::barycentric_weights(shape_, far.triangle, end), 0};
   probe.at_rest = thickness(probe, shape_);
   return probe;
 }
@@ -177,8 +147,8 @@ std::vector<ThicknessProbe> thickness_probes(const Shape& shape, const Thickness
 }
 
 double thickness(const ThicknessProbe& probe, const Shape& shape) {
-  return (point_at(shape, probe.near_triangle, probe.near_weights) -
-          point_at(shape, probe.far_triangle, probe.far_weights))
+  return (detail::point_at(shape, probe.near_triangle, probe.near_weights) -
+          detail::point_at(shape, probe.far_triangle, probe.far_weights))
       .norm();
 }
 

@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <vector>
 
-#include "core/disjoint_sets.h"
-#include "mesh/point_index.h"
+#include "mesh/edge_table.h"
+#include "mesh/welded_mesh.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/mesh/exact_triangles.h"
 
@@ -16,94 +18,64 @@ namespace stackabilization {
 
 namespace {
 
-using Corners = std::array<std::int32_t, 3>;
-
 class Inspector {
  public:
-  explicit Inspector(const Shape& shape) : shape_(shape) {}
+  explicit Inspector(const Shape& shape) : shape_(shape), mesh_(detail::weld(shape)) {}
 
   Findings inspect(const InspectOptions& options) {
     findings_.vertices = shape_.vertex_count();
     findings_.triangles = shape_.triangle_count();
     findings_.parts = shape_.part_count();
     findings_.unit = shape_.unit;
-    weld();
+    measure_points();
     count_faces();
     count_edges();
     measure_volume();
     find_up();
     if (options.self_intersections == InspectOptions::SelfIntersections::count)
-      findings_.self_intersections = count_self_intersections(index_.points(), triangles_);
+      findings_.self_intersections = count_self_intersections(mesh_.points, mesh_.triangles);
     return findings_;
   }
 
  private:
-  const Eigen::Vector3d& point(std::int32_t index) const {
-    return index_.points()[static_cast<std::size_t>(index)];
+  using Corners = std::array<Eigen::Vector3d, 3>;
+
+  Corners corners(Eigen::Index triangle) const {
+    const auto row = mesh_.triangles.row(triangle);
+    return {mesh_.points.row(row(0)), mesh_.points.row(row(1)), mesh_.points.row(row(2))};
   }
 
-  void weld() {
-    std::vector<std::int32_t> point_of(static_cast<std::size_t>(shape_.vertex_count()), -1);
-    triangles_.reserve(static_cast<std::size_t>(shape_.triangle_count()));
-    for (Eigen::Index t = 0; t < shape_.triangle_count(); ++t) {
-      Corners& corners = triangles_.emplace_back();
-      for (int corner = 0; corner < 3; ++corner) {
-        std::int32_t& welded = point_of[static_cast<std::size_t>(shape_.triangles(t, corner))];
-        if (welded < 0) welded = index_.insert(shape_.corner(t, corner));
-        corners[static_cast<std::size_t>(corner)] = welded;
-      }
-    }
-    findings_.distinct_points = static_cast<std::int64_t>(index_.points().size());
-    findings_.unreferenced_vertices = std::count(point_of.begin(), point_of.end(), -1);
-    findings_.lower = findings_.upper = point(0);
-    for (const Eigen::Vector3d& p : index_.points()) {
-      findings_.lower = findings_.lower.cwiseMin(p);
-      findings_.upper = findings_.upper.cwiseMax(p);
-    }
+  void measure_points() {
+    findings_.distinct_points = mesh_.points.rows();
+    findings_.unreferenced_vertices = std::count(mesh_.of_vertex.begin(), mesh_.of_vertex.end(), -1);
+    findings_.lower = mesh_.points.colwise().minCoeff();
+    findings_.upper = mesh_.points.colwise().maxCoeff();
   }
 
   void count_faces() {
-    DisjointSets components(index_.points().size());
-    std::vector<Corners> sorted = triangles_;
-    for (Corners& corners : sorted) {
-      for (const std::size_t k : {1, 2})
-        components.join(static_cast<std::size_t>(corners[0]), static_cast<std::size_t>(corners[k]));
-      findings_.degenerate_faces += are_collinear(point(corners[0]), point(corners[1]), point(corners[2]));
-      std::sort(corners.begin(), corners.end());
+    const std::vector<std::int32_t> component = detail::connected_components(mesh_);
+    findings_.components = 1 + *std::max_element(component.begin(), component.end());
+    findings_.degenerate_faces =
+        shape_.triangle_count() - static_cast<std::int64_t>(triangles_with_area(shape_).size());
+    std::vector<std::array<std::int32_t, 3>> sorted;
+    for (const auto row : mesh_.triangles.rowwise()) {
+      sorted.push_back({row(0), row(1), row(2)});
+      std::sort(sorted.back().begin(), sorted.back().end());
     }
-    findings_.components = static_cast<std::int64_t>(components.count());
     std::sort(sorted.begin(), sorted.end());
     findings_.duplicate_faces = sorted.end() - std::unique(sorted.begin(), sorted.end());
   }
 
-  /// Edges as (lower point, higher point, direction), sorted so that those of one edge are neighbours.
   void count_edges() {
-    struct HalfEdge {
-      std::int32_t low, high;
-      std::int32_t direction;
-    };
-    std::vector<HalfEdge> edges;
-    edges.reserve(3 * triangles_.size());
-    for (const Corners& corners : triangles_)
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::int32_t from = corners[i];
-        const std::int32_t to = corners[(i + 1) % 3];
-        if (from != to) edges.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
-      }
-    std::sort(edges.begin(), edges.end(), [](const HalfEdge& a, const HalfEdge& b) {
-      return a.low != b.low ? a.low < b.low : a.high < b.high;
-    });
-    for (auto edge = edges.begin(); edge != edges.end();) {
-      std::int64_t uses = 0;
-      std::int64_t balance = 0;
-      const HalfEdge first = *edge;
-      for (; edge != edges.end() && edge->low == first.low && edge->high == first.high; ++edge) {
-        ++uses;
-        balance += edge->direction;
-      }
-      findings_.boundary_edges += uses == 1;
-      findings_.non_manifold_edges += uses > 2;
-      findings_.inconsistent_edges += uses > 1 && balance != 0;
+    const detail::EdgeTable edges(mesh_.triangles, detail::EdgeTable::Collapsed::keep);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      const std::span<const detail::TriangleSide> sides = edges[e];
+      const auto forward =
+          std::count_if(sides.begin(), sides.end(), [](const auto& side) { return side.forward; });
+      findings_.boundary_edges += sides.size() == 1;
+      findings_.non_manifold_edges += sides.size() > 2;
+      findings_.inconsistent_edges +=
+          sides.size() > 1 && 2 * forward != static_cast<std::ptrdiff_t>(sides.size());
     }
     findings_.closed = findings_.boundary_edges == 0;
   }
@@ -112,10 +84,9 @@ class Inspector {
     if (!findings_.closed || findings_.inconsistent_edges > 0) return;
     const Eigen::Vector3d centre = findings_.lower / 2 + findings_.upper / 2;
     double volume = 0;
-    for (const Corners& corners : triangles_) {
-      const Eigen::Vector3d a = point(corners[0]) - centre;
-      const Eigen::Vector3d b = point(corners[1]) - centre;
-      const Eigen::Vector3d c = point(corners[2]) - centre;
+    for (Eigen::Index t = 0; t < mesh_.triangles.rows(); ++t) {
+      const Corners corner = corners(t);
+      const Eigen::Vector3d a = corner[0] - centre, b = corner[1] - centre, c = corner[2] - centre;
       volume += a.dot(b.cross(c)) / 6;
     }
     findings_.volume = volume;
@@ -127,10 +98,11 @@ class Inspector {
     const Eigen::Array3d scale = (extent > 0).select(extent, 1);
     Eigen::Vector3d moment = Eigen::Vector3d::Zero();
     double total = 0;
-    for (const Corners& corners : triangles_) {
-      const Eigen::Vector3d a = (point(corners[0]) - findings_.lower).array() / scale;
-      const Eigen::Vector3d b = (point(corners[1]) - findings_.lower).array() / scale;
-      const Eigen::Vector3d c = (point(corners[2]) - findings_.lower).array() / scale;
+    for (Eigen::Index t = 0; t < mesh_.triangles.rows(); ++t) {
+      const Corners corner = corners(t);
+      const Eigen::Vector3d a = (corner[0] - findings_.lower).array() / scale;
+      const Eigen::Vector3d b = (corner[1] - findings_.lower).array() / scale;
+      const Eigen::Vector3d c = (corner[2] - findings_.lower).array() / scale;
       const double area = (b - a).cross(c - a).norm();
       moment += area * (a + b + c) / 3;
       total += area;
@@ -146,7 +118,8 @@ class Inspector {
     const double highest = findings_.lower[axis] + tolerance::support_slab * extent[axis];
     Eigen::Array3d low = Eigen::Array3d::Ones();
     Eigen::Array3d high = Eigen::Array3d::Zero();
-    for (const Eigen::Vector3d& p : index_.points()) {
+    for (const auto row : mesh_.points.rowwise()) {
+      const Eigen::Vector3d p = row;
       if (p[axis] > highest) continue;
       const Eigen::Array3d relative = (p - findings_.lower).array() / scale;
       low = low.min(relative);
@@ -184,8 +157,7 @@ class Inspector {
 
   const Shape& shape_;
   Findings findings_;
-  PointIndex index_;
-  std::vector<Corners> triangles_;  ///< Of welded points.
+  detail::WeldedMesh mesh_;
 };
 
 }  // namespace

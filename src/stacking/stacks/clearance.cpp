@@ -6,10 +6,12 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <tuple>
+#include <span>
 
+#include "core/index.h"
+#include "mesh/edge_table.h"
 #include "mesh/planar.h"
-#include "mesh/point_index.h"
+#include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 
@@ -17,18 +19,11 @@ namespace stackabilization {
 
 namespace {
 
-/// Per used row the first used one with the same coordinates, so that neighbours are found in files that
-/// repeat vertices.
-std::vector<std::int32_t> welded_vertices(const Shape& shape) {
-  std::vector<std::int32_t> welded(static_cast<std::size_t>(shape.vertex_count()), -1);
-  std::vector<std::int32_t> first_rows;
-  PointIndex index;
-  for (const std::int32_t row : shape.triangles.reshaped<Eigen::RowMajor>()) {
-    const auto number = static_cast<std::size_t>(index.insert(shape.vertices.row(row).transpose()));
-    if (number == first_rows.size()) first_rows.push_back(row);
-    welded[static_cast<std::size_t>(row)] = first_rows[number];
-  }
-  return welded;
+/// The triangles with the first vertex of the same coordinates in place of each, so that neighbours are found
+/// in files that repeat vertices.
+Triangles welded_triangles(const Shape& shape) {
+  const detail::WeldedMesh mesh = detail::weld(shape);
+  return mesh.triangles.unaryExpr([&](std::int32_t point) { return mesh.first_vertex[detail::at(point)]; });
 }
 
 /// The polygon P, counter-clockwise in the frame's u, v coordinates.
@@ -50,13 +45,6 @@ class Polygon {
   std::vector<Eigen::Vector2d> corners_;
 };
 
-/// An edge of the source with one triangle beside it; the same edge occurs once per such triangle.
-struct EdgeSide {
-  std::int32_t first, second;  ///< welded vertices, first < second
-  std::int32_t opposite;       ///< the triangle's third vertex
-  std::int32_t triangle;
-};
-
 /// Collects the pieces of M + P that touch the lower envelope of the sum; of the upper one when heights are
 /// negated.
 ///
@@ -72,18 +60,11 @@ class Dilation {
         polygon_(options.play, options.corners),
         plan_(shape.vertex_count(), 2),
         height_(shape.vertex_count()),
-        weld_(welded_vertices(shape)) {
+        welded_(welded_triangles(shape)),
+        edges_(welded_, detail::EdgeTable::Collapsed::keep) {
     plan_.col(0) = shape.vertices * frame_.u;
     plan_.col(1) = shape.vertices * frame_.v;
     height_ = shape.vertices * frame_.w;
-    for (std::int32_t t = 0; t < shape.triangle_count(); ++t)
-      for (int c = 0; c < 3; ++c) {
-        const std::int32_t a = vertex(t, c), b = vertex(t, (c + 1) % 3);
-        if (a != b) edges_.push_back({std::min(a, b), std::max(a, b), vertex(t, (c + 2) % 3), t});
-      }
-    std::sort(edges_.begin(), edges_.end(), [](const EdgeSide& a, const EdgeSide& b) {
-      return std::tie(a.first, a.second, a.triangle) < std::tie(b.first, b.second, b.triangle);
-    });
   }
 
   void collect_lower() { collect(); }
@@ -113,9 +94,7 @@ class Dilation {
   }
 
  private:
-  std::int32_t vertex(std::int32_t triangle, int corner) const {
-    return weld_[static_cast<std::size_t>(shape_.triangles(triangle, corner))];
-  }
+  std::int32_t vertex(std::int32_t triangle, int corner) const { return welded_(triangle, corner); }
   Eigen::Vector3d point(std::int32_t v) const { return shape_.vertices.row(v).transpose(); }
   Eigen::Vector2d plan(std::int32_t from, std::int32_t to) const {
     return (plan_.row(to) - plan_.row(from)).transpose();
@@ -128,12 +107,7 @@ class Dilation {
 
   void collect() {
     for (std::int32_t t = 0; t < shape_.triangle_count(); ++t) collect_triangle(t);
-    for (std::size_t begin = 0, end = 0; begin < edges_.size(); begin = end) {
-      while (end < edges_.size() && edges_[end].first == edges_[begin].first &&
-             edges_[end].second == edges_[begin].second)
-        ++end;
-      collect_edge(begin, end);
-    }
+    for (std::size_t e = 0; e < edges_.size(); ++e) collect_edge(edges_[e]);
     collect_vertices();
   }
 
@@ -160,8 +134,8 @@ class Dilation {
   }
 
   /// Sweeps one edge along every edge of P over which it can be lowest.
-  void collect_edge(std::size_t begin, std::size_t end) {
-    const std::int32_t a = edges_[begin].first, b = edges_[begin].second;
+  void collect_edge(std::span<const detail::TriangleSide> sides) {
+    const std::int32_t a = sides.front().low, b = sides.front().high;
     const Eigen::Vector2d d = plan(a, b);
     const double up = rise(a, b), length = distance(a, b);
     for (std::size_t i = 0; i < polygon_.size(); ++i) {
@@ -170,23 +144,24 @@ class Dilation {
       if (outward == 0) continue;
       // Walking up along the edge must lead into q - P, else the edge is lower further on.
       if (up * outward < -tolerance::relative * length * length * sweep.norm()) continue;
-      const bool lowest = std::none_of(edges_.begin() + static_cast<std::ptrdiff_t>(begin),
-                                       edges_.begin() + static_cast<std::ptrdiff_t>(end),
-                                       [&](const EdgeSide& side) { return descends(side, sweep); });
+      const bool lowest = std::none_of(sides.begin(), sides.end(), [&](const detail::TriangleSide& side) {
+        return descends(side, sweep);
+      });
       if (!lowest) continue;
       const Eigen::Vector2d &from = polygon_.corner(i), &to = polygon_.corner(i + 1);
-      add({shifted(a, from), shifted(b, from), shifted(b, to), shifted(a, to)}, edges_[begin].triangle);
+      add({shifted(a, from), shifted(b, from), shifted(b, to), shifted(a, to)}, sides.front().triangle);
     }
   }
 
   /// Whether the triangle leads clearly down, away from its edge, along `sweep` or its opposite.
-  bool descends(const EdgeSide& side, const Eigen::Vector2d& sweep) const {
-    const Eigen::Vector2d d = plan(side.first, side.second), w = plan(side.first, side.opposite);
-    const double up_d = rise(side.first, side.second), up_w = rise(side.first, side.opposite);
+  bool descends(const detail::TriangleSide& side, const Eigen::Vector2d& sweep) const {
+    const std::int32_t opposite = vertex(side.triangle, (side.corner + 2) % 3);
+    const Eigen::Vector2d d = plan(side.low, side.high), w = plan(side.low, opposite);
+    const double up_d = rise(side.low, side.high), up_w = rise(side.low, opposite);
     const double across = cross(d, sweep);
     const double slope = (cross(sweep, w) * up_d + across * up_w) * (across > 0 ? 1 : -1);
-    const double size = distance(side.first, side.opposite) * std::abs(up_d) +
-                        distance(side.first, side.second) * std::abs(up_w);
+    const double size =
+        distance(side.low, opposite) * std::abs(up_d) + distance(side.low, side.high) * std::abs(up_w);
     return slope < -tolerance::relative * sweep.norm() * size;
   }
 
@@ -194,14 +169,14 @@ class Dilation {
   void collect_vertices() {
     std::vector<std::int32_t> triangle_at(static_cast<std::size_t>(shape_.vertex_count()), -1);
     std::vector<char> lowest(triangle_at.size(), 1);
-    for (const EdgeSide& side : edges_) {
-      const double up = rise(side.first, side.second);
-      const double slack = tolerance::relative * distance(side.first, side.second);
-      for (const std::int32_t v : {side.first, side.second})
+    for (const detail::TriangleSide& side : edges_.sides()) {
+      const double up = rise(side.low, side.high);
+      const double slack = tolerance::relative * distance(side.low, side.high);
+      for (const std::int32_t v : {side.low, side.high})
         if (triangle_at[static_cast<std::size_t>(v)] < 0)
           triangle_at[static_cast<std::size_t>(v)] = side.triangle;
-      if (up < -slack) lowest[static_cast<std::size_t>(side.first)] = 0;
-      if (up > slack) lowest[static_cast<std::size_t>(side.second)] = 0;
+      if (up < -slack) lowest[static_cast<std::size_t>(side.low)] = 0;
+      if (up > slack) lowest[static_cast<std::size_t>(side.high)] = 0;
     }
     for (std::size_t v = 0; v < lowest.size(); ++v) {
       if (triangle_at[v] < 0 || !lowest[v]) continue;
@@ -227,8 +202,8 @@ class Dilation {
   Polygon polygon_;
   Eigen::Matrix<double, Eigen::Dynamic, 2> plan_;
   Eigen::VectorXd height_;
-  std::vector<std::int32_t> weld_;
-  std::vector<EdgeSide> edges_;
+  Triangles welded_;
+  detail::EdgeTable edges_;
   std::vector<Eigen::Vector3d> corners_;
   std::vector<Eigen::RowVector3i> triangles_;
   std::vector<std::int32_t> sources_;

@@ -1,20 +1,18 @@
 #include "stacking/validation/solid_location.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
+
+#include "mesh/triangle_tree.h"
+#include "stackabilization/mesh/exact_triangles.h"
 
 namespace stackabilization::detail {
 
 namespace {
 
 using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel;
-using TriangleIterator = std::vector<Filtered::Triangle_3>::const_iterator;
 
 /// What a ray tells of a triangle.
 enum class Meeting {
@@ -63,30 +61,18 @@ RayMeeting ray_meeting(const Point& p, const Ray& ray, const Corners& t) {
 
 }  // namespace
 
-struct SolidLocator::Tree {
-  std::vector<Filtered::Triangle_3> triangles;  ///< of SolidLocator::rows
-  CGAL::AABB_tree<CGAL::AABB_traits<Filtered, CGAL::AABB_triangle_primitive<Filtered, TriangleIterator>>>
-      tree;
+struct SolidLocator::Tree : TriangleTree<Filtered> {
+  using TriangleTree::TriangleTree;
 };
 
-SolidLocator::SolidLocator(const Shape& solid) : solid_(solid) {
-  auto tree = std::make_unique<Tree>();
-  for (Eigen::Index t = 0; t < solid.triangle_count(); ++t) {
-    std::array<Filtered::Point_3, 3> p;
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d corner = solid.corner(t, k);
-      p[static_cast<std::size_t>(k)] = {corner.x(), corner.y(), corner.z()};
-    }
-    if (CGAL::collinear(p[0], p[1], p[2])) continue;
-    rows_.push_back(static_cast<std::int32_t>(t));
-    tree->triangles.emplace_back(p[0], p[1], p[2]);
-  }
-  tree->tree.insert(tree->triangles.cbegin(), tree->triangles.cend());
-  tree->tree.build();
-  tree_ = std::move(tree);
-}
+SolidLocator::SolidLocator(const Shape& solid)
+    : solid_(solid), tree_(std::make_unique<const Tree>(solid, triangles_with_area(solid))) {}
 
 SolidLocator::~SolidLocator() = default;
+
+const std::vector<std::int32_t>& SolidLocator::rows() const {
+  return tree_->rows();
+}
 
 Corners SolidLocator::corners(std::int32_t triangle) const {
   Corners corners;
@@ -98,11 +84,10 @@ Corners SolidLocator::corners(std::int32_t triangle) const {
 }
 
 std::vector<std::int32_t> SolidLocator::triangles_in(const CGAL::Bbox_3& box) const {
-  std::vector<TriangleIterator> met;
-  tree_->tree.all_intersected_primitives(box, std::back_inserter(met));
+  std::vector<std::size_t> met;
+  tree_->append_met(box, met);
   std::vector<std::int32_t> found;
-  for (const TriangleIterator& triangle : met)
-    found.push_back(rows_[static_cast<std::size_t>(triangle - tree_->triangles.cbegin())]);
+  for (const std::size_t entry : met) found.push_back(rows()[entry]);
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -134,12 +119,12 @@ int axis_across(const Corners& t) {
 
 /// Ends: a plane through p and an edge of the solid holds (1, slope, slope^2) for two slopes at most.
 PointLocation SolidLocator::locate(const Point& p) const {
-  if (rows_.empty()) return {};
+  if (rows().empty()) return {};
   for (int k = 0;; ++k) {
     const Ray ray = Ray::number(k);
     int winding = 0;
     bool decided = true;
-    for (const std::int32_t t : triangles_in(box_of(p, ray, tree_->tree.bbox()))) {
+    for (const std::int32_t t : triangles_in(box_of(p, ray, tree_->box()))) {
       const RayMeeting met = ray_meeting(p, ray, corners(t));
       if (met.meeting == Meeting::starts_on) return {PointPlace::boundary, t};
       if (met.meeting == Meeting::undecided) {
@@ -160,8 +145,8 @@ Point inner_point(const Corners& corner, int attempt) {
 std::int64_t SolidLocator::count_beside(std::int32_t triangle) const {
   const Corners corner = corners(triangle);
   const Ray ray{axis_across(corner), 0};
-  const CGAL::Bbox_3 box = box_of(inner_point(corner, 0), ray, tree_->tree.bbox());
-  return static_cast<std::int64_t>(tree_->tree.number_of_intersected_primitives(box));
+  const CGAL::Bbox_3 box = box_of(inner_point(corner, 0), ray, tree_->box());
+  return static_cast<std::int64_t>(tree_->count_met(box));
 }
 
 /// Tries points on a parabola in the triangle, which meets what an edge of the solid looks like from the axis
@@ -173,7 +158,7 @@ Windings SolidLocator::windings_beside(std::int32_t triangle) const {
     const Point p = inner_point(corner, attempt);
     Windings found;
     bool decided = true, up = false, down = false;
-    for (const std::int32_t t : triangles_in(box_of(p, ray, tree_->tree.bbox()))) {
+    for (const std::int32_t t : triangles_in(box_of(p, ray, tree_->box()))) {
       const RayMeeting met = ray_meeting(p, ray, corners(t));
       decided = met.meeting != Meeting::undecided && (met.meeting != Meeting::starts_on || met.winding != 0);
       if (!decided) break;

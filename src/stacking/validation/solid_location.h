@@ -48,7 +48,7 @@ class SolidLocator {
   ~SolidLocator();
 
   /// The triangles with area, ascending.
-  const std::vector<std::int32_t>& rows() const { return rows_; }
+  const std::vector<std::int32_t>& rows() const;
   Corners corners(std::int32_t triangle) const;
   /// Triangles with area that meet a box, ascending.
   std::vector<std::int32_t> triangles_in(const CGAL::Bbox_3& box) const;
@@ -67,7 +67,6 @@ class SolidLocator {
 
   const Shape& solid_;
   std::unique_ptr<const Tree> tree_;
-  std::vector<std::int32_t> rows_;
 };
 
 }  // namespace stackabilization::detail

@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "mesh/hull_spread.h"
-#include "mesh/point_index.h"
+#include "mesh/welded_mesh.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {
@@ -42,21 +42,19 @@ struct Soup {
   std::vector<std::array<std::size_t, 3>> polygons;
 };
 
-/// Vertices of equal coordinates become one; with a positive `cell`, all those of a cell of that size.
+/// The welded triangles of a part; with a positive `cell`, all vertices of a cell of that size are the first
+/// one there.
 Soup soup_of(const Shape& part, double cell) {
+  Shape cells = part;
+  if (cell > 0) cells.vertices = (part.vertices / cell).array().floor();
+  const WeldedMesh mesh = weld(cells);
   Soup soup;
-  PointIndex places;
-  for (Eigen::Index t = 0; t < part.triangle_count(); ++t) {
-    std::array<std::size_t, 3> polygon{};
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d p = part.corner(t, k);
-      const Eigen::Vector3d key = cell > 0 ? Eigen::Vector3d((p / cell).array().floor()) : p;
-      const auto place = static_cast<std::size_t>(places.insert(key));
-      if (place == soup.points.size()) soup.points.emplace_back(p.x(), p.y(), p.z());
-      polygon[static_cast<std::size_t>(k)] = place;
-    }
-    if (polygon[0] != polygon[1] && polygon[1] != polygon[2] && polygon[2] != polygon[0])
-      soup.polygons.push_back(polygon);
+  for (const std::int32_t v : mesh.first_vertex)
+    soup.points.emplace_back(part.vertices(v, 0), part.vertices(v, 1), part.vertices(v, 2));
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    if (mesh.has_equal_corners(t)) continue;
+    const Eigen::Matrix<std::size_t, 1, 3> corner = mesh.triangles.row(t).cast<std::size_t>();
+    soup.polygons.push_back({corner(0), corner(1), corner(2)});
   }
   return soup;
 }

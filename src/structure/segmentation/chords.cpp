@@ -1,48 +1,24 @@
 #include "structure/segmentation/chords.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <boost/variant.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
-#include <variant>
 
 #include "mesh/surface_index.h"
+#include "mesh/triangle_tree.h"
 
 namespace stackabilization::detail {
 
 namespace {
 
-/// What an intersection is, if it is a T. CGAL 5 keeps it in a boost::variant, CGAL 6 in a std::variant.
-template <class T, class First, class... Others>
-const T* held(const boost::variant<First, Others...>& intersection) {
-  return boost::get<T>(&intersection);
-}
-template <class T, class... Kinds>
-const T* held(const std::variant<Kinds...>& intersection) {
-  return std::get_if<T>(&intersection);
-}
-
-using Kernel = CGAL::Simple_cartesian<double>;
-using Triangle = Kernel::Triangle_3;
-using TrianglePrimitive = CGAL::AABB_triangle_primitive<Kernel, std::vector<Triangle>::const_iterator>;
-using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, TrianglePrimitive>>;
-
 /// Rays start this far off the surface, fraction of the bounding-box diagonal, so that they do not meet their
 /// own triangle: a choice of scale, below which no wall is seen.
 constexpr double lift = 0.0001;
-
-Kernel::Point_3 to_point(const Eigen::Vector3d& p) {
-  return {p.x(), p.y(), p.z()};
-}
 
 /// Share of the half space in front of a place that is not barred by the shape, from which on the place is in
 /// the open, and up to which it is in a hollow.
@@ -61,25 +37,19 @@ std::vector<Eigen::Vector3d> half_space(int count) {
 
 class ChordCaster {
  public:
-  ChordCaster(const Shape& shape, const SurfaceGraph& graph) : directions_(half_space(24)) {
+  ChordCaster(const Shape& shape, const SurfaceGraph& graph)
+      : directions_(half_space(24)), tree_(shape, rows_with_area(graph)) {
     Eigen::AlignedBox3d box;
-    for (std::int32_t t = 0; t < graph.size(); ++t) {
-      if (!(graph.areas(t) > 0)) continue;
-      triangles_.emplace_back(to_point(shape.corner(t, 0)), to_point(shape.corner(t, 1)),
-                              to_point(shape.corner(t, 2)));
-      rows_.push_back(t);
+    for (const std::int32_t t : tree_.rows())
       for (int k = 0; k < 3; ++k) box.extend(shape.corner(t, k));
-    }
     lift_ = lift * box.diagonal().norm();
-    tree_.insert(triangles_.cbegin(), triangles_.cend());
-    tree_.build();
   }
 
   void measure(Chord& chord) const {
     chord.end = chord.start;
     chord.end_triangle = -1;
     chord.solid = std::numeric_limits<double>::infinity();
-    if (const auto hit = first_hit(chord.start - lift_ * chord.normal, -chord.normal)) {
+    if (const auto hit = tree_.first_hit(chord.start - lift_ * chord.normal, -chord.normal)) {
       chord.end = hit->point;
       chord.end_triangle = hit->triangle;
       chord.solid = (hit->point - chord.start).norm();
@@ -88,35 +58,21 @@ class ChordCaster {
         Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), chord.normal);
     int seen = 0;
     for (const Eigen::Vector3d& direction : directions_)
-      seen += blocked(chord.start + lift_ * chord.normal, turn * direction);
+      seen += tree_.is_hit(chord.start + lift_ * chord.normal, turn * direction);
     chord.free = 1 - static_cast<double>(seen) / static_cast<double>(directions_.size());
     chord.openness = std::clamp((chord.free - hollow) / (open_air - hollow), 0.0, 1.0);
   }
 
  private:
-  struct Hit {
-    Eigen::Vector3d point;
-    std::int32_t triangle;
-  };
-  static Kernel::Ray_3 ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
-    return {to_point(origin), Kernel::Vector_3(direction.x(), direction.y(), direction.z())};
-  }
-  bool blocked(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
-    return tree_.do_intersect(ray(origin, direction));
-  }
-  std::optional<Hit> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
-    const auto hit = tree_.first_intersection(ray(origin, direction));
-    if (!hit) return std::nullopt;
-    const std::int32_t triangle = rows_[static_cast<std::size_t>(hit->second - triangles_.cbegin())];
-    const auto* point = held<Kernel::Point_3>(hit->first);
-    if (!point) return std::nullopt;  // along a triangle seen edge on
-    return Hit{{point->x(), point->y(), point->z()}, triangle};
+  static std::vector<std::int32_t> rows_with_area(const SurfaceGraph& graph) {
+    std::vector<std::int32_t> rows;
+    for (std::int32_t t = 0; t < graph.size(); ++t)
+      if (graph.areas(t) > 0) rows.push_back(t);
+    return rows;
   }
 
   std::vector<Eigen::Vector3d> directions_;
-  std::vector<Triangle> triangles_;
-  std::vector<std::int32_t> rows_;
-  Tree tree_;
+  TriangleTree<CGAL::Simple_cartesian<double>> tree_;
   double lift_ = 0;
 };
 

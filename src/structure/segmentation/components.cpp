@@ -10,6 +10,7 @@
 
 #include "core/disjoint_sets.h"
 #include "mesh/surface_index.h"
+#include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/mesh/box_pairs.h"
 #include "stackabilization/mesh/boxes.h"
@@ -170,7 +171,7 @@ void attach_flat(DisjointSets& sets, const std::vector<Component>& components, c
 }  // namespace
 
 std::vector<std::int32_t> merged_components(const Shape& shape, const ContactRule& rule) {
-  const std::vector<std::int32_t> component = connected_components(shape);
+  const std::vector<std::int32_t> component = connected_components(weld(shape));
   const auto count = static_cast<std::size_t>(*std::max_element(component.begin(), component.end())) + 1;
   if (count == 1) return component;
   std::vector<std::vector<std::int32_t>> rows(count);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mesh/surface_index.h"
+#include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/structure/segmentation.h"
 #include "structure/segmentation/segment_boundaries.h"
@@ -80,7 +81,7 @@ void adopt_the_rest(const Shape& shape, const detail::SurfaceGraph& graph, std::
     std::replace(part.begin(), part.end(), -1, part[static_cast<std::size_t>(reached.front())]);
     return;
   }
-  const std::vector<std::int32_t> component = detail::connected_components(shape);
+  const std::vector<std::int32_t> component = detail::connected_components(detail::weld(shape));
   struct Nearest {
     double distance = std::numeric_limits<double>::infinity();
     std::int32_t part = 0;

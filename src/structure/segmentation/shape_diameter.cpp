@@ -12,7 +12,8 @@
 #include <map>
 #include <set>
 
-#include "mesh/half_edge_mesh.h"
+#include "mesh/oriented_mesh.h"
+#include "mesh/welded_mesh.h"
 #include "structure/segmentation/segment_boundaries.h"
 
 namespace stackabilization::detail {
@@ -31,22 +32,18 @@ struct OutwardMesh {
 };
 
 OutwardMesh outward_mesh(const Shape& shape, const SurfaceGraph& graph) {
-  const ConnectedSurface surface = connected_surface(shape);
+  const OrientedMesh surface = orient(weld(shape));
   OutwardMesh result;
-  for (const auto vertex : surface.mesh.vertices()) {
-    const auto& p = surface.mesh.point(vertex);
-    result.mesh.add_vertex(Kernel::Point_3(p[0], p[1], p[2]));
-  }
-  for (const auto face : surface.mesh.faces()) {
-    const std::int32_t t = surface.triangle_of_face[static_cast<std::size_t>(face.idx())];
+  for (const auto p : surface.points.rowwise()) result.mesh.add_vertex(Kernel::Point_3(p(0), p(1), p(2)));
+  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
+    const std::int32_t t = surface.source[static_cast<std::size_t>(f)];
     if (!(graph.areas(t) > 0)) continue;
     std::array<Mesh::Vertex_index, 3> corners;
     std::array<Eigen::Vector3d, 3> points;
-    std::size_t k = 0;
-    for (const auto vertex : surface.mesh.fv_range(face)) {
-      const auto& p = surface.mesh.point(vertex);
-      points[k] = {p[0], p[1], p[2]};
-      corners[k++] = Mesh::Vertex_index(static_cast<Mesh::size_type>(vertex.idx()));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t v = surface.triangles(f, static_cast<Eigen::Index>(k));
+      points[k] = surface.points.row(v).transpose();
+      corners[k] = Mesh::Vertex_index(static_cast<Mesh::size_type>(v));
     }
     if ((points[1] - points[0]).cross(points[2] - points[0]).dot(graph.normals.row(t).transpose()) < 0)
       std::swap(corners[1], corners[2]);

@@ -6,72 +6,33 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <tuple>
+#include <span>
 
 #include "core/disjoint_sets.h"
-#include "mesh/half_edge_mesh.h"
-#include "mesh/point_index.h"
+#include "core/index.h"
+#include "mesh/edge_table.h"
+#include "mesh/oriented_mesh.h"
 #include "mesh/surface_index.h"
+#include "mesh/welded_mesh.h"
 
 namespace stackabilization::detail {
 
 namespace {
 
-using CornerPlaces = std::array<std::int32_t, 3>;
-
-struct Side {
-  std::int32_t low, high, triangle;
-
-  bool same_edge(const Side& other) const { return low == other.low && high == other.high; }
-};
-
-/// Numbers of the corners' places: equal coordinates, equal number.
-std::vector<CornerPlaces> places_of(const Shape& shape) {
-  PointIndex index;
-  std::vector<CornerPlaces> places(static_cast<std::size_t>(shape.triangle_count()));
-  for (std::size_t t = 0; t < places.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      places[t][static_cast<std::size_t>(k)] = index.insert(shape.corner(static_cast<Eigen::Index>(t), k));
-  return places;
-}
-
-/// Sides of the triangles that have three different corners, those along the same edge side by side.
-std::vector<Side> sorted_sides(const std::vector<CornerPlaces>& places) {
-  std::vector<Side> sides;
-  for (std::size_t t = 0; t < places.size(); ++t) {
-    const CornerPlaces& c = places[t];
-    if (c[0] == c[1] || c[1] == c[2] || c[2] == c[0]) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(c[k], c[(k + 1) % 3]);
-      sides.push_back({low, high, static_cast<std::int32_t>(t)});
-    }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
-  return sides;
-}
-
-/// Visits the runs of sides along one edge as half-open ranges of rows.
-template <typename Visit>
-void for_each_edge(const std::vector<Side>& sides, Visit visit) {
-  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
-    for (end = begin + 1; end < sides.size() && sides[end].same_edge(sides[begin]);) ++end;
-    visit(begin, end);
-  }
-}
-
 class GraphBuilder {
  public:
   explicit GraphBuilder(const Shape& shape)
-      : shape_(shape), places_(places_of(shape)), sides_(sorted_sides(places_)), joined_(places_.size()) {}
+      : shape_(shape),
+        mesh_(weld(shape)),
+        edges_(mesh_.triangles),
+        joined_(static_cast<std::size_t>(shape.triangle_count())) {}
 
   SurfaceGraph run() {
     measure();
     turn_outward();
     link_across_edges();
     link_across_points();
-    graph_.links_of.resize(places_.size());
+    graph_.links_of.resize(static_cast<std::size_t>(shape_.triangle_count()));
     for (std::size_t l = 0; l < graph_.links.size(); ++l) {
       graph_.links_of[static_cast<std::size_t>(graph_.links[l].a)].push_back(static_cast<std::int32_t>(l));
       graph_.links_of[static_cast<std::size_t>(graph_.links[l].b)].push_back(static_cast<std::int32_t>(l));
@@ -88,11 +49,11 @@ class GraphBuilder {
     graph_.links.push_back({a, b, length, bend});
     joined_.join(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
   }
-  double bend(const Side& a, const Side& b) const;
+  double bend(const TriangleSide& a, const TriangleSide& b) const;
 
   const Shape& shape_;
-  std::vector<CornerPlaces> places_;
-  std::vector<Side> sides_;
+  WeldedMesh mesh_;
+  EdgeTable edges_;
   DisjointSets joined_;
   SurfaceGraph graph_;
 };
@@ -109,16 +70,13 @@ void GraphBuilder::measure() {
     for (int k = 0; k < 3; ++k) box.extend(shape_.corner(t, k));
   }
   graph_.diagonal = box.diagonal().norm();
-  const ConnectedSurface surface = connected_surface(shape_);
-  for (const auto face : surface.mesh.faces()) {
+  const OrientedMesh surface = orient(mesh_);
+  for (Eigen::Index f = 0; f < surface.triangles.rows(); ++f) {
     std::array<Eigen::Vector3d, 3> p;
-    std::size_t k = 0;
-    for (const auto vertex : surface.mesh.fv_range(face)) {
-      const auto& point = surface.mesh.point(vertex);
-      p[k++] = {point[0], point[1], point[2]};
-    }
+    for (int k = 0; k < 3; ++k)
+      p[static_cast<std::size_t>(k)] = surface.points.row(surface.triangles(f, k)).transpose();
     const Eigen::Vector3d normal = (p[1] - p[0]).cross(p[2] - p[0]);
-    const Eigen::Index t = surface.triangle_of_face[static_cast<std::size_t>(face.idx())];
+    const Eigen::Index t = surface.source[static_cast<std::size_t>(f)];
     const double length = normal.stableNorm();
     if (!(length > 0)) continue;
     graph_.areas(t) = length / 2;
@@ -127,12 +85,9 @@ void GraphBuilder::measure() {
 }
 
 void GraphBuilder::turn_outward() {
-  DisjointSets pieces(places_.size());
-  for_each_edge(sides_, [&](std::size_t begin, std::size_t end) {
-    if (end - begin == 2)
-      pieces.join(static_cast<std::size_t>(sides_[begin].triangle),
-                  static_cast<std::size_t>(sides_[begin + 1].triangle));
-  });
+  DisjointSets pieces(static_cast<std::size_t>(shape_.triangle_count()));
+  for (std::size_t e = 0; e < edges_.size(); ++e)
+    if (edges_[e].size() == 2) pieces.join(at(edges_[e][0].triangle), at(edges_[e][1].triangle));
   const Eigen::Index m = shape_.triangle_count();
   Points moment = Points::Zero(m, 3);
   Eigen::VectorXd area = Eigen::VectorXd::Zero(m), volume = Eigen::VectorXd::Zero(m);
@@ -153,7 +108,7 @@ void GraphBuilder::turn_outward() {
     if (volume(piece(t)) < 0) graph_.normals.row(t) *= -1;
 }
 
-double GraphBuilder::bend(const Side& a, const Side& b) const {
+double GraphBuilder::bend(const TriangleSide& a, const TriangleSide& b) const {
   const Eigen::Vector3d n = graph_.normals.row(a.triangle), m = graph_.normals.row(b.triangle);
   if (n.isZero(0) || m.isZero(0)) return 0;
   const double angle = std::atan2(n.cross(m).norm(), n.dot(m));
@@ -163,62 +118,36 @@ double GraphBuilder::bend(const Side& a, const Side& b) const {
 }
 
 void GraphBuilder::link_across_edges() {
-  for_each_edge(sides_, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t s = begin; s + 1 < end; ++s) {
-      const Side &a = sides_[s], &b = sides_[s + 1];
-      const CornerPlaces& corners = places_[static_cast<std::size_t>(a.triangle)];
-      const auto corner = [&](std::int32_t place) {
-        const auto k = std::find(corners.begin(), corners.end(), place) - corners.begin();
-        return shape_.corner(a.triangle, static_cast<int>(k));
-      };
+  for (std::size_t e = 0; e < edges_.size(); ++e) {
+    const std::span<const TriangleSide> sides = edges_[e];
+    for (std::size_t s = 0; s + 1 < sides.size(); ++s) {
+      const TriangleSide &a = sides[s], &b = sides[s + 1];
+      const double length =
+          (shape_.corner(a.triangle, a.corner) - shape_.corner(a.triangle, (a.corner + 1) % 3)).norm();
       // Where sheets meet there is no outside to tell convex from concave by: a corner on one side at least
       // is concave.
       double angle = bend(a, b);
-      if (end - begin > 2) angle = -std::min(std::abs(angle), std::numbers::pi - std::abs(angle));
-      link(a.triangle, b.triangle, (corner(a.low) - corner(a.high)).norm(), angle);
+      if (sides.size() > 2) angle = -std::min(std::abs(angle), std::numbers::pi - std::abs(angle));
+      link(a.triangle, b.triangle, length, angle);
     }
-  });
+  }
 }
 
 void GraphBuilder::link_across_points() {
-  std::vector<std::int32_t> first(3 * places_.size(), -1);  // per place the first triangle there
-  for (std::size_t t = 0; t < places_.size(); ++t)
-    for (const std::int32_t place : places_[t]) {
-      std::int32_t& known = first[static_cast<std::size_t>(place)];
-      if (known < 0) known = static_cast<std::int32_t>(t);
-      if (joined_.root(static_cast<std::size_t>(known)) != joined_.root(t))
-        link(known, static_cast<std::int32_t>(t), 0, 0);
+  std::vector<std::int32_t> first(static_cast<std::size_t>(mesh_.points.rows()),
+                                  -1);  // triangle at each point
+  for (std::int32_t t = 0; t < shape_.triangle_count(); ++t)
+    for (const std::int32_t point : mesh_.triangles.row(t)) {
+      std::int32_t& known = first[at(point)];
+      if (known < 0) known = t;
+      if (joined_.root(at(known)) != joined_.root(at(t))) link(known, t, 0, 0);
     }
-}
-
-/// Numbers 0, 1, ... for the sets in order of their least members.
-std::vector<std::int32_t> numbered(DisjointSets& sets, std::size_t count) {
-  std::vector<std::int32_t> number(count);
-  std::int32_t next = 0;
-  for (std::size_t t = 0; t < count; ++t) {
-    const std::size_t root = sets.root(t);
-    number[t] = root == t ? next++ : number[root];
-  }
-  return number;
 }
 
 }  // namespace
 
 SurfaceGraph surface_graph(const Shape& shape) {
   return GraphBuilder(shape).run();
-}
-
-std::vector<std::int32_t> connected_components(const Shape& shape) {
-  const std::vector<CornerPlaces> places = places_of(shape);
-  DisjointSets sets(places.size());
-  std::vector<std::int32_t> first(3 * places.size(), -1);
-  for (std::size_t t = 0; t < places.size(); ++t)
-    for (const std::int32_t place : places[t]) {
-      std::int32_t& known = first[static_cast<std::size_t>(place)];
-      if (known < 0) known = static_cast<std::int32_t>(t);
-      sets.join(static_cast<std::size_t>(known), t);
-    }
-  return numbered(sets, places.size());
 }
 
 Shape extracted(const Shape& shape, const std::vector<std::int32_t>& rows) {
@@ -243,7 +172,7 @@ Shape extracted(const Shape& shape, const std::vector<std::int32_t>& rows) {
 }
 
 void link_shells(SurfaceGraph& graph, const Shape& shape, double reach) {
-  const std::vector<std::int32_t> shell = connected_components(shape);
+  const std::vector<std::int32_t> shell = connected_components(weld(shape));
   const auto count = static_cast<std::size_t>(*std::max_element(shell.begin(), shell.end())) + 1;
   if (count == 1) return;
   std::vector<double> area(count, 0);

@@ -38,9 +38,6 @@ struct SurfaceGraph {
 /// its volume seen from its centre is positive.
 SurfaceGraph surface_graph(const Shape& shape);
 
-/// Numbers of connected components through common points, per triangle, in order of their first triangles.
-std::vector<std::int32_t> connected_components(const Shape& shape);
-
 /// Joins the shells of a graph that belong together in space: each is linked to the largest one where it lies
 /// within `reach` (model units) of it, at its nearest triangle otherwise.
 void link_shells(SurfaceGraph& graph, const Shape& shape, double reach);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <vector>
 
+#include "mesh/welded_mesh.h"
 #include "stackabilization/structure/segmentation.h"
 #include "structure/segmentation/surface_graph.h"
 #include "structure/segmentation/wire_net.h"
@@ -47,7 +48,7 @@ Shape ladder(int count) {
 }
 
 bool is_net(const Shape& shape, const WireNetRule& rule = {}) {
-  return is_wire_net(shape, connected_components(shape), rule);
+  return is_wire_net(shape, connected_components(weld(shape)), rule);
 }
 
 }  // namespace

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/AABB_triangle_primitive.h>
+
+#include <Eigen/Core>
+#include <boost/iterator/function_output_iterator.hpp>
+#include <boost/variant.hpp>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "stackabilization/core/shape.h"
+
+namespace stackabilization::detail {
+
+/// The same point for CGAL.
+template <class Kernel>
+typename Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
+  return {p.x(), p.y(), p.z()};
+}
+
+/// A point of a surface and the triangle that holds it.
+struct TreePoint {
+  Eigen::Vector3d point;
+  std::int32_t triangle;  ///< row of Shape::triangles
+};
+
+/// Triangles of a shape in CGAL's AABB tree: the one place where this library builds one. Answers are as
+/// exact as the kernel's predicates. Safe to share between threads once built.
+template <class Kernel>
+class TriangleTree {
+ public:
+  using Point = typename Kernel::Point_3;
+  using Triangle = typename Kernel::Triangle_3;
+
+  /// Builds the tree of the triangles `rows` of `shape`, which should have area.
+  TriangleTree(const Shape& shape, std::vector<std::int32_t> rows) : rows_(std::move(rows)) {
+    triangles_.reserve(rows_.size());
+    for (const std::int32_t t : rows_)
+      triangles_.emplace_back(to_cgal<Kernel>(shape.corner(t, 0)), to_cgal<Kernel>(shape.corner(t, 1)),
+                              to_cgal<Kernel>(shape.corner(t, 2)));
+    tree_.insert(triangles_.cbegin(), triangles_.cend());
+    tree_.build();
+  }
+  TriangleTree(const TriangleTree&) = delete;
+  TriangleTree& operator=(const TriangleTree&) = delete;
+
+  /// The triangles in the tree, as they were given.
+  const std::vector<std::int32_t>& rows() const { return rows_; }
+  /// The box of all triangles. Precondition: there is one.
+  CGAL::Bbox_3 box() const { return tree_.bbox(); }
+
+  /// Makes `nearest` fast for far points; to be called before threads share the tree.
+  void prepare_nearest() { tree_.accelerate_distance_queries(); }
+
+  /// The point of the surface that is nearest to `p`. Precondition: there is a triangle.
+  TreePoint nearest(const Eigen::Vector3d& p) const {
+    const auto [point, triangle] = tree_.closest_point_and_primitive(to_cgal<Kernel>(p));
+    return {{point.x(), point.y(), point.z()}, rows_[entry(triangle)]};
+  }
+
+  /// Where a ray first meets a triangle; nothing where it meets none, or the first one edge on.
+  std::optional<TreePoint> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+    const auto hit = tree_.first_intersection(ray(origin, direction));
+    if (!hit) return std::nullopt;
+    const Point* const point = held(hit->first);
+    if (!point) return std::nullopt;
+    return TreePoint{{point->x(), point->y(), point->z()}, rows_[entry(hit->second)]};
+  }
+
+  /// Whether a ray meets a triangle.
+  bool is_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+    return tree_.do_intersect(ray(origin, direction));
+  }
+
+  /// How many triangles a ray meets: odd from inside of a closed surface where it passes between its edges.
+  std::size_t count_hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+    return tree_.number_of_intersected_primitives(ray(origin, direction));
+  }
+
+  /// How many triangles a segment, ray or box of CGAL meets.
+  template <class Query>
+  std::size_t count_met(const Query& query) const {
+    return tree_.number_of_intersected_primitives(query);
+  }
+
+  /// Appends, in the tree's order, which entries of `rows()` a segment, ray or box of CGAL meets.
+  template <class Query>
+  void append_met(const Query& query, std::vector<std::size_t>& entries) const {
+    tree_.all_intersected_primitives(query, boost::make_function_output_iterator(
+                                                [&](const Entry& met) { entries.push_back(entry(met)); }));
+  }
+
+ private:
+  using Entry = typename std::vector<Triangle>::const_iterator;
+  using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Entry>>>;
+
+  static typename Kernel::Ray_3 ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
+    return {to_cgal<Kernel>(origin), typename Kernel::Vector_3(direction.x(), direction.y(), direction.z())};
+  }
+  std::size_t entry(const Entry& triangle) const {
+    return static_cast<std::size_t>(triangle - triangles_.cbegin());
+  }
+
+  // CGAL answers with a variant of Boost before version 6, of the standard library from then on.
+  template <class First, class... Others>
+  static const Point* held(const boost::variant<First, Others...>& intersection) {
+    return boost::get<Point>(&intersection);
+  }
+  template <class... Kinds>
+  static const Point* held(const std::variant<Kinds...>& intersection) {
+    return std::get_if<Point>(&intersection);
+  }
+
+  std::vector<std::int32_t> rows_;
+  std::vector<Triangle> triangles_;  ///< one per entry of `rows_`
+  Tree tree_;
+};
+
+}  // namespace stackabilization::detail
