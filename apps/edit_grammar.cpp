@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <limits>
 #include <numbers>
 #include <string_view>
@@ -10,7 +9,9 @@
 #include "apps/text.h"
 #include "apps/values.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/core/part_names.h"
+#include "stackabilization/core/text.h"
 
 namespace stackabilization::apps {
 
@@ -206,12 +207,8 @@ bool reads_as_part(const std::string& name) {
 /// Shortest number of degrees that is parsed as these radians, or the nearest one.
 std::string degrees_text(double radians) {
   const double degrees = radians / radians_per_degree;
-  char buffer[64];
   for (int digits = 1; digits <= std::numeric_limits<double>::max_digits10; ++digits) {
-    const auto end =
-        std::to_chars(buffer, buffer + sizeof buffer, degrees, std::chars_format::general, digits).ptr;
-    double parsed = 0;
-    std::from_chars(buffer, end, parsed);
+    const double parsed = stackabilization::parse_number(significant_text(degrees, digits)).value();
     if (parsed * radians_per_degree == radians) return exact_digits(parsed);
   }
   return exact_digits(degrees);

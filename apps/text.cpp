@@ -1,10 +1,10 @@
 #include "apps/text.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <utility>
 
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::apps {
@@ -15,12 +15,6 @@ constexpr int readable_digits = 5;
 constexpr double negligible = 1e-6;       ///< fraction of a size that a reader takes for nothing
 constexpr std::size_t widest_value = 28;  ///< longer values push their explanation to the right alone
 
-std::string chars(double value, std::chars_format format, int precision) {
-  char buffer[64];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value + 0.0, format, precision);
-  return {buffer, end};
-}
-
 std::string padded(const std::string& text, std::size_t width) {
   return text + std::string(text.size() < width ? width - text.size() : 0, ' ');
 }
@@ -28,13 +22,11 @@ std::string padded(const std::string& text, std::size_t width) {
 }  // namespace
 
 std::string rounded(double value) {
-  return chars(value, std::chars_format::general, readable_digits);
+  return significant_text(value, readable_digits);
 }
 
 std::string exact_digits(double value) {
-  char buffer[64];
-  const auto [end, error] = std::to_chars(buffer, buffer + sizeof buffer, value + 0.0);
-  return {buffer, end};
+  return shortest_text(value);
 }
 
 std::string quantity(double value, Unit unit, int power) {
@@ -50,15 +42,12 @@ std::string stackability_text(double value) {
 }
 
 std::string percent(double fraction) {
-  const std::string number = chars(100 * fraction, std::chars_format::fixed, 1);
-  return (number == "-0.0" ? "0.0" : number) + " %";
+  return fixed_text(100 * fraction, 1) + " %";
 }
 
 std::string small_percent(double fraction) {
   const double value = 100 * fraction;
-  return (value < 100 ? chars(value, std::chars_format::general, 2)
-                      : chars(value, std::chars_format::fixed, 0)) +
-         " %";
+  return (value < 100 ? significant_text(value, 2) : fixed_text(value, 0)) + " %";
 }
 
 std::string vector_text(const Eigen::Vector3d& vector) {

@@ -6,6 +6,7 @@
 #include "paper_figures/figure.h"
 #include "paper_figures/shown.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/rendering/foot.h"
 #include "stackabilization/rendering/stacking_scene.h"
 #include "stackabilization/stacking/stack.h"
@@ -131,7 +132,7 @@ Panel neighbours_panel(const TwistedStacks& stacks, const Figure03Options& optio
   panel.over.rings = {{options.stool.reach * best + (low + conflict.overlap / 2) * Eigen::Vector3d::UnitZ(),
                        0.3 * conflict.overlap}};
   return {std::move(panel),
-          "(a) twist " + number_text(options.twist_degrees) + "°",
+          "(a) twist " + significant_text(options.twist_degrees, 5) + "°",
           {"copy " + std::to_string(conflict.above + 1) + " cuts into copy " +
            std::to_string(conflict.below + 1)},
           1};
@@ -161,12 +162,13 @@ FigureResult make_figure_03(const Figure03Options& options, const ModelFolder& m
   PanelRow row;
   row.height = 0.7;
   row.scale = PanelScale::common;
-  row.panels = {neighbours_panel(stacks, options),
-                {std::move(resolved), "(b) the same", {"every copy checked against all"}, 1},
-                {std::move(cup_panel),
-                 "(c) leaning bowls",
-                 {"zigzag trajectory", "(drawn " + number_text(options.enlarged) + " times as large)"},
-                 1}};
+  row.panels = {
+      neighbours_panel(stacks, options),
+      {std::move(resolved), "(b) the same", {"every copy checked against all"}, 1},
+      {std::move(cup_panel),
+       "(c) leaning bowls",
+       {"zigzag trajectory", "(drawn " + significant_text(options.enlarged, 5) + " times as large)"},
+       1}};
   const StackConflict& conflict = stacks.stack.conflicts.front();
   const Eigen::Vector3d first = leaning[0].vertices.colwise().mean(),
                         second = leaning[1].vertices.colwise().mean();

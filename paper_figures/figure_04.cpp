@@ -4,6 +4,7 @@
 
 #include "paper_figures/figure.h"
 #include "paper_figures/shown.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/envelope/height_field.h"
 #include "stackabilization/io/format.h"
@@ -150,7 +151,7 @@ FigureResult make_figure_04(const Figure04Options& options, const ModelFolder&) 
     Scene scene;
     scene.add({shape, {palette::input}});
     shapes.panels.push_back({scene_panel(std::move(scene), up, {8, 8}),
-                             variant.name + ": S = " + number_text(std::max(0.0, measured.value), 2),
+                             variant.name + ": S = " + significant_text(std::max(0.0, measured.value), 2),
                              {},
                              1});
     gaps.panels.push_back({bench_gap_plot(shape, measured, options), "", {}, 1});

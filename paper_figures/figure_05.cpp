@@ -3,6 +3,7 @@
 
 #include "paper_figures/figure.h"
 #include "paper_figures/shown.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/rendering/foot.h"
 #include "stackabilization/rendering/stacking_scene.h"
 #include "stackabilization/stacking/rigid_transform.h"
@@ -81,8 +82,8 @@ FigureResult make_figure_05(const Figure05Options& options, const ModelFolder& m
   for (const double degrees : options.tilts) {
     const Stackability measured = solver.measure(tilted(options, degrees));
     stacks.panels.push_back(tilted_stack_panel(shape, measured, options));
-    stacks.panels.back().title = number_text(degrees) + "°:  S = " + ratio_text(measured.value);
-    const std::string at = " at " + number_text(degrees) + " degrees";
+    stacks.panels.back().title = significant_text(degrees, 5) + "°:  S = " + ratio_text(measured.value);
+    const std::string at = " at " + significant_text(degrees, 5) + " degrees";
     result.numbers.push_back({"S" + at, measured.value});
     result.numbers.push_back({"f_max / h" + at, measured.f_max / measured.extent});
     values.push_back(measured.value);
@@ -91,7 +92,7 @@ FigureResult make_figure_05(const Figure05Options& options, const ModelFolder& m
   const auto [least, largest] = std::minmax_element(values.begin(), values.end());
   const auto [first, last] = std::minmax_element(options.tilts.begin(), options.tilts.end());
   constexpr double considerable = 0.3;
-  result.claims = {{"a tilt of the direction by at most " + number_text(*last - *first) +
+  result.claims = {{"a tilt of the direction by at most " + significant_text(*last - *first, 5) +
                         " degrees changes S by more than 0.3",
                     *largest - *least > considerable}};
   result.drawing = panel_sheet({stacks, plot});

@@ -8,6 +8,7 @@
 #include "paper_figures/run.h"
 #include "paper_figures/shown.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/io/read_file.h"
 
 namespace stackabilization::figures {
@@ -28,7 +29,7 @@ std::string value_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_number_float()) return value.dump();
   const auto number = value.get<double>();
-  return number_text(std::abs(number) < rounding ? 0 : number);
+  return significant_text(std::abs(number) < rounding ? 0 : number, 5);
 }
 
 Json read_json(const std::filesystem::path& path) {

@@ -1,26 +1,11 @@
 #include "paper_figures/shown.h"
 
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <utility>
 
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/rendering/stacking_scene.h"
 
 namespace stackabilization::figures {
-namespace {
-
-std::string decimals(double value, int count) {
-  std::array<char, 330> buffer{};
-  const double unit = std::pow(10, count);
-  const double rounded = std::round(value * unit) / unit + 0.0;  // no -0
-  const auto end =
-      std::to_chars(buffer.data(), buffer.data() + buffer.size(), rounded, std::chars_format::fixed, count);
-  return {buffer.data(), end.ptr};
-}
-
-}  // namespace
-
 MeasuredShape measured_shape(const Shape& shape, const Direction& direction,
                              const StackabilityOptions& options) {
   const StackabilitySolver solver(shape, options);
@@ -39,25 +24,18 @@ Scene stack_of(const MeasuredShape& shape, int copies, const Colour& colour) {
   return stack_scene(copies_of(shape.shape, step, copies), colour);
 }
 
-std::string number_text(double value, int digits) {
-  std::array<char, 64> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0,
-                                 std::chars_format::general, digits);
-  return {buffer.data(), end.ptr};
-}
-
 std::string ratio_text(double value) {
-  return decimals(value, 3);
+  return fixed_text(value, 3);
 }
 
 std::string percent_text(double fraction) {
-  return decimals(100 * fraction, 1) + " %";
+  return fixed_text(100 * fraction, 1) + " %";
 }
 
 std::string length_text(double value, Unit unit) {
-  if (unit == Unit::unknown) return decimals(value, 3);
+  if (unit == Unit::unknown) return fixed_text(value, 3);
   constexpr double millimetres = 1000;
-  return decimals(value * metres_per_unit(unit) * millimetres, 0) + " mm";
+  return fixed_text(value * metres_per_unit(unit) * millimetres, 0) + " mm";
 }
 
 LegendEntry contact_entry() {

@@ -20,9 +20,6 @@ ScenePanel scene_panel(Scene scene, const Direction& direction, const Camera& ca
 /// Equal copies above each other, each lifted by f_max.
 Scene stack_of(const MeasuredShape& shape, int copies, const Colour& colour);
 
-/// As short as `digits` significant digits make it: "2.5", "30", "0".
-std::string number_text(double value, int digits = 5);
-
 /// "0.412", "31.5 %", "12 mm": for captions.
 std::string ratio_text(double value);
 std::string percent_text(double fraction);

@@ -1,8 +1,6 @@
 #include "accuracy/study_targets.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <map>
 #include <set>
 
@@ -11,6 +9,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/stacking/stackability.h"
 #ifdef STACKABILIZATION_WITH_RENDERING
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/rendering/depth_raster.h"
 #endif
 
@@ -30,11 +29,7 @@ double stackability_in_frame(const Shape& shape, double translation) {
 std::string misread(const std::map<std::string, AuthorsTarget>& targets, double exact, double read) {
   std::set<std::string> texts;
   for (const auto& [name, task] : targets)
-    if (task.target > exact && task.target <= read) {
-      std::array<char, 16> buffer{};
-      texts.emplace(buffer.data(),
-                    std::to_chars(buffer.data(), buffer.data() + buffer.size(), task.target).ptr);
-    }
+    if (task.target > exact && task.target <= read) texts.insert(shortest_text(task.target));
   std::string list;
   for (const std::string& text : texts) list += (list.empty() ? "" : " ") + text;
   return list;

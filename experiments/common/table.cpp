@@ -1,12 +1,11 @@
 #include "common/table.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "common/json.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/number_text.h"
 
 namespace stackabilization::experiments {
 namespace {
@@ -36,9 +35,7 @@ struct CsvCell {
   std::string operator()(std::int64_t number) const { return std::to_string(number); }
   std::string operator()(double number) const {
     if (!std::isfinite(number)) return {};
-    std::array<char, 32> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number);
-    return {buffer.data(), end.ptr};
+    return shortest_text(number);
   }
   std::string operator()(const std::string& text) const { return quoted(text); }
 };

@@ -1,9 +1,8 @@
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "common/sheet.h"
 #include "deformation_models/findings.h"
+#include "stackabilization/core/number_text.h"
 
 namespace stackabilization::experiments {
 namespace {
@@ -38,32 +37,23 @@ void add_row(const Findings& findings, const Trial& trial, Table& table) {
   table.add(std::move(row));
 }
 
-/// So many digits after the point.
-std::string short_text(double value, int digits) {
-  std::array<char, 32> text{};
-  const double rounded = std::abs(value) < 0.5 * std::pow(10, -digits) ? 0.0 : value;  // no -0.000
-  const auto end =
-      std::to_chars(text.data(), text.data() + text.size(), rounded, std::chars_format::fixed, digits).ptr;
-  return {text.data(), end};
-}
-
 SheetTile tile_of(const Trial& trial) {
   const Measures& best = *trial.best;
   return {trial.shape,
           {trial.variant,
-           std::string(trial.reached ? "S " : "not reached: S ") + short_text(best.stackability, 3),
-           "D " + short_text(best.distortion.total(), 4) + ", change " +
-               short_text(best.change.root_mean_square, 4)}};
+           std::string(trial.reached ? "S " : "not reached: S ") + fixed_text(best.stackability, 3),
+           "D " + fixed_text(best.distortion.total(), 4) + ", change " +
+               fixed_text(best.change.root_mean_square, 4)}};
 }
 
 /// The designs of all variants for one target.
 Sheet sheet_of(const Findings& findings) {
   Sheet sheet{findings.model, Direction(0, 0, 1), {}};
-  sheet.tiles.push_back({findings.rest, {"at rest", "S " + short_text(findings.stackability_at_rest, 3)}});
+  sheet.tiles.push_back({findings.rest, {"at rest", "S " + fixed_text(findings.stackability_at_rest, 3)}});
   for (const Trial& trial : findings.trials)
     if (trial.task.preset == ImprovementPreset::refined && trial.task.fraction == findings.shown_fraction &&
         trial.best) {
-      sheet.title = findings.model + ", asked for S = " + short_text(trial.task.target, 3);
+      sheet.title = findings.model + ", asked for S = " + fixed_text(trial.task.target, 3);
       sheet.tiles.push_back(tile_of(trial));
     }
   return sheet;

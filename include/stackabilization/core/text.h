@@ -9,18 +9,21 @@ namespace stackabilization {
 
 /// The bytes of a file and what messages call it.
 struct Source {
-  std::string_view bytes;
-  const std::string& name;
+  std::string_view bytes;   ///< all of the file
+  const std::string& name;  ///< what messages call it, as a rule its path
 };
 
 /// Decimal number of the whole token, rounded to nearest, independent of the locale; nothing when the token
 /// is something else or beyond the range of double. Numbers too small for double become zero.
 std::optional<double> parse_number(std::string_view token);
 
+/// Decimal integer of the whole token, with or without a sign; nothing when the token is something else or
+/// beyond the range.
 std::optional<std::int64_t> parse_integer(std::string_view token);
 
 /// Shortest decimal text that reads back as the same double.
 void append_number(std::string& text, double value);
+/// The same for a float.
 void append_number(std::string& text, float value);
 
 /// Appends an integer and nothing else.
@@ -39,6 +42,7 @@ class TextCursor {
   /// Whether a backslash at the end of a line joins the next line to it, as in OBJ.
   enum class Backslash { ordinary, continues_line };
 
+  /// Stands before the first line of `source`, which must outlive the cursor.
   explicit TextCursor(const Source& source, Backslash backslash = Backslash::ordinary);
 
   /// Goes to the next line; false at the end of the text.
@@ -51,8 +55,11 @@ class TextCursor {
   std::string_view token_of_any_line();
   /// The rest of the line, its tokens joined by single blanks.
   std::string rest_of_line();
-  /// Next token of the line as a number or integer. `what` is what the message says was expected.
+  /// Next token of the line as a number. Throws InputError, which says that `what` was expected, where it is
+  /// none.
   double number(const char* what);
+  /// Next token of the line as an integer. Throws InputError, which says that `what` was expected, where it
+  /// is none.
   std::int64_t integer(const char* what);
 
   /// Throws InputError unless `name`, which is to be that of a part, is UTF-8.
@@ -62,10 +69,12 @@ class TextCursor {
   std::size_t remaining() const { return static_cast<std::size_t>(end_ - position_); }
   /// First byte after the end of the current line.
   const char* next_line_start() const { return line_end_ < end_ ? line_end_ + 1 : end_; }
+  /// Number of the current line, from 1; 0 before the first.
   std::int64_t line() const { return line_; }
 
   /// Throws InputError "NAME:LINE: MESSAGE".
   [[noreturn]] void fail(const std::string& message) const;
+  /// Throws InputError "NAME:LINE: MESSAGE" about another line.
   [[noreturn]] void fail_at(std::int64_t line, const std::string& message) const;
   /// Throws InputError "NAME:LINE: expected WHAT, found 'TOKEN'".
   [[noreturn]] void fail_expected(const char* what, std::string_view found) const;

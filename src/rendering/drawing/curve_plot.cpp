@@ -5,9 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "rendering/drawing/legend.h"
+#include "rendering/drawing/plot_parts.h"
 #include "stackabilization/core/errors.h"
-#include "stackabilization/rendering/legend.h"
-#include "stackabilization/rendering/plot_parts.h"
 
 namespace stackabilization {
 namespace {

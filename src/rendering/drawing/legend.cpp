@@ -1,4 +1,4 @@
-#include "stackabilization/rendering/legend.h"
+#include "rendering/drawing/legend.h"
 
 #include <algorithm>
 #include <cstddef>

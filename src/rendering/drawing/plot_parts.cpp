@@ -1,4 +1,4 @@
-#include "stackabilization/rendering/plot_parts.h"
+#include "rendering/drawing/plot_parts.h"
 
 #include <algorithm>
 #include <array>

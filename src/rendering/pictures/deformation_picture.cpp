@@ -2,12 +2,12 @@
 #include <array>
 #include <utility>
 
+#include "rendering/drawing/legend.h"
+#include "rendering/drawing/plot_parts.h"
 #include "rendering/pictures/handle_marks.h"
 #include "rendering/scene/structure_scene.h"
 #include "stackabilization/core/errors.h"
-#include "stackabilization/rendering/legend.h"
 #include "stackabilization/rendering/pictures.h"
-#include "stackabilization/rendering/plot_parts.h"
 
 namespace stackabilization {
 namespace {

@@ -1,10 +1,10 @@
 #include <algorithm>
 
+#include "rendering/drawing/plot_parts.h"
 #include "rendering/pictures/handle_marks.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/mesh/boxes.h"
 #include "stackabilization/rendering/pictures.h"
-#include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/scene.h"
 
 namespace stackabilization {

@@ -1,5 +1,5 @@
+#include "rendering/drawing/plot_parts.h"
 #include "stackabilization/rendering/pictures.h"
-#include "stackabilization/rendering/plot_parts.h"
 
 namespace stackabilization {
 

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "rendering/drawing/plot_parts.h"
 #include "stackabilization/deformation/edit.h"
 #include "stackabilization/rendering/handle_lines.h"
-#include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/scene.h"
 
 /// How edited handles are shown. Private to rendering/.

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <array>
 
+#include "rendering/drawing/legend.h"
+#include "rendering/drawing/plot_parts.h"
 #include "stackabilization/core/direction_text.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/number_text.h"
 #include "stackabilization/rendering/foot.h"
-#include "stackabilization/rendering/legend.h"
 #include "stackabilization/rendering/pictures.h"
-#include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/scene.h"
 #include "stackabilization/rendering/stacking_scene.h"
 

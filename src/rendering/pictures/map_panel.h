@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "stackabilization/rendering/plot_parts.h"
+#include "rendering/drawing/plot_parts.h"
 #include "stackabilization/stacking/map.h"
 
 namespace stackabilization::detail {

@@ -1,8 +1,8 @@
+#include "rendering/drawing/plot_parts.h"
 #include "rendering/pictures/map_panel.h"
 #include "stackabilization/core/direction_text.h"
 #include "stackabilization/core/number_text.h"
 #include "stackabilization/rendering/pictures.h"
-#include "stackabilization/rendering/plot_parts.h"
 
 namespace stackabilization {
 

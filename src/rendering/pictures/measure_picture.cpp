@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <array>
 
+#include "rendering/drawing/plot_parts.h"
 #include "rendering/pictures/scene_overlay.h"
 #include "stackabilization/core/direction_text.h"
 #include "stackabilization/core/number_text.h"
 #include "stackabilization/rendering/foot.h"
 #include "stackabilization/rendering/pictures.h"
-#include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/scene.h"
 #include "stackabilization/rendering/stacking_scene.h"
 

@@ -6,10 +6,11 @@
 #include <optional>
 #include <utility>
 
+#include "rendering/drawing/legend.h"
+#include "rendering/drawing/plot_parts.h"
 #include "rendering/pictures/map_panel.h"
 #include "rendering/pictures/scene_overlay.h"
 #include "stackabilization/core/errors.h"
-#include "stackabilization/rendering/plot_parts.h"
 
 namespace stackabilization {
 namespace {

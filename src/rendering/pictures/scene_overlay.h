@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "rendering/drawing/plot_parts.h"
 #include "stackabilization/rendering/panel_sheet.h"
-#include "stackabilization/rendering/plot_parts.h"
 
 /// A scene with what is drawn over it, in a place of a drawing. Private to rendering/.
 namespace stackabilization::detail {

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "rendering/drawing/plot_parts.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/rendering/pictures.h"
-#include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/scene.h"
 #include "stackabilization/rendering/stacking_scene.h"
 

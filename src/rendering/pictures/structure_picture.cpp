@@ -2,10 +2,10 @@
 #include <array>
 #include <utility>
 
+#include "rendering/drawing/legend.h"
+#include "rendering/drawing/plot_parts.h"
 #include "rendering/scene/structure_scene.h"
-#include "stackabilization/rendering/legend.h"
 #include "stackabilization/rendering/pictures.h"
-#include "stackabilization/rendering/plot_parts.h"
 #include "stackabilization/rendering/structure_views.h"
 
 namespace stackabilization {

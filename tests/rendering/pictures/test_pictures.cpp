@@ -1,10 +1,10 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "rendering/drawing/plot_parts.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/number_text.h"
 #include "stackabilization/rendering/pictures.h"
-#include "stackabilization/rendering/plot_parts.h"
 #include "support/catch.h"
 #include "support/picture_checks.h"
 #include "support/solids.h"

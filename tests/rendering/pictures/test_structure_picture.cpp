@@ -2,9 +2,9 @@
 #include <limits>
 #include <numbers>
 
+#include "rendering/drawing/legend.h"
 #include "rendering/scene/structure_scene.h"
 #include "stackabilization/core/errors.h"
-#include "stackabilization/rendering/legend.h"
 #include "stackabilization/rendering/pictures.h"
 #include "support/catch.h"
 #include "support/picture_checks.h"

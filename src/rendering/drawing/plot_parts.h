@@ -7,7 +7,7 @@
 #include "stackabilization/envelope/height_field.h"
 #include "stackabilization/rendering/drawing.h"
 
-/// Pieces that several pictures share. Private to rendering/.
+/// Pieces that several pictures share.
 namespace stackabilization::detail {
 
 using Elements = std::vector<DrawingElement>;
