@@ -14,112 +14,126 @@
 
 namespace stackabilization {
 
-/// Where a search stands.
+/// Progress of a search.
 struct ImprovementProgress {
-  double best_stackability = 0;  ///< of all candidates seen
-  double best_energy = 0;        ///< least E of all candidates seen
-  std::int64_t expanded = 0;     ///< candidates whose successors were made
+  double best_stackability = 0;  ///< largest S(M, r) of all candidates measured
+  double best_energy = 0;        ///< least E of all candidates measured
+  std::int64_t expanded = 0;     ///< expanded candidates: their successors were made
   std::int64_t evaluated = 0;    ///< designs measured
-  std::int64_t queued = 0;       ///< candidates that wait, over all starting directions
-  int solutions = 0;             ///< found so far
-  double seconds_left = 0;       ///< until the deadline; infinite without one
+  std::int64_t queued = 0;       ///< candidates in the queues of all starting directions
+  int solutions = 0;             ///< solutions found
+  double seconds_left = 0;       ///< seconds until the deadline; infinite without one
 };
 
 /// Options of `best_first`.
 struct BestFirstOptions {
-  double alpha = 0.2;             ///< of Eq. 5
-  ContactEditOptions edits;       ///< what contacts suggest
-  int solutions = 1;              ///< different ones wanted, >= 1
-  std::int64_t expansions = 100;  ///< limit, >= 0
-  /// Limit, >= 0: edits tried in all, whatever comes of them. A candidate whose edits would be more than are
-  /// left ends the search.
+  double alpha = 0.2;             ///< weight of D in Eq. 5, in [0, 1]
+  ContactEditOptions edits;       ///< edits that contacts suggest
+  int solutions = 1;              ///< number of different solutions wanted, >= 1
+  std::int64_t expansions = 100;  ///< largest number of expanded candidates, >= 0
+  /// Largest number of edits tried, >= 0. An edit counts whether or not it succeeds; with a cone every
+  /// expansion counts 8 more. The search ends at a candidate whose edits would exceed the rest of this
+  /// number.
   std::int64_t trials = std::numeric_limits<std::int64_t>::max();
-  /// Deadline of one call, > 0. Only a finite one makes what is found depend on the machine.
+  /// Deadline of one call, seconds, > 0. With a finite deadline the result depends on the machine.
   double seconds = std::numeric_limits<double>::infinity();
-  /// The direction is searched again within this angle of the previous one. 0: candidates keep the direction
-  /// that they start from.
+  /// Half-angle of the cone around a candidate's direction in which its direction is searched again, degrees,
+  /// in [0, 90]. With 0 every candidate keeps its starting direction.
   double cone_degrees = 0;
-  /// Directions to start from, the first preferred; not empty.
+  /// Starting directions, the preferred one first; not empty.
   std::vector<Eigen::Vector3d> directions = {{0, 0, 1}};
   std::function<void(const ImprovementProgress&)> progress = {};  ///< called from the calling thread
-  std::function<bool()> cancelled = {};                           ///< asked from the calling thread
-  /// Called now and then, and at the end, with a text that best_first_resumed takes.
+  std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends the search
+  /// Called before the first step, now and then, and at the end, from the calling thread.
+  /// `best_first_resumed` accepts the text.
   std::function<void(const std::string& state)> save = {};
 };
 
-/// A candidate: what it is, how good, and why it was made.
+/// A design of a search with its measures.
 struct Candidate {
   Design design;                                         ///< edits from rest, primitives and mesh
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< r along which it is stacked
-  Stackability measured;                                 ///< along r, with the air asked for
-  Energy energy;                                         ///< against rest
-  std::vector<std::string> reasons;                      ///< per edit, see ContactEdit::why
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< r, stacking direction
+  Stackability measured;             ///< S(M, r) with its terms, f_max with the clearance and play required
+  Energy energy;                     ///< E of Eq. 5 against the shape at rest
+  std::vector<std::string> reasons;  ///< one reason per edit, see ContactEdit::why
 };
 
-/// How often successors were refused, or designs that reach the target failed a check, and why: what a
-/// diagnosis looks at.
+/// A reason why edits were refused, or why designs that reach the target failed a check, with its count.
+/// Input of a diagnosis.
 struct RefusalCount {
-  std::string reason;      ///< with "..." for amounts
-  std::int64_t count = 0;  ///< how often
+  std::string reason;      ///< one sentence, amounts replaced by "..."
+  std::int64_t count = 0;  ///< number of edits or designs
 };
 
-/// Why a search ended: enough solutions, nothing left to expand, a limit (of expansions, of trials, of time),
-/// or the caller.
+/// Why a search ended: enough solutions were found, no candidate was left, a limit was reached (expansions,
+/// trials or time), or the caller cancelled it.
 enum class SearchEnd { solved, exhausted, expansion_limit, trial_limit, time_limit, cancelled };
 
-/// What `best_first` found.
+/// Result of `best_first`.
 struct BestFirstResult {
-  std::vector<Candidate> solutions;  ///< reach the target and pass every check; different; least E first
-  /// The most promising candidates that do not reach it, S descending, different from each other; at most 8.
+  /// Solutions: they reach the target, pass every check and differ from each other (see `best_first`); least
+  /// E first.
+  std::vector<Candidate> solutions;
+  /// Candidates of largest S that are no solutions, S descending, at most 8. No two of them make the same
+  /// kinds of edits to the same handles.
   std::vector<Candidate> nearest;
-  std::vector<RefusalCount> refusals;    ///< most frequent first
+  std::vector<RefusalCount> refusals;    ///< reasons of refusals, most frequent first
   ImprovementProgress progress;          ///< counts at the end
-  std::int64_t trials = 0;               ///< edits tried, see BestFirstOptions::trials
-  SearchEnd end = SearchEnd::exhausted;  ///< why it ended
+  std::int64_t trials = 0;               ///< edits tried, counted as for BestFirstOptions::trials
+  SearchEnd end = SearchEnd::exhausted;  ///< why the search ended
 };
 
-/// A text given to BestFirstOptions::save.
+/// A text that was passed to BestFirstOptions::save.
 struct SavedSearch {
-  std::string text;                   ///< as it was given
-  std::string name = "saved search";  ///< what messages call it, such as a path
+  std::string text;                   ///< the text, unchanged
+  std::string name = "saved search";  ///< name for error messages, such as a path
 };
 
-/// A saved search cannot be gone on with: it is damaged, or belongs to another task. The message names the
-/// search, the place and what was expected.
+/// Thrown when a saved search cannot be resumed: the text is damaged or belongs to another task. The message
+/// names the search, the place in the text and what was expected there.
 class SavedSearchError : public InputError {
  public:
   using InputError::InputError;
 };
 
-/// Algorithm 1 of the paper: of all candidates that of least E (ties: made first) is taken; one that reaches
-/// the target and passes every check is a solution, and is not edited further; of the others the contacts
-/// suggest successors (contact_edits.h). With a visited set, so that no configuration is looked at twice (to
-/// a grid of 1e-6 of the diagonal, wherever the whole is), and limits. Starting directions take turns, each
-/// with a queue of its own. The direction is searched again when a candidate is taken, inside a cone and
-/// within the symmetry planes that contain it, where the height stays what it was. Gains are over S of the
-/// shape at rest along the first starting direction, so that energies compare across directions.
+/// Best-first search, Algorithm 1 of the paper. Each step takes the queued candidate of least E (ties: the
+/// one made first). A candidate that reaches the target and passes every check is a solution and is not
+/// expanded. One that reaches the target, but does not differ from an earlier solution, is dropped. Every
+/// other candidate is expanded: its contacts suggest the edits that make its successors (contact_edits.h).
 ///
-/// Two solutions are different when the change between them (shape_change.h) is at least half of the smaller
-/// of their changes from rest; a tenth is enough when their edits take hold of different handles (symmetric
-/// parts counted as one) or move them otherwise.
+/// Visited set: no configuration is looked at twice. Configurations are compared on a grid of 1e-6 of the
+/// diagonal, up to a translation of the whole shape.
 ///
-/// The same result for any number of threads, and after any interruption, unless the deadline ends it.
-/// Throws UsageError for options out of range, and for gap scaling with a cone: it keeps its direction.
+/// Directions: every starting direction has a queue and a visited set of its own, and the queues take turns.
+/// Before a candidate that misses the target is expanded, its direction is searched again in the cone of the
+/// options. The search stays within the symmetry plane that contains the direction; where two such planes or
+/// an axis of symmetry contain it, the direction is kept. Where the height has to be kept, only directions
+/// are allowed along which the design has the height of the shape at rest. Gains are against S of the shape
+/// at rest along the first starting direction, so energies are comparable across directions.
+///
+/// Solutions: two designs are different when the change between them (shape_change.h) is at least half of the
+/// smaller of their changes from rest. A tenth is enough when their edits use different handles (symmetric
+/// parts count as one) or move the handles differently.
+///
+/// The result is the same for any number of threads and after any interruption, unless the deadline ends the
+/// search. Throws UsageError for options out of range, and for a cone with gap scaling, which keeps its
+/// direction.
 BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOptions& options);
 
-/// Goes on from a text given to `save` by a search with the same checker and options; only its limits may be
-/// others. The expansions and trials that it made count, the seconds it used do not: they are of no state, so
-/// that the same search saves the same bytes. Throws SavedSearchError.
+/// Resumes a search from a text that `save` received. Checker and options must be those of the saved search,
+/// except for the limits. The expansions and trials of the saved search count against the limits. Its seconds
+/// do not: the text holds no times, so equal searches save equal bytes. Throws SavedSearchError, and as
+/// `best_first`.
 BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
                                    const SavedSearch& state);
 
-/// What a search saves before its first step.
+/// Returns the text that a search saves before its first step. Throws as `best_first`.
 std::string search_at_start(const RequirementChecker& checker, const BestFirstOptions& options);
 
-/// The starting directions of a saved search, to the bit. Throws SavedSearchError.
+/// Returns the starting directions of a saved search, to the bit. Throws SavedSearchError.
 std::vector<Eigen::Vector3d> directions_of(const SavedSearch& state);
 
-/// Is it a text given to `save`, of whatever search and version?
+/// Returns whether `text` is a saved search, of any task and any version.
 bool is_search_state(const std::string& text);
 
 }  // namespace stackabilization

@@ -4,10 +4,11 @@
 
 namespace stackabilization {
 
-/// A mesh that anything has deformed, as a design of `rest`: without edits, and with the primitives of the
-/// structure carried along, as a DesignSpace without primitives of its own does it. So D (energy.h) of meshes
-/// from different deformation models is measured on one structure. Throws InputError when `rest` is invalid,
-/// UsageError unless `deformed` has its triangles and as many vertices.
+/// Returns the design of `rest` whose mesh is `deformed`, whatever deformed it. The design has no edits. Its
+/// primitives are those of the structure at rest, carried along by the mesh as a DesignSpace of a model
+/// without primitives does. So D (energy.h) compares meshes from different deformation models on one
+/// structure. Throws InputError when `rest` is invalid, UsageError unless `deformed` has the triangles and
+/// the vertex count of `rest`.
 Design carried_design(const StructuredShape& rest, Shape deformed);
 
 }  // namespace stackabilization

@@ -5,18 +5,19 @@
 
 namespace stackabilization {
 
-/// What refinement makes small, and refined solutions are ordered by.
+/// Measure of the change of a shape: the objective of refinement, and the order of refined solutions.
 enum class ChangeMeasure {
-  distortion,    ///< D of Eq. 6: what the primitives lose
-  displacement,  ///< root mean square distance of the vertices after the best similarity fit, see
-                 ///< shape_change
-  both,          ///< their sum: neither sees everything (D no bend of a tube, the other no symmetry)
+  distortion,    ///< D of Eq. 6: changes of the primitives
+  displacement,  ///< root mean square of vertex displacements after the best similarity fit: shape_change.h
+  /// Sum of the two. Each is blind to something: D to a bent tube, the displacement to a broken symmetry.
+  both,
 };
 
-/// The size of a change, without unit and at least 0.
+/// Returns the size of a change, dimensionless, >= 0.
 double size_of(ChangeMeasure measure, const Distortion& distortion, const ShapeChange& shape);
 
-/// That of a candidate. Throws UsageError unless it has the triangles of `rest`.
+/// Returns the size of the change of a candidate from `rest`. Throws UsageError unless the candidate has the
+/// triangles of `rest`.
 double size_of(ChangeMeasure measure, const Candidate& candidate, const Shape& rest);
 
 }  // namespace stackabilization

@@ -9,73 +9,100 @@
 
 namespace stackabilization {
 
-/// Which edits a contact suggests.
+/// Families of edits that contacts suggest.
 enum class EditFamily {
-  paper,     ///< section 4.2: faces, corners and cross-sections, one step
-  extended,  ///< also whole parts, changes that stay linear along a cylinder (Falloff), and larger steps
+  paper,     ///< section 4.2 of the paper: faces, corners and cross-sections, one step
+  extended,  ///< also ends of parts (with Falloff::linear) and whole parts, and larger steps
 };
 
-/// Which edits `contact_edits` makes of contacts, and how large.
+/// Options of `contact_edits`.
 struct ContactEditOptions {
-  EditFamily family = EditFamily::extended;  ///< what is taken hold of
-  /// Cylinders whose axis is straight may bend, and walls that are cylinders or cones may bulge, as in the
-  /// paper; otherwise their ends lean and widen with Falloff::linear, in either family.
+  EditFamily family = EditFamily::extended;  ///< family of handles and edits
+  /// Whether cylinders with a straight axis may bend, and cylindrical or conical walls may bulge, as in the
+  /// paper. If not, edits lean or widen the ends of such cylinders with Falloff::linear, in both families.
   bool bends = false;
-  double move_step = 0.06;  ///< fraction of the extent of the shape along the move; > 0
-  double scale_step = 0.1;  ///< of a ring's handle, up and down; in (0, 1)
-  /// Sizes of the extended family, as multiples of both steps; not empty, > 0, below 1 / scale_step.
+  double move_step = 0.06;  ///< step of a move, fraction of the extent of the shape along the move; > 0
+  double scale_step = 0.1;  ///< step of a scaling: factors 1 - step and 1 + step; in (0, 1)
+  /// Sizes of the edits of the extended family, as multiples of the two steps; not empty, > 0, below 1 /
+  /// scale_step.
   std::vector<double> multiples = {1, 3};
-  /// Regions that are looked at, largest first, symmetric ones counted once; at least 1.
+  /// Largest number of regions considered, largest area first; symmetric regions count once; >= 1.
   int most_regions = 12;
-  ContactOptions contacts;  ///< of the regions
+  ContactOptions contacts;  ///< options of the contact regions; `band` also defines the ends of the extent
 };
 
-/// One suggestion, and where it comes from.
+/// An edit that a contact region suggests.
 struct ContactEdit {
-  Edit edit;                            ///< to be made to the design
-  ContactType type = ContactType::dot;  ///< of its region
-  int region = 0;                       ///< row of the regions
-  bool of_lower_copy = true;            ///< the edited side of the pair: the copy below, or the one above
-  std::string why;                      ///< one clause: "down, away from what stands on it"
+  Edit edit;                            ///< edit to make to the design
+  ContactType type = ContactType::dot;  ///< type of the region
+  int region = 0;                       ///< row of the region in ContactSituation::regions
+  bool of_lower_copy = true;            ///< edited side of the region: the copy below, or the copy above
+  std::string why;                      ///< reason, one clause: "down, away from the next copy"
 };
 
-/// A design stacked on itself.
+/// A design stacked on itself, with its contacts.
 struct ContactSituation {
-  const StructuredShape& rest;                ///< of the design space
-  DeformationKind kind;                       ///< of the design space
-  const std::vector<Handle>& handles;         ///< of the design space
-  const Design& design;                       ///< the one that is stacked
-  const std::vector<ContactRegion>& regions;  ///< of the design along the direction
+  const StructuredShape& rest;                ///< shape at rest of the design space
+  DeformationKind kind;                       ///< deformation model of the design space
+  const std::vector<Handle>& handles;         ///< handles of the design space
+  const Design& design;                       ///< design that is stacked
+  const std::vector<ContactRegion>& regions;  ///< contact regions of the design along `direction`
   const Direction& direction;                 ///< r, from the copy below to the copy above
-  /// DesignSpace::centres, for models without primitives; empty: only points are found, no wires or slices.
+  /// DesignSpace::centres, for models without primitives. If empty, only points are used as handles, no wires
+  /// and no slices.
   std::vector<Eigen::Vector3d> centres = {};
 };
 
-/// Edits that separate the pairs of contact regions (paper, section 4.2), in the frame of r: a ring scales
-/// the handle; a dot moves it along r (the side of the lower copy down, that of the upper copy up) or
-/// sideways, out of the way; a line the same, but sideways only across the line. A region on the boundary of
-/// the extent along r (to the width of the contact band) never moves along r. Sideways means radially (from
-/// the axis of the shape's box along r), and along the sides of that box; where a mirror plane of the
-/// structure contains r, its sides are along and across the first such plane.
+/// Returns the edits that separate the two sides of contact regions (paper, section 4.2).
 ///
-/// The handle of a region is what lies nearest to its centre on the primitive of its part: face, and where
-/// the region is near one corner, of a cuboid, cross-section of a cylinder; for models without primitives the
-/// nearest point, wire and slice. Of cylinders that have to stay straight it is the nearest end. Gap scaling
-/// has one edit, of the shape along r.
+/// Frame: w = r / |r|. Where a mirror plane of the structure contains r, u is the normal of the first such
+/// plane; otherwise u and v are the sides of the least rectangle around the projection along r. Radial moves
+/// go away from or towards the axis along r through the centre of the shape's box in this frame.
 ///
-/// The extended family also takes hold of the ends of the part (faces of a cuboid across r; of cylinders with
-/// Falloff::linear) and of the part as a whole, and scales
-/// cross-sections, faces and wholes at dots and lines too, where the contact is off their centre. Sideways it
-/// goes the shorter way past the other part and no farther than that takes; the longer way is tried with the
-/// nearest handle and the least multiple only. Along r, where most stands in the way, half of the least
-/// multiple is tried too. Plates (cuboids thin along the contact) do not move or scale by the face that is
-/// touched: their edges draw back from the contact.
+/// Handles of one side of a region; (E) marks what only the extended family has:
 ///
-/// Edits that a self-symmetry rules out are left out, such as moves of a handle across the mirror plane that
-/// it lies on. Of regions that symmetries of the structure take onto each other the first stands for all,
-/// since edits are symmetric (but for the surface model, whose edits are not). Every edit occurs once.
-/// Deterministic; order: by region, side (the copy below first), handle, kind, size. Throws UsageError for
-/// options out of range.
+/// | role | handle |
+/// | --- | --- |
+/// | nearest | cuboid: the nearest face, and the nearest corner if the contact is near one |
+/// | | generalized cylinder: the nearest cross-section, or the nearest end if it has to stay straight |
+/// | | models without primitives: the nearest point, wire and slice |
+/// | end (E) | cuboid: the faces across r; generalized cylinder: both end sections, with Falloff::linear |
+/// | whole (E) | the part |
+///
+/// Edits by role and type of region:
+///
+/// | role | ring | dot | line |
+/// | --- | --- | --- | --- |
+/// | nearest | scale; along r (E) | along r; sideways; scale (E) | along r; across; scale (E) |
+/// | end (E) | scale | sideways; scale | across; scale |
+/// | whole (E) | along r; scale | along r; sideways; scale | along r; across; scale |
+///
+/// * Along r: a move down on the copy below, up on the copy above. Left out where the region or the handle
+///   lies on the boundary of the extent along r, to the width of the contact band. The extended family also
+///   tries half of the smallest size.
+/// * Sideways: moves along u, along v and radially, both ways. Across: only across the line, both ways.
+/// * Sizes sideways and across, next to another part of the copy (E): on the shorter way past the other part
+///   the multiples below the distance that clears it (with the contact band as margin), that distance, and
+///   1.5 times that distance; the plain multiples where that distance is not within 0.2 to 6 steps. On the
+///   longer way only the smallest size of nearest handles.
+/// * Scale a cross-section, wire, slice or face: narrower and wider within its plane. At rings always; at
+///   dots and lines only cross-sections and faces of controllers, where the contact is off their centre. All
+///   sizes, except that only the smallest is used to widen at dots and lines and for sections that bulge
+///   (Falloff::gaussian).
+/// * Scale a part: narrower and wider along u and v, flatter along w. Along u and v at rings always; else,
+///   and along w, only where the contact is off the centre of the part. Not along a line. Not along w if the
+///   part reaches an end of the extent. Narrower by the sizes below the one that clears the other part, and
+///   that one; wider by the smallest size.
+/// * Plates (cuboids thin along the contact, E): the touched face moves along r only. The two edge faces on
+///   the side of the contact draw back from it, if their normals lie across r.
+/// * Gap scaling: one edit, the scaling of the shape along r.
+///
+/// Edits that a self-symmetry forbids are left out, for instance moves of a handle across a mirror plane on
+/// which it lies. Regions that symmetries of the structure map onto each other are represented by the first
+/// one, since edits are symmetric; not so for the surface model, whose edits are not symmetric.
+///
+/// Every edit occurs once. Deterministic. Order: by region, side (the copy below first), handle, kind, size.
+/// Throws UsageError for options out of range.
 std::vector<ContactEdit> contact_edits(const ContactSituation& situation,
                                        const ContactEditOptions& options = {});
 

@@ -6,16 +6,17 @@
 
 namespace stackabilization {
 
-/// How many designs of a shape an effort makes and measures at most.
+/// Returns the largest number of designs that `effort` makes and measures for `rest`; infinite for an
+/// infinite effort.
 ///
-/// Work is counted, not timed, so that the same input has the same result on every machine. An effort of 1 is
-/// work that takes up to about 40 seconds on two cores of 2 GHz; others are multiples of it, and may be
-/// infinite. A design of a shape with more triangles, parts and corners of its convex hull takes longer, so
-/// that fewer are made. Throws UsageError for an effort that is not above 0.
+/// Effort counts work, not time, so equal input has equal results on every machine. Effort 1 takes up to
+/// about 40 seconds on two cores of 2 GHz; the work is proportional to the effort. The number of designs
+/// falls with the number of triangles, of parts and of corners of the convex hull, since designs of such
+/// shapes take longer. Throws UsageError unless the effort is above 0.
 double designs_of_effort(double effort, const StructuredShape& rest);
 
-/// Along how many directions S of a shape is measured at most when all of an effort goes into that, >= 1.
-/// Throws UsageError for an effort that is not above 0.
+/// Returns the largest number of directions along which S of `shape` is measured when the whole effort goes
+/// into that, >= 1. Throws UsageError unless the effort is above 0.
 std::int64_t directions_of_effort(double effort, const Shape& shape);
 
 }  // namespace stackabilization

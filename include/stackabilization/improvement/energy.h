@@ -9,63 +9,70 @@
 
 namespace stackabilization {
 
-/// D(M0, M) by its terms (paper, Eq. 6 to 10), each without unit, at least 0, and 0 at rest to the bit.
+/// Distortion D(M0, M) by its terms (paper, Eq. 6 to 10). Each term is dimensionless, >= 0, and exactly 0 at
+/// rest.
 struct Distortion {
-  double volume = 0;     ///< D_vol, Eq. 7: changes of the primitives' volumes
-  double proximity = 0;  ///< D_prox, Eq. 8: changes of distances between primitives; 0 for fewer than two
-  double box = 0;        ///< D_BB, Eq. 9: changes of the extents along the three main axes
-  double symmetry = 0;   ///< D_symm, Eq. 10, over the diagonal: 0 without symmetric pairs
+  double volume = 0;  ///< D_vol, Eq. 7: changes of the volumes of the primitives
+  /// D_prox, Eq. 8: changes of the distances between primitives; 0 for fewer than two primitives.
+  double proximity = 0;
+  double box = 0;  ///< D_BB, Eq. 9: changes of the extents along the three main axes
+  /// D_symm, Eq. 10: violation of symmetries, over the diagonal; 0 without symmetric pairs.
+  double symmetry = 0;
 
-  /// Their mean, Eq. 6.
+  /// Returns D, Eq. 6: the mean of the four terms.
   double total() const { return (volume + proximity + box + symmetry) / 4; }
 };
 
-/// What the terms of D add up, with signs: each term is the sum of the magnitudes, which has a kink wherever
-/// one of them vanishes. They themselves are smooth, and an optimiser can be told so.
+/// Signed summands of the terms of D. D_vol, D_prox and D_BB are sums of absolute values, with a kink
+/// wherever a summand vanishes. The summands themselves are smooth, so an optimiser can treat the kinks
+/// explicitly.
 struct DistortionChanges {
-  Eigen::VectorXd volume;     ///< per part
-  Eigen::VectorXd proximity;  ///< per pair of parts i < j, by j, then i
-  Eigen::VectorXd box;        ///< per main axis
-  double symmetry = 0;        ///< D_symm
+  Eigen::VectorXd volume;     ///< one summand per part, Eq. 7
+  Eigen::VectorXd proximity;  ///< one per pair of parts i < j, Eq. 8; ordered by j, then i
+  Eigen::VectorXd box;        ///< one per main axis, Eq. 9
+  double symmetry = 0;        ///< D_symm, >= 0
 
-  Distortion distortion() const;  ///< the sizes of these, Eq. 7 to 10 (their mean is D)
+  Distortion distortion() const;  ///< sums of absolute values, Eq. 7 to 10
 };
 
-/// E(M), Eq. 5.
+/// Energy E(M), Eq. 5.
 struct Energy {
-  Distortion distortion;  ///< D and its terms
+  Distortion distortion;  ///< D by its terms
   double gain = 0;        ///< Delta S = S(M) - S(M0)
-  double value = 0;       ///< alpha D - (1 - alpha) Delta S
+  double value = 0;       ///< E = alpha D - (1 - alpha) Delta S
 };
 
-/// Distance d of Eq. 8 between two primitives: the least distance between their axes, model units. The axis
-/// of a generalized cylinder is its curve (closed where it is), that of a cuboid the segment between the
-/// centres of the two opposite faces that are farthest apart (the first such pair, where others are as far
-/// apart to tolerance::relative). It does not vanish for parts that touch, unless their axes cross.
+/// Returns the distance d of Eq. 8 between two primitives: the least distance between their axes, model
+/// units. The axis of a generalized cylinder is its curve (closed if the cylinder is closed). The axis of a
+/// cuboid is the segment between the centres of the two opposite faces that are farthest apart (ties within
+/// tolerance::relative: the first pair). Touching parts have d > 0 unless their axes cross.
 double axis_distance(const Primitive& a, const Primitive& b);
 
-/// Measures designs against one rest. Const, safe from any number of threads.
+/// Measures distortion and energy of designs against one shape at rest. Const, safe from any number of
+/// threads.
 ///
-/// So that D varies continuously with a design, what could jump is decided at rest: which faces the axis of a
-/// cuboid runs between; which control points of a symmetric pair correspond; and the three main axes of
-/// Eq. 9. Those are the axes of the box of the shape at rest, and extents of designs are measured along them.
-/// A design has no box larger than their product, so that a larger V(M) is always paid for.
+/// D varies continuously with the design, because every choice that could jump is made at rest: the pair of
+/// faces between which the axis of a cuboid runs, the corresponding control points of symmetric pairs, and
+/// the three main axes of Eq. 9. The main axes are those of the box of the shape at rest, and extents of
+/// designs are measured along them. V(M) of a design is at most the product of these extents, so D counts
+/// every growth of V(M).
 ///
-/// Where the primitives of the structure miss a symmetry already at rest, only what they miss it by more
-/// counts in Eq. 10 (nothing that `analyse_structure` makes does, beyond rounding). Where all axes cross at
-/// rest, or no primitive has a volume, Eq. 8 and 7 would divide by zero: the diagonal, or its cube, stands
-/// in.
+/// Eq. 10 counts only the part of a symmetry violation that exceeds the violation at rest (which is rounding
+/// for results of `analyse_structure`). Where the denominator of Eq. 8 or 7 vanishes at rest (all axes cross,
+/// or no primitive has a volume) the diagonal, or its cube, takes its place.
 class EnergyMeter {
  public:
-  /// `boxes`: whose axes Eq. 9 looks along, the minimal oriented one's or the file's. `alpha` in [0, 1].
-  /// Throws UsageError for an alpha out of range, InputError when `rest` is invalid.
+  /// `boxes`: which box gives the main axes of Eq. 9, the minimal oriented one or the file's. `alpha`: weight
+  /// of D in Eq. 5, in [0, 1]. Throws UsageError for an alpha out of range, InputError when `rest` is
+  /// invalid.
   EnergyMeter(const StructuredShape& rest, BoxModel boxes, double alpha = 0.2);
 
-  /// Throws UsageError when `design` does not have the vertices and primitives of the rest.
+  /// Returns D by its terms. Throws UsageError unless `design` has the vertices and primitives of the shape
+  /// at rest.
   Distortion distortion(const Design& design) const;
-  /// What `distortion` adds up. Throws as that.
+  /// Returns the signed summands of D. Throws as `distortion`.
   DistortionChanges changes(const Design& design) const;
-  /// E for a gain Delta S that was measured elsewhere. Throws as `distortion`.
+  /// Returns E for a gain Delta S that the caller has measured. Throws as `distortion`.
   Energy energy(const Design& design, double gain) const;
   double alpha() const { return alpha_; }  ///< weight of D in Eq. 5
 

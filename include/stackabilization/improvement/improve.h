@@ -11,51 +11,55 @@
 
 namespace stackabilization {
 
-/// How much of `improve` goes beyond the paper.
+/// Phases that `improve` runs.
 enum class ImprovementPreset {
-  paper,    ///< search only, with the paper's edits and steps
-  refined,  ///< a pursuit, that, and a search with further edits, then continuous magnitudes of what they
-            ///< find
+  paper,  ///< best-first search with the edits and steps of the paper
+  /// Beyond the paper: a pursuit, the paper's search, a search with the extended edits, then refinement
+  /// (continuous magnitudes) of the designs found.
+  refined,
 };
 
 /// Options of `improve`.
 struct ImprovementOptions {
-  ImprovementPreset preset = ImprovementPreset::refined;  ///< which steps are taken
-  /// How much work is done at most, > 0, see effort.h: 1 comes to about 40 seconds on two cores. The result
-  /// depends on it, and not on the machine.
+  ImprovementPreset preset = ImprovementPreset::refined;  ///< phases to run
+  /// Limit of the work, > 0, see effort.h; 1 takes about 40 seconds on two cores. The result depends on the
+  /// effort, not on the machine.
   double effort = 1;
-  /// Its alpha, edits, directions, deadline, callbacks and expansions, of which there is one at least, hold
-  /// for the whole run; its trials follow from the effort.
+  /// Options of the searches. alpha, edits, directions, deadline, callbacks and expansions (at least 1) apply
+  /// to the whole run. The number of trials follows from `effort`. `cancelled` may be asked from any thread.
   BestFirstOptions search;
-  RefinementOptions refinement;  ///< of the continuous magnitudes
+  RefinementOptions refinement;  ///< options of the refinement
 };
 
-/// What `improve` came to: solutions, or why there are none.
+/// Result of `improve`: solutions, or the reason why there are none.
 struct Improvement {
   Candidate before;  ///< the shape at rest, along the direction of the best solution
-  /// Best first: of the paper's preset those of least E. Refined ones all meet the target, so that more S is
-  /// no merit: those of least change (RefinementOptions::least).
+  /// Solutions, best first. Preset `paper`: least E first. Preset `refined`: least change first
+  /// (RefinementOptions::least), since all refined solutions meet the target and a larger S is no merit.
   std::vector<Candidate> solutions;
-  std::vector<Assessment> assessments;  ///< of the solutions
-  std::optional<Candidate> nearest;     ///< the best S reached, when there is no solution
-  std::optional<Diagnosis> diagnosis;   ///< why there is none
-  /// `expanded` counts both searches, `evaluated` all designs that were measured, those of pursuits and
-  /// refinements too; the rest is of the last search.
+  std::vector<Assessment> assessments;  ///< one assessment per solution
+  std::optional<Candidate> nearest;     ///< candidate of largest S, when there is no solution
+  std::optional<Diagnosis> diagnosis;   ///< why there is no solution
+  /// `expanded` counts both searches. `evaluated` counts all designs measured, also by pursuits and
+  /// refinements. The other fields are those of the last search.
   ImprovementProgress progress;
-  /// Why it ended: `time_limit` whenever the deadline ended any part of it, `solved` when there are as many
-  /// solutions as wanted, else why the last search ended.
+  /// `cancelled` when the caller cancelled the run. Otherwise `time_limit` when the deadline ended any phase.
+  /// Otherwise `solved` when there are as many solutions as wanted, or when only refinement reached the
+  /// target after the search had run out of candidates. Otherwise the end of the last search.
   SearchEnd end = SearchEnd::exhausted;
 };
 
-/// From a wish to designs that stack: a pursuit along every starting direction, the paper's search,
-/// best-first search with further edits, refinement of what they find (and, where there are too few
-/// solutions, of what came nearest), checks, and a reason when it cannot be done. Where the work suffices for
-/// the paper's search, the change of the refined preset is at most that of the paper's for the same target.
-/// See pursuit.h, best_first.h and refinement.h for guarantees. The same result for any number of threads and
-/// on every machine, unless a deadline ends it.
+/// Searches for designs that meet the requirements. Preset `refined`: a pursuit along every starting
+/// direction, the paper's search, a search with the extended edits, then refinement of the designs found
+/// (with too few solutions, also of the candidates of largest S). Solutions are checked; without a solution
+/// the result has a diagnosis. Guarantees: see pursuit.h, best_first.h and refinement.h. If the effort
+/// suffices for the paper's search, the refined preset changes the shape by at most as much as the paper's
+/// preset for the same target. The result is the same for any number of threads and on every machine, unless
+/// a deadline ends the run.
 ///
-/// `state`: what an interrupted run of the same task saved last. The result is that of a run that was not
-/// interrupted: phases before and after the last search are done again, which has the same outcome.
+/// `state`: the last text that an interrupted run of the same task saved. The result then equals that of an
+/// uninterrupted run: the phases before and after the last search are run again, with the same outcome.
+/// Throws UsageError for options out of range, SavedSearchError for a state that cannot be resumed.
 Improvement improve(const RequirementChecker& checker, const ImprovementOptions& options,
                     const std::optional<SavedSearch>& state = std::nullopt);
 

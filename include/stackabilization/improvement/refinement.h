@@ -11,46 +11,58 @@ namespace stackabilization {
 
 /// Options of `refined_candidate`.
 struct RefinementOptions {
-  int joining = 12;                           ///< further edits that may join in one round, >= 0
-  ChangeMeasure least = ChangeMeasure::both;  ///< what is made small
-  int evaluations = 800;  ///< designs measured at most, >= 10, but for those that tell which edits can leave
-  double alpha = 0.2;     ///< of the energies reported
-  double reach = 3;       ///< magnitudes are sought in [-reach, reach] times those given, > 0
-  double negligible = 0.02;  ///< edits that give less than this fraction of what S gains leave if they can
+  int joining = 12;                           ///< edits added per round, chosen by reduced cost, >= 0
+  ChangeMeasure least = ChangeMeasure::both;  ///< objective to minimise
+  /// Largest number of designs measured, >= 10. The test of which edits can be dropped may exceed it.
+  int evaluations = 800;
+  double alpha = 0.2;  ///< weight of D in Eq. 5, for the energies reported
+  /// Bound of the magnitudes, > 0: they lie in [-reach, max(reach, 1)] times those given.
+  double reach = 3;
+  /// Drop edits whose removal loses less than this fraction of the total gain in S, if the other edits can
+  /// make up for it; >= 0.
+  double negligible = 0.02;
   std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends with the best so far
 };
 
-/// The edit with its magnitude multiplied: x moves by x times as much, turns by x times the angle, scales by
-/// the factor to the power of x. 1 gives it back, 0 changes nothing.
+/// Returns the edit with its magnitude multiplied by x: a move goes x times as far, a rotation turns by x
+/// times the angle, a scaling has its factor to the power of x. x = 1 gives the same edit, x = 0 changes
+/// nothing.
 Edit with_magnitude(Edit edit, double x);
 
-/// Edits that do the same thing to the same handle made into one at the place of the first, those that change
-/// nothing left out.
+/// Merges edits that do the same to the same handle into one, at the position of the first: moves along one
+/// line, rotations about one axis, scalings along one axis or uniform. Leaves out edits that change nothing.
 std::vector<Edit> merged(const std::vector<Edit>& edits);
 
-/// What `refined_candidate` came to.
+/// Result of `refined_candidate`.
 struct RefinementResult {
-  Candidate candidate;   ///< the best design found, with the edits it takes
-  bool reached = false;  ///< it reaches the target and passes every check
+  Candidate candidate;   ///< the best design found, with its edits
+  bool reached = false;  ///< whether it reaches the target and passes every check
   int evaluations = 0;   ///< designs measured
 };
 
-/// Beyond the paper: the search takes coarse steps; from its edits, the magnitudes that reach the target with
-/// the least change. Edits of no use leave; of all that a controller model can do simply (moves and scalings
-/// of parts, faces and ends), those join that promise most. Where the edits given do not reach the target,
-/// first the magnitudes of largest S.
+/// Minimises the change of a candidate subject to the target, over the continuous magnitudes of its edits.
+/// Goes beyond the paper, whose search takes coarse steps.
 ///
-/// min change(x) subject to S_ij(x) >= target for every pair of blocks of the shape that come near each other
-/// (parts, cut into slabs across r), and to every check of the requirements. By a bundle method: a convex
-/// model of slopes, by differences evaluated in parallel, and of what earlier points showed of each
-/// constraint, is minimised in a trust region (Schramm and Zowe 1992; the displacement enters as in
-/// Gauss-Newton). S is a maximum over contacts, and an optimum mostly lies where several of them balance:
-/// methods for smooth functions (SLSQP, tried first) get stuck on the way. Which edits join is read from the
-/// multipliers of that model. The last step is a root search on the way to the shape at rest. The target is
-/// met, by exact separation, and by no more than 1e-7, unless S jumps there or the change does not depend on
-/// it. A local optimum, not more. The direction is kept. Never worse than what was given: if that reaches the
-/// target, the change of the result is at most the same. Throws UsageError for options out of range.
-/// Deterministic for any number of threads.
+///     min change(x)  subject to  S_ij(x) >= target for all pairs of blocks i, j that come near each other
+///                                and every check of the requirements
+///
+/// Blocks are the parts of the shape, cut into slabs across r.
+///
+/// Method: a bundle method (Schramm and Zowe 1992). It minimises a convex model in a trust region. The model
+/// holds slopes at the current point and cuts: the linearised constraints at points tried before. Slopes are
+/// finite differences, evaluated in parallel. The displacement enters as in Gauss-Newton. f_max is a maximum
+/// over contacts, and most optima lie where several contacts balance; methods for smooth functions (SLSQP,
+/// tried first) stop before they get there.
+///
+/// Steps: if the given edits do not reach the target, magnitudes of largest S are searched first. Edits that
+/// are of no use are removed. With controllers further edits are added (moves and scalings of parts, faces
+/// and ends), those of the largest reduced cost according to the multipliers of the model. A root search on
+/// the segment to the shape at rest comes last.
+///
+/// Guarantees: a local optimum only. The target is met by the exact separation, and exceeded by at most 1e-7
+/// (tolerance::target) unless S jumps there or the change does not depend on it. The direction is kept. The
+/// result is never worse than the start: if the start reaches the target, the change of the result is at most
+/// that of the start. Deterministic for any number of threads. Throws UsageError for options out of range.
 RefinementResult refined_candidate(const RequirementChecker& checker, const Candidate& start,
                                    const RefinementOptions& options = {});
 

@@ -10,39 +10,41 @@
 
 namespace stackabilization {
 
-/// A structured shape without some of its parts: triangles with the vertices they use, primitives and
-/// relations of the others, in their order. Global symmetries stay unless one of them takes a part that is
-/// left to one that is removed. Throws UsageError when nothing would be left or a part does not exist.
+/// Returns a structured shape without some of its parts. The other parts keep their order, their triangles
+/// with the vertices used, their primitives and their relations. A global symmetry is kept unless it maps a
+/// part that stays onto one that is removed. Throws UsageError when a part does not exist, or when no part,
+/// no triangle or no extent would be left.
 StructuredShape without_parts(const StructuredShape& structured, const std::vector<int>& parts);
 
-/// The pieces of a shape cut at its joints into groups of parts, each a structured shape of its own as
-/// `without_parts` makes it, in the order of the groups (paper, Fig. 14). Throws UsageError unless every part
-/// is in one group and no group is empty.
+/// Cuts a shape at its joints into groups of parts (paper, Fig. 14). Returns one structured shape per group,
+/// in the order of the groups, each as `without_parts` makes it. Throws UsageError unless every part is in
+/// exactly one group and no group is empty.
 std::vector<StructuredShape> partitioned(const StructuredShape& structured,
                                          const std::vector<std::vector<int>>& groups);
 
-/// Parts that symmetry relations tie together, directly or through others: every part is in one class, the
-/// parts of a class ascending, the classes by their first parts.
+/// Returns the classes of parts that symmetry relations connect, directly or through other parts. Every part
+/// is in one class. Parts ascend within a class; classes are ordered by their first parts.
 std::vector<std::vector<int>> symmetric_classes(const Structure& structure);
 
-/// A removal, and how the rest stacks.
+/// A removal of parts, and the stackability of the rest.
 struct Removal {
   std::vector<int> parts;                                ///< a class of symmetric parts
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< along which the rest stacks best, of those tried
-  double stackability = 0;                               ///< S of the rest along it
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< of largest S of the rest, of those tried
+  double stackability = 0;                               ///< S of the rest along `direction`
 };
 
-/// How what is left is measured.
+/// Options of `removals`.
 struct RemovalOptions {
-  StackabilityOptions measure;  ///< `flat_shapes` is not looked at: a rest without volume has no S
-  /// That are tried, at least one; the best one counts, among equals the first.
+  /// Meaning of S. `flat_shapes` is ignored: a rest without volume has no S.
+  StackabilityOptions measure;
+  /// Directions to try, at least one. The direction of largest S counts; ties: the first.
   std::vector<Eigen::Vector3d> directions = {{0, 0, 1}};
-  /// Asked before each class, from any thread; when it returns true, the classes that are left are left out.
+  /// Asked before each class, from any thread. Once it returns true, the remaining classes are skipped.
   std::function<bool()> cancelled = {};
 };
 
-/// Every class of symmetric parts whose removal leaves something with a volume, largest S first (ties: by
-/// parts). The same for any number of threads. Throws UsageError without directions.
+/// Returns every class of symmetric parts whose removal leaves a shape with a volume, largest S first (ties:
+/// by parts). The result is the same for any number of threads. Throws UsageError without directions.
 std::vector<Removal> removals(const StructuredShape& structured, const RemovalOptions& options = {});
 
 }  // namespace stackabilization

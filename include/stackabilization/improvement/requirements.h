@@ -10,99 +10,108 @@
 
 namespace stackabilization {
 
-/// So many copies that fit into a length along r: h + (copies - 1) f_max <= length.
+/// Number of copies that must fit into a length along r: h + (copies - 1) f_max <= length.
 struct StackRoom {
-  int copies = 2;     ///< >= 2
-  double length = 0;  ///< model units, > 0
+  int copies = 2;     ///< number of copies, >= 2
+  double length = 0;  ///< length along r, model units, > 0
 };
 
-/// What a designer asks of a solution. A design that breaks one of these is none.
+/// Requirements of a solution. A design that violates one of them is no solution.
 struct Requirements {
   double target = 0;  ///< S(M, r) to be reached, < 1
-  /// Asked for instead of the target, which is then for reports only: how S and the length go together
-  /// depends on boxes, which change with the design.
+  /// Replaces the target, which is then used in reports only. The S that a length needs depends on the boxes,
+  /// and they change with the design.
   std::optional<StackRoom> room;
-  StackabilityOptions measure;      ///< what S means; boxes and semantics of all measurements
-  bool keep_height = true;          ///< h(M, r) = h(M0, r), to tolerance::relative of it
-  std::vector<int> kept_parts;      ///< stay as they are
-  std::vector<int> editable_parts;  ///< only these and parts symmetric to them may change; empty: all
-  /// Sizes of parts shrink to no less than this fraction of what they are at rest and grow to no more than
-  /// its inverse (proportions.h); in [0, 1], 0: anything goes.
+  StackabilityOptions measure;  ///< meaning of S: boxes and semantics of all measurements
+  bool keep_height = true;      ///< h(M, r) = h(M0, r), within tolerance::relative of it
+  std::vector<int> kept_parts;  ///< parts that must not change
+  /// Only these parts and parts symmetric to them may change. Empty: all parts may.
+  std::vector<int> editable_parts;
+  /// Least allowed ratio of a size of a part to its size at rest (proportions.h); the inverse is the largest
+  /// one. In [0, 1]; 0 allows everything.
   double least_proportion = 0.4;
-  std::optional<double> box_tolerance;    ///< sides of the file's box change by this fraction at most
-  std::optional<double> least_thickness;  ///< model units; what is thinner at rest may stay as thin as it is
-  /// Air between copies. The f_max of the target is then that of a stack with this air (separation_with_play
-  /// plus clearance).
-  double clearance = 0, play = 0;             ///< along r, and sideways; model units, >= 0
-  std::optional<double> least_draft_degrees;  ///< between r and every surface that copies touch with
-  std::optional<int> standing_copies;         ///< a stack of so many must stand
-  double least_tilt_degrees = 0;              ///< and topple only beyond this tilt
+  std::optional<double> box_tolerance;  ///< largest relative change of each side of the file's box
+  /// Least thickness, model units. Places that are thinner at rest may stay as thin as they are.
+  std::optional<double> least_thickness;
+  /// Air between copies. It counts in f_max of the target: separation_with_play plus clearance.
+  double clearance = 0, play = 0;  ///< along r, and sideways; model units, >= 0
+  /// Least draft angle: between r and every surface on which copies touch, degrees, in [0, 90].
+  std::optional<double> least_draft_degrees;
+  std::optional<int> standing_copies;  ///< number of copies whose stack must stand
+  double least_tilt_degrees = 0;       ///< least tilt at which that stack topples, degrees, in [0, 90]
 };
 
 /// Throws UsageError for a target >= 1, a room out of range, negative lengths, fractions or angles, air of
-/// more than a million diagonals, angles above 90 degrees, fewer than one standing copy, a tilt without such
-/// copies, parts that do not exist, anything not finite.
+/// more than a million diagonals, angles above 90 degrees, fewer than one standing copy, a tilt without
+/// standing copies, parts that do not exist, numbers that are not finite, and options that measure flat
+/// shapes.
 void validate(const Requirements& requirements, const StructuredShape& rest);
 
-/// What they forbid a deformation model, for stacking along `direction`: extent, box, parts that stay (those
-/// kept, and all but the editable ones and those symmetric to them where some are named; in order).
+/// Returns the constraints on a deformation model for stacking along `direction`: extent, box and fixed
+/// parts. Fixed parts are the kept parts and, where editable parts are named, all parts that are neither
+/// editable nor symmetric to an editable one; ascending.
 DeformationConstraints deformation_constraints(const Requirements& requirements, const StructuredShape& rest,
                                                const Direction& direction);
 
-/// One requirement held against one design.
+/// Result of one requirement for one design.
 struct Check {
   /// "target" or "room", "height", "relations", "proportions", "box", "parts", "thickness", "draft",
   /// "standing"
   std::string name;
-  double value =
-      0;  ///< what was measured: S or the length of the stack, change of h, worst residual, largest change of
-          ///< a side, farthest displacement, least thickness, least draft, tilt at which a stack topples
-  double demanded = 0;  ///< what was asked for, or the tolerance to which it is held
-  bool passed = false;  ///< `value` is on the right side of `demanded`
-  std::string unit;     ///< "", "model units", "degrees", "of the diagonal", "of the height", "of a side"
-  std::string note;     ///< where and why; may be empty
+  /// Measured quantity, in the order of the names: S or the length of the stack, change of h, largest
+  /// residual, least ratio of sizes, largest change of a side, largest displacement, least thickness, least
+  /// draft angle, tilt at which the stack topples.
+  double value = 0;
+  double demanded = 0;  ///< required value, or the tolerance of the comparison
+  bool passed = false;  ///< whether `value` satisfies `demanded`
+  /// "", "model units", "degrees", "of the diagonal", "of the height", "of the size at rest" or "of a side".
+  std::string unit;
+  std::string note;  ///< where and why; may be empty
 };
 
-/// A design measured along one direction.
+/// Measures and checks of a design along one direction.
 struct Assessment {
-  Stackability measured;      ///< from the exact separation, f_max with the air asked for
-  Separation separation;      ///< exact, without air; only from `RequirementChecker::checked`
-  std::vector<Check> checks;  ///< only from `checked`
-  /// Whether every check passed; also true where none was made.
+  Stackability measured;      ///< from the exact separation, f_max with clearance and play
+  Separation separation;      ///< exact, without clearance and play; set by RequirementChecker::checked only
+  std::vector<Check> checks;  ///< one per requirement; set by `checked` only
+  /// Returns whether every check passed; true without checks.
   bool passed() const;
 };
 
-/// Holds designs of one space against requirements. The space must outlive it. Const, safe from any number of
-/// threads.
+/// Checks designs of one space against requirements. The space must outlive the checker. Const, safe from any
+/// number of threads.
 class RequirementChecker {
  public:
   /// Throws as `validate`.
   RequirementChecker(const DesignSpace& space, Requirements requirements);
 
-  const Requirements& requirements() const;  ///< as given
-  const DesignSpace& space() const;          ///< as given; must still be alive
-  /// S(M, r), with the air that is asked for: the one number that a search needs for every candidate. Within
-  /// 1e-12 of what `checked` holds against the target. Throws InputError for a shape without volume.
+  const Requirements& requirements() const;  ///< the requirements given
+  const DesignSpace& space() const;          ///< the space given; it must still exist
+  /// Returns S(M, r) with the required clearance and play: the only measure that a search needs for every
+  /// candidate. Within 1e-12 of the value that `checked` compares with the target. Throws InputError for a
+  /// shape without volume.
   Stackability measured(const Shape& shape, const Direction& direction) const;
-  /// The same unless S is certainly below `threshold`.
+  /// Returns the same unless S is certainly below `threshold`.
   std::optional<Stackability> measured_above(const Shape& shape, const Direction& direction,
                                              double threshold) const;
-  /// Does a design so measured reach the target or, where one is asked for, fit into the room? Without slack.
+  /// Returns whether a design with these measures reaches the target or, where a room is required, fits into
+  /// it. No slack.
   bool reaches(const Stackability& measured) const;
-  /// S from which on `reaches` holds, up to rounding, for a design of such an extent and such boxes.
+  /// Returns the least S for which `reaches` holds, up to rounding, for a design with the extent and boxes of
+  /// `measured`.
   double needed(const Stackability& measured) const;
-  /// Why a design is out of proportion, if it is: one clause. Cheap.
+  /// Returns why a design violates the proportions, one clause, or nothing. Cheap.
   std::optional<std::string> out_of_proportion(const Design& design) const;
-  /// Everything: each requirement that was made, in the order of Check::name. The target is compared without
-  /// slack, from exact separations; the others are constructions in double precision and pass to
+  /// Checks every requirement that was made, in the order of Check::name. The target is compared without
+  /// slack, from exact separations. The other quantities are computed in double precision and compared within
   /// tolerance::relative.
   ///
   /// * relations: only for controllers, recomputed from the primitives;
   /// * parts: no vertex of a part that stays has moved. Where such a part shares vertices with one that may
-  ///   change, controllers let the surface between them follow: there its primitive has not;
-  /// * thickness: at every probe at least what is asked for or, where the shape at rest is thinner, what that
-  ///   has there;
-  /// * draft: at the contacts of the copies without air.
+  ///   change, controllers let the surface between them follow; there the primitive has not moved;
+  /// * thickness: every probe is at least as thick as required or, where the shape at rest is thinner, as at
+  ///   rest;
+  /// * draft: at the contacts of the copies without clearance and play.
   Assessment checked(const Design& design, const Direction& direction) const;
 
  private:

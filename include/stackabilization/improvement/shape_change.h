@@ -4,23 +4,25 @@
 
 namespace stackabilization {
 
-/// How far a shape was changed, apart from being moved, turned and scaled.
+/// Change of a shape, up to a similarity.
 struct ShapeChange {
-  double root_mean_square = 0;  ///< of the vertex distances after the best similarity fit, over the diagonal
-  double largest = 0;           ///< the same for the farthest vertex
+  /// Root mean square of the vertex displacements after the best similarity fit, over the diagonal.
+  double root_mean_square = 0;
+  double largest = 0;  ///< largest displacement, over the diagonal
 };
 
 /// Fits `after` to `before` by the similarity (rotation, translation, one factor; no reflection) of least
-/// squared distances (Umeyama 1991) over the vertices that triangles use, and measures what is left over the
-/// diagonal of the axis-aligned box of `before` (0 where that is 0). Throws UsageError unless both have the
-/// same triangles and as many vertices.
+/// squared distances (Umeyama 1991) over the vertices that triangles use. Returns the remaining displacements
+/// over the diagonal of the axis-aligned box of `before`; 0 where the diagonal is 0. Throws UsageError unless
+/// both shapes have the same triangles and the same number of vertices.
 ShapeChange shape_change(const Shape& before, const Shape& after);
 
-/// What shape_change measures: where the vertices that triangles use lie after that fit, less where they
-/// were, over the diagonal; n x 3, 0 x 3 where the diagonal is 0. Throws as that.
+/// Returns the displacements that `shape_change` measures: positions after the fit minus positions in
+/// `before`, of the vertices that triangles use, over the diagonal; n x 3, or 0 x 3 where the diagonal is 0.
+/// Throws as `shape_change`.
 Points displacements(const Shape& before, const Shape& after);
 
-/// Root mean square of the lengths of the rows, 0 for none.
+/// Returns the root mean square of the lengths of the rows; 0 without rows.
 double root_mean_square(const Points& vectors);
 
 }  // namespace stackabilization

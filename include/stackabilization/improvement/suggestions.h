@@ -10,43 +10,47 @@
 
 namespace stackabilization {
 
-/// One edit that the contacts of a design suggest, and what it would do.
+/// An edit that the contacts of a design suggest, with its effect.
 struct Suggestion {
-  ContactEdit edit;  ///< what to do, and why
-  /// Why it cannot be made: the refusal of the model, that nothing would change, or the first requirement,
-  /// other than the target, that the design would break. When set, `measured` and `energy` say nothing.
+  ContactEdit edit;  ///< the edit and its reason
+  /// Why the edit cannot be made: the model refuses it, it changes nothing, the design would violate a
+  /// requirement (the first one; the target does not count, a room does), or S or D would be undefined. When
+  /// set, `measured` and `energy` are meaningless.
   std::optional<std::string> refusal;
-  Stackability measured;        ///< S(M, r) after the edit, exact, with the air asked for
-  Energy energy;                ///< against rest
-  bool reaches_target = false;  ///< `measured` is at least the target of the requirements
+  Stackability measured;  ///< S(M, r) after the edit, exact, with clearance and play
+  Energy energy;          ///< E after the edit, against the shape at rest
+  /// Whether `measured` reaches the target of the requirements; false where a room replaces the target.
+  bool reaches_target = false;
 };
 
 /// Options of `suggestions` and `situation`.
 struct SuggestionOptions {
-  double alpha = 0.2;        ///< of Eq. 5
-  ContactEditOptions edits;  ///< what contacts suggest
+  double alpha = 0.2;        ///< weight of D in Eq. 5, in [0, 1]
+  ContactEditOptions edits;  ///< edits that contacts suggest
 };
 
-/// A design stacked on itself, looked at: what the next step starts from.
+/// Measures and contacts of a design stacked on itself: the basis of the next step.
 struct Situation {
-  Stackability measured;                ///< S(M, r), exact, with the air asked for
-  Energy energy;                        ///< against rest
-  std::vector<ContactRegion> contacts;  ///< without air; none when nothing touches
+  Stackability measured;  ///< S(M, r), exact, with clearance and play
+  Energy energy;          ///< E against the shape at rest
+  /// Contact regions without clearance and play; none when nothing touches.
+  std::vector<ContactRegion> contacts;
 };
 
-/// Precondition: `design` is one of the checker's space. Throws UsageError for an alpha out of [0, 1].
+/// Measures a design along `direction` and finds its contacts. Precondition: `design` belongs to the
+/// checker's space. Throws UsageError for an alpha out of [0, 1].
 Situation situation(const RequirementChecker& checker, const Design& design, const Direction& direction,
                     const SuggestionOptions& options = {});
 
-/// Everything that can be done to a design in one step (section 5 of the paper, the interactive mode): the
-/// edits that its contacts along `direction` suggest (contact_edits.h), each made and measured along the same
-/// direction. Gains are against the shape at rest along that direction. Those that can be made come first,
-/// least E first (ties: in the order of contact_edits), then the refused ones.
+/// Lists the edits for one interactive step (section 5 of the paper): every edit that the contacts of
+/// `design` along `direction` suggest (contact_edits.h), made and measured along the same direction. Gains
+/// are against the shape at rest along that direction. Order: edits that can be made first, least E first
+/// (ties: in the order of contact_edits), then refused edits.
 ///
-/// An edit is made under `deformation_constraints(checker.requirements(), rest, direction)`:
-/// `checker.space().edited(design, suggestion.edit.edit, those)` gives its design. The same result for any
-/// number of threads. Precondition: `design` is one of the checker's space. Throws UsageError for options out
-/// of range.
+/// Each edit is made under `deformation_constraints(checker.requirements(), rest, direction)`, so
+/// `checker.space().edited(design, suggestion.edit.edit, constraints)` gives its design. The result is the
+/// same for any number of threads. Precondition: `design` belongs to the checker's space. Throws UsageError
+/// for options out of range.
 std::vector<Suggestion> suggestions(const RequirementChecker& checker, const Design& design,
                                     const Direction& direction, const SuggestionOptions& options = {});
 

@@ -22,7 +22,7 @@ namespace stackabilization {
 
 namespace {
 
-/// What raises S by less is no help.
+/// Least increase of S that counts as help.
 constexpr double worth_saying = 0.01;
 constexpr int most_blockers = 4;
 constexpr std::size_t most_constraints = 3, most_removals = 3;
@@ -31,7 +31,7 @@ std::string number(double value, int digits = 3) {
   return fixed_text(value, digits);
 }
 
-/// With as many digits as tell it from `other`.
+/// Formats `value` with as many digits as tell it from `other`, 3 to 9.
 std::string number_unlike(double value, double other) {
   int digits = 3;
   while (digits < 9 && number(value, digits) == number(other, digits)) ++digits;
@@ -51,19 +51,19 @@ bool contains(const std::vector<int>& parts, int part) {
   return std::find(parts.begin(), parts.end(), part) != parts.end();
 }
 
-/// A limit of directions, at least 1.
+/// Rounds a number of directions down to a limit of at least 1.
 std::int64_t whole_directions(double count) {
   constexpr auto most = std::numeric_limits<std::int64_t>::max();
   if (!(count < static_cast<double>(most))) return most;
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(count));
 }
 
-/// What became of the edits that would separate regions.
+/// Result of trying the edits that would separate some regions.
 struct Trial {
-  double best = 0;  ///< largest S; the S before where no edit was made
+  double best = 0;  ///< largest S after one edit, at least the S before
   std::map<std::string, int> refusals;
   int made = 0;
-  bool stopped = false;  ///< before all of them were tried
+  bool stopped = false;  ///< whether the trial ended before all edits were tried
 };
 
 class Diagnostician {
@@ -146,7 +146,8 @@ class Diagnostician {
     return deformation_constraints(requirements, rest_, direction_);
   }
 
-  /// All edits that these regions suggest, each by itself; nothing when that is too many, or cancelled.
+  /// Tries every edit that these regions suggest, each by itself. Nothing if they are more designs than are
+  /// left, or when stopped.
   std::optional<Trial> tried(const std::vector<ContactRegion>& regions,
                              const DeformationConstraints& constraints) {
     if (stopped()) return std::nullopt;
@@ -211,7 +212,7 @@ class Diagnostician {
          best.value});
   }
 
-  /// The blocking parts that have to stay, one class of symmetric ones at a time.
+  /// Adds remedies that free blocking parts, one class of symmetric parts at a time.
   void free_parts() {
     const Requirements& asked = checker_.requirements();
     for (const std::vector<int>& parts : symmetric_classes(rest_.structure)) {
@@ -244,7 +245,7 @@ class Diagnostician {
     }
   }
 
-  /// A remedy when one edit helps that is refused without it.
+  /// Adds a remedy if one edit helps under the requirements `instead` and not under those given.
   void offer(Remedy::Kind kind, const std::string& what, const Requirements& instead,
              const std::vector<int>& parts) {
     const std::optional<Trial> trial = tried(regions_, constraints(instead));
@@ -288,9 +289,9 @@ class Diagnostician {
   Direction direction_;
   std::vector<Handle> handles_;
   StackabilitySolver solver_;
-  std::vector<ContactRegion> regions_;  ///< one of each class of symmetric ones
-  std::optional<double> as_asked_;      ///< best S after one more edit
-  std::int64_t designs_ = 0;            ///< made so far
+  std::vector<ContactRegion> regions_;  ///< one region per class of symmetric regions
+  std::optional<double> as_asked_;      ///< largest S after one edit under the requirements given
+  std::int64_t designs_ = 0;            ///< designs made
   Diagnosis diagnosis_;
 };
 

@@ -22,7 +22,8 @@ bool is_joint(const Relation& relation) {
   return relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
 }
 
-/// What hangs together through joints once those between a class and the other parts are cut.
+/// Returns the components connected by joints, after cutting the joints between the class `members` and other
+/// parts.
 Groups pieces_without_joints_of(const Structure& structure, const std::vector<int>& members) {
   std::vector<char> inside(structure.parts.size(), 0);
   for (const int part : members) inside[static_cast<std::size_t>(part)] = 1;
@@ -36,7 +37,7 @@ Groups pieces_without_joints_of(const Structure& structure, const std::vector<in
   return detail::members_of(sets, structure.parts.size());
 }
 
-/// The partition into these groups of an object with the box volume V(M).
+/// Measures the partition of an object with box volume V(M) = `box_volume` into these groups.
 Partition measured(const StructuredShape& structured, const Groups& groups, double box_volume,
                    const RemovalOptions& options) {
   Partition partition;

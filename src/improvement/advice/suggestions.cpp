@@ -13,7 +13,7 @@ namespace stackabilization {
 
 namespace {
 
-/// What designs along one direction are held against.
+/// Measures and checks designs along one direction.
 class Judge {
  public:
   Judge(const RequirementChecker& checker, const Direction& direction, double alpha)
@@ -27,7 +27,7 @@ class Judge {
     return meter_.energy(design, measured.value - at_rest_);
   }
 
-  /// Fills in what the edit of `suggestion` does to `design`.
+  /// Fills in the effect of `suggestion.edit` on `design`.
   void judge(Suggestion& suggestion, const Design& design) const {
     const DesignOutcome outcome = checker_.space().edited(design, suggestion.edit.edit, constraints_);
     if (outcome.refusal) {
@@ -58,7 +58,7 @@ class Judge {
   const Direction& direction_;
   EnergyMeter meter_;
   DeformationConstraints constraints_;
-  double at_rest_;  ///< S along the direction
+  double at_rest_;  ///< S of the shape at rest along the direction
 };
 
 }  // namespace

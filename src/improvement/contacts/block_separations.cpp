@@ -11,15 +11,15 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// About as many blocks are made.
+/// Approximate number of blocks.
 constexpr int many_blocks = 96;
 
 }  // namespace
 
 struct BlockSeparations::Placed {
   Shape shape;
-  Eigen::AlignedBox3d box;                     ///< in the frame of r
-  std::shared_ptr<const SeparationTree> tree;  ///< made where it is needed
+  Eigen::AlignedBox3d box;                     ///< box in the frame of r
+  std::shared_ptr<const SeparationTree> tree;  ///< built on demand
 };
 
 BlockSeparations::BlockSeparations(const Shape& rest, const Direction& direction, Semantics semantics,

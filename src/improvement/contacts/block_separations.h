@@ -10,45 +10,49 @@
 
 namespace stackabilization::detail {
 
-/// A block of the copy below and one of the copy above.
+/// A block of the copy below (`upper`) and a block of the copy above (`lower`).
 struct BlockPair {
   int upper = 0, lower = 0;
-  double f = 0;  ///< what it asked for when it was found, model units
+  double f = 0;  ///< separation of the two blocks when the pair was found, model units
 };
 
-/// What a pair asks for.
+/// Separation of a pair of blocks.
 struct BlockSeparation {
   bool blocked = false;  ///< false: the blocks pass each other at any height
-  /// Their separation along r, within 1e-12 of the extent, model units. Not blocked: the least that they
-  /// would ask for if they met, that of the lowest and the highest point.
+  /// Separation along r, model units, within 1e-12 of the extent. If not blocked, a lower bound of any
+  /// separation of the two blocks: the lowest point of the block below minus the highest point of the block
+  /// above.
   double f = 0;
 };
 
-/// A shape in blocks that stay the same while it deforms: its parts, cut into slabs across r by the heights
-/// of triangles at rest. f_max is the maximum over all pairs of blocks; that of one pair changes far more
-/// smoothly with the shape. Const, safe from any number of threads.
+/// Decomposition of a shape into blocks that stay the same while the shape deforms: its parts, cut into slabs
+/// across r by the heights of the triangles at rest. f_max is the maximum of the separations over all pairs
+/// of blocks. The separation of one pair is a far smoother function of the shape than f_max. Const, safe from
+/// any number of threads.
 class BlockSeparations {
  public:
-  /// `rest`: the shape that the blocks are made of; `most_slabs`: into which a part is cut.
+  /// `rest`: shape that defines the blocks. `most_slabs`: largest number of slabs per part.
   BlockSeparations(const Shape& rest, const Direction& direction, Semantics semantics, int most_slabs = 12);
 
-  /// Pairs that are blocked and ask for at least `least` in a shape with the triangles of `rest`, those that
-  /// ask for most first.
+  /// Returns the blocked pairs whose separation in `shape` is at least `least` (model units), largest
+  /// separation first. `shape` must have the triangles of `rest`.
   std::vector<BlockPair> pairs_above(const Shape& shape, double least) const;
-  /// What each of `pairs` asks for.
+  /// Computes the separation of each of `pairs` in `shape`.
   std::vector<BlockSeparation> separations(const Shape& shape, const std::vector<BlockPair>& pairs) const;
 
  private:
   struct Block {
     std::vector<std::int32_t> vertices;  ///< rows of the shape
-    Triangles triangles;                 ///< of those, and a triangle without size at the anchor
+    /// Triangles of the block, as rows of `vertices`, and a triangle without size at the anchor (the row
+    /// after the last vertex).
+    Triangles triangles;
   };
 
   struct Placed;  ///< a block of a deformed shape
 
-  /// A point beside the shape that becomes the origin and is put into every block. It meets nothing but
-  /// itself, and keeps separation trees from choosing an origin each, which would have them built again for
-  /// every pair.
+  /// Returns a point beside the shape. It becomes the origin and is added to every block. It collides with
+  /// nothing but itself. All separation trees then use the same origin; with an origin each they would be
+  /// built again for every pair.
   Eigen::Vector3d anchor(const Shape& shape) const;
   Placed placed(const Shape& shape, int block, const Eigen::Vector3d& anchor) const;
   BlockSeparation separation(const Placed& upper, const Placed& lower) const;

@@ -17,15 +17,15 @@ namespace {
 using namespace detail;
 using Role = ContactHandle::Role;
 
-/// A contact is off the centre of what it is on beyond this fraction of the way to its outside.
+/// A contact is off the centre of a handle beyond this fraction of the way from the centre to the outside.
 constexpr double off_centre = 0.25;
-/// Least and farthest that a handle goes to pass the other part, in steps: creeping out of a contact hair by
-/// hair leads nowhere.
+/// Least and largest size of an edit that clears the other part, in steps. Below the least one the edit would
+/// creep out of the contact in tiny steps.
 constexpr double least_steps = 0.2, most_steps = 6;
 
-/// Cosine from which a direction is not across r.
+/// A direction is across r if the absolute value of its cosine to r is at most this.
 constexpr double across_r = 0.1;
-/// What is offered besides the size that would just be enough, as a multiple of it.
+/// A further size tried, as a multiple of the size that just clears the other part.
 constexpr double reserve = 1.5;
 
 void check(const ContactEditOptions& options) {
@@ -112,7 +112,7 @@ class ContactEditor {
            (!one.along || one.along->cross(*other.along).norm() <= tolerance::relative);
   }
 
-  /// Multiples of `step`, none beyond what is enough.
+  /// Returns the multiples of `step` below `enough`, and `enough` itself.
   std::vector<double> sizes(double step, std::optional<double> enough) const {
     if (enough) enough = std::max(*enough, least_steps * step);
     std::vector<double> result;
@@ -139,7 +139,8 @@ class ContactEditor {
     return range_along(situation_.rest.shape, axis).length();
   }
 
-  /// How far the handle must go to leave the other part behind, with a margin of the contact band.
+  /// Returns how far the handle must move along `along` to clear the other part, with the contact band as
+  /// margin.
   double way_out(const ContactSide& side, const ContactHandle& handle, const Eigen::Vector3d& along) {
     return range_of_part(side.other, along).high - handle.range(along).low +
            options_.contacts.band * extent(along);
@@ -173,7 +174,7 @@ class ContactEditor {
     }
   }
 
-  /// The edge of a plate draws back from under or over the contact.
+  /// Moves an edge face of a plate inwards, away from the contact.
   void move_edge(const ContactSide& side, const ContactHandle& handle) {
     const Eigen::Vector3d inwards = -handle.normal;
     const auto allowed = symmetry_.allowed_move(side.part, handle.centre, inwards);
@@ -190,14 +191,14 @@ class ContactEditor {
       add(side, handle, Move{size * *allowed}, "edge inwards");
   }
 
-  /// Joints that give way take back some of what an edit does.
+  /// Adds a size beyond `enough`: joints that yield undo part of an edit.
   static std::vector<double> with_reserve(std::vector<double> sizes, double enough) {
     sizes.push_back(std::max(reserve * enough, sizes.back()));
     return sizes;
   }
 
-  /// Is the contact far enough from `centre` that scaling about it, across or along what `axes` span,
-  /// matters?
+  /// Returns whether scaling the handle matters at the contact: `offset` from its centre is large enough
+  /// against `reach`, the distance from the centre to its outside.
   static bool is_off(const Eigen::Vector3d& offset, double reach) {
     return offset.norm() >= off_centre * reach;
   }
@@ -241,7 +242,7 @@ class ContactEditor {
     if (!upright) add(side, whole, Scale{1 + multiples_.front() * options_.scale_step, *allowed}, "wider");
   }
 
-  /// By what fraction a part must shrink along `axis` to leave the other beside it.
+  /// Returns the fraction by which a part must shrink along `axis` to clear the other part beside it.
   std::optional<double> enough_shrinking(const ContactSide& side, const ContactHandle& whole,
                                          const Eigen::Vector3d& axis) {
     if (side.other == side.part) return std::nullopt;
@@ -264,11 +265,11 @@ class ContactEditor {
   bool extended_;
   std::vector<double> multiples_;
   double diagonal_;
-  std::map<int, Points> points_;  ///< of parts, see `part_points`
+  std::map<int, Points> points_;  ///< corners per part, see `part_points`
   std::vector<ContactEdit> edits_;
 };
 
-/// Gap scaling has one knob.
+/// Returns the only edit of gap scaling.
 std::vector<ContactEdit> gap_scalings(const ContactSituation& situation, const ContactEditOptions& options) {
   std::vector<ContactEdit> edits;
   if (situation.regions.empty()) return edits;

@@ -12,9 +12,10 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// A contact is near a corner of a face when it lies in the outer half both ways.
+/// A contact is near a corner of a face if both of its face coordinates in [-1, 1] are at least this far from
+/// 0.
 constexpr double near_corner = 0.5;
-/// A cuboid thinner than this fraction of its other sides is a plate.
+/// A cuboid is a plate if it is thinner than this fraction of its other sides.
 constexpr double plate_thickness = 0.25;
 
 Eigen::Vector3d mean(const Points& points) {
@@ -54,10 +55,10 @@ int nearest_row(const Points& points, const Eigen::Vector3d& to) {
   return static_cast<int>(row);
 }
 
-/// Coordinates in the axes of a cuboid, whose faces are at -1 and 1; exact for boxes.
+/// Coordinates along the axes of a cuboid, with the faces at -1 and 1. Exact for boxes.
 struct CuboidFrame {
   Eigen::Vector3d centre;
-  Eigen::Matrix3d halves;  ///< columns: from the centre to the positive faces
+  Eigen::Matrix3d halves;  ///< columns: from the centre to the centres of the positive faces
 
   explicit CuboidFrame(const Cuboid& cuboid) : centre(mean(cuboid.corners)) {
     for (int axis = 0; axis < 3; ++axis)
@@ -123,7 +124,8 @@ void add_cuboid_handles(std::vector<ContactHandle>& handles, const Cuboid& cuboi
   }
 }
 
-/// An end that leans, or widens, and leaves what is straight straight.
+/// Returns an end section whose edits have Falloff::linear: the end leans or widens, and straight lines stay
+/// straight.
 ContactHandle end_of(const GeneralizedCylinder& cylinder, int part, int section) {
   ContactHandle end = section_of(cylinder, part, section);
   end.falloff = Falloff::linear;
@@ -152,7 +154,8 @@ void add_cylinder_handles(std::vector<ContactHandle>& handles, const Generalized
                    [](const ContactHandle& a, const ContactHandle& b) { return a.role < b.role; });
 }
 
-/// Where the contact was before the design was edited: handles of models without primitives know only that.
+/// Returns where the contact lies on the shape at rest. Models without primitives know their handles at rest
+/// only.
 Eigen::Vector3d centre_at_rest(const ContactSituation& situation, const ContactSide& side) {
   const Shape &now = situation.design.shape, &rest = situation.rest.shape;
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
@@ -163,7 +166,7 @@ Eigen::Vector3d centre_at_rest(const ContactSituation& situation, const ContactS
   return side.centre + shift / std::max(1.0, 3.0 * static_cast<double>(side.region.polygons.size()));
 }
 
-/// The nearest point, wire and slice.
+/// Returns the nearest point, wire and slice.
 std::vector<ContactHandle> surface_handles(const ContactSituation& situation, const ContactSide& side) {
   const Eigen::Vector3d target = centre_at_rest(situation, side);
   std::vector<ContactHandle> result;

@@ -6,34 +6,37 @@
 
 #include "improvement/contacts/contact_side.h"
 
-/// Not installed.
+// Handles for one side of a contact region: faces, corners, cross-sections and whole parts near the contact.
 namespace stackabilization::detail {
 
-/// Something to take hold of, and what goes with it.
+/// A handle near a contact, with its geometry and its role.
 struct ContactHandle {
   enum class Role {
-    nearest,  ///< lies at the contact
-    end,      ///< the end of a part that the contact is on
-    whole,    ///< the part
+    nearest,  ///< closest to the contact
+    end,      ///< an end of the touched part
+    whole,    ///< the touched part as a whole
   };
   Handle handle;
   Role role = Role::nearest;
   Falloff falloff = Falloff::gaussian;
-  /// A face of a plate: only moved along its normal, never scaled, for the edge of the plate would slant.
+  /// Face of a plate. The touched face moves along r only, an edge face along its normal only. Neither is
+  /// scaled: that would slant the edge of the plate.
   bool of_plate = false;
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Points points;                                     ///< that move with it
-  double radius = 0;                                 ///< of a cross-section around `centre`
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit: of a cross-section or face; else zero
+  /// Points that move with the handle, n x 3.
+  Points points;
+  double radius = 0;                                 ///< radius of a cross-section around `centre`; else 0
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit normal of a cross-section or face; else 0
 
-  /// What it takes along `axis` (unit).
+  /// Returns the interval that the handle covers along the unit vector `axis`, model units.
   Range range(const Eigen::Vector3d& axis) const;
 };
 
-/// Coordinates of the corners of all triangles of a part of the design.
+/// Returns the corners of all triangles of a part, 3 rows per triangle.
 Points part_points(const Shape& shape, int part);
 
-/// Handles for a side, nearest first; ends and the whole only in the extended family.
+/// Returns the handles for one side of a region, ordered by role. Ends and the whole part only in the
+/// extended family.
 std::vector<ContactHandle> contact_handles(const ContactSituation& situation, const ContactSide& side,
                                            const ContactFrame& frame, const ContactEditOptions& options);
 

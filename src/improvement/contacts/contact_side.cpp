@@ -11,12 +11,12 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Directions whose cosine is above this are one way out.
+/// Two directions are the same if their cosine is at least this.
 constexpr double one_way = 0.998;
-/// Cosine from which a move is called outwards.
+/// A move is outwards if its cosine to the radial direction is above this.
 constexpr double clearly = 0.1;
 
-/// Normal of the first mirror plane that contains `w`: of the whole, or of its parts.
+/// Returns the normal of the first mirror plane that contains `w`, of the whole shape or of its parts.
 std::optional<Eigen::Vector3d> mirror_normal(const Structure& structure, const Eigen::Vector3d& w) {
   std::vector<Symmetry> symmetries = structure.symmetries;
   for (const Relation& relation : structure.relations)
@@ -28,7 +28,7 @@ std::optional<Eigen::Vector3d> mirror_normal(const Structure& structure, const E
   return std::nullopt;
 }
 
-/// What the polygons of one side take along `axis`.
+/// Returns the interval that the polygons of a side cover along `axis`.
 Range range_of(const ContactSide& side, const Eigen::Vector3d& axis) {
   const double middle = side.centre.dot(axis);
   Range range{middle, middle};

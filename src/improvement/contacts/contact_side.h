@@ -6,46 +6,48 @@
 
 #include "stackabilization/improvement/contact_edits.h"
 
-/// Not installed.
+// The two sides of a contact region, and the frame in which edits separate them.
 namespace stackabilization::detail {
 
-/// The axes along which contacts are pulled apart: r, and the sides of the box around the shape across it.
+/// Frame for separating contacts: w along r, u and v along the sides of the box around the shape across r.
 struct ContactFrame {
-  Eigen::Vector3d u, v, w;  ///< unit, orthogonal; w = r / |r|
-  Eigen::Vector3d centre;   ///< of the box
-  Range height;             ///< of the design along w
-  double band = 0;          ///< what is this near to an end of `height` lies on it, model units
+  Eigen::Vector3d u, v, w;  ///< orthonormal; w = r / |r|
+  Eigen::Vector3d centre;   ///< centre of the box, model units
+  Range height;             ///< interval of the design along w
+  double band = 0;          ///< distance from an end of `height` that counts as on the end, model units
 
   bool on_end(const Range& along_w) const {
     return along_w.low <= height.low + band || along_w.high >= height.high - band;
   }
 };
 
-/// The first mirror plane of the structure that contains r gives u; without one the least rectangle around
-/// the projection does. `band` is a fraction of the extent.
+/// Returns the frame of a situation. u is the normal of the first mirror plane of the structure that contains
+/// r; without such a plane it is a side of the least rectangle around the projection along r. `band`:
+/// fraction of the extent along r.
 ContactFrame contact_frame(const ContactSituation& situation, double band);
 
-/// One of the two surfaces that touch.
+/// One of the two surfaces of a contact region.
 struct ContactSide {
   const ContactRegion& region;
-  int row = 0;                ///< of the region
-  bool of_lower_copy = true;  ///< this surface belongs to the copy below
-  int part = 0, other = 0;    ///< of this surface, and of the one that it touches
+  int row = 0;                ///< row of the region
+  bool of_lower_copy = true;  ///< whether the surface belongs to the copy below
+  int part = 0, other = 0;    ///< part of this surface, and part of the surface that it touches
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  bool on_end = false;  ///< on the top or bottom of the extent along r
+  bool on_end = false;  ///< whether the region lies on the top or bottom of the extent along r
 };
 
-/// Both sides of region `row`, that of the copy below first.
+/// Returns both sides of region `row`, the side of the copy below first.
 std::vector<ContactSide> contact_sides(const ContactSituation& situation, int row, const ContactFrame& frame);
 
-/// A way out sideways.
+/// A sideways direction away from a contact.
 struct ContactWay {
-  Eigen::Vector3d along;  ///< unit
-  std::string word;       ///< "outwards", "inwards", "sideways"
+  Eigen::Vector3d along;  ///< unit vector
+  std::string word;       ///< "outwards", "inwards" or "sideways"
 };
 
-/// Both ways radially and along the sides of the box; for lines across them. `near`: a contact is on the axis
-/// of the box, and goes nowhere radially, within this distance, model units.
+/// Returns the sideways directions for a side, each with its opposite: radially and along u and v; for lines
+/// only across the line. `near`: distance from the axis of the box within which a contact has no radial
+/// direction, model units.
 std::vector<ContactWay> ways_out(const ContactSide& side, const ContactFrame& frame, double near);
 
 }  // namespace stackabilization::detail

@@ -15,7 +15,7 @@ bool nearly(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return (a - b).norm() <= tolerance::same_symmetry * b.norm();
 }
 
-/// Height along the axis of a revolution and distance from it.
+/// Returns the height of `p` along the axis of a revolution, and its distance from the axis.
 Eigen::Vector2d around(const Symmetry& revolution, const Eigen::Vector3d& p) {
   const Eigen::Vector3d offset = p - revolution.point;
   const double height = offset.dot(revolution.axis);

@@ -7,8 +7,8 @@
 
 namespace stackabilization::detail {
 
-/// The contact regions of a shape stacked on itself along `direction`, in the semantics that the requirements
-/// measure S in; none where copies pass each other. Throws as contact_regions does.
+/// Returns the contact regions of a shape stacked on itself along `direction`, in the semantics in which the
+/// requirements measure S. None where the copies pass each other. Throws as contact_regions.
 std::vector<ContactRegion> contacts_of(const RequirementChecker& checker, const Shape& shape,
                                        const Direction& direction, ContactOptions options);
 

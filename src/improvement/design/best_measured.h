@@ -6,11 +6,11 @@
 
 #include "stackabilization/stacking/stackability.h"
 
-/// Not installed.
+// The best of several stacking directions of one shape.
 namespace stackabilization::detail {
 
-/// S in the best of the directions (among equals the first); nothing when the shape has no volume, so that S
-/// is undefined. Throws UsageError without directions.
+/// Returns S and its terms along the direction of largest S (ties: the first). Nothing when the shape has no
+/// volume, since S is then undefined. Throws UsageError without directions.
 std::optional<Stackability> best_measured(const Shape& shape, StackabilityOptions options,
                                           const std::vector<Eigen::Vector3d>& directions);
 

@@ -11,7 +11,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// 3 x m; empty unless the rows of the m x 3 matrix span space.
+/// Returns the pseudo-inverse of the m x 3 matrix `offsets`, 3 x m. Empty unless its rows span space.
 Eigen::MatrixXd spanning_pseudo_inverse(const Points& offsets) {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
   solver.setThreshold(tolerance::relative);
@@ -19,7 +19,7 @@ Eigen::MatrixXd spanning_pseudo_inverse(const Points& offsets) {
   return solver.rank() < 3 ? Eigen::MatrixXd() : Eigen::MatrixXd(solver.pseudoInverse());
 }
 
-/// p -> p + strain (p - centre) + shift, for every control point.
+/// Displacement of a control point: p -> p + strain (p - centre) + shift.
 struct Displacements {
   Eigen::Matrix3d strain = Eigen::Matrix3d::Zero();
   Eigen::Vector3d centre, shift;

@@ -17,8 +17,8 @@ void add_displacements(Fingerprint& print, const Now& now, const Rest& rest, dou
 }
 
 struct Grid {
-  Eigen::RowVector3d origin;  ///< displacement of the whole
-  double step;                ///< model units
+  Eigen::RowVector3d origin;  ///< translation of the whole shape
+  double step;                ///< grid step, model units
 };
 
 void add_points(Fingerprint& print, const Points& now, const Points& rest, const Grid& grid) {

@@ -6,9 +6,10 @@
 
 namespace stackabilization::detail {
 
-/// Names configurations: two that agree to rounding have the same key, also where one is moved as a
-/// whole; two that differ by more than 1e-6 of the diagonal do not (but for collisions of 64 bits).
-/// Displacements from rest are rounded to that grid, so that what did not move lies in the middle of a cell.
+/// Fingerprints of configurations. Designs that agree up to rounding and a translation of the whole have
+/// equal keys. Designs that differ by more than 1e-6 of the diagonal have different keys (except for
+/// collisions of 64 bits). Displacements from rest are rounded to that grid, so that whatever did not move
+/// lies in the middle of a cell.
 class ConfigurationKeys {
  public:
   explicit ConfigurationKeys(const DesignSpace& space);
@@ -18,7 +19,7 @@ class ConfigurationKeys {
  private:
   const DesignSpace& space_;
   Design rest_;
-  double grid_;  ///< model units
+  double grid_;  ///< grid step, model units
 };
 
 }  // namespace stackabilization::detail

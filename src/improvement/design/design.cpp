@@ -16,7 +16,7 @@ std::vector<Edit> with(std::vector<Edit> edits, const Edit& edit) {
   return edits;
 }
 
-/// Goes on from the primitives that a design has.
+/// Designs of controllers. An edit starts from the primitives of the design.
 class ControllerDesigns : public DesignSpace {
  public:
   explicit ControllerDesigns(StructuredShape rest) : model_(std::move(rest), {max_design_joint_points}) {}
@@ -34,7 +34,7 @@ class ControllerDesigns : public DesignSpace {
     return {std::nullopt, {with(now.edits, edit), std::move(outcome.primitives), std::move(shape)}};
   }
 
-  /// The mesh follows from the primitives alone, so it is made once.
+  /// Makes the mesh once, at the end: it depends on the primitives only.
   DesignOutcome replayed(const std::vector<Edit>& edits,
                          const DeformationConstraints& constraints) const override {
     DesignOutcome result{std::nullopt, {{}, model_.rest_primitives(), {}}};
@@ -56,7 +56,7 @@ class ControllerDesigns : public DesignSpace {
   ControllerModel model_;
 };
 
-/// For models that know no primitives: makes all edits again, from rest.
+/// Designs of models without primitives. Every design is made from rest, with all of its edits.
 class CarriedDesigns : public DesignSpace {
  public:
   CarriedDesigns(StructuredShape rest, DeformationKind kind, std::unique_ptr<DeformationModel> model)
@@ -87,7 +87,7 @@ class CarriedDesigns : public DesignSpace {
   std::vector<Eigen::Vector3d> centres_;
 };
 
-/// Precondition: not of the controllers.
+/// Precondition: `options.kind` is not controllers.
 std::unique_ptr<DeformationModel> primitiveless_model(const StructuredShape& rest,
                                                       const DesignSpaceOptions& options) {
   switch (options.kind) {

@@ -13,8 +13,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Two designs are different when the change between them is at least this fraction of the smaller of their
-/// changes from rest; where other handles are taken hold of, or moved otherwise, less will do.
+/// Two designs are different if the change between them is at least this fraction of the smaller of their
+/// changes from rest: far_apart for equal signatures, apart for different ones.
 constexpr double far_apart = 0.5;
 constexpr double apart = 0.1;
 

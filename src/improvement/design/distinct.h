@@ -8,26 +8,27 @@
 
 namespace stackabilization::detail {
 
-/// What an edit takes hold of and what it does to it, without amounts; alike for parts that symmetries tie
-/// together.
+/// Signature of an edit: its handle and its kind of operation, without amounts. Equal for parts that
+/// symmetries connect.
 struct Gesture {
   int part_class = 0;
   int handle_kind = 0, index = 0;
-  int operation = 0;        ///< alternative of Operation
-  int x = 0, y = 0, z = 0;  ///< coarse direction of a move, axis of a turn; up or down for a scaling
+  int operation = 0;  ///< index of the alternative of Operation
+  /// Rounded direction of a move or axis of a rotation; for a scaling x = 1 up, x = -1 down.
+  int x = 0, y = 0, z = 0;
   int falloff = 0;
 
   auto operator<=>(const Gesture&) const = default;
 };
 
-/// Tells solutions apart.
+/// Decides whether two solutions are different.
 class Distinctness {
  public:
   explicit Distinctness(const StructuredShape& rest);
 
-  /// What the edits of a design do: sorted, each once.
+  /// Returns the signatures of the edits, sorted, without duplicates.
   std::vector<Gesture> gestures(const std::vector<Edit>& edits) const;
-  /// See best_first.
+  /// Returns whether two designs are different, as documented at `best_first`.
   bool differ(const Design& a, const Design& b) const;
 
  private:

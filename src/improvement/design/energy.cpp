@@ -15,15 +15,15 @@ namespace stackabilization {
 
 namespace {
 
-/// Two parts that Eq. 10 compares.
+/// A pair of symmetric parts, for Eq. 10.
 struct SymmetricPair {
   std::size_t a = 0, b = 0;
   Eigen::Isometry3d map;
-  std::vector<int> counterpart;  ///< control point of b for each of a
-  double at_rest = 0;            ///< what is missed at rest
+  std::vector<int> counterpart;  ///< per control point of a, the corresponding one of b
+  double at_rest = 0;            ///< violation of the symmetry at rest, model units
 };
 
-/// delta(T(a), b): the summed distances between corresponding control points.
+/// Returns delta(T(a), b): the sum of distances between corresponding control points, model units.
 double miss(const SymmetricPair& pair, const std::vector<Primitive>& primitives) {
   const Points from = control_points(primitives[pair.a]), to = control_points(primitives[pair.b]);
   double sum = 0;
@@ -54,7 +54,7 @@ std::vector<SymmetricPair> symmetric_pairs(const Structure& structure,
   return pairs;
 }
 
-/// Rows of the vertices that triangles use.
+/// Returns the rows of the vertices that triangles use.
 std::vector<Eigen::Index> used_rows(const Shape& shape) {
   std::vector<char> used(static_cast<std::size_t>(shape.vertex_count()), 0);
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
@@ -70,7 +70,7 @@ Eigen::Matrix3d main_axes(const Shape& shape, BoxModel boxes) {
   return minimal_oriented_box(HullSupport(shape)).axes;
 }
 
-/// Of the vertices `rows`, along each column of `axes`.
+/// Returns the extents of the vertices `rows` along each column of `axes`.
 Eigen::Vector3d extents(const Points& vertices, const std::vector<Eigen::Index>& rows,
                         const Eigen::Matrix3d& axes) {
   Eigen::RowVector3d low = vertices.row(rows.front()) * axes, high = low;
@@ -147,7 +147,8 @@ struct EnergyMeter::Rest {
   Eigen::Matrix3d axes;
   Eigen::Vector3d sides;
   std::vector<SymmetricPair> pairs;
-  std::vector<double> volumes, distances;  ///< distances of pairs i < j, by j, then i
+  /// `distances`: of pairs i < j, ordered by j, then i.
+  std::vector<double> volumes, distances;
   std::vector<int> long_axes;
   std::vector<Points> curves;
   double volume_sum = 0, distance_sum = 0;

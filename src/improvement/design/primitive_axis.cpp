@@ -25,9 +25,9 @@ double distance(const Eigen::Vector3d& point, const Segment& segment) {
   return (point - segment.at(std::clamp(t, 0.0, 1.0))).norm();
 }
 
-/// Either an end of one is involved, or the closest points of the two lines lie inside both. Each value is
-/// the distance of two points of the segments, so parallel lines, whose closest points rounding decides, do
-/// no harm.
+/// The least distance is attained at an end of a segment, or at the closest points of the two lines if these
+/// lie inside both segments. Every candidate is the distance of two points of the segments. So parallel
+/// lines, whose closest points depend on rounding, do no harm.
 double distance(const Segment& p, const Segment& q) {
   double least =
       std::min({distance(p.start, q), distance(p.at(1), q), distance(q.start, p), distance(q.at(1), p)});

@@ -29,7 +29,7 @@ void require_part(const StructuredShape& structured, int part) {
     throw UsageError("there is no part " + std::to_string(part));
 }
 
-/// Old rows of the parts that stay, and the new row of every old one, -1 for those that go.
+/// Old rows of the parts that stay, and the new row of every old part (-1: removed).
 struct Selection {
   std::vector<int> rows;
   std::vector<int> renumbered;
@@ -61,7 +61,8 @@ Shape selected(const Shape& shape, const Selection& selection) {
   return result;
 }
 
-/// Does one of two symmetries repeat the other, or a power of it: have they the same plane, or the same axis?
+/// Returns whether two symmetries have the same mirror plane or the same axis, so that one repeats the other
+/// or a power of it.
 bool same_mirror_or_axis(const Symmetry& a, const Symmetry& b, double diagonal) {
   const bool reflects = a.kind == SymmetryKind::reflection;
   if (reflects != (b.kind == SymmetryKind::reflection)) return false;

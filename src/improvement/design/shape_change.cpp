@@ -12,8 +12,8 @@ namespace stackabilization {
 
 namespace {
 
-/// Rotation times factor that takes `from` to `to` (both n x 3, centred) with the least squared distances:
-/// Umeyama 1991, Eq. 40 to 43. 0 where all points of `from` coincide.
+/// Returns the rotation times scale factor that maps `from` to `to` (both n x 3, centred) with least squared
+/// distances: Umeyama 1991, Eq. 40 to 43. 0 where all points of `from` coincide.
 Eigen::Matrix3d similarity(const Points& from, const Points& to) {
   const double spread = from.squaredNorm();
   if (!(spread > 0)) return Eigen::Matrix3d::Zero();
@@ -34,7 +34,7 @@ Points displacements(const Shape& before, const Shape& after) {
   if (before.triangle_count() == 0) return Points(0, 3);
   Points target = used_vertices(before), moved = used_vertices(after);
   const double diagonal = (target.colwise().maxCoeff() - target.colwise().minCoeff()).norm();
-  // Lengths over the diagonal, so that no square overflows or underflows.
+  // Lengths are divided by the larger diagonal, so that no square overflows or underflows.
   const double unit = std::max(diagonal, (moved.colwise().maxCoeff() - moved.colwise().minCoeff()).norm());
   if (!(diagonal > 0)) return Points(0, 3);
   for (Points* points : {&target, &moved}) {

@@ -14,7 +14,7 @@ void expect_node(const History& history, int node) {
                      std::to_string(history.nodes.size()) + " counted from 0");
 }
 
-/// Rows from the root to a node.
+/// Returns the rows from the root to a node.
 std::vector<int> path_to(const History& history, int node) {
   expect_node(history, node);
   std::vector<int> path;

@@ -31,12 +31,12 @@ bool has_index(HandleKind kind) {
   return kind != HandleKind::part && kind != HandleKind::shape;
 }
 
-/// Makes the JSON value of a history. Trusts nothing: what it makes is read again before it is used.
+/// Writes a history as JSON. Reading the text back, before it is used, checks the input.
 class HistoryWriter {
  public:
   explicit HistoryWriter(const Project& project) : project_(project) {}
 
-  /// A node per line.
+  /// Returns the JSON text, one node per line.
   std::string text() const {
     std::string text = "{\"model\": \"" + name_of(project_.space.kind) +
                        "\", \"model_direction\": " + list(project_.space.direction.vector()).dump() +
@@ -108,7 +108,7 @@ class HistoryReader {
  public:
   HistoryReader(const JsonNode& root, const StructuredShape& rest) : root_(root), rest_(rest) {}
 
-  /// All of a project but the shape at rest.
+  /// Reads the project except for the shape at rest.
   Project read() {
     root_.expect_keys({"model", "model_direction", "current", "nodes"});
     std::vector<std::string> names;
@@ -202,7 +202,8 @@ class HistoryReader {
     return result;
   }
 
-  /// Of a handle of that kind. Wires are counted by their model alone.
+  /// Returns the largest index of a handle of this kind. Without a bound for wires: only their model knows
+  /// how many there are.
   std::int64_t largest_index(const JsonNode& node, const Handle& handle) const {
     if (handle.kind == HandleKind::point) return rest_.shape.vertex_count() - 1;
     if (handle.kind == HandleKind::wire || project_.space.kind != DeformationKind::controllers)
@@ -248,7 +249,7 @@ class HistoryReader {
   Project project_;
 };
 
-/// A project without its shape, from the value of the entry "history".
+/// Reads a project without its shape from the value of the entry "history".
 Project project_of_history(const std::string& text, const std::string& name, const StructuredShape& rest) {
   const Json value = detail::parse_json(text, name);
   return HistoryReader(JsonNode(value, name, "/history"), rest).read();

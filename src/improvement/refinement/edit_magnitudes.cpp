@@ -18,13 +18,14 @@ namespace {
 
 using namespace detail;
 
-/// +1 or -1 where the vectors lie on one line through 0 as nearly as relations hold, else 0.
+/// Returns +1 or -1 if the vectors lie on one line through 0, equally or oppositely directed, within
+/// tolerance::relation; else 0.
 int same_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   if (a.cross(b).norm() > tolerance::relation * a.norm() * b.norm()) return 0;
   return a.dot(b) < 0 ? -1 : 1;
 }
 
-/// Both operations as one, where they do the same thing.
+/// Merges two operations that do the same thing into one.
 struct Merge {
   std::optional<Operation> operator()(const Move& a, const Move& b) const {
     if (same_line(a.by, b.by) == 0) return std::nullopt;
@@ -64,24 +65,24 @@ bool changes_nothing(const Edit& edit) {
   return std::get<Scale>(edit.operation).factor == 1;
 }
 
-/// Sizes that count as 1: of a move as a fraction of the diagonal, of a scaling.
+/// Sizes of added edits of magnitude 1: a move as a fraction of the diagonal, and the factor of a scaling.
 constexpr double unit_move = 0.02;
 constexpr double unit_factor = 0.9;
 
-/// Whether the part reaches an end of the shape along w: it does not move along it then.
+/// Returns whether the part reaches an end of the shape along w. Such a part is not edited along w.
 bool is_on_end(const Shape& shape, int part, const ContactFrame& frame) {
   const Eigen::VectorXd heights = part_points(shape, part) * frame.w;
   return frame.on_end({heights.minCoeff(), heights.maxCoeff()});
 }
 
-/// Unit; outwards while the box is not inside out.
+/// Returns the unit normal of a face; outwards unless the cuboid is inside out.
 Eigen::Vector3d face_normal(const Cuboid& cuboid, int face) {
   Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
   for (const int corner : cuboid_face(face)) middle += cuboid.corners.row(corner) / 4;
   return (middle - cuboid.corners.colwise().mean()).transpose().normalized();
 }
 
-/// The edits of one handle.
+/// Returns the edits offered for one handle.
 std::vector<Edit> edits_of(const Handle& handle, const StructuredShape& rest, const ContactFrame& frame) {
   const Structure& structure = rest.structure;
   const Primitive& primitive = structure.parts[static_cast<std::size_t>(handle.part)].primitive;

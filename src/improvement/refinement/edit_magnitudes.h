@@ -8,22 +8,27 @@
 
 namespace stackabilization::detail {
 
-/// An edit whose magnitude is looked for.
+/// An edit with a variable magnitude.
 struct MagnitudeEdit {
   Edit edit;
-  std::optional<std::size_t> source;  ///< row of the edit given that it stands for; of a counterpart nothing
+  std::optional<std::size_t> source;  ///< row of the given edit that it replaces; nothing for an added edit
 };
 
-/// As `merged` (refinement.h), with the first source of each; but two edits become one only where the whole
-/// list that this gives is acceptable, since their order may matter.
+/// Merges edits as `merged` (refinement.h) and keeps the first source of each. Two edits are merged only if
+/// the whole resulting list is `acceptable`, since the order of edits may matter.
 std::vector<MagnitudeEdit> merged_edits(
     const std::vector<Edit>& edits, const std::function<bool(const std::vector<MagnitudeEdit>&)>& acceptable);
 
-/// What may join `edits`, in small, of a controller model: moves and scalings of every part along the axes of
-/// the contacts; moves of the faces of cuboids, in and out; of the ends of open generalized cylinders, with
-/// Falloff::linear, moves across r and scalings; where the wall has a profile, scalings of three sections
-/// between them. Of symmetric parts the first stands for all. Nothing along r of a part at an end of the
-/// shape, nothing that one of `edits` does already, nothing for other models.
+/// Returns small edits that could be added to `edits`, for controllers only:
+///
+/// * parts: moves and scalings along the axes of the contact frame;
+/// * faces of cuboids: moves along their normals;
+/// * ends of open generalized cylinders, with Falloff::linear: moves across r, and scalings;
+/// * where the wall of an open generalized cylinder has a profile: scalings of three sections between the
+///   ends.
+///
+/// A class of symmetric parts is represented by its first part. A part that reaches an end of the extent
+/// along r gets no edit along r. No edit repeats what one of `edits` does.
 std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edits, const DesignSpace& space,
                                           const Direction& direction);
 

@@ -12,14 +12,16 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Parabolas that stand for the length of a displacement, one after the other.
+/// Number of parabolas that successively approximate the length of the displacement.
 constexpr int most_parabolas = 3;
 
-/// Cuts that stay, the nearest to being active, and how far below 0 they may lie: shortfalls are of S.
+/// Largest number of cuts kept, the most nearly active ones, and how far below 0 a cut may lie. Violations
+/// are in units of S.
 constexpr std::size_t most_cuts = 400;
 constexpr double far_below = 0.5;
 
-/// Corrections take back more than what falls short, so that they do not come up to the border from outside.
+/// Corrections take back this multiple of the violation, so that iterates do not approach the boundary from
+/// outside.
 constexpr double excess = 2;
 
 using Vector = Eigen::Map<const Eigen::VectorXd>;
@@ -30,7 +32,8 @@ Vector vector_of(const Magnitudes& x) {
 
 }  // namespace
 
-/// Variables are the step, then the slacks: one per change, or the largest shortfall.
+/// Quadratic programme of a step. Variables: the step, then one slack per change, or one for the largest
+/// violation.
 class MagnitudeModel::Programme {
  public:
   explicit Programme(const MagnitudeModel& model)
@@ -43,7 +46,8 @@ class MagnitudeModel::Programme {
     QuadraticProgramme programme = linear_part(lowest, highest);
     if (minimal_shortfall() || gram().size() == 0) return minimum(programme);
     QuadraticMinimum result{Eigen::VectorXd::Zero(size_), {}};
-    // The length is below any parabola that touches it: minima of these come down to its own.
+    // Every parabola that touches the length bounds it from above. Successive minima approach that of the
+    // length.
     for (int round = 0; round < most_parabolas; ++round) {
       const double length = std::max(displacement(result.x.head(size_)), tolerance::relative * scale());
       programme.q.topLeftCorner(size_, size_) = gram().bottomRightCorner(size_, size_) / (length * scale());
@@ -53,12 +57,12 @@ class MagnitudeModel::Programme {
     return result;
   }
 
-  /// Of a minimum, see Step::pull.
+  /// Returns the reduced costs at a minimum, see Step::pull.
   Eigen::VectorXd pull(const QuadraticMinimum& minimum) const {
     return scale() * (minimum.multipliers.head(size_) + minimum.multipliers.segment(size_, size_));
   }
 
-  /// The merit after a step.
+  /// Returns the predicted merit after a step.
   double merit(const Eigen::VectorXd& step) const {
     if (minimal_shortfall()) {
       double largest = -std::numeric_limits<double>::infinity();
@@ -75,7 +79,7 @@ class MagnitudeModel::Programme {
   bool minimal_shortfall() const { return model_.goal_ == MagnitudeGoal::feasible; }
   const Cut& cut(Eigen::Index c) const { return model_.cuts_[static_cast<std::size_t>(c)]; }
   const Eigen::MatrixXd& gram() const { return model_.slopes_.gram; }
-  /// What changes are divided by.
+  /// Returns the divisor that scales changes.
   double scale() const { return minimal_shortfall() || !(model_.base_.change > 0) ? 1 : model_.base_.change; }
 
   double displacement(const Eigen::VectorXd& step) const {
@@ -85,7 +89,7 @@ class MagnitudeModel::Programme {
     return std::sqrt(std::max(0.0, from.dot(gram() * from)));
   }
 
-  /// The programme but for the displacement.
+  /// Returns the programme without the displacement.
   QuadraticProgramme linear_part(const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest) const {
     const auto changes = static_cast<Eigen::Index>(model_.changes_.size());
     const Eigen::Index slacks = minimal_shortfall() ? 1 : changes;
@@ -114,7 +118,7 @@ class MagnitudeModel::Programme {
 
   const MagnitudeModel& model_;
   Eigen::Index size_;
-  Eigen::VectorXd levels_;  ///< of the cuts, at the centre
+  Eigen::VectorXd levels_;  ///< values of the cuts at the centre
 };
 
 MagnitudeModel::MagnitudeModel(MagnitudeGoal goal, Magnitudes centre, const MagnitudeSample& base,
@@ -149,8 +153,8 @@ void MagnitudeModel::move_to(Magnitudes centre, const MagnitudeSample& base, con
   add(centre_, base, slopes);
 }
 
-/// Changes that are multiples of each other, as values and slopes, have one slack for all: symmetric parts,
-/// mostly.
+/// Gives changes one common slack if their values and slopes are multiples of each other; these are mostly
+/// changes of symmetric parts.
 void MagnitudeModel::group_changes(const MagnitudeSample& base, const MagnitudeSlopes& slopes) {
   std::vector<Row> shapes;
   for (Eigen::Index row = 0; row < base.changes.size(); ++row) {
@@ -190,9 +194,10 @@ void MagnitudeModel::correct(const Magnitudes& at, const MagnitudeSample& sample
   }
 }
 
-/// Those that say the same as another are left out, and those that say nothing near the centre.
+/// Adds a cut unless it repeats another one, or lies far below 0 at the centre when the change is minimised.
 void MagnitudeModel::add(Cut cut) {
-  // S is no convex function: what was seen far away may say too much of here.
+  // S is not convex: a cut from a distant point may be too high at the centre. It is lowered to the measured
+  // value.
   if (cut.measured) cut.value -= std::max(0.0, level(cut) - base_.shortfalls[cut.row]);
   const double now = level(cut);
   if (goal_ == MagnitudeGoal::unchanged && now < -far_below) return;

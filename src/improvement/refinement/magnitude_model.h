@@ -4,43 +4,47 @@
 
 namespace stackabilization::detail {
 
+/// Objective of a run of the optimiser.
 enum class MagnitudeGoal {
-  feasible,   ///< the largest shortfall is made as small as can be, until a sample is feasible
-  unchanged,  ///< the change is made as small as can be while no constraint falls short
+  feasible,   ///< minimise the largest constraint violation, until a sample is feasible
+  unchanged,  ///< minimise the change subject to all constraints
 };
 
-/// A convex model of a MagnitudeProblem around a point: the changes and the displacement as their slopes at
-/// that point say, every constraint as the maximum of what was seen of it from several points (cuts), which
-/// is how kinks become known.
+/// Convex model of a MagnitudeProblem around a point, the centre. Changes and displacement are modelled by
+/// their slopes at the centre. Every constraint is modelled by the maximum of its cuts: linearisations at
+/// several points. Cuts make kinks known to the model.
 class MagnitudeModel {
  public:
   MagnitudeModel(MagnitudeGoal goal, Magnitudes centre, const MagnitudeSample& base,
                  const MagnitudeSlopes& slopes);
 
-  /// The model around another point. Of what is known of the constraints that stays which agrees with it.
+  /// Re-centres the model at `centre`. Keeps only cuts that are valid there: value at the centre not above
+  /// the measured violation, and not far below 0. Then adds the constraints linearised at `centre`.
   void move_to(Magnitudes centre, const MagnitudeSample& base, const MagnitudeSlopes& slopes);
-  /// Adds how the constraints look from a point, in place of all corrections.
+  /// Adds the linearised constraints at `at` as cuts. Removes all corrections.
   void add(const Magnitudes& at, const MagnitudeSample& sample, const MagnitudeSlopes& slopes);
-  /// The same with the slopes that the centre has, for those that fall short: enough where they are curved
-  /// only.
+  /// Adds corrections: cuts for the constraints violated at `at`, with the slopes of the centre. They suffice
+  /// where these constraints are smooth but curved.
   void correct(const Magnitudes& at, const MagnitudeSample& sample);
 
   const Magnitudes& centre() const { return centre_; }
-  /// What the goal makes small, of a sample.
+  /// Returns the objective at a sample: the largest violation, or the change.
   double merit(const MagnitudeSample& sample) const;
 
+  /// A step of the model.
   struct Step {
     Magnitudes to;
-    double promised = 0;  ///< by which the merit falls, according to the model
-    /// Per magnitude: how much more it would promise, per unit, if its limits left it room.
+    double promised = 0;  ///< predicted decrease of the merit
+    /// Reduced cost per magnitude: further predicted decrease per unit by which the bounds of the magnitude
+    /// are relaxed.
     Eigen::VectorXd pull;
   };
-  /// To the minimum of the model within these limits.
+  /// Returns the step to the minimum of the model within the bounds `lowest` and `highest`.
   Step step(const Magnitudes& lowest, const Magnitudes& highest) const;
 
  private:
   using Row = Eigen::RowVectorXd;
-  /// value + slope * x, of constraint `row`.
+  /// A linearised constraint: value + slope * x, for constraint `row`.
   struct Cut {
     Eigen::Index row = 0;
     double value = 0;
@@ -49,7 +53,7 @@ class MagnitudeModel {
   };
   class Programme;
 
-  double level(const Cut& cut) const;  ///< at the centre
+  double level(const Cut& cut) const;  ///< value of the cut at the centre
   void add(Cut cut);
   void group_changes(const MagnitudeSample& base, const MagnitudeSlopes& slopes);
 
@@ -57,8 +61,9 @@ class MagnitudeModel {
   Magnitudes centre_;
   MagnitudeSample base_;
   MagnitudeSlopes slopes_;
-  std::vector<Row> changes_;  ///< value at the centre and slope, of sums of changes that grow together
-  double constant_ = 0;       ///< what the others add to the change
+  /// Sums of changes that are multiples of each other: value at the centre, then slope.
+  std::vector<Row> changes_;
+  double constant_ = 0;  ///< sum of the changes that do not depend on the magnitudes
   std::vector<Cut> cuts_;
 };
 

@@ -7,25 +7,26 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// The trust region at first, and the least one.
+/// First and least radius of the trust region, in magnitudes.
 constexpr double first_radius = 0.5;
 constexpr double least_radius = 0.001;
 
-/// A run ends when the model promises less than this fraction of the merit.
+/// Stop when the predicted decrease is below this fraction of the merit.
 constexpr double least_promise = 0.0001;
 
-/// A step that keeps this share of what was promised is taken.
+/// Accept a step whose actual decrease is at least this share of the predicted decrease.
 constexpr double least_share = 0.1;
 
-/// Failed steps that are answered with the slopes at hand before new ones are measured.
+/// Number of rejected steps answered with the slopes at hand before slopes are measured at a rejected point.
 constexpr std::size_t most_corrections = 2;
 
-/// So often slopes are measured at failures before the trust region shrinks.
+/// Number of times that slopes are measured at rejected points before the trust region shrinks.
 constexpr int most_lessons = 1;
 
-/// A step as long as this share of the radius would have gone farther.
+/// A step of at least this share of the radius enlarges the trust region.
 constexpr double share_of_radius = 0.99;
 
+/// Bundle method in a trust region.
 class BundleDescent {
  public:
   BundleDescent(MagnitudeProblem& problem, const MagnitudeRun& run)
@@ -72,7 +73,8 @@ class BundleDescent {
     }
   }
 
-  /// What the last failure looks like from there; steps go half as far from now on.
+  /// Adds cuts at the last rejected point. From the second time after an accepted step on, the radius becomes
+  /// half the length of the rejected step.
   void learn() {
     const Magnitudes at = failed_.back();
     model_.add(at, problem_.at(at), problem_.slopes(at));
@@ -96,7 +98,7 @@ class BundleDescent {
     return largest;
   }
 
-  /// One side of what the trust region and the problem leave.
+  /// Returns one side of the box that the trust region and the bounds of the problem leave.
   Magnitudes limits(double by) const {
     Magnitudes result = model_.centre();
     for (double& magnitude : result)
@@ -107,8 +109,8 @@ class BundleDescent {
   MagnitudeProblem& problem_;
   const MagnitudeRun& run_;
   double radius_;
-  std::vector<Magnitudes> failed_;  ///< since something was learnt
-  int learnt_ = 0;                  ///< failures looked at from where they are, since the last step taken
+  std::vector<Magnitudes> failed_;  ///< points rejected since cuts were last added
+  int learnt_ = 0;                  ///< times cuts were added since the last accepted step
   MagnitudeSample base_;
   MagnitudeModel model_;
 };

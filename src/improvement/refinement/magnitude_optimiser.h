@@ -4,19 +4,19 @@
 
 namespace stackabilization::detail {
 
-/// Where a run of the optimiser begins, and what for.
+/// Start and objective of a run of the optimiser.
 struct MagnitudeRun {
   Magnitudes start;
   MagnitudeGoal goal = MagnitudeGoal::unchanged;
 };
 
-/// Goes on to a local optimum; where it ended, which need not be the best point on its way (see
-/// MagnitudeProblem::best).
+/// Runs a bundle method in a trust region to a local optimum. Returns the last point accepted, which need not
+/// be the best point visited (see MagnitudeProblem::best).
 ///
-/// A bundle method in a trust region: S is a maximum over contacts, so its slopes jump wherever another
-/// contact takes over, and sequential quadratic programming, which believes in the slopes at one point, gets
-/// stuck there. What is seen from points that failed is kept as cuts (MagnitudeModel), and the next step
-/// knows of both contacts. Precondition: the start can be made, and is feasible unless that is the goal.
+/// f_max is a maximum over contacts, so slopes jump wherever another contact becomes critical. Sequential
+/// quadratic programming trusts the slopes at one point and gets stuck there. This method keeps the
+/// linearisations at rejected points as cuts (MagnitudeModel), so the next step accounts for both contacts.
+/// Precondition: the design of the start can be made, and is feasible unless feasibility is the goal.
 Magnitudes optimised_magnitudes(MagnitudeProblem& problem, const MagnitudeRun& run);
 
 }  // namespace stackabilization::detail

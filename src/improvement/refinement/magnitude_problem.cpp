@@ -16,37 +16,39 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Pairs of blocks count as near when they miss f_max, or what the target allows, by less than this fraction
-/// of the extent; so many at most.
+/// A pair of blocks is near if its separation is within this fraction of the extent of f_max, or of the f_max
+/// that the target allows. At most most_pairs pairs are used.
 constexpr double near_band = 0.1;
 constexpr std::size_t most_pairs = 80;
 
-/// Shortfall of the whole shape where the pairs stand for it.
+/// Violation reported for the whole shape where pairs of blocks represent it.
 constexpr double no_shortfall = -1;
 
-/// Less the shortfall, at least, of a pair that passes at any height: as it moves apart, what it asks for
-/// falls to what its lowest and highest points would, and then to nothing.
+/// A pair that passes at any height is satisfied by at least this much. When a pair moves apart, its
+/// separation first falls to that of its lowest and highest points and then vanishes.
 constexpr double passing_surplus = 0.02;
 
-/// Whether the deformation cannot see to it: it keeps extent, relations and box by itself.
+/// Returns whether the deformation model leaves the check open; it guarantees extent, relations and box by
+/// itself.
 bool is_open(const Check& check) {
   return check.name == "thickness" || check.name == "draft" || check.name == "standing";
 }
 
+/// Returns the relative violation of a check, > 0 if it fails.
 double shortfall(const Check& check) {
   const double lack = check.demanded - check.value;
   if (!std::isfinite(lack)) return check.passed ? -1 : 1;
   return check.demanded > 0 ? lack / check.demanded : lack;
 }
 
-/// Changes whose magnitudes add up to D.
+/// Returns the signed changes whose absolute values add up to D.
 Eigen::VectorXd in_a_row(const DistortionChanges& changes) {
   Eigen::VectorXd row(changes.volume.size() + changes.proximity.size() + changes.box.size() + 1);
   row << changes.volume, changes.proximity, changes.box, changes.symmetry;
   return row / 4;
 }
 
-/// At most so many vertices, evenly chosen, tell how displacements vary.
+/// Largest number of vertices, evenly chosen, used for the slopes of the displacement.
 constexpr Eigen::Index most_vertices = 20000;
 
 Points some_rows(const Points& all) {
@@ -57,7 +59,7 @@ Points some_rows(const Points& all) {
   return some;
 }
 
-/// S lost per unit of f_max.
+/// Returns the loss of S per unit of f_max.
 double loss_per_length(const Stackability& measured) {
   return measured.stack_box_volume / (measured.extent * measured.box_volume);
 }
@@ -227,7 +229,7 @@ MagnitudeSlopes MagnitudeProblem::slopes(const Magnitudes& x) {
     points.push_back(neighbour(k, steps[k]));
   }
   std::vector<Measured> made = measured(points, limits_.cancelled);
-  if (!made.front().sample.made) {  // cancelled
+  if (!made.front().sample.made) {  // only after cancellation
     const auto columns = static_cast<Eigen::Index>(size());
     return {Eigen::MatrixXd::Zero(at(x).changes.size(), columns),
             Eigen::MatrixXd::Zero(at(x).shortfalls.size(), columns),

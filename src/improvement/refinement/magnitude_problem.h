@@ -13,43 +13,43 @@
 
 namespace stackabilization::detail {
 
-/// Steps of differences that give slopes along magnitudes, as a fraction of the edits given. The shortest
-/// tell kinks apart that lie close together; in the longest what a solve leaves open (up to 1e-5 of the
-/// diagonal, where it stretches to keep a height) does not show.
+/// Steps of the finite differences for slopes, as fractions of the given edits. The shortest step tells apart
+/// kinks that lie close together. The longest step hides the residuals of the deformation solves (up to 1e-5
+/// of the diagonal, where the shape is stretched to keep a height).
 inline constexpr double shortest_magnitude_step = 1.0 / (1 << 12), longest_magnitude_step = 1.0 / (1 << 8);
 
-/// One magnitude per edit.
+/// Magnitudes of the edits, one per edit; 1: as given, 0: none.
 using Magnitudes = std::vector<double>;
 
-/// A design by its magnitudes, measured.
+/// Measures of the design for some magnitudes.
 struct MagnitudeSample {
-  bool made = false;           ///< no edit was refused; otherwise the rest means nothing
-  bool passes = false;         ///< every check, but perhaps for the target
-  bool feasible = false;       ///< and reaches the target
-  double change = 0;           ///< what is to be small
-  double displacement = 0;     ///< its share that is a root mean square, 0 where that is not measured
-  double stackability = 0;     ///< S, with the air asked for, less the handicap
-  Eigen::VectorXd changes;     ///< whose magnitudes add up to the rest of it
-  Eigen::VectorXd shortfalls;  ///< what each constraint lacks: positive where it is broken
+  bool made = false;        ///< whether no edit was refused; if false, the other fields are meaningless
+  bool passes = false;      ///< whether every check passes, the target excepted
+  bool feasible = false;    ///< whether `passes`, and S reaches the target
+  double change = 0;        ///< objective: size of the change
+  double displacement = 0;  ///< share of `change` that is a root mean square displacement; 0 if not measured
+  double stackability = 0;  ///< S with clearance and play, minus the handicap
+  Eigen::VectorXd changes;  ///< signed changes whose absolute values add up to the rest of `change`
+  Eigen::VectorXd shortfalls;  ///< constraint violations, > 0 where a constraint is violated
 };
 
-/// How a sample changes with each magnitude: one column per magnitude, zero where no neighbour could be made.
+/// Slopes of a sample: one column per magnitude, 0 where no neighbour could be made.
 struct MagnitudeSlopes {
   Eigen::MatrixXd changes, shortfalls;
-  /// The square of the displacement after a step y is nearly (1 y) gram (1 y)^T; empty where that is not
-  /// measured.
+  /// Model of the displacement: its square after a step y is about (1 y) gram (1 y)^T. Empty if not measured.
   Eigen::MatrixXd gram;
-  std::vector<bool> made;  ///< whether there is a neighbour, per magnitude
+  std::vector<bool> made;  ///< per magnitude, whether a neighbour could be made
 };
 
-/// The designs that some edits make with other magnitudes, along one direction: a function of few numbers.
-/// Remembers what it measured. Deterministic for any number of threads.
+/// Optimisation problem over the magnitudes of given edits, along one direction. Remembers its measurements.
+/// Deterministic for any number of threads.
 class MagnitudeProblem {
  public:
+  /// Limits and objective.
   struct Limits {
-    int evaluations = 0;                          ///< samples made at most, but for a few
+    int evaluations = 0;                          ///< `stopped` is true from this number of samples on
     double reach = 0;                             ///< magnitudes lie in [-reach, max(reach, 1)]
-    ChangeMeasure measure = ChangeMeasure::both;  ///< what is to be small
+    ChangeMeasure measure = ChangeMeasure::both;  ///< objective
     std::function<bool()> cancelled;
   };
 
@@ -59,55 +59,60 @@ class MagnitudeProblem {
   std::size_t size() const { return edits_.size(); }
   double lowest() const { return -limits_.reach; }
   double highest() const { return std::max(limits_.reach, 1.0); }
-  /// S that is aimed at: the target, and half of the excess that is allowed.
+  /// Returns the S to aim at: the target plus half of the allowed excess, tolerance::target.
   double aim() const;
 
-  /// From now on shortfalls have one row for the whole shape, one for each pair of blocks that comes near its
-  /// f_max at `x`, one per check and one for the proportions. That of the whole shape counts only where no
-  /// such pair attains f_max, so that no pair is forgotten. Precondition: at(x).made.
+  /// Defines the constraints, that is the rows of MagnitudeSample::shortfalls: the whole shape, every pair of
+  /// blocks whose separation comes near f_max (or what the target allows) at `x`, every check, and the
+  /// proportions. The row of the whole shape is active only if no such pair attains f_max, so that no pair is
+  /// missed. Forgets all samples. Precondition: at(x).made.
   void constrain_pairs(const Magnitudes& x);
 
+  /// Returns the measures at `x`; measures only new points.
   const MagnitudeSample& at(const Magnitudes& x);
-  /// By differences over a step of each magnitude, see step_by. Zero, with no neighbour made, when it is
-  /// cancelled meanwhile. Precondition: what is at `x` can be made.
+  /// Computes slopes at `x` by finite differences with the step of `step_by`. All zero, without neighbours,
+  /// when cancelled meanwhile. Precondition: at(x).made.
   MagnitudeSlopes slopes(const Magnitudes& x);
-  /// Measures several at once, so that at() has them.
+  /// Measures several points in parallel, for later calls of `at`.
   void prepare(const std::vector<Magnitudes>& points);
 
-  /// The edits with these magnitudes; those with 0 are left out.
+  /// Returns the edits with magnitudes `x`, without those of magnitude 0.
   std::vector<Edit> edits(const Magnitudes& x) const;
+  /// Makes the design with magnitudes `x`.
   DesignOutcome design(const Magnitudes& x) const;
 
-  /// The feasible sample of least change so far, if any, and of those that pass the one of largest S.
+  /// best(): the feasible sample of least change so far, if any. nearest(): of the samples that pass all
+  /// checks but the target, the one of largest S.
   const std::optional<Magnitudes>& best() const { return best_; }
-  /// From now on this is the best one. Precondition: it is known and feasible.
+  /// Makes `x` the best sample. Precondition: it was measured and is feasible.
   void prefer(const Magnitudes& x);
   const std::optional<Magnitudes>& nearest() const { return nearest_; }
   double best_change() const { return best_change_; }
   double nearest_stackability() const { return nearest_stackability_; }
   int evaluations() const { return evaluations_; }
-  /// So many evaluations, in all, are the limit from now on.
+  /// Sets the total number of evaluations allowed.
   void allow(int evaluations) { limits_.evaluations = evaluations; }
-  /// Slopes are taken over such steps from now on, at first over the shortest that make sense.
+  /// Sets the step of finite differences; initially shortest_magnitude_step.
   void step_by(double step) { step_ = step; }
-  /// The limit of evaluations is used up, or it was cancelled.
+  /// Returns whether the evaluations are used up or the caller cancelled.
   bool stopped() const;
 
  private:
   struct Measured {
     MagnitudeSample sample;
-    Points moved;  ///< displacements of some vertices, where they are measured
+    Points moved;  ///< displacements of some vertices, n x 3; empty if not measured
   };
   Measured measured(const Magnitudes& x) const;
-  /// Those left when it is `cancelled`, which only this thread asks, are not made.
+  /// Measures `points` in parallel. Only the calling thread asks `cancelled`; once it is true, the remaining
+  /// points are not made.
   std::vector<Measured> measured(const std::vector<Magnitudes>& points,
                                  const std::function<bool()>& cancelled) const;
-  /// How much more than the target a design of such boxes needs: 0 but for a room, for which S is to grow
-  /// with the boxes.
+  /// Returns the S needed for these boxes minus the target: 0 unless a room is required, for which the S
+  /// needed depends on the boxes.
   double handicap(const Stackability& measured) const;
   void measure_blocks(const Design& design, const Stackability& whole, MagnitudeSample& sample) const;
   void remember(const Magnitudes& x, MagnitudeSample sample);
-  /// Of what was measured at a point, and after one step with each magnitude.
+  /// Returns the slopes from measurements at a point and at one neighbour per magnitude.
   MagnitudeSlopes differences(const std::vector<Measured>& made, const std::vector<double>& steps) const;
 
   const RequirementChecker& checker_;
@@ -118,7 +123,7 @@ class MagnitudeProblem {
   EnergyMeter meter_;
   BlockSeparations blocks_;
   std::vector<BlockPair> pairs_;
-  bool checks_ = false;  ///< there are more of them than S and what the deformation keeps anyway
+  bool checks_ = false;  ///< whether there are checks beyond S and what the deformation model guarantees
   std::map<Magnitudes, MagnitudeSample> samples_;
   std::optional<Magnitudes> best_, nearest_;
   double best_change_ = 0, nearest_stackability_ = 0;

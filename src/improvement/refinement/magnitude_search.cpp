@@ -13,31 +13,32 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Uniform multiples of the magnitudes that are tried before anything else when the target is not reached.
+/// Uniform multiples of the given magnitudes, tried first when these do not reach the target.
 constexpr double multiples[] = {1.25, 1.5, 2, 3};
 
-/// Runs of the optimiser, each from the best point so far with its own pairs of blocks; one that lessens the
-/// change or raises S by less than this fraction gains nothing. For less change slopes are taken over short
-/// and over long steps in turn, until neither gains anything.
+/// Largest number of runs of the optimiser. Each run starts from the best point so far, with its own pairs of
+/// blocks. A run makes no progress if it lessens the change, or what S lacks to 1, by less than
+/// min_relative_progress. When the change is minimised, runs alternate between short and long finite
+/// differences until neither makes progress.
 constexpr int most_runs = 8;
 constexpr double min_relative_progress = 0.001;
 
-/// Of longer lists that shrink to half by leaving out what is not needed the rest is refined afresh.
+/// If a list of more edits than this shrinks to half by removing unneeded edits, the rest is refined afresh.
 constexpr std::size_t most_at_once = 6;
 
-/// The optimiser may use the evaluations up to this share of all: the rest is for what comes after.
+/// Share of the evaluations that the optimiser may use. The rest is for the steps after it.
 constexpr double share_of_descent = 0.8;
 
-/// Rounds of pulling back one magnitude after the other.
+/// Largest number of rounds that pull back one magnitude after the other.
 constexpr int most_sweeps = 3;
 
-/// Steps of a search along a segment, and how far S must stay from what is aimed at, in multiples of the
-/// bracket, where the bracket is narrow, for a jump.
+/// Largest number of steps of a search along a segment. S is taken to jump where the bracket is narrow and S
+/// stays farther from the aim than `steep` times the bracket.
 constexpr std::uintmax_t most_steps = 40;
 constexpr double steep = 1000;
 
-/// Multiples less 1 of the other magnitudes that are tried when edits are left out, and the fraction by which
-/// the change may grow for that.
+/// Enlargements of the other magnitudes, minus 1, tried when edits are dropped; and the relative growth of
+/// the change that this may cost.
 constexpr double make_up[] = {
     0, 1. / (1 << 20), 1. / (1 << 16), 1. / (1 << 12), 1. / (1 << 8), 1. / (1 << 6)};
 constexpr double spare_change = 0.005;
@@ -47,7 +48,7 @@ Magnitudes scaled(Magnitudes x, double factor) {
   return x;
 }
 
-/// How many edits change something.
+/// Returns the number of edits with a magnitude other than 0.
 std::size_t made(const Magnitudes& x) {
   return x.size() - static_cast<std::size_t>(std::count(x.begin(), x.end(), 0.0));
 }
@@ -71,7 +72,7 @@ class MagnitudeSearch {
   }
 
  private:
-  /// Phase 1: any feasible point.
+  /// Phase 1: finds any feasible point.
   void reach() {
     std::vector<Magnitudes> larger;
     for (const double factor : multiples)
@@ -86,8 +87,8 @@ class MagnitudeSearch {
     }
   }
 
-  /// Takes away edits that the target does not need, one after the other, those whose loss lessens the change
-  /// most first.
+  /// Removes edits that the target does not need, one after the other, those whose removal leaves the least
+  /// change first.
   void do_without() {
     const double given = problem_.best_change();
     std::vector<std::pair<double, std::size_t>> spare;
@@ -103,7 +104,7 @@ class MagnitudeSearch {
     }
   }
 
-  /// What becomes of `x` without one of its edits, by the row of that edit.
+  /// Measures `x` without each of its edits; pairs of the edit's row and the sample.
   std::vector<std::pair<std::size_t, MagnitudeSample>> each_left_out(const Magnitudes& x) {
     std::vector<std::size_t> rows;
     std::vector<Magnitudes> fewer;
@@ -119,7 +120,7 @@ class MagnitudeSearch {
     return result;
   }
 
-  /// Phase 2.
+  /// Phase 2: minimises the change.
   void descend() {
     problem_.allow(static_cast<int>(share_of_descent * options_.evaluations));
     int idle = 0;
@@ -135,7 +136,8 @@ class MagnitudeSearch {
     problem_.allow(options_.evaluations);
   }
 
-  /// Looks for the last feasible point on the way from the best one to `to`, if that promises less change.
+  /// Finds the last feasible point on the segment from the best point to `to`. Does nothing if `to` is
+  /// feasible or has no smaller change.
   void approach(const Magnitudes& to) {
     const Magnitudes from = *problem_.best();
     const MagnitudeSample there = problem_.at(to);
@@ -164,11 +166,11 @@ class MagnitudeSearch {
     boost::math::tools::toms748_solve(margin, 0.0, 1.0, at_start, at_end, close_enough, steps);
   }
 
-  /// Towards the shape at rest as far as the target allows.
+  /// Moves the best point towards the shape at rest as far as the target allows.
   void pull_back() { approach(Magnitudes(problem_.size(), 0)); }
 
-  /// The same with one magnitude after the other, for as long as that helps: what is left to do where S
-  /// jumps, which slopes do not tell.
+  /// Pulls back one magnitude after the other while that helps. Needed where S jumps: slopes do not show
+  /// jumps.
   void pull_back_singly() {
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
       const double before = problem_.best_change();
@@ -182,8 +184,8 @@ class MagnitudeSearch {
     }
   }
 
-  /// Leaves out edits that hardly matter, as many as the others can make up for, those that S needs least
-  /// first. Even when the time is up: many edits that do next to nothing are no answer.
+  /// Drops edits that hardly matter, as many as the others can make up for, those that S needs least first.
+  /// Runs even when the time is up: a solution should not have many edits that do next to nothing.
   void leave_out() {
     const Magnitudes best = *problem_.best();
     const double allowed = problem_.best_change() * (1 + spare_change);

@@ -5,9 +5,9 @@
 
 namespace stackabilization::detail {
 
-/// Looks for the feasible magnitudes of least change, and of few edits, from those given: afterwards they are
-/// the best ones of `problem`. Where none is found the nearest ones are those of largest S that were met.
-/// Precondition: what is given can be made.
+/// Searches the feasible magnitudes of least change with few edits, starting from `given`. The result is
+/// MagnitudeProblem::best(). If there is no feasible point, MagnitudeProblem::nearest() has the largest S
+/// found. Precondition: the design of `given` can be made.
 void search_magnitudes(MagnitudeProblem& problem, const Magnitudes& given, const RefinementOptions& options);
 
 }  // namespace stackabilization::detail

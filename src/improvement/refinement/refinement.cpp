@@ -15,29 +15,31 @@ namespace {
 
 using namespace detail;
 
-/// Further edits join in rounds, few at a time: every variable costs a sample per slope. They are chosen by
-/// how much the change would fall, of itself, per unit of magnitude, according to the slopes within a radius;
-/// less than this is not worth it, and a round that lessens the change by less than this is the last.
+/// Edits are added in rounds, few at a time: every variable costs a sample per slope. They are chosen by
+/// reduced cost in a trust region of radius pricing_radius. An edit is added only if its reduced cost per
+/// unit of magnitude is above least_pull times the change. A round that lessens the change by less than the
+/// fraction least_gain is the last.
 constexpr int most_rounds = 4;
 constexpr double pricing_radius = 0.1;
 constexpr double least_pull = 0.01;
 constexpr double least_gain = 0.01;
 
-/// Refinements of what another one found with fewer edits, and what one of them needs at least.
+/// Largest number of times that a result with fewer edits is refined again, and the fewest evaluations of a
+/// refinement.
 constexpr int most_restarts = 3;
 constexpr int least_evaluations = 10;
 
-/// The last word on one candidate: everything checked.
+/// A candidate with all checks made.
 struct Verdict {
   Candidate candidate;
   bool reached = false;
   double change = 0;
 };
 
-/// One list of edits, whose magnitudes are sought.
+/// Refinement of the magnitudes of one list of edits.
 class MagnitudeRefiner {
  public:
-  /// `joining`: edits that may be added to those of the start.
+  /// `joining`: edits added to those of the start, with magnitude 0.
   MagnitudeRefiner(const RequirementChecker& checker, const Candidate& start,
                    const RefinementOptions& options, const std::vector<MagnitudeEdit>& joining = {})
       : checker_(checker),
@@ -49,8 +51,7 @@ class MagnitudeRefiner {
         problem_(checker, plain(edits_), direction_,
                  {options.evaluations, options.reach, options.least, options.cancelled}) {}
 
-  /// Of the edits that may be added those that promise to lessen the change most, as the slopes at the start
-  /// say; at most `most`.
+  /// Returns the added edits of largest reduced cost at the start, at most `most`.
   std::vector<MagnitudeEdit> promising(std::size_t most) {
     const Magnitudes x = found();
     if (!problem_.at(x).made) return {};
@@ -91,7 +92,7 @@ class MagnitudeRefiner {
   }
 
  private:
-  /// The edits given, merged where their order does not matter so much that they are refused, and what joins.
+  /// Returns the given edits and the added ones. Given edits are merged unless the merged list is refused.
   static std::vector<MagnitudeEdit> variables(const RequirementChecker& checker, const Candidate& start,
                                               const RefinementOptions& options,
                                               const std::vector<MagnitudeEdit>& joining) {
@@ -99,7 +100,7 @@ class MagnitudeRefiner {
         deformation_constraints(checker.requirements(), checker.space().rest(), Direction(start.direction));
     std::vector<MagnitudeEdit> edits =
         merged_edits(start.design.edits, [&](const std::vector<MagnitudeEdit>& fewer) {
-          const bool late = options.cancelled && options.cancelled();  // long lists take long to replay
+          const bool late = options.cancelled && options.cancelled();  // replaying long lists is slow
           return !late && !checker.space().replayed(plain(fewer), constraints).refusal;
         });
     edits.insert(edits.end(), joining.begin(), joining.end());
@@ -110,14 +111,14 @@ class MagnitudeRefiner {
     for (const MagnitudeEdit& one : edits) result.push_back(one.edit);
     return result;
   }
-  /// The magnitudes of what was given.
+  /// Returns the magnitudes of the start: 1 for given edits, 0 for added ones.
   Magnitudes found() const {
     Magnitudes x;
     for (const MagnitudeEdit& one : edits_) x.push_back(one.source ? 1 : 0);
     return x;
   }
   static double stackability(const Verdict& verdict) { return verdict.candidate.measured.value; }
-  /// Fewer edits are better where the change is the same.
+  /// Of equal changes the one with fewer edits is better.
   static bool better(const Verdict& a, const Verdict& b) {
     if (a.reached != b.reached) return a.reached;
     if (!a.reached) return stackability(a) > stackability(b);
@@ -125,7 +126,7 @@ class MagnitudeRefiner {
            std::pair(b.change, b.candidate.design.edits.size());
   }
 
-  /// What is worth a full check: the best first.
+  /// Returns the points worth a full check.
   std::vector<Magnitudes> finalists() const {
     std::vector<Magnitudes> result;
     if (problem_.best()) result.push_back(*problem_.best());
@@ -167,7 +168,7 @@ class MagnitudeRefiner {
   MagnitudeProblem problem_;
 };
 
-/// Edits that are worth adding, and what it cost to find them.
+/// Edits worth adding, and the evaluations used to find them.
 struct Offer {
   std::vector<MagnitudeEdit> edits;
   int evaluations = 0;

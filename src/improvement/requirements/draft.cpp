@@ -13,18 +13,19 @@ namespace stackabilization {
 
 namespace {
 
-/// One triangle and a point that copies touch at.
+/// A triangle at a point where copies touch.
 struct Touched {
-  double draft = 0;     ///< radians between r and the triangle
-  bool inside = false;  ///< the point is clear of the triangle's edges
+  double draft = 0;     ///< angle between r and the triangle, radians
+  bool inside = false;  ///< whether the point is clear of the triangle's edges
 };
 
+/// Measures the draft angle at contact polygons.
 class DraftGauge {
  public:
   DraftGauge(const Shape& shape, const Direction& direction)
       : shape_(shape), up_(direction.unit()), reach_(tolerance::relative * bounding_diagonal(shape)) {}
 
-  /// Radians; nothing when a triangle has no area.
+  /// Returns the draft angle at a contact polygon, radians. Nothing if a triangle has no area.
   std::optional<double> draft(const ContactPolygon& polygon) const;
 
  private:
@@ -50,7 +51,7 @@ std::optional<Touched> DraftGauge::touched(Eigen::Index triangle, const Eigen::V
 }
 
 std::optional<double> DraftGauge::draft(const ContactPolygon& polygon) const {
-  // The copies come nearest where f is largest over the polygon.
+  // The copies touch where f is largest over the polygon.
   const Eigen::VectorXd f = (polygon.upper_points - polygon.lower_points) * up_;
   const double touching = f.maxCoeff() - reach_;
   Eigen::Vector3d below = Eigen::Vector3d::Zero(), above = Eigen::Vector3d::Zero();

@@ -8,15 +8,21 @@
 
 namespace stackabilization {
 
-/// Least angle between r and the surfaces with which copies press on each other, degrees in [0, 90]: 90 for
-/// level contacts, 0 for walls along r, on which copies jam (in solid semantics these slide freely, and there
-/// are no contacts with them).
+/// Returns the draft angle in degrees: the least angle between r and the surfaces on which copies touch. It
+/// is 90 for level contacts and without contacts; 0 for walls along r, on which copies jam (in solid
+/// semantics such walls slide freely and are no contacts).
 ///
-/// Where two faces touch, both count; where an edge or a corner rests on a face, only that face does: legs
-/// with steep walls that stand on a level top have 90, a peg with upright walls in a conical hole has the
-/// angle of the hole. Where edges meet edges the flatter one of the two triangles counts. Contact polygons
-/// without area are judged in the same way; triangles without area are passed over. 90 when there are none.
-/// Double precision; corners within tolerance::relative of the diagonal of an edge count as on it.
+/// Which triangle counts, per contact polygon:
+///
+/// | contact | angle |
+/// | --- | --- |
+/// | face on face | the smaller of both |
+/// | edge or corner on face | that of the face |
+/// | edge or corner on edge or corner | the larger of both |
+///
+/// So legs with steep walls on a level top have 90, and a peg with upright walls in a conical hole has the
+/// angle of the hole. Contact polygons without area are treated alike; triangles without area are skipped.
+/// Double precision; points within tolerance::relative of the diagonal of an edge count as on the edge.
 double contact_draft_degrees(const Shape& shape, const std::vector<ContactRegion>& regions,
                              const Direction& direction);
 

@@ -4,16 +4,16 @@
 
 namespace stackabilization {
 
-/// How far a part is from the size it has at rest.
+/// Change of the sizes of a part against rest.
 struct Proportion {
-  double ratio = 1;  ///< in (0, 1]: of two sizes, at rest and now, the smaller over the larger
-  int part = -1;     ///< the part with the least ratio; -1: nothing changed its size
+  double ratio = 1;  ///< in (0, 1]: of a size at rest and now, the smaller over the larger
+  int part = -1;     ///< the part of least ratio; -1: no size changed
 };
 
-/// The least ratio over all parts: of the three sides of a cuboid (means of four edges, but for thicknesses
-/// that a flat box lacks), of the radii and the arc length of a generalized cylinder. What is stretched
-/// counts as what is shrunk. Single edges of a cuboid count where they shrink; a slanting one is longer.
-/// Energies weigh parts by their volume and let thin ones wither; this does not.
+/// Returns the least ratio of sizes over all parts. Sizes are the three sides of a cuboid (means of four
+/// edges; flat boxes without their thickness), the radii and the arc length of a generalized cylinder.
+/// Stretching counts like shrinking. Single edges of a cuboid count only where they shrink, since a slanting
+/// edge is longer. Complements the energies, which weigh parts by volume and would let thin parts wither.
 Proportion least_proportion(const StructuredShape& rest, const Design& design);
 
 }  // namespace stackabilization

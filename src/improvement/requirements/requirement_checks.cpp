@@ -30,7 +30,7 @@ std::string words_for(const Relation& relation, const Structure& structure) {
   return words;
 }
 
-/// Parts whose triangles use each vertex.
+/// Returns, per vertex, the parts whose triangles use it.
 std::vector<std::set<int>> owners_of(const Shape& shape) {
   std::vector<std::set<int>> owners(static_cast<std::size_t>(shape.vertex_count()));
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
@@ -159,7 +159,8 @@ Check RequirementChecks::thickness(const CheckedDesign& checked) const {
   const Structure& structure = space_.rest().structure;
   const double least = *requirements_.least_thickness, slack = tolerance::relative * structure.diagonal;
   Check check{"thickness", 0, least, true, "model units", "nothing has a thickness"};
-  // The probe with the least excess over what it needs decides; the thinnest one is reported.
+  // `worst`: least excess over the required thickness, which decides. `thinnest`: least thickness, which is
+  // reported.
   double worst = std::numeric_limits<double>::infinity(), thinnest = worst;
   for (const ThicknessProbe& probe : probes_) {
     const double measured = stackabilization::thickness(probe, checked.design.shape);

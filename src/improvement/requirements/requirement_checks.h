@@ -7,34 +7,36 @@
 
 namespace stackabilization::detail {
 
-/// A design stacked along r, with what was measured of it already.
+/// A design stacked along r, with the measures already made.
 struct CheckedDesign {
   const Design& design;
   const SeparationTree& tree;
   const Direction& direction;
-  const Assessment& assessment;  ///< without its checks
+  const Assessment& assessment;  ///< its checks are still empty
 };
 
-/// Of a stack of so many copies, model units.
+/// Returns the length of a stack of room.copies copies, model units.
 inline double stack_length(const StackRoom& room, const Stackability& measured) {
   return measured.extent + (room.copies - 1) * measured.f_max;
 }
 
-/// The checks of a RequirementChecker, with all that depends on the rest alone.
+/// Checks of a RequirementChecker, with everything that depends on the shape at rest alone.
 class RequirementChecks {
  public:
-  /// `stay`: parts that may not change, in order. Precondition: the requirements are valid; both references
-  /// outlive this.
+  /// `stay`: parts that may not change, ascending. Preconditions: the requirements are valid; both references
+  /// outlive this object.
   RequirementChecks(const DesignSpace& space, const Requirements& requirements, std::vector<int> stay);
 
-  /// In the order of Check::name.
+  /// Makes all required checks, in the order of Check::name.
   std::vector<Check> of(const CheckedDesign& checked) const;
 
  private:
   struct StayingPart {
     int part = 0;
-    std::vector<Eigen::Index> vertices;  ///< that have to stay
-    bool by_primitive = false;           ///< its primitive has to stay as well
+    std::vector<Eigen::Index> vertices;  ///< vertices that have to stay
+    /// Whether the primitive has to stay instead of the vertices: on a part that shares vertices with one
+    /// that may change.
+    bool by_primitive = false;
   };
 
   Check reached(const Stackability& measured) const;

@@ -17,7 +17,8 @@ namespace stackabilization {
 
 namespace {
 
-/// Air beyond this many diagonals is a slip of the unit, and numbers that no file takes.
+/// Largest clearance and play, in diagonals. Larger values are a mistake in the unit, and numbers that no
+/// file can hold.
 constexpr double most_air = 1e6;
 
 void require_at_least_zero(double value, const std::string& what) {
@@ -112,7 +113,7 @@ struct RequirementChecker::Data {
         primitives(detail::primitives_of(designs.rest().structure)),
         checks(designs, requirements, parts_that_stay(requirements, designs.rest().structure)) {}
 
-  /// How far apart copies are, with the air, where they are `touching` without any.
+  /// Returns the translation from copy to copy with clearance and play. `touching`: the one without.
   double translation(const Shape& shape, const Direction& direction, double touching) const {
     if (requirements.play > 0) {
       PlayOptions options;
@@ -156,7 +157,7 @@ Stackability RequirementChecker::measured(const Shape& shape, const Direction& d
 
 std::optional<Stackability> RequirementChecker::measured_above(const Shape& shape, const Direction& direction,
                                                                double threshold) const {
-  // Air never raises S: what is too low without it need not be looked at.
+  // Clearance and play never raise S. A shape whose S is too low without them is not measured further.
   const std::optional<Stackability> touching =
       stackability_if_above(shape, direction, threshold, data_->requirements.measure);
   if (!touching) return std::nullopt;

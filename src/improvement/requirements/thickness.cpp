@@ -26,11 +26,11 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// Samples of a part on its own, when none of the common ones found material in it.
+/// Number of samples on a part in which no common sample found material.
 constexpr int samples_per_part = 16;
 
 struct Hit {
-  double distance;  ///< from the start of the ray, model units
+  double distance;  ///< distance from the start of the ray, model units
   std::int32_t triangle;
 
   bool operator<(const Hit& other) const {
@@ -38,6 +38,7 @@ struct Hit {
   }
 };
 
+/// Finds the material behind points of a surface.
 class MaterialFinder {
  public:
   explicit MaterialFinder(const Shape& shape)
@@ -46,7 +47,7 @@ class MaterialFinder {
         diagonal_(bounding_diagonal(shape)),
         tree_(shape, triangles_with_area(shape)) {}
 
-  /// The place at `point` of a triangle, if there is material on one side of it.
+  /// Returns the probe at `point` of a triangle. Nothing unless there is material on exactly one side.
   std::optional<ThicknessProbe> probe(std::int32_t triangle, const Eigen::Vector3d& point) const;
 
  private:
@@ -54,13 +55,13 @@ class MaterialFinder {
                         const Eigen::Vector3d& along) const;
 
   const Shape& shape_;
-  std::vector<std::int32_t> shell_;  ///< per triangle
+  std::vector<std::int32_t> shell_;  ///< shell of each triangle
   double diagonal_;
   detail::TriangleTree<Kernel> tree_;
 };
 
-/// Crossings of the triangle's shell with a ray that leaves it, nearest first, one for each edge or corner
-/// that is met.
+/// Returns the crossings of a ray with the shell of the triangle from which the ray starts, nearest first. A
+/// crossing at an edge or a corner counts once.
 std::vector<Hit> MaterialFinder::hits(std::int32_t triangle, const Eigen::Vector3d& point,
                                       const Eigen::Vector3d& along) const {
   std::vector<std::size_t> met;
@@ -100,7 +101,7 @@ std::optional<ThicknessProbe> MaterialFinder::probe(std::int32_t triangle,
   return probe;
 }
 
-/// Appends the samples at which there is material.
+/// Appends the probes of the samples at which there is material.
 void find(const MaterialFinder& finder, const SurfaceSamples& samples, std::vector<ThicknessProbe>& probes) {
   std::vector<std::optional<ThicknessProbe>> found(samples.triangles.size());
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
@@ -111,7 +112,7 @@ void find(const MaterialFinder& finder, const SurfaceSamples& samples, std::vect
     if (probe) probes.push_back(*probe);
 }
 
-/// Samples of one part alone; none when it has no area.
+/// Returns samples on one part; none if the part has no area.
 SurfaceSamples samples_of_part(const Shape& shape, std::int32_t part) {
   std::vector<std::int32_t> rows;
   double area = 0;

@@ -10,12 +10,13 @@ namespace stackabilization {
 
 namespace {
 
-/// Work of an effort of 1, and what a design and a direction cost, in microseconds of a processor of 2 GHz: a
-/// fit to `improve` and `search` on the shipped models, of 4,000 to 5,000 triangles, and on meshes of 20,000.
-/// Next to the triangles it is the hull that counts, whose smallest box is looked for in every design.
+/// Work of effort 1, and cost of a design and of a direction, in microseconds of a processor of 2 GHz. Fitted
+/// to `improve` and `search` on the shipped models (4,000 to 5,000 triangles) and on meshes of 20,000
+/// triangles. Besides the triangles the corners of the hull count, since every design needs the smallest box
+/// around its hull.
 constexpr double work = 60e6;
 constexpr double design_cost = 1000, triangle_cost = 2.2, hull_point_cost = 160, part_cost = 400;
-constexpr double direction_cost = 500, direction_triangles = 10000;  ///< that double the cost
+constexpr double direction_cost = 500, direction_triangles = 10000;  ///< triangles that double the cost
 
 void require_effort(double effort) {
   if (!(effort > 0)) throw UsageError("the effort of a search must be above 0");

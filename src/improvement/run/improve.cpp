@@ -15,24 +15,24 @@ namespace {
 
 using detail::WorkBudget;
 
-/// Shares of the work by which the pursuits, the search in the paper's steps, and the search end where their
-/// results are refined afterwards.
+/// Shares of the work at which phases end, if refinement follows: the pursuits, the paper's search, the
+/// search.
 constexpr double pursuit_share = 0.4;
 constexpr double paper_share = 0.45;
 constexpr double search_share = 0.5;
-/// By then the magnitudes of the edits that they found are known, and edits begin to join.
+/// Share at which the refinement with the given edits ends and the one with added edits begins.
 constexpr double first_share = 0.7;
-/// Each search gets this share at least.
+/// Least share of the work for each search and for the diagnosis.
 constexpr double min_search = 0.05;
-/// Where nothing was found, what is left beyond this share is for the diagnosis.
+/// Without a solution refinement ends at this share. The rest is for the diagnosis.
 constexpr double diagnosis_begin = 0.85;
 
-/// Designs measured at most for the magnitudes of one list of edits, and the fewest that are any use.
+/// Largest number of designs measured to refine one list of edits, and the fewest that are useful.
 constexpr int first_evaluations = 300;
 constexpr std::int64_t min_evaluations = 10;
 
-/// Which solution becomes the best is not known before its refinement: so many at least are looked for, and
-/// so many more than are wanted are tried with edits that join.
+/// The best solution is not known before refinement. So at least min_solutions are searched, and
+/// more_extended solutions more than wanted are refined with added edits.
 constexpr int min_solutions = 3;
 constexpr std::size_t more_extended = 4;
 
@@ -40,8 +40,8 @@ bool more_stackable(const Candidate& a, const Candidate& b) {
   return a.measured.value > b.measured.value;
 }
 
-/// Refines what a search found: magnitudes of all of it first, then with further edits what came out best,
-/// until there are as many different solutions as wanted.
+/// Refines the results of a search: first all of them with the given edits, then the best ones with added
+/// edits, until there are as many different solutions as wanted.
 class Refinements {
  public:
   Refinements(const RequirementChecker& checker, const ImprovementOptions& options, WorkBudget& budget)
@@ -62,8 +62,8 @@ class Refinements {
   Refinements(const Refinements&) = delete;
   Refinements& operator=(const Refinements&) = delete;
 
-  /// `starts`: what else was found. Begins with what reaches the target with the least change: the work may
-  /// end.
+  /// Refines `starts` (results of other phases) and the results of the search. Begins with candidates that
+  /// reach the target, least change first, since the work may run out.
   std::vector<Candidate> refined(std::vector<Candidate> starts, const BestFirstResult& found) {
     starts.insert(starts.end(), found.solutions.begin(), found.solutions.end());
     const double target = checker_.requirements().target;
@@ -85,7 +85,7 @@ class Refinements {
   const std::optional<Candidate>& nearest() const { return nearest_; }
 
  private:
-  /// Is there no work left for what it is at?
+  /// Returns whether the current phase has no work left.
   bool at_end() const { return budget_.designs_until(share_) < min_evaluations || options_.cancelled(); }
 
   RefinementResult refinement(const Candidate& start, RefinementOptions options) {
@@ -110,14 +110,14 @@ class Refinements {
     }
   }
 
-  /// Without any refinement.
+  /// Returns `start` checked, without refinement.
   RefinementResult as_it_is(const Candidate& start) const {
     const bool reached = checker_.reaches(start.measured) &&
                          checker_.checked(start.design, Direction(start.direction)).passed();
     return {start, reached, 0};
   }
 
-  /// Lets further edits join, to the least changed solutions first.
+  /// Refines with added edits, solutions of least change first.
   void extend() {
     share_ = 1;
     std::stable_sort(solutions_.begin(), solutions_.end(), less_changed_);
@@ -131,7 +131,7 @@ class Refinements {
     if (solutions_.size() > wanted_) solutions_.resize(wanted_);
   }
 
-  /// Of two solutions that are not different the less changed one stays.
+  /// Adds a solution. Of two solutions that are not different, the one of smaller change is kept.
   void keep(Candidate candidate) {
     for (Candidate& other : solutions_)
       if (!distinct_.differ(other.design, candidate.design)) {
@@ -145,7 +145,7 @@ class Refinements {
   RefinementOptions options_;
   std::size_t wanted_;
   WorkBudget& budget_;
-  double share_ = diagnosis_begin;  ///< by which what it is at ends
+  double share_ = diagnosis_begin;  ///< share of the work at which the current phase ends
   std::function<bool(const Candidate&, const Candidate&)> less_changed_;
   detail::Distinctness distinct_;
   std::vector<Candidate> solutions_;
@@ -160,7 +160,7 @@ Candidate at_rest(const RequirementChecker& checker, const Eigen::Vector3d& dire
   return rest;
 }
 
-/// One improvement, phase by phase.
+/// A run of `improve`, phase by phase.
 class ImprovementRun {
  public:
   ImprovementRun(const RequirementChecker& checker, const ImprovementOptions& options,
@@ -208,7 +208,7 @@ class ImprovementRun {
   bool late(double share) { return budget_.late(share) || cancelled(); }
   bool cancelled() const { return options_.search.cancelled && options_.search.cancelled(); }
 
-  /// One pursuit per starting direction.
+  /// Runs a pursuit along every starting direction.
   std::vector<Candidate> pursuits(const BestFirstOptions& search) {
     PursuitOptions options;
     options.alpha = search.alpha;
@@ -230,8 +230,8 @@ class ImprovementRun {
     return found;
   }
 
-  /// A search until `share` of the work is done, with the expansions that are left. What the saved state did
-  /// counts as done.
+  /// Runs a search until `share` of the work is used, with the expansions that are left. Work of a saved
+  /// state counts as used.
   BestFirstResult searched(BestFirstOptions search, double share, const std::optional<SavedSearch>& state) {
     search.expansions -= result_.progress.expanded;
     search.trials = budget_.designs_until(share, min_search);
@@ -246,7 +246,7 @@ class ImprovementRun {
     return found;
   }
 
-  /// With what the phases before this search did.
+  /// Adds the counts of the phases before this search.
   ImprovementProgress counted(ImprovementProgress now) const {
     now.expanded += result_.progress.expanded;
     now.evaluated += result_.progress.evaluated;

@@ -6,25 +6,28 @@
 
 namespace stackabilization::detail {
 
-/// What a run of several phases may use: a number of designs, counted, and seconds until a deadline. Phases
-/// end at shares of both. Only where a deadline is given does a clock decide anything.
+/// Budget of a run with several phases: a number of designs, and seconds until a deadline. Phases end at
+/// shares of both. Without a deadline no clock decides anything.
 class WorkBudget {
  public:
-  /// Both above 0, infinite without a limit. The time begins now.
+  /// Number of designs and seconds, both > 0; infinite: no limit. The time starts now.
   WorkBudget(double designs, double seconds) : designs_(designs), seconds_(seconds), start_(Clock::now()) {}
 
-  /// That many designs were made. From one thread at a time, so that all that follows is the same each time.
+  /// Records that `designs` designs were made. Call it from one thread at a time, so that results are
+  /// reproducible.
   void charge(std::int64_t designs) { used_ += designs; }
   std::int64_t used() const { return used_; }
-  /// Designs that may be made before `share` of all is used up, at least `min_share` of all.
+  /// Returns how many designs are left until `share` of the budget is used, at least `min_share` of the
+  /// budget.
   std::int64_t designs_until(double share, double min_share = 0) const;
-  /// The same for seconds; above 0.
+  /// Returns how many seconds are left until `share` of the time is used, at least `min_share` of the time.
+  /// Always above 0.
   double seconds_until(double share, double min_share = 0) const;
-  /// Is it later than this share of the time? May be asked from any thread.
+  /// Returns whether `share` of the time is used. Any thread may ask.
   bool late(double share);
-  /// Has the deadline ended anything?
+  /// Returns whether the deadline ended any phase.
   bool met_deadline() const { return met_deadline_; }
-  /// Something else found that it has.
+  /// Records that the deadline ended a phase.
   void note_deadline() { met_deadline_ = true; }
 
  private:

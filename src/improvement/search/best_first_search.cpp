@@ -9,13 +9,13 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Candidates that are shown when the target was not reached.
+/// Largest number of candidates reported when the target was not reached.
 constexpr std::size_t most_nearest = 8;
 
-/// The look around in a cone costs about as much as so many edits.
+/// Cost of a search of the cone, in edits.
 constexpr std::int64_t cone_trials = 8;
 
-/// Seconds between two saves, and the most that saving may take of all time.
+/// Least time between two saves, seconds, and the largest share of the time for saving.
 constexpr double save_every = 1;
 constexpr double save_share = 0.05;
 
@@ -148,7 +148,7 @@ void BestFirstSearch::add_successors(int parent, const std::vector<Successor>& m
     notice(node);
     added.emplace_back(state_.tree.add(std::move(node)), &successor);
   }
-  // Those looked at first are to be forgotten last.
+  // Add those of least E last: they are expanded first and should leave the cache last.
   std::sort(added.begin(), added.end(), [](const auto& a, const auto& b) {
     return std::pair(a.second->energy.value, a.first) > std::pair(b.second->energy.value, b.first);
   });

@@ -16,8 +16,9 @@
 
 namespace stackabilization::detail {
 
-/// Algorithm 1. A step changes the state when all of it is done, so that one that is interrupted leaves no
-/// trace, and the state between two steps is all that the rest of the search depends on.
+/// Best-first search, Algorithm 1 of the paper. A step changes the state only after all of its work is done,
+/// so an interrupted step leaves no trace. The rest of the search depends only on the state between two
+/// steps.
 class BestFirstSearch {
  public:
   BestFirstSearch(const RequirementChecker& checker, const BestFirstOptions& options, SearchState state);
@@ -26,23 +27,27 @@ class BestFirstSearch {
   std::string state_text() const { return text_of(state_); }
 
  private:
-  /// What is known of a candidate once it is looked at.
+  /// Result of the checks of a candidate.
   struct Verdict {
-    std::optional<NodeState> state;  ///< nothing when successors are to be made
+    std::optional<NodeState> state;  ///< new state of the candidate; nothing: it has to be expanded
+    /// Checks that failed, one sentence each.
     std::vector<std::string> broken;
   };
 
   const BestFirstOptions& options() const { return tools_.options; }
   const RequirementChecker& checker() const { return tools_.checker; }
 
+  /// Adds the shape at rest once per starting direction.
   void add_roots();
+  /// Returns why the search is over, if it is.
   std::optional<SearchEnd> end();
-  /// Why the step is not done, if it is not.
+  /// Handles candidate `id`. Returns why the step was not done, if it was not.
   std::optional<SearchEnd> step(int id);
-  /// What the search for another direction counts as.
+  /// Returns the trials that a search of the cone counts as.
   std::int64_t turning_trials() const;
   Verdict verdict(const Design& design, const Stackability& measured) const;
   void add_successors(int parent, const std::vector<Successor>& made);
+  /// Updates the best S and E with those of a node.
   void notice(const SearchNode& node);
   ImprovementProgress progress() const;
   void save();
@@ -61,7 +66,7 @@ class BestFirstSearch {
   double best_stackability_ = -std::numeric_limits<double>::infinity();
   double best_energy_ = std::numeric_limits<double>::infinity();
   std::chrono::steady_clock::time_point last_save_ = std::chrono::steady_clock::now();
-  double save_seconds_ = 0;  ///< that the last save took
+  double save_seconds_ = 0;  ///< duration of the last save
 };
 
 }  // namespace stackabilization::detail

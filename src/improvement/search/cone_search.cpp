@@ -15,11 +15,11 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Samples across half the cone.
+/// Samples along half the opening of the cone.
 constexpr double samples_per_half_angle = 4;
 
-/// A climb ends at this fraction of the distance between samples: candidates change with every edit, and
-/// nothing is gained by more.
+/// A climb ends at this fraction of the sample spacing. Candidates change with every edit, so a finer step
+/// gains nothing.
 constexpr double last_step = 0.01;
 
 bool are_parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -69,7 +69,7 @@ std::optional<Stackability> ConeSearch::better(const Shape& shape, const Stackab
   std::erase_if(trials, [&](const Eigen::Vector3d& trial) { return !keeps_height(shape, trial); });
   if (trials.empty()) return std::nullopt;
 
-  // Air between copies only raises f_max, so that the solver, which knows of none, may rule directions out.
+  // Clearance and play only raise f_max. So the solver, which measures without them, may rule out directions.
   const StackabilitySolver solver(shape, checker_.requirements().measure);
   std::vector<std::optional<Stackability>> samples(trials.size());
   tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t k) {

@@ -7,24 +7,27 @@
 
 namespace stackabilization::detail {
 
-/// How symmetry planes of a structure restrict a direction that lies in them.
+/// Restriction of a direction by the symmetries of a structure.
 struct DirectionFreedom {
-  bool fixed = false;                           ///< several planes, or an axis of rotation along it
-  std::optional<Eigen::Vector3d> plane_normal;  ///< of the one plane: unit, orthogonal to the direction
+  bool fixed = false;  ///< two symmetry planes or an axis of symmetry contain the direction
+  /// Normal of the only symmetry plane that contains the direction: unit, orthogonal to the direction.
+  std::optional<Eigen::Vector3d> plane_normal;
 };
 
+/// Returns how the symmetries of `structure` restrict `direction`.
 DirectionFreedom freedom_of(const Structure& structure, const Direction& direction);
 
-/// Looks for a better direction near that of a candidate (paper, end of section 4.3).
+/// Local search for a better stacking direction of a candidate (paper, end of section 4.3).
 class ConeSearch {
  public:
   ConeSearch(const RequirementChecker& checker, double cone_degrees)
       : checker_(checker), cone_degrees_(cone_degrees) {}
 
-  /// The measures along a direction within the cone and the symmetry planes that contain the old one, whose S
-  /// is larger by more than tolerance::stackability, and along which the height is what it was where the
-  /// requirements keep it; nothing where none is found. Samples, then a climb from the best of them.
-  /// Deterministic for any number of threads.
+  /// Returns the measures along a direction of larger S, within the cone and within the symmetry plane that
+  /// contains the old direction. S is larger by more than tolerance::stackability. Where the requirements
+  /// keep the height, the design has the height of the shape at rest along the new direction. Nothing if
+  /// there is no such direction. Samples the cone, then climbs from the best sample. Deterministic for any
+  /// number of threads.
   std::optional<Stackability> better(const Shape& shape, const Stackability& now) const;
 
  private:

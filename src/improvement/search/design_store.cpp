@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_bytes = std::size_t{256} << 20;
 
-/// About what a design takes.
+/// Returns the approximate memory of a design, bytes.
 std::size_t bytes_of(const Design& design) {
   const Shape& shape = design.shape;
   Eigen::Index bytes = shape.vertices.size() * static_cast<Eigen::Index>(sizeof(double)) +

@@ -11,15 +11,17 @@
 
 namespace stackabilization::detail {
 
-/// Designs of the nodes of a search. As many as fit in a fixed amount of memory are kept, those last used;
-/// others are made again from their nearest ancestor that is: the same to the bit, since edits are
+/// Cache of the designs of search nodes. Keeps the most recently used designs within a fixed amount of
+/// memory. Other designs are made again from their nearest cached ancestor: equal to the bit, since edits are
 /// deterministic.
 class DesignStore {
  public:
   DesignStore(const RequirementChecker& checker, const SearchTree& tree) : checker_(checker), tree_(tree) {}
 
-  /// Throws InputError when an edit of the tree is refused: it comes from elsewhere.
+  /// Returns the design of a node. Throws InputError when an edit of the tree is refused: the tree then
+  /// belongs to another task.
   std::shared_ptr<const Design> of(int node);
+  /// Adds the design of a node to the cache.
   void keep(int node, Design design);
 
  private:
@@ -33,7 +35,7 @@ class DesignStore {
 
   const RequirementChecker& checker_;
   const SearchTree& tree_;
-  std::list<Kept> kept_;  ///< last used first
+  std::list<Kept> kept_;  ///< most recently used first
   std::map<int, std::list<Kept>::iterator> rows_;
   std::size_t bytes_ = 0;
 };

@@ -13,7 +13,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Whether `edit` takes back what `earlier` did, in part at least.
+/// Returns whether `edit` undoes `earlier`, at least in part.
 bool takes_back(const Edit& edit, const Edit& earlier) {
   if (!(edit.handle == earlier.handle) || edit.operation.index() != earlier.operation.index()) return false;
   if (const auto* move = std::get_if<Move>(&edit.operation)) {
@@ -69,7 +69,7 @@ std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const Standpo
   std::vector<ContactEdit> edits = contact_edits(
       {space.rest(), space.kind(), tools.handles, from.design, regions, direction, space.centres()},
       tools.options.edits);
-  // Back and forth leads to places that steps of the same kind reach as well, or near them.
+  // Undoing an edit leads to designs that steps of the same kind reach as well, or come near to.
   std::erase_if(edits, [&](const ContactEdit& suggestion) {
     return std::any_of(from.design.edits.begin(), from.design.edits.end(),
                        [&](const Edit& earlier) { return takes_back(suggestion.edit, earlier); });

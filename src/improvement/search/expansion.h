@@ -11,25 +11,25 @@
 
 namespace stackabilization::detail {
 
-/// What became of one suggestion.
+/// Result of one suggested edit.
 struct Successor {
   ContactEdit suggestion;
-  std::optional<std::string> refusal;  ///< nothing below is set then
-  bool known = false;                  ///< its configuration was met before: nothing below but the key is set
+  std::optional<std::string> refusal;  ///< reason; if set, the fields below are meaningless
+  bool known = false;  ///< whether its configuration is in the visited set; if so, only `key` is set
   std::uint64_t key = 0;
   Stackability measured;
   Energy energy;
   Design design;
 };
 
-/// What every candidate of a search is made and measured with.
+/// Everything needed to make and measure the candidates of a search.
 struct SearchTools {
   const RequirementChecker& checker;
   const BestFirstOptions& options;
   EnergyMeter meter;
   ConfigurationKeys keys;
   std::vector<Handle> handles;
-  double at_rest = 0;  ///< S(M0), along the first direction
+  double at_rest = 0;  ///< S(M0) along the first starting direction
 
   SearchTools(const RequirementChecker& checker, const BestFirstOptions& options);
 
@@ -38,18 +38,20 @@ struct SearchTools {
   }
 };
 
-/// A candidate that is taken: its design, and along which direction and in which queue it goes on.
+/// Expanded node: its design, its direction and its queue.
 struct Standpoint {
   const Design& design;
   Eigen::Vector3d direction;
   int queue = 0;
 };
 
-/// What its contacts suggest, but for edits that take back earlier ones.
+/// Returns the edits that the contacts of the node suggest, without those that undo an earlier edit of the
+/// node.
 std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const Standpoint& from);
 
-/// Its successors by these edits, in their order; those whose configuration is known in the queue are only
-/// named. Made in parallel, each in its own slot. When interrupted, some are missing: look at `interruption`.
+/// Makes and measures the successors of the node, one per edit, in order. Successors whose configuration is
+/// in the visited set of the queue are not measured. Runs in parallel, each in its own slot. After an
+/// interruption some are missing: ask `interruption`.
 std::vector<Successor> successors(const SearchTools& tools, const Standpoint& from,
                                   std::vector<ContactEdit> edits, const SearchTree& tree,
                                   Interruption& interruption);

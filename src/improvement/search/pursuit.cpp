@@ -14,13 +14,14 @@ namespace stackabilization {
 
 namespace {
 
-/// An edit must lower the sum by this fraction to be worth it.
+/// Least decrease of the merit that makes an edit worthwhile.
 constexpr double min_merit_gain = 0.01;
 
-/// Pairs of triangles in a band grow with its width and with the square of the number of triangles: beyond
-/// this number contacts are looked at in a narrower band.
+/// The number of triangle pairs in a contact band grows with the width of the band and with the square of the
+/// number of triangles. Beyond this number of triangles the band is narrower.
 constexpr double many_triangles = 20000;
 
+/// The greedy descent of `pursued`.
 class Pursuit {
  public:
   Pursuit(const RequirementChecker& checker, const Candidate& start, const PursuitOptions& options)
@@ -45,7 +46,7 @@ class Pursuit {
  private:
   struct State {
     Candidate candidate;
-    double excess = 0;  ///< sum of what pairs of blocks lack, fraction of the extent
+    double excess = 0;  ///< summed excess of all pairs of blocks, fraction of the extent
   };
 
   double allowed(const Stackability& measured) const {
@@ -61,12 +62,12 @@ class Pursuit {
     return sum / candidate.measured.extent;
   }
 
-  /// Distortion against what is left of the excess.
+  /// Returns D + F / F_now, see `pursued`.
   double merit(const State& state) const {
     return state.candidate.energy.distortion.total() + state.excess / now_.excess;
   }
 
-  /// What every region that asks for more than is allowed suggests.
+  /// Returns the edits that regions with f above the allowed separation suggest.
   std::vector<ContactEdit> suggestions() const {
     const Candidate& from = now_.candidate;
     ContactOptions contacts = options_.edits.contacts;

@@ -10,30 +10,31 @@ namespace stackabilization {
 
 /// Options of `pursued`.
 struct PursuitOptions {
-  double alpha = 0.2;        ///< of the energies reported
-  ContactEditOptions edits;  ///< what contacts suggest
-  int steps = 24;            ///< edits added at most, >= 1
-  /// Designs measured at most, >= 0: a step that would take more of them than are left ends the pursuit.
+  double alpha = 0.2;        ///< weight of D in Eq. 5, for the energies reported
+  ContactEditOptions edits;  ///< edits that contacts suggest
+  int steps = 24;            ///< largest number of edits added, >= 1
+  /// Largest number of designs measured, >= 0. The pursuit ends before a step that would exceed it.
   std::int64_t evaluations = std::numeric_limits<std::int64_t>::max();
-  std::function<bool()> cancelled = {};  ///< asked from the calling thread
+  std::function<bool()> cancelled = {};  ///< asked from the calling thread and from worker threads
 };
 
-/// What `pursued` came to.
+/// Result of `pursued`.
 struct PursuitResult {
-  Candidate candidate;           ///< the start with the edits that were taken
-  std::int64_t evaluations = 0;  ///< designs made for it
+  Candidate candidate;           ///< the start with the edits added
+  std::int64_t evaluations = 0;  ///< designs made
 };
 
-/// Beyond the paper: where several pairs of contacts keep copies apart at the same height, separating one of
-/// them does not raise S, so a search by S alone wanders about on the plateau. The pursuit takes edits, one
-/// after the other, by the sum over all pairs of parts of what each lacks to the target,
+/// Greedy descent on the summed gap excess; goes beyond the paper. Where several pairs of contacts keep the
+/// copies apart at the same height, separating one pair does not raise S, and a search by S alone wanders on
+/// the plateau. The pursuit adds one edit after the other by the excess of all pairs of parts over the
+/// separation f* that the target allows:
 ///
-///     F = sum max(0, f_ij - f*),   f* = (1 - target) h V(M) / V(M, r),
+///     F = sum max(0, f_ij - f*),   f* = (1 - target) h V(M) / V(M, r)
 ///
-/// which falls with every pair that gives way: the edit of least D + F / F_before is next. The edits are
-/// those that all regions with f > f* suggest (contact_edits.h). Ends when the target is reached, no edit is
-/// worth its distortion, or at a limit. What it finds is coarse; refinement.h makes it good. Deterministic
-/// for any number of threads.
+/// F falls with every pair that is separated. Each step tries the edits that all regions with f > f* suggest
+/// (contact_edits.h) and adds the one of least D + F / F_before. The pursuit ends when the target is reached,
+/// when no edit is worth its distortion, or at a limit. Its result is coarse and is meant for refinement
+/// (refinement.h). Deterministic for any number of threads.
 PursuitResult pursued(const RequirementChecker& checker, const Candidate& start,
                       const PursuitOptions& options = {});
 

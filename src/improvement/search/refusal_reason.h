@@ -5,7 +5,8 @@
 
 namespace stackabilization::detail {
 
-/// A reason with "..." for its amounts: for every number with a fraction or an exponent.
+/// Returns `reason` with every amount replaced by "...". Amounts are numbers with a decimal point or an
+/// exponent.
 std::string without_amounts(std::string_view reason);
 
 }  // namespace stackabilization::detail

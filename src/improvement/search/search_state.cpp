@@ -43,7 +43,7 @@ Eigen::Vector3d direction_of(const JsonNode& node) {
   }
 }
 
-/// 64 bits as a text: JSON numbers of that size are not safe everywhere.
+/// Reads 64 bits from a text: JSON numbers of that size are not safe everywhere.
 std::uint64_t word_of(const JsonNode& node) {
   const std::string text = node.text();
   std::uint64_t word = 0;
@@ -118,7 +118,7 @@ json json_of(const SearchNode& node) {
   return text;
 }
 
-/// What a candidate of a saved search has to fit to.
+/// What a candidate of a saved search is checked against.
 struct Expected {
   int queues = 0;
   const std::vector<Handle>& handles;
@@ -136,7 +136,7 @@ void read_measures(const JsonNode& node, SearchNode& result) {
   result.energy.value = energy[1].finite();
 }
 
-/// Candidate `id`: the roots come first, one per queue, and every other one after its parent.
+/// Reads candidate `id`. The roots come first, one per queue; every other candidate comes after its parent.
 SearchNode node_of(const JsonNode& node, int id, const Expected& expected) {
   node.expect_keys(
       {"parent", "queue", "state", "direction", "measured", "distortion", "energy", "key", "edit", "why"}, 2);
@@ -165,7 +165,7 @@ std::vector<Eigen::Vector3d> directions_at(const JsonNode& node) {
   return directions;
 }
 
-/// The root, when it is of this format.
+/// Returns the root of the document. Fails unless it has this format and version.
 JsonNode checked_root(const nlohmann::ordered_json& document, const std::string& name) {
   JsonNode root(document, name);
   if (!document.is_object() || !root.has("format") || document.at("format") != std::string(format_name) ||
@@ -204,7 +204,7 @@ SearchState state_of(const SavedSearch& saved, const SearchTask& task) {
   return state;
 }
 
-/// `read()`, with errors of the text as those of a saved search.
+/// Calls `read` and turns its InputError into SavedSearchError.
 template <class Read>
 auto as_saved_search(const Read& read) {
   try {

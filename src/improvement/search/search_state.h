@@ -11,7 +11,7 @@
 
 namespace stackabilization::detail {
 
-/// Everything that a search knows between two steps, apart from what follows from it.
+/// State of a search between two steps, without what can be computed from it.
 struct SearchState {
   SearchState(std::uint64_t the_task, std::vector<Eigen::Vector3d> the_directions)
       : task(the_task),
@@ -20,28 +20,29 @@ struct SearchState {
 
   std::uint64_t task;  ///< see task_fingerprint
   SearchTree tree;
-  std::map<std::string, std::int64_t> refusals;  ///< by reason
+  std::map<std::string, std::int64_t> refusals;  ///< counts by reason
   std::int64_t expanded = 0, evaluated = 0, trials = 0;
-  std::vector<Eigen::Vector3d> directions;  ///< that it starts from
+  std::vector<Eigen::Vector3d> directions;  ///< starting directions
 };
 
-/// Of the shape at rest with its structure, the requirements and the options, but for the limits: a search
-/// may go on with other ones.
+/// Returns a fingerprint of the shape at rest with its structure, the requirements and the options. The
+/// limits are left out: a resumed search may have others.
 std::uint64_t task_fingerprint(const RequirementChecker& checker, const BestFirstOptions& options);
 
-/// As JSON: numbers round-trip, the same bytes for the same state.
+/// Returns the state as JSON. Numbers round-trip; equal states give equal bytes.
 std::string text_of(const SearchState& state);
 
-/// What a saved search must belong to.
+/// Task to which a saved search must belong.
 struct SearchTask {
   std::uint64_t fingerprint;                ///< see task_fingerprint
-  std::vector<Eigen::Vector3d> directions;  ///< that it starts from
-  std::vector<Handle> handles;              ///< that its edits may take hold of
+  std::vector<Eigen::Vector3d> directions;  ///< starting directions
+  std::vector<Handle> handles;              ///< handles that its edits may use
 };
 
 SearchTask search_task(const RequirementChecker& checker, const BestFirstOptions& options);
 
-/// Throws SavedSearchError when the text is no state, or that of another task.
+/// Reads a saved search. Throws SavedSearchError when the text is no search state, or belongs to another
+/// task.
 SearchState read_state(const SavedSearch& saved, const SearchTask& task);
 
 }  // namespace stackabilization::detail

@@ -14,29 +14,31 @@
 
 namespace stackabilization::detail {
 
+/// State of a node in a search.
 enum class NodeState {
   queued,
   expanded,
   solution,
-  repeated,  ///< reaches the target, but so does a solution that is much the same
+  repeated,  ///< reaches the target, but does not differ from an earlier solution
 };
 
-/// A candidate of a search: how it was made of its parent, and how good it is. Its configuration follows from
-/// the edits from the root, and is not kept.
+/// A candidate of a search: the edit that makes it from its parent, and its measures. Its design follows from
+/// the edits from the root and is not stored here.
 struct SearchNode {
-  int parent = -1;  ///< -1 for a root: the shape at rest along one of the starting directions
-  int queue = 0;    ///< row of the starting directions
-  Edit edit;  ///< of the parent's design, under the constraints for the parent's direction; none for a root
+  int parent = -1;  ///< -1 for a root: the shape at rest along a starting direction
+  int queue = 0;    ///< row of the starting direction
+  /// Edit of the parent's design, under the constraints for the parent's direction; none for a root.
+  Edit edit;
   std::string why;                                       ///< see ContactEdit::why
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< r, for its measures and for its successors
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< r of the measures and for the successors
   Stackability measured;
   Energy energy;
   std::uint64_t key = 0;  ///< see ConfigurationKeys
   NodeState state = NodeState::queued;
 };
 
-/// All candidates of a search, with one queue of least E per starting direction (ties: made first). The
-/// queues take turns.
+/// All candidates of a search, with one queue and one visited set per starting direction. A queue yields the
+/// candidate of least E (ties: the one made first). The queues take turns.
 class SearchTree {
  public:
   explicit SearchTree(int queues) : queues_(static_cast<std::size_t>(queues)), known_(queues_.size()) {}
@@ -47,21 +49,22 @@ class SearchTree {
   int turn() const { return turn_; }
   std::int64_t queued() const;
 
-  /// The one to be looked at next.
+  /// Returns the next candidate to be looked at, if any is queued.
   std::optional<int> next() const;
-  /// Whether a configuration was met before in this queue.
+  /// Returns whether the visited set of a queue has a configuration.
   bool knows(int queue, std::uint64_t key) const {
     return known_[static_cast<std::size_t>(queue)].contains(key);
   }
-  /// Its id: the number of nodes before it. It is queued where its state says so.
+  /// Adds a node and returns its id, the number of nodes before it. The node is queued if its state says so.
   int add(SearchNode node);
-  /// Takes `id` out of its queue and gives the turn to the next one. Precondition: `id` is `next()`.
+  /// Removes `id` from its queue, sets its state and gives the turn to the next queue. Precondition: `id` is
+  /// `next()`.
   void settle(int id, NodeState state);
-  /// The same candidate seen along another direction. Precondition: `id` is not queued.
+  /// Replaces the measures of a candidate by those along another direction. Precondition: `id` is not queued.
   void turn_to(int id, const Stackability& measured, const Energy& energy);
   void set_turn(int queue) { turn_ = queue; }
 
-  /// Rows from below the root to `id`: one per edit.
+  /// Returns the nodes from below the root to `id`, one per edit.
   std::vector<int> path(int id) const;
 
  private:
