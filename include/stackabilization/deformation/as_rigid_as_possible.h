@@ -10,44 +10,49 @@ namespace stackabilization {
 
 /// Options of RigidSurface::deformed.
 struct RigidityOptions {
-  int iterations = 10;  ///< of the alternation between rotations and points; >= 1
-  /// Weight, in units of the surface's area, with which the rotations of neighbours are made alike (Levi and
-  /// Gotsman 2015, smooth rotation enhanced). 0 is the plain method, and turns small and local; >= 0.
+  int iterations = 10;  ///< number of alternations between rotations and points, >= 1
+  /// Weight of the term that makes the rotations of neighbours equal, in units of the surface's area, >= 0
+  /// (Levi and Gotsman 2015, smooth rotation enhanced). 0 gives the plain method, whose rotations stay small
+  /// and local.
   double rotation_smoothness = 0;
 };
 
-/// Points with the rotation of the surface around each of them.
+/// Positions of the points of a surface, with the rotation of the surface around each point.
 struct RotatedPoints {
-  Points points;                           ///< n x 3, model units
-  std::vector<Eigen::Matrix3d> rotations;  ///< n
+  Points points;                           ///< n x 3 positions, model units
+  std::vector<Eigen::Matrix3d> rotations;  ///< n rotations relative to the rest pose
 };
 
-/// An edge besides those of the triangles.
+/// An additional edge, besides those of the triangles.
 struct Tie {
-  std::int32_t a, b;  ///< two different points
-  double weight;      ///< about one, as of other edges
+  std::int32_t a, b;  ///< rows of two different points
+  double weight;      ///< edge weight, about 1 as for other edges
 };
 
-/// As-rigid-as-possible deformation of a surface (Sorkine and Alexa 2007): of all positions of the free
-/// points with some points held, those for which the surface around every point is as near as possible to a
-/// rotation of what it was, edges weighted by cotangents.
+/// As-rigid-as-possible deformation of a surface (Sorkine and Alexa 2007). Some points are held. The
+/// positions of the free points minimise the deviation of the surface around every point from a rotation of
+/// its rest pose. Edges are weighted by cotangents.
 ///
-/// Needs of the surface nothing but its edges, so an edge may have one triangle, two or many: sheets that
+/// The method needs only the edges of the surface, so an edge may have one triangle, two or many: sheets that
 /// meet in an edge or a point deform together and without cracks. On manifold surfaces without obtuse pairs
-/// of angles it is CGAL's Surface_mesh_deformation with ORIGINAL_ARAP, which takes half-edge meshes only.
-/// Immutable, safe to share between threads, deterministic.
+/// of angles the method is that of CGAL's Surface_mesh_deformation with ORIGINAL_ARAP, which accepts
+/// half-edge meshes only. Immutable, safe to share between threads, deterministic.
 class RigidSurface {
  public:
-  /// `triangles` are rows of `points`, which are all different. Triangles without area hang on by weak edges.
+  /// `points`: n x 3, all different, model units. `triangles`: rows of `points`. Triangles without area still
+  /// connect their corners, by weak edges. `ties`: additional edges.
   RigidSurface(Points points, const Triangles& triangles, const std::vector<Tie>& ties = {});
 
-  /// Points of equal numbers are connected by edges; numbered from 0 in order of the points.
+  /// Returns the shell (connected component) of every point: n numbers, counted from 0 in the order of the
+  /// points. Edges of triangles and ties connect points.
   const std::vector<std::int32_t>& shells() const { return shells_; }
 
-  /// `start` holds the positions of the points with `held`, and first guesses of all rotations; positions of
-  /// free points are not looked at. Shells of which no point is held stay, their rotations too. Held points
-  /// come back to the bit, and free ones in their rest positions when all held ones are in theirs and all
-  /// guesses are the identity. Points that are not finite tell that numbers have overflowed.
+  /// Computes the deformed points and their rotations. `held`: n flags. `start` contains the positions of the
+  /// held points and initial guesses of all rotations; the positions of its free points are ignored.
+  ///
+  /// Shells without a held point stay at rest and keep the rotations of `start`. Held points are returned bit
+  /// for bit. Free points are in their rest positions when all held points are in theirs and all guesses are
+  /// the identity. Points that are not finite indicate an overflow.
   RotatedPoints deformed(const std::vector<bool>& held, RotatedPoints start,
                          const RigidityOptions& options = {}) const;
 
@@ -64,7 +69,8 @@ class RigidSurface {
   const Edge* end(std::size_t point) const { return edges_.data() + first_[point + 1]; }
 
   Points points_;
-  std::vector<std::size_t> first_;  ///< per point its first entry of `edges_`, and the end
+  /// Per point the index of its first edge in `edges_`; the last entry is the end.
+  std::vector<std::size_t> first_;
   std::vector<Edge> edges_;
   std::vector<std::int32_t> shells_;
   double area_ = 0;

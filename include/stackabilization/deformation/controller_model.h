@@ -10,55 +10,60 @@
 
 namespace stackabilization {
 
-/// A configuration after an edit, or the reason why not.
+/// Result of an edit: the configuration after it, or the reason for the refusal.
 struct EditOutcome {
-  std::optional<Refusal> refusal;     ///< when set, the rest is as it was before
-  std::vector<Primitive> primitives;  ///< one per part
+  /// Set when the edit was refused; `primitives` are then those before the edit.
+  std::optional<Refusal> refusal;
+  std::vector<Primitive> primitives;  ///< primitives of the configuration, one per part
 };
 
-/// What a ControllerModel takes on.
+/// Limits on the size of a ControllerModel.
 struct ControllerLimits {
-  /// Points at which parts are joined, those that symmetries copy counted once. A solve takes a time that
-  /// grows with the cube of their number, and memory with its square.
+  /// Largest number of points at which parts are joined. Points that symmetries map onto each other count
+  /// once. The time of a solve grows with the cube of this number, and its memory with the square.
   std::size_t max_joint_points = 600;
 };
 
-/// Cuboids and generalized cylinders that move the mesh riding on them, with all relations between them kept
+/// Deformation by cuboids and generalized cylinders that carry the mesh and keep all relations between them
 /// (paper, section 4.1). See docs/controllers.md.
 ///
-/// A configuration is one primitive per part, values in and values out. An edit is made exactly or refused:
-/// symmetries hold up to rounding by construction, joints to tolerance::relation of the diagonal (in practice
-/// to rounding), no primitive collapses, folds or turns inside out. Symmetry planes and axes are fixed in
-/// space: what one part of a pair does the other does in the mirror, and a part that is its own mirror image
-/// cannot leave the plane.
+/// A configuration is a list of primitives, one per part. Functions take and return configurations by value.
+/// An edit is made exactly or refused. After an edit, symmetries hold up to rounding by construction, joints
+/// hold within tolerance::relation of the diagonal (in practice up to rounding), and no primitive collapses,
+/// folds or turns inside out. Symmetry planes and axes are fixed in space. The two parts of a mirror pair
+/// therefore move as mirror images of each other, and a part that is its own mirror image cannot leave the
+/// plane.
 class ControllerModel : public DeformationModel {
  public:
-  /// Everything that depends on the rest alone is computed here. Throws InputError when `rest` is invalid or
-  /// its primitives do not satisfy its symmetry relations, or it is beyond `limits`.
+  /// Precomputes everything that depends on the rest pose alone. Throws InputError when `rest` is invalid,
+  /// when its primitives do not satisfy its symmetry relations, or when it exceeds `limits`.
   explicit ControllerModel(StructuredShape rest, const ControllerLimits& limits = {});
   ControllerModel(ControllerModel&&) noexcept;
   ControllerModel& operator=(ControllerModel&&) noexcept;
   ~ControllerModel() override;
 
-  /// The shape at rest with its structure, as given.
+  /// Returns the shape at rest with its structure, as given.
   const StructuredShape& rest() const;
-  /// The configuration at rest.
+  /// Returns the configuration at rest.
   const std::vector<Primitive>& rest_primitives() const;
 
-  /// The shape, parts, faces and corners of cuboids, cross-sections of generalized cylinders.
+  /// Returns the handles: the shape, the parts, the faces and corners of cuboids, and the cross-sections of
+  /// generalized cylinders.
   std::vector<Handle> handles() const override;
   Eigen::Vector3d centre(const Handle& handle) const override;
   DeformationResult deformed(const std::vector<Edit>& edits,
                              const DeformationConstraints& constraints = {}) const override;
 
-  /// One edit to a configuration that this model made. The handle goes where the edit takes it and the others
-  /// follow (propagation.h, relation_solver.h); every relation is recomputed from the result before it
-  /// counts. Extents and boxes of the constraints are those of the shape at rest, parts and points stay where
-  /// they are in `now`. Throws UsageError as `deformed`.
+  /// Applies one edit to the configuration `now` of this model. The handle moves exactly as the edit
+  /// prescribes, and the other parts follow (propagation.h, relation_solver.h). The function recomputes every
+  /// relation from the result before it accepts the edit. Extent and box constraints refer to the shape at
+  /// rest. Fixed parts and points keep their positions in `now`. Throws UsageError under the conditions of
+  /// `deformed`, and when `now` does not have the kinds and sizes of primitives of this model.
   EditOutcome edited(const std::vector<Primitive>& now, const Edit& edit,
                      const DeformationConstraints& constraints = {}) const;
 
-  /// The mesh of a configuration; at rest, the one given, to the bit.
+  /// Returns the mesh of the configuration `now`. At rest it equals the given mesh bit for bit. Throws
+  /// UsageError when `now` does not have the kinds and sizes of primitives of this model.
   Shape shape_of(const std::vector<Primitive>& now) const;
 
  private:

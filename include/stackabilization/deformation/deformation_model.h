@@ -9,38 +9,46 @@
 
 namespace stackabilization {
 
-/// Why an edit was not made.
+/// Reason why an edit was refused.
 struct Refusal {
-  std::string reason;           ///< one sentence: what would break, and by how much
-  std::optional<int> relation;  ///< row of Structure::relations, where one of them would break
-  double amount = 0;            ///< by how much, fraction of the bounding-box diagonal of the shape at rest
+  std::string reason;  ///< one sentence: which requirement would be violated, and by how much
+  /// Row of Structure::relations that would be violated, when the reason is a relation.
+  std::optional<int> relation;
+  /// Size of the violation: fraction of the bounding-box diagonal of the shape at rest, unless `reason` names
+  /// another unit.
+  double amount = 0;
 };
 
-/// A shape after edits, or the reason why not.
+/// Result of a list of edits: the deformed shape, or the reason for the refusal.
 struct DeformationResult {
-  std::optional<Refusal> refusal;     ///< when set, the rest is as it was before
-  Shape shape;                        ///< same triangles and parts as at rest, vertices moved
-  std::vector<Primitive> primitives;  ///< of the parts, moved; empty for models without primitives
+  std::optional<Refusal> refusal;  ///< set when an edit was refused; the other members are then those at rest
+  Shape shape;                     ///< triangles and parts of the shape at rest, with moved vertices
+  std::vector<Primitive> primitives;  ///< moved primitives, one per part; empty for models without primitives
 };
 
-/// One way to deform a shape: prepared once for a shape at rest, asked for many edits. Queries are const,
-/// deterministic and safe from any number of threads.
+/// Interface of the deformation methods. A model is prepared once for a shape at rest and then applies any
+/// number of edits. Queries are const, deterministic and safe from any number of threads.
 ///
-/// Every model guarantees: no edits, or edits that change nothing, give the vertices at rest to 1e-12 of the
-/// diagonal; every vertex of a result is finite; all constraints hold, or there is a refusal.
+/// Every model guarantees:
+///
+/// * without edits, and for edits that change nothing, the vertices equal those at rest within 1e-12 of the
+///   diagonal;
+/// * every vertex of a result is finite;
+/// * all constraints hold, or the model refuses the edit.
 class DeformationModel {
  public:
   virtual ~DeformationModel() = default;
 
-  /// Everything that can be edited.
+  /// Returns all handles that this model can edit.
   virtual std::vector<Handle> handles() const = 0;
 
-  /// Point about which a handle at rest is turned and scaled, model units. Throws UsageError when there is no
-  /// such handle.
+  /// Returns the point about which `handle` rotates and scales at rest, model units. Throws UsageError when
+  /// the model has no such handle.
   virtual Eigen::Vector3d centre(const Handle& handle) const = 0;
 
-  /// The shape at rest with `edits` made one after the other. Throws UsageError for a handle that this model
-  /// does not have, an operation it cannot take, and as `validate` of edits and constraints does.
+  /// Applies `edits` to the shape at rest, one after the other. Throws UsageError for a handle that this
+  /// model does not have, for an operation that the handle does not accept, and under the conditions of
+  /// `validate` for edits and constraints.
   virtual DeformationResult deformed(const std::vector<Edit>& edits,
                                      const DeformationConstraints& constraints = {}) const = 0;
 };

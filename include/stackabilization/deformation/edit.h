@@ -11,7 +11,8 @@
 
 namespace stackabilization {
 
-/// What a user or a search takes hold of. `part` and `index` are used as said.
+/// Kinds of handles, the elements of a shape that a user or a search edits. The kind determines how
+/// Handle::part and Handle::index are used.
 enum class HandleKind {
   part,     ///< `part` as a whole
   face,     ///< face `index` (0 to 5) of the cuboid of `part`
@@ -19,104 +20,115 @@ enum class HandleKind {
   section,  ///< cross-section `index` of the generalized cylinder of `part`
   point,    ///< vertex `index` of the shape, with the surface around it
   wire,     ///< feature curve `index`
-  shape,    ///< everything
+  shape,    ///< the whole shape
 };
 
-/// Which handle: HandleKind says what `part` and `index` mean.
+/// Identifies a handle. `kind` determines the meaning of `part` and `index`.
 struct Handle {
-  HandleKind kind = HandleKind::part;  ///< what it is
+  HandleKind kind = HandleKind::part;  ///< kind of the handle
   int part = 0;                        ///< row of Shape::part_names
-  int index = 0;                       ///< 0-based
+  int index = 0;                       ///< 0-based number of the face, corner, cross-section, vertex or curve
 
-  /// Equal in all three, also in those that its kind does not use.
+  /// Compares all three members, including those that the kind does not use.
   bool operator==(const Handle&) const = default;
 };
 
-/// Numbers that edits take. What lies beyond is a typing error or a wrong unit, and would leave nothing of
-/// the accuracy that is promised.
+/// Limits on the numbers of an edit. Numbers beyond the limits indicate a typing error or a wrong unit, and
+/// would destroy the promised accuracy.
 namespace edit_limits {
-inline constexpr double max_move = 1000;          ///< diagonals of the shape's bounding box that a move goes
-inline constexpr double max_scale = 1e6;          ///< factors lie between one over this and this
-inline constexpr double max_degrees = 3600;       ///< of a rotation, either way
-inline constexpr double max_fixed_distance = 10;  ///< diagonals between a fixed point and that box
+inline constexpr double max_move = 1000;     ///< largest translation, diagonals of the shape's bounding box
+inline constexpr double max_scale = 1e6;     ///< largest scale factor; the smallest is 1 / max_scale
+inline constexpr double max_degrees = 3600;  ///< largest angle of a rotation in either direction, degrees
+/// Largest distance of a fixed point from the shape's bounding box, diagonals of that box.
+inline constexpr double max_fixed_distance = 10;
 }  // namespace edit_limits
 
-/// Translation, model units.
+/// Translation of a handle.
 struct Move {
-  Eigen::Vector3d by = Eigen::Vector3d::Zero();  ///< file axes, model units
+  Eigen::Vector3d by = Eigen::Vector3d::Zero();  ///< translation vector, file axes, model units
 };
 
-/// Rotation about the handle's centre.
+/// Rotation about the centre of the handle.
 struct Rotate {
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< of any length that a Direction may have
-  double radians = 0;                               ///< right-handed about `axis`
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< rotation axis, of any length that a Direction accepts
+  double radians = 0;                               ///< angle, right-handed about `axis`
 };
 
-/// Scaling about the handle's centre: of a cross-section its radius, of a face within its plane, of the rest
-/// in all directions or along one.
+/// Scaling about the centre of the handle. It scales the radius of a cross-section, a face within its plane,
+/// and the other handles in all directions or along one direction.
 struct Scale {
-  double factor = 1;                     ///< > 0
-  std::optional<Eigen::Vector3d> along;  ///< as the axis of a rotation; only for parts and shapes
+  double factor = 1;  ///< scale factor, > 0
+  /// Direction of a scaling along one direction, of any length that a Direction accepts; only for parts and
+  /// the shape.
+  std::optional<Eigen::Vector3d> along;
 };
 
-/// What is done to a handle.
+/// Operation that an edit applies to its handle.
 using Operation = std::variant<Move, Rotate, Scale>;
 
-/// How a move or scaling of a cross-section dies out along its generalized cylinder.
+/// How the effect of a move or scaling of a cross-section decreases along its generalized cylinder.
 enum class Falloff {
-  gaussian,  ///< over the arc length, sigma = 0.2 of the whole (paper, section 4.1)
-  /// To nothing at the end that is farther away along the curve at rest (from the middle: the last section),
-  /// and on beyond the handle: what is straight leans, walls become conical. Of a part that a symmetry turns
-  /// end for end, the mean with the image of that: it moves sideways and widens evenly, and is stretched.
+  gaussian,  ///< Gaussian of the arc length, sigma = 0.2 of the total length (paper, section 4.1)
+  /// Linear function of the arc length before the edit (for a straight cylinder, of the position along its
+  /// chord): 1 at the handle and 0 at the end that is farther from it along the curve (from the middle: the
+  /// last section). The function continues linearly beyond the handle. A straight part therefore leans, and a
+  /// wall becomes conical. A part that a symmetry maps onto itself with exchanged ends receives the mean of
+  /// the effect and its image: it moves sideways, widens evenly and stretches.
   linear,
 };
 
-/// One operation on one handle. `falloff` is looked at for moves and scalings of cross-sections of open
-/// generalized cylinders only.
+/// One operation on one handle. `falloff` applies only to moves and scalings of cross-sections of open
+/// generalized cylinders.
 struct Edit {
-  Handle handle;                        ///< what is taken hold of
-  Operation operation;                  ///< what is done to it
-  Falloff falloff = Falloff::gaussian;  ///< how it dies out from section to section
+  Handle handle;                        ///< handle to edit
+  Operation operation;                  ///< operation to apply
+  Falloff falloff = Falloff::gaussian;  ///< decrease of the effect from section to section
 };
 
-/// What can be said without the shape. Throws UsageError, in words that say what was found, unless every
-/// number is finite, factors and angles are within `edit_limits`, and axes are such as a Direction takes: not
-/// zero, with a length whose square neither overflows nor underflows.
+/// Checks an edit without reference to a shape. Throws UsageError, with a message that states the value
+/// found, unless all numbers are finite, factors and angles are within `edit_limits`, and each axis is one
+/// that a Direction accepts: not zero, with a length whose square neither overflows nor underflows.
 void validate(const Edit& edit);
 
-/// The same for an edit of a shape whose bounding box has this diagonal: throws UsageError too for a move
-/// that goes farther than `edit_limits` says.
+/// Checks an edit of a shape whose bounding box has the given diagonal, model units. Throws UsageError under
+/// the conditions of `validate(edit)`, and for a move longer than edit_limits::max_move times the diagonal.
 void validate(const Edit& edit, double diagonal);
 
-/// Does `falloff` change what the edit does, where the cross-section is one of an open generalized cylinder?
+/// Returns whether `falloff` changes the effect of the edit, provided that its cross-section is one of an
+/// open generalized cylinder.
 bool falls_off_linearly(const Edit& edit);
 
-/// "move face +y of leg by (0.1, 0, 0)", "scale cross-section 4 of leg by 0.9, linearly": numbers to five
-/// digits, those of a vector to the places of its largest, -0 as 0. `part_names` are those of the shape.
-/// Precondition: the handle's part is one of them and its face one of six, where its kind needs them.
+/// Describes an edit in words: "move face +y of leg by (0.1, 0, 0)", "scale cross-section 4 of leg by 0.9,
+/// linearly". Numbers have at most five significant digits. The components of a vector have the decimal
+/// places of its largest component. -0 is written as 0. `part_names`: those of the shape. Precondition, for
+/// the kinds of handles that use these members: the part is a row of `part_names`, and the face is one of
+/// six.
 std::string describe(const Edit& edit, const std::vector<std::string>& part_names);
 
-/// Where a kept extent begins and ends.
+/// Heights at which the ends of a kept extent may lie.
 enum class ExtentEnds {
-  free,   ///< anywhere: what an edit moves along the direction may take everything along
-  fixed,  ///< where they are at rest: what an edit moves, it moves against the rest, and moves across the
-          ///< direction leave heights open. Controllers only; the other models move nothing that they need
-          ///< not
+  free,  ///< any heights: an edit along the direction may move the whole shape along
+  /// The heights at rest. An edit along the direction moves its handle relative to the other parts. An edit
+  /// across the direction leaves the heights of its handle free. Only ControllerModel distinguishes `fixed`
+  /// from `free`: the other models move no more than an edit needs.
+  fixed,
 };
 
-/// What no edit may change.
+/// Quantities that no edit may change.
 struct DeformationConstraints {
-  /// The extent h(M, r) along this direction is kept, to tolerance::relative of it.
+  /// Direction r whose extent h(M, r) is kept, within tolerance::relative of the extent.
   std::optional<Direction> keep_extent;
-  ExtentEnds extent_ends = ExtentEnds::free;  ///< of `keep_extent`
-  /// The three sides of the axis-aligned box of the shape may change by this fraction at most.
+  ExtentEnds extent_ends = ExtentEnds::free;  ///< ends of the extent along `keep_extent`
+  /// Largest relative change of each of the three sides of the shape's axis-aligned box.
   std::optional<double> box_tolerance;
-  std::vector<int> fixed_parts;               ///< parts that stay as they are
-  std::vector<Eigen::Vector3d> fixed_points;  ///< points of the surface that stay: the nearest ones to these
+  std::vector<int> fixed_parts;  ///< parts that do not change, rows of Shape::part_names
+  /// Points, file axes, model units: for each of them the nearest point of the surface does not move.
+  std::vector<Eigen::Vector3d> fixed_points;
 };
 
-/// Throws UsageError unless the fixed parts are parts of the shape, every fixed point lies as near to its
-/// bounding box as `edit_limits` says, and the tolerance of the box is finite and not negative.
+/// Throws UsageError unless every fixed part is a part of the shape, every fixed point lies within
+/// edit_limits::max_fixed_distance of its bounding box, and the tolerance of the box is finite and not
+/// negative.
 void validate(const DeformationConstraints& constraints, const Shape& rest);
 
 }  // namespace stackabilization

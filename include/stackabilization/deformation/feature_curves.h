@@ -7,35 +7,38 @@
 
 namespace stackabilization {
 
-/// What `feature_curves` takes for a crease, an end and a crumb.
+/// Thresholds of `feature_curves` for creases, ends of curves and negligible curves.
 struct FeatureCurveOptions {
-  /// An edge of two triangles is a crease when their planes turn by more than this, degrees.
+  /// An edge of two triangles is a crease when the angle between their planes exceeds this value, degrees.
   double crease_angle = 40;
-  /// A curve ends where it turns by more than this, degrees: the square is four curves, the octagon is one.
+  /// A curve ends where it turns by more than this angle, degrees: a square has four curves, an octagon one.
   double corner_angle = 50;
-  /// A curve is also cut where a straight run of at least `smallest_length` meets one that is shorter by this
-  /// factor: the sides of a rectangle with rounded corners are curves of their own.
+  /// A curve is also cut between two straight runs when the longer one has at least the length
+  /// `smallest_length` and exceeds the shorter one by more than this factor: the sides of a rectangle with
+  /// rounded corners become separate curves.
   double straight_run_ratio = 3;
-  /// Curves that hang together are dropped when their bounding box has a smaller diagonal than this, and so
-  /// is a shorter curve that ends in nothing; fraction of the diagonal of the shape's bounding box.
+  /// A connected set of curves is dropped when the diagonal of its bounding box is smaller than this length.
+  /// A curve with a free end is dropped when it is shorter than this length. Fraction of the diagonal of the
+  /// shape's bounding box.
   double smallest_length = 0.02;
 };
 
 /// A chain of feature edges of a surface.
 struct FeatureCurve {
-  /// Rows of Shape::vertices in the order of the curve, neighbours at different coordinates. Of several rows
-  /// with equal coordinates the one that triangles use first stands for all.
+  /// Rows of Shape::vertices in the order of the curve. Consecutive vertices have different coordinates. The
+  /// row that the triangles use first represents all rows with equal coordinates.
   std::vector<std::int32_t> vertices;
-  bool closed = false;  ///< the last vertex is followed by the first, which is not repeated
+  bool closed = false;  ///< whether the first vertex, which is not repeated, follows the last one
 };
 
-/// The feature curves of a surface: creases and boundaries, chained
-/// between the places where more or fewer than two of them meet, where they turn sharply and where straight
-/// runs end (Gal et al. 2009, section 4). Triangles may be turned either way, vertices of equal coordinates
-/// are one. Smooth closed surfaces have none.
+/// Computes the feature curves of a surface: chains of creases and boundary edges (Gal et al. 2009, section
+/// 4). Chains end at vertices with more or fewer than two feature edges, at sharp turns, and at the ends of
+/// straight runs. Triangles may have either orientation. Vertices of equal coordinates count as one. Smooth
+/// closed surfaces have no feature curves.
 ///
-/// Deterministic; the same curves in every pose, but for angles within rounding of the options. Throws
-/// UsageError for options that are negative or not finite. Precondition: `validate(shape)`.
+/// Deterministic. The curves do not depend on the pose of the shape, except for angles within rounding of the
+/// options. Throws UsageError for options that are negative or not finite. Precondition: `validate(shape)`
+/// passes.
 std::vector<FeatureCurve> feature_curves(const Shape& shape, const FeatureCurveOptions& options = {});
 
 }  // namespace stackabilization

@@ -6,26 +6,27 @@
 
 namespace stackabilization {
 
-/// The naive way to make a shape stack, kept as the baseline that shows why structure matters (paper, Fig.
-/// 6): the gap function along `direction` is scaled and the upper envelope kept, so that everything below it
-/// is squashed upwards.
+/// Creates the deformation model that scales the gap function along `direction` and keeps the upper envelope:
+/// it squashes everything below the envelope upwards. It is the naive way to make a shape stack, and serves
+/// as the baseline that shows why structure matters (paper, Fig. 6).
 ///
-/// Takes HandleKind::shape and Scale along `direction`, either way. A vertex at height z along it whose
-/// column reaches up to the height u goes to u - factor (u - z); factors of several edits multiply. The
-/// column is closed: along walls that are parallel to the direction it reaches up to their upper ends, also
-/// where these are rounded (within tolerance::rounding of the coordinates). Columns are measured once, at
-/// rest.
+/// The model accepts HandleKind::shape and Scale along `direction`, in either sense. A vertex at height z
+/// along the direction, in a column of the shape that reaches up to height u, moves to height u - factor (u -
+/// z). The factors of several edits multiply. Columns are closed: on a wall parallel to the direction the
+/// column reaches the upper end of the wall, also when the coordinates of the wall are rounded (within
+/// tolerance::rounding of the coordinates). The model measures the columns once, at rest.
 ///
-/// f_max of the result is `factor` times that of the rest, up to tolerance::relative of the diagonal, where
-/// the triangles resolve the envelope: where the upper envelope is linear over every triangle. Elsewhere it
-/// is more: a triangle goes where its corners go, whatever is above its inside. Cutting a shape up beforehand
-/// (refined.h) brings it near below slopes, but below a step of the envelope only a vertex just there would
-/// help. Vertices that no triangle uses stay, equal ones stay equal.
+/// f_max of the result is `factor` times f_max at rest, up to tolerance::relative of the diagonal, when the
+/// triangles resolve the envelope, that is, when the upper envelope is linear over every triangle. Otherwise
+/// f_max is larger: a triangle follows its corners, whatever lies above its interior. Subdivision beforehand
+/// (refined.h) brings f_max close to this value below slopes. Below a step of the envelope only a vertex
+/// exactly at the step would help. Vertices that no triangle uses do not move. Vertices of equal coordinates
+/// stay equal.
 ///
-/// Squashing changes the extent along the direction: where this is to be kept, the result is stretched back
-/// (vertex_constraints.h), which undoes what was gained. Fixed vertices must lie on the upper envelope.
-/// centre() is that of the shape's axis-aligned box. Keeps nothing of `shape`'s storage. Throws InputError
-/// when `shape` is invalid.
+/// Squashing changes the extent along the direction. When the extent must be kept, the model stretches the
+/// result back (vertex_constraints.h), which undoes the gain. Fixed vertices must lie on the upper envelope.
+/// centre() returns the centre of the shape's axis-aligned box. The model does not refer to the storage of
+/// `shape`. Throws InputError when `shape` is invalid.
 std::unique_ptr<DeformationModel> gap_scaling(const Shape& shape, const Direction& direction);
 
 }  // namespace stackabilization

@@ -7,51 +7,52 @@
 
 namespace stackabilization {
 
-/// What an IWiresModel takes for wires, and what it keeps between them.
+/// Options of IWiresModel: the wires and the relations that it keeps.
 struct IWiresOptions {
-  FeatureCurveOptions curves;     ///< what is a wire
-  WireAnalysisOptions relations;  ///< what is kept; no symmetry unless given here
-  /// Wires of networks that do not join keep their offset, as well as all else allows, where they come as
-  /// near as this; fraction of the diagonal of the shape's bounding box.
+  FeatureCurveOptions curves;     ///< thresholds for wires
+  WireAnalysisOptions relations;  ///< relations to keep; no symmetries unless given here
+  /// Distance up to which wires of networks that are not joined are linked, fraction of the diagonal of the
+  /// shape's bounding box. Linked wires keep their offset as well as the relations allow.
   double link_distance = 0.03;
 };
 
-/// iWires (Gal, Sorkine, Mitra and Cohen-Or 2009): the feature curves of a shape are its wires. An edit of
-/// one of them is carried on to all others so that each keeps what it is by itself (straight, circular,
-/// planar) and what it is to the others (parallel, in one plane, of equal length, symmetric, joined); the
-/// surface follows.
+/// iWires (Gal, Sorkine, Mitra and Cohen-Or 2009): deformation of a shape by its feature curves, the wires.
+/// An edit of one wire propagates to all others, such that each wire keeps its own properties (straight,
+/// circular, planar) and its relations to other wires (parallel, in one plane, of equal length, symmetric,
+/// joined). The surface follows the wires.
 ///
-/// Handles: HandleKind::shape, which takes any operation as an affine map and carries the symmetries along,
-/// and HandleKind::wire with the rows of WireStructure::wires. Wires take moves, rotations and scalings in
-/// all directions about Wire::centre, wherever earlier edits have brought it.
+/// Handles: HandleKind::shape accepts any operation; the operation is an affine map, which also transforms
+/// the symmetries. HandleKind::wire has the rows of WireStructure::wires as indices. Wires accept moves,
+/// rotations and scalings in all directions about the current position of Wire::centre, that is, after all
+/// earlier edits.
 ///
-/// What holds in every result, to rounding where the relations at rest do so, and else to
-/// WireAnalysisOptions::distance_tolerance:
+/// Guarantees for every result, up to rounding when the relations at rest hold up to rounding, and otherwise
+/// within WireAnalysisOptions::distance_tolerance:
 ///
 /// * the edited wire is where the edit puts it;
 /// * straight, circular and planar wires stay straight, circular and planar;
-/// * parallel wires stay parallel. Moves and scalings keep all directions; a rotation turns what is parallel
-///   to the wire and leaves the rest, so it may give up right angles and planes: a box becomes a
-///   parallelepiped. Where that cannot be, everything turns;
-/// * parallel segments of equal length stay so in moves and scalings, and circles of equal radius unless one
-///   of them is scaled;
-/// * mirror images stay images, always to 1e-6 of the diagonal, measured on the vertices;
+/// * parallel wires stay parallel. Moves and scalings keep all directions. A rotation turns the wires
+///   parallel to the edited wire and leaves the others, so right angles and planes may be lost: a box becomes
+///   a parallelepiped. When the relations do not allow this, all wires turn;
+/// * under moves and scalings, parallel segments of equal length keep equal lengths, and circles of equal
+///   radius keep equal radii unless one of them is scaled;
+/// * mirror images stay mirror images, always within 1e-6 of the diagonal, measured on the vertices;
 /// * vertices of equal coordinates stay together.
 ///
-/// Refused, with the wire and by how much, is an edit against which symmetries, junctions or fixed points
-/// stand, one that flattens a wire or turns it inside out, and what DeformationConstraints forbid. Where the
-/// extent is to be kept, the wires that define it are held; where that cannot be, the result is stretched
-/// back along the direction (vertex_constraints.h), wires included.
+/// The model refuses an edit that contradicts symmetries, junctions or fixed points, an edit that flattens a
+/// wire or turns it inside out, and an edit that violates DeformationConstraints. The refusal names the wire
+/// and the amount. To keep an extent, the model holds the wires that define it. When this is impossible, the
+/// model stretches the result back along the direction, including the wires (vertex_constraints.h).
 class IWiresModel final : public DeformationModel {
  public:
-  /// Throws InputError when the shape is invalid or has no feature curve (smooth closed surfaces), UsageError
-  /// for options out of range.
+  /// Throws InputError when the shape is invalid or has no feature curve (smooth closed surfaces), and
+  /// UsageError for options out of range.
   explicit IWiresModel(Shape rest, const IWiresOptions& options = {});
   IWiresModel(IWiresModel&&) noexcept;
   IWiresModel& operator=(IWiresModel&&) noexcept;
   ~IWiresModel() override;
 
-  /// Wires at rest and what is kept between them.
+  /// Returns the wires at rest and the relations between them.
   const WireStructure& wires() const;
 
   std::vector<Handle> handles() const override;
@@ -64,9 +65,10 @@ class IWiresModel final : public DeformationModel {
   std::unique_ptr<const Data> data_;
 };
 
-/// For each row of WireStructure::symmetric, how far the displacements of a wire and of its image are from
-/// being images of each other: largest distance over the vertices of the image, model units. `vertices`: n x
-/// 3, those of `rest` deformed. Recomputed from the vertices alone: the independent check of the model.
+/// Computes, for each row of WireStructure::symmetric, how far the displacements of a wire and of its image
+/// differ from images of each other: the largest distance over the vertices of the image, model units.
+/// `vertices`: n x 3, the deformed vertices of `rest`. The function uses the vertices alone and so checks the
+/// model independently.
 std::vector<double> wire_symmetry_residuals(const Shape& rest, const WireStructure& structure,
                                             const Points& vertices);
 

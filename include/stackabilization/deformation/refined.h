@@ -6,19 +6,19 @@
 
 namespace stackabilization {
 
-/// How finely `refined` cuts.
+/// Limits of `refined`.
 struct RefineOptions {
-  double longest_edge = 0.02;               ///< fraction of the bounding-box diagonal; > 0
-  std::int64_t most_triangles = 1'000'000;  ///< more are refused
+  double longest_edge = 0.02;  ///< largest length of an edge, fraction of the bounding-box diagonal; > 0
+  std::int64_t most_triangles = 1'000'000;  ///< largest number of triangles of the result
 };
 
-/// The same surface with triangles none of whose edges is longer than allowed: edges that are get a vertex in
-/// their middle, in both of their triangles, again and again. Old vertices keep their rows, parts their
-/// names; a triangle is followed by what it was cut off. Equal edges are cut in equal points. Deterministic.
+/// Bisects every edge longer than the limit until none is left. A midpoint splits the edge in both of its
+/// triangles. Existing vertices keep their rows, and parts keep their names. Children follow their parent
+/// triangle in order. Equal edges have equal midpoints. The surface does not change. Deterministic.
 ///
-/// For models that move vertices only, and shapes whose triangles are too large for that. Throws InputError
-/// when `shape` is invalid, UsageError for options out of their ranges and where more triangles would be
-/// needed than allowed.
+/// The function prepares shapes with large triangles for models that move only vertices. Throws InputError
+/// when `shape` is invalid, and UsageError for options out of range and when the limit needs more triangles
+/// than `most_triangles`.
 Shape refined(const Shape& shape, const RefineOptions& options = {});
 
 }  // namespace stackabilization

@@ -4,10 +4,11 @@
 
 namespace stackabilization {
 
-/// The result of edits as a new shape at rest, to be edited further or saved. Its primitives are those of
-/// `result`, their turns forgotten; joints lie where their parts carry them (the mean of both); symmetries
-/// stay, since edits keep them; fits and residuals of relations are those of the old rest, against the
-/// surface.
+/// Converts the result of edits into a new shape at rest, for further edits or for a file. Its primitives are
+/// those of `result`, with their rotations reset to the identity. Each joint point is the mean of the
+/// positions to which its two parts carry it. Symmetries are those of `rest`, because edits keep them. Fits
+/// and residuals of relations are those of `rest`, measured against its surface. Structure::diagonal is that
+/// of the new shape.
 ///
 /// Throws UsageError when the edits were refused or the model has no primitives. Precondition: `result` comes
 /// from `rest`.

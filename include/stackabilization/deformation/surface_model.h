@@ -9,47 +9,50 @@
 
 namespace stackabilization {
 
-/// What handles of a `surface_model` hold, and how far an edit reaches.
+/// Options of `surface_model`: the extent of its handles and the reach of its edits.
 struct SurfaceModelOptions {
-  /// A point handle takes the surface within this distance of its vertex with it, fraction of the
-  /// bounding-box diagonal; finite, >= 0.
+  /// Radius of a point handle, fraction of the bounding-box diagonal; finite, >= 0. The handle holds the
+  /// vertices within this distance of its vertex.
   double handle_radius = 0.05;
-  /// What is farther than this from every handle that was edited stays, fraction of the bounding-box
-  /// diagonal; >= 0, and infinity for shapes that follow as a whole.
+  /// Distance from the nearest edited handle beyond which vertices do not move, fraction of the bounding-box
+  /// diagonal; >= 0. With infinity the whole shape follows the handles.
   double influence = 0.25;
-  /// Shells (connected pieces) that come nearer to each other than this hang together there, fraction of the
-  /// bounding-box diagonal; finite, >= 0.
+  /// Distance up to which shells (connected components) are tied together, fraction of the bounding-box
+  /// diagonal; finite, >= 0.
   double reach = 0.01;
-  /// Slices of equal height that HandleKind::section counts along the main axis; >= 1.
+  /// Number of slices of equal height along the main axis, the sections of HandleKind::section; >= 1.
   int sections = 24;
-  /// Main axis, not zero. Nothing: of the minimal oriented box the axis across two sides that are equal to a
-  /// twentieth, as those of a body of revolution are; else the longest.
+  /// Main axis, not zero. By default an axis of the minimal oriented box: the axis across two sides that are
+  /// equal to a twentieth, as for a body of revolution, else the longest axis.
   std::optional<Eigen::Vector3d> axis;
-  RigidityOptions rigidity;  ///< of the surface between the handles
+  RigidityOptions rigidity;  ///< rigidity of the surface between the handles
 };
 
-/// As-rigid-as-possible deformation of the surface (as_rigid_as_possible.h), for shapes without useful parts.
+/// Creates the as-rigid-as-possible deformation model of a surface (as_rigid_as_possible.h), for shapes
+/// without useful parts.
 ///
-/// Handles hold vertices: HandleKind::part those of `part`; point those within the handle radius of vertex
-/// `index`; section those in slice `index` of the shape (`part` is not looked at), the first at the lower end
-/// of the main axis; shape all. A section is scaled across the axis, everything else in all directions or,
-/// parts and the shape only, along one. Handles turn and scale about the centroid of their surface, points
-/// about their vertex. handles() leaves out slices without vertices, and names one vertex of each place.
+/// Handles hold vertices. HandleKind::part holds those of `part`. HandleKind::point holds those within the
+/// handle radius of vertex `index`. HandleKind::section holds those in slice `index` of the shape, counted
+/// from the lower end of the main axis, and ignores `part`. HandleKind::shape holds all. A section scales
+/// across the axis. The other handles scale in all directions; parts and the shape also scale along one
+/// direction. Handles rotate and scale about the centroid of their surface, points about their vertex.
+/// handles() omits slices without vertices, and lists one vertex for each position.
 ///
-/// Edits of the shape transform everything, also what is the rest form of the surface. All other edited
-/// handles keep the vertices they hold where the edits, one after the other, have put them; the surface
-/// within their influence follows as rigidly as possible, and the rest of the vertices do not move at all.
-/// Distances are straight, not along the surface, so that the two sides of a wall go together. Shells
-/// that touch deform together; those of which nothing is held, nothing stays and nothing touches follow
-/// rigidly the point of the others that is nearest. Vertices of equal coordinates stay equal. Vertices that
-/// no triangle uses stay.
+/// Edits of the shape transform everything, including the rest pose of the surface. Every other edited handle
+/// keeps its vertices where the sequence of edits has put them. The surface within the influence of these
+/// handles follows as rigidly as possible, and the remaining vertices do not move at all. Distances are
+/// Euclidean, not geodesic, so the two sides of a wall move together. Shells within `reach` of each other
+/// deform together. A shell follows the nearest point of the other shells rigidly when none of its vertices
+/// is held or stays and no other shell is within `reach`. Vertices of equal coordinates stay equal. Vertices
+/// that no triangle uses do not move.
 ///
-/// The extent along r is kept by stretching along r what lies above or below everything that stays and, where
-/// this does not help, the whole (see vertex_constraints.h); fixed parts and points hold their vertices in
-/// place, against any handle: edits that move them are refused. The box is checked.
+/// To keep the extent along r, the model stretches along r the surface above and below all vertices that
+/// stay. When this does not suffice, the model stretches the whole shape (vertex_constraints.h). Fixed parts
+/// and points hold their vertices against any handle: the model refuses edits that move them. The model
+/// checks the box.
 ///
-/// Rigid motions of everything are exact up to rounding. Keeps nothing of `shape`'s storage. Throws
-/// InputError when `shape` is invalid, UsageError for options outside their ranges.
+/// Rigid motions of the whole shape are exact up to rounding. The model does not refer to the storage of
+/// `shape`. Throws InputError when `shape` is invalid, and UsageError for options out of range.
 std::unique_ptr<DeformationModel> surface_model(const Shape& shape, const SurfaceModelOptions& options = {});
 
 }  // namespace stackabilization

@@ -22,8 +22,8 @@ struct WeightedEdge {
   double weight;
 };
 
-/// Both directions of the three edges of a triangle, each with half the cotangent of the angle opposite to
-/// it.
+/// Appends both directions of the three edges of a triangle, each with half the cotangent of the opposite
+/// angle as weight.
 void append_edges(const Points& points, const std::array<std::int32_t, 3>& corners,
                   std::vector<WeightedEdge>& edges) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -60,7 +60,8 @@ void RigidSurface::add_edges(const Triangles& triangles, const std::vector<Tie>&
     edges.push_back({tie.a, tie.b, tie.weight});
     edges.push_back({tie.b, tie.a, tie.weight});
   }
-  // Stable, so that both directions of an edge add up their weights in the same order, to the same bits.
+  // A stable sort adds the weights of both directions of an edge in the same order, so their sums are equal
+  // bit for bit.
   std::stable_sort(edges.begin(), edges.end(), [](const WeightedEdge& a, const WeightedEdge& b) {
     return std::pair(a.from, a.to) < std::pair(b.from, b.to);
   });
@@ -91,7 +92,8 @@ void RigidSurface::find_shells() {
   }
 }
 
-/// One alternation: which points are unknown, their factorized system, and what is known of the solution.
+/// One run of the alternation: the unknown points, their factorized system, and the current points and
+/// rotations.
 class RigidSurface::Solution {
  public:
   Solution(const RigidSurface& surface, const std::vector<bool>& held, RotatedPoints start);
@@ -116,9 +118,9 @@ class RigidSurface::Solution {
 
   const RigidSurface& surface_;
   RotatedPoints state_;
-  std::vector<Eigen::Index> column_;  ///< per point, of the system; -1 where its position is known
+  std::vector<Eigen::Index> column_;  ///< per point its column of the system; -1 where the position is known
   std::vector<std::size_t> free_;     ///< points by column
-  std::vector<std::size_t> turning_;  ///< points with a free one among themselves and their neighbours
+  std::vector<std::size_t> turning_;  ///< points that are free or have a free neighbour
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> system_;
 };
 
@@ -159,7 +161,7 @@ void RigidSurface::Solution::factorize() {
   system_.compute(matrix);
 }
 
-/// Global step, for displacements from rest: with identities for rotations its right side is zero to the bit.
+/// Global step: solves for displacements from rest. With identity rotations its right side is exactly zero.
 void RigidSurface::Solution::update_points() {
   Eigen::Matrix<double, Eigen::Dynamic, 3> right(static_cast<Eigen::Index>(free_.size()), 3);
   for (const std::size_t p : free_) {
@@ -180,7 +182,7 @@ void RigidSurface::Solution::update_points() {
   }
 }
 
-/// Local step: the rotation nearest to what happened to the edges of each point.
+/// Local step: computes, for each point, the rotation nearest to the change of its edges.
 void RigidSurface::Solution::update_rotations(double smoothness) {
   CGAL::Deformation_Eigen_closest_rotation_traits_3 closest;
   std::vector<Eigen::Matrix3d> rotations;

@@ -13,8 +13,8 @@ namespace stackabilization::detail {
 namespace {
 
 struct Shell {
-  Shape surface;        ///< triangles with area, each with corners of its own
-  Triangles triangles;  ///< the same ones, of places
+  Shape surface;        ///< triangles with area; each has its own three vertices
+  Triangles triangles;  ///< the same triangles, as rows of the welded vertices
   Eigen::AlignedBox3d box;
   std::optional<SurfaceIndex> index;
 };

@@ -8,9 +8,10 @@
 
 namespace stackabilization::detail {
 
-/// Ties between shells (`shells`, a number per place) that touch or nearly so: every place that is within
-/// `reach` (model units) of the surface of another shell is tied to the corners of the triangle that it is
-/// nearest to there, with the weights that these have in the nearest point. Ordered by places.
+/// Computes ties between shells that touch or nearly touch. `shells`: shell number of each welded vertex.
+/// Every welded vertex within `reach` (model units) of the surface of another shell is tied to the corners of
+/// the nearest triangle of that shell. The weights are the barycentric coordinates of the nearest point.
+/// Ordered by welded vertices.
 std::vector<Tie> shell_ties(const WeldedMesh& places, const std::vector<std::int32_t>& shells, double reach);
 
 }  // namespace stackabilization::detail

@@ -45,7 +45,8 @@ Eigen::Vector3d main_axis(const Shape& shape) {
   return axis(main) < 0 ? Eigen::Vector3d(-axis) : axis;
 }
 
-/// Places by slice. Rings that lie on the border of two slices go to the upper one as a whole.
+/// Returns the welded vertices of each slice. A ring on the border of two slices goes to the upper one as a
+/// whole.
 std::vector<std::vector<std::int32_t>> slices(const Points& points, const Eigen::Vector3d& axis, int count) {
   const Eigen::VectorXd heights = (points.rowwise() - points.row(0)) * axis;
   const double low = heights.minCoeff(), length = heights.maxCoeff() - low;

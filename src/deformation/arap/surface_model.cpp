@@ -32,13 +32,13 @@ Kernel::Point_3 to_cgal(const Eigen::RowVector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-/// The linear part of an operation, and what it moves by.
+/// Affine map of an operation: its linear part, the rotation in it, and its translation.
 struct LinearMap {
   Eigen::Matrix3d linear = Eigen::Matrix3d::Identity(), turn = Eigen::Matrix3d::Identity();
   Eigen::Vector3d by = Eigen::Vector3d::Zero();
 };
 
-/// `axis` is the one that sections are scaled across.
+/// Returns the map of an edit. Sections scale across `axis`.
 LinearMap linear_map(const Edit& edit, const Eigen::Vector3d& axis) {
   LinearMap map;
   if (const auto* move = std::get_if<Move>(&edit.operation)) {
@@ -60,13 +60,13 @@ LinearMap linear_map(const Edit& edit, const Eigen::Vector3d& axis) {
   return map;
 }
 
-/// Where edits, one after the other, put the places.
+/// Positions of the welded vertices (places) after a sequence of edits.
 struct Targets {
-  Points background;   ///< where all places go with the edits of the shape alone
-  RotatedPoints held;  ///< where held places go; rotations are those since `background`
+  Points background;   ///< positions of all places after the edits of the shape alone
+  RotatedPoints held;  ///< positions of held places; rotations are relative to `background`
   std::vector<bool> is_held;
   Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();  ///< rotation of the background
-  bool whole = false;                                  ///< was the shape edited?
+  bool whole = false;                                  ///< whether an edit of the shape occurred
 };
 
 void transform(Points& points, const detail::HeldSurface& at, const Eigen::Vector3d& centre,
@@ -97,12 +97,12 @@ void apply(Targets& targets, const Edit& edit, const detail::HeldSurface& held, 
   }
 }
 
-/// Numbers that computing with squares survives.
+/// Returns whether the squares of all coordinates are in the range of numbers.
 bool in_range(const Points& points) {
   return (points.array().abs() <= tolerance::largest_coordinate).all();
 }
 
-/// How the surface around a point at rest moves: a turn about the point, then a translation.
+/// Rigid motion of the surface around a point at rest: a rotation about the point, then a translation.
 struct RigidMotion {
   Eigen::Matrix3d turn;
   Eigen::Vector3d by;
@@ -143,7 +143,8 @@ class SurfaceModel : public DeformationModel {
 
  private:
   Targets targets(const std::vector<Edit>& edits) const;
-  /// Holds what stays: fixed places, and those beyond the influence of the held ones. Tells which stay.
+  /// Holds the places that stay: fixed ones, and those beyond the influence of the held ones. Returns which
+  /// places stay.
   std::vector<bool> hold_the_rest(Targets& targets, const std::vector<std::int32_t>& fixed) const;
   RotatedPoints solved(const Targets& targets, const std::vector<bool>& stays) const;
   void follow(RotatedPoints& now, const Targets& targets) const;
@@ -195,7 +196,8 @@ std::vector<bool> SurfaceModel::hold_the_rest(Targets& targets,
 
 RotatedPoints SurfaceModel::solved(const Targets& targets, const std::vector<bool>& stays) const {
   RotatedPoints start = targets.held;
-  // A shell of which nothing stays moves with its handles to begin with, any other one starts from rest.
+  // Initial rotations: a shell without places that stay starts with the rotation of its handles, any other
+  // shell from rest.
   const std::vector<std::int32_t>& shells = surface_.shells();
   std::vector<Eigen::Matrix3d> turn(shells.size(), Eigen::Matrix3d::Identity());
   std::vector<bool> known(shells.size());
@@ -216,7 +218,8 @@ RotatedPoints SurfaceModel::solved(const Targets& targets, const std::vector<boo
       .deformed(targets.is_held, std::move(start), options_.rigidity);
 }
 
-/// What hangs on nothing follows the rest: by shell the nearest point on `leaders` to any of its places.
+/// Returns, for each shell of `led`, the point of `leaders` nearest to any of its places. The shell follows
+/// this point.
 std::vector<SurfacePoint> SurfaceModel::nearest_leaders(const Shape& leaders,
                                                         const std::vector<bool>& led) const {
   const std::vector<std::int32_t>& shells = surface_.shells();

@@ -25,7 +25,7 @@ std::vector<int> inverse(const std::vector<int>& order) {
   return back;
 }
 
-/// First `a`, then `b`.
+/// Returns the composition of two permutations: first `a`, then `b`.
 std::vector<int> composed(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> both;
   for (const int i : a) both.push_back(b[at(i)]);
@@ -49,7 +49,7 @@ void check_rest(const Structure& rest) {
                        " of the diagonal");
 }
 
-/// Null space projector of the sum of (G - 1)^T (G - 1).
+/// Returns the projector onto the null space of `sum`, the sum of (G - 1)^T (G - 1).
 Eigen::MatrixXd null_projector(const Eigen::MatrixXd& sum) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(sum);
   Eigen::Index rank = 0;

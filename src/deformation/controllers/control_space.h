@@ -12,63 +12,69 @@ class RelationGraph;
 
 namespace stackabilization::detail {
 
-/// Where the controls of a primitive are, since rest.
+/// Changes of the controls of a primitive since rest.
 struct ControlState {
-  /// Displacements of the n control points, point by point; of a generalized cylinder then the changes of its
-  /// n radii. 3 n or 4 n numbers, model units.
+  /// Displacements of the n control points, three numbers per point; for a generalized cylinder then the
+  /// changes of its n radii. 3 n or 4 n numbers, model units.
   Eigen::VectorXd values;
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();  ///< of a generalized cylinder as a whole
+  /// Rotation of a generalized cylinder as a whole since rest.
+  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
-/// The controls of all parts with the symmetry relations eliminated: parts that symmetries take onto each
-/// other form a class, whose first member stands for all of them, and the self-symmetries of that member (its
-/// own, and those that close a loop of pairs) confine its controls to a subspace. What is built from the
-/// states of the classes is symmetric up to rounding, whatever they are. Symmetries are fixed in space.
+/// Control values of all parts after elimination of the symmetry relations. A class is an orbit of parts: the
+/// parts that symmetries map onto each other. The first member of a class represents it. The stabiliser of
+/// the first member consists of its own self-symmetries and of those that close a loop of pairs. It confines
+/// the control values of the class to a subspace. Primitives computed from invariant states are symmetric up
+/// to rounding, whatever the states are. Symmetry planes and axes are fixed in space.
 class ControlSpace {
  public:
-  /// A symmetry that takes the first member of a class onto itself.
+  /// A symmetry that maps the first member of a class onto itself.
   struct Stabiliser {
     int relation = 0;        ///< row of Structure::relations that it comes from
-    Eigen::Matrix3d linear;  ///< acts on displacements
-    std::vector<int> order;  ///< control point i goes to order[i]
+    Eigen::Matrix3d linear;  ///< linear part of the symmetry, acts on displacements
+    std::vector<int> order;  ///< the symmetry maps control point i to control point order[i]
   };
 
-  /// Throws InputError, naming the relation, when primitives that should be symmetric are not so at rest, to
-  /// tolerance::relation.
+  /// Throws InputError, naming the relation, when the primitives at rest violate a symmetry relation by more
+  /// than tolerance::relation of the diagonal.
   explicit ControlSpace(const Structure& rest);
 
   int class_count() const { return static_cast<int>(classes_.size()); }
   int class_of(int part) const { return images_[static_cast<std::size_t>(part)].of_class; }
-  /// Parts of a class, ascending; the first stands for all.
+  /// Returns the parts of a class, ascending; the first one represents the class.
   const std::vector<int>& members(int of_class) const {
     return classes_[static_cast<std::size_t>(of_class)].members;
   }
   const std::vector<Stabiliser>& stabilisers(int of_class) const {
     return classes_[static_cast<std::size_t>(of_class)].stabilisers;
   }
-  /// Control point of the first member of its class that control point `point` of `part` is the image of.
+  /// Returns the control point of the first member whose image is control point `point` of `part`.
   int counterpart(int part, int point) const {
     return images_[static_cast<std::size_t>(part)].inverse_order[static_cast<std::size_t>(point)];
   }
   const Primitive& rest(int part) const { return rest_[static_cast<std::size_t>(part)]; }
 
-  /// States of the classes, read off their first members and made invariant.
+  /// Computes the invariant states of all classes from the primitives of their first members.
   std::vector<ControlState> states(const std::vector<Primitive>& now) const;
-  /// The parts of the state of a class, the primitives at rest to the bit for a state of zeros.
+  /// Computes the primitive of `part` from the state of its class. For a state of zeros the result equals the
+  /// primitive at rest bit for bit.
   Primitive primitive(int part, const ControlState& state) const;
   std::vector<Primitive> primitives(const std::vector<ControlState>& states) const;
-  /// The state of the class for which `part` is as given, not yet made invariant.
+  /// Computes the state of the class from the primitive `now` of `part`. The state is not yet projected to
+  /// the invariant subspace.
   ControlState state_of(int part, const Primitive& now) const;
-  /// Orthogonal projection onto what the stabilisers leave alone.
+  /// Projects orthogonally onto the subspace that all stabilisers leave invariant.
   ControlState invariant(int of_class, ControlState state) const;
   Eigen::MatrixXd invariant_columns(int of_class, const Eigen::MatrixXd& columns) const;
 
-  /// 3 x m: moves of control point `point` of `part` by m columns of changes of its class.
+  /// Returns the 3 x m displacements of control point `point` of `part` for m columns of changes of the
+  /// control values of its class.
   Eigen::Matrix<double, 3, Eigen::Dynamic> point_rows(int part, int point,
                                                       const Eigen::MatrixXd& columns) const;
-  /// 1 x m: changes of the radius of its section.
+  /// Returns the 1 x m changes of the radius of `section` of `part` for the same columns.
   Eigen::RowVectorXd radius_row(int part, int section, const Eigen::MatrixXd& columns) const;
-  /// What the isometry that takes the first member to `part` does to displacements, and to rotation vectors.
+  /// Returns the linear part of the isometry that maps the first member to `part`: `linear` acts on
+  /// displacements, `axial` on rotation vectors.
   const Eigen::Matrix3d& linear(int part) const { return images_[static_cast<std::size_t>(part)].linear; }
   Eigen::Matrix3d axial(int part) const { return linear(part).determinant() * linear(part); }
 
@@ -76,17 +82,19 @@ class ControlSpace {
   struct Image {
     int of_class = -1;
     Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
-    std::vector<int> order, inverse_order;  ///< from the first member's control points, and back
+    /// Control point of the part for each control point of the first member, and the inverse map.
+    std::vector<int> order, inverse_order;
   };
   struct Class {
     std::vector<int> members;
     std::vector<Stabiliser> stabilisers;
-    Eigen::MatrixXd projector;           ///< of values; empty without stabilisers
-    Eigen::Matrix3d rotation_projector;  ///< of rotation vectors
+    /// Projector of control values onto the invariant subspace; empty without stabilisers.
+    Eigen::MatrixXd projector;
+    Eigen::Matrix3d rotation_projector;  ///< projector of rotation vectors
   };
 
-  /// Walks from `first` along the pairs of the graph; `orders` are the correspondences of the symmetry
-  /// relations.
+  /// Creates the class of `first` by a walk along the symmetric pairs of the graph. `orders`: correspondences
+  /// of control points under the symmetry relations.
   void spread_class(int first, const Structure& rest, const RelationGraph& graph,
                     const std::vector<std::vector<int>>& orders);
   void add_stabiliser(int relation, const Structure& rest, const std::vector<int>& order);
@@ -95,7 +103,7 @@ class ControlSpace {
   std::vector<Primitive> rest_;
   std::vector<Image> images_;  ///< per part
   std::vector<Class> classes_;
-  std::vector<bool> tree_;  ///< per relation: it carried a class from one part to the next
+  std::vector<bool> tree_;  ///< per relation, whether it is an edge of the spanning tree of a class
 };
 
 }  // namespace stackabilization::detail

@@ -13,14 +13,15 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Standard deviation of the spread of an edit, fraction of the arc length.
+/// Standard deviation of the Gaussian of an edit, fraction of the arc length.
 constexpr double spread_sigma = 0.2;
-/// Smooth functions along the curve below this fraction of the strongest are left out.
+/// Smooth functions along the curve with less than this fraction of the largest eigenvalue are omitted.
 constexpr double weakest_mode = 0.001;
 /// Parts below this fraction of the diagonal are small.
 constexpr double small_part = 0.1;
 
-/// Kronecker product with the unit matrix of size 3: a function along the points becomes three columns.
+/// Appends the Kronecker product with the identity of size 3: a function along the points becomes three
+/// columns.
 void append_moves(const Eigen::MatrixXd& functions, double factor, Eigen::MatrixXd& basis,
                   Eigen::Index& column) {
   for (Eigen::Index f = 0; f < functions.cols(); ++f)
@@ -28,7 +29,7 @@ void append_moves(const Eigen::MatrixXd& functions, double factor, Eigen::Matrix
       for (Eigen::Index i = 0; i < functions.rows(); ++i) basis(3 * i + k, column) = factor * functions(i, f);
 }
 
-/// n x m functions whose products sum to the Gaussian, weak ones left out.
+/// Computes n x m functions F along the curve: F F^T is the Gaussian matrix without its weak modes.
 Eigen::MatrixXd smooth_functions(const GeneralizedCylinder& cylinder) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gaussian_spread(cylinder));
   const Eigen::VectorXd& strength = solver.eigenvalues();
@@ -38,7 +39,7 @@ Eigen::MatrixXd smooth_functions(const GeneralizedCylinder& cylinder) {
   return solver.eigenvectors().rightCols(count) * strength.tail(count).cwiseSqrt().asDiagonal();
 }
 
-/// n x (1 + rank) orthogonal functions 1, x, y, z over the centres, of mean square 1.
+/// Computes n x (1 + rank) orthogonal functions 1, x, y, z over the centres, of mean square 1.
 Eigen::MatrixXd affine_functions(const GeneralizedCylinder& cylinder) {
   const Eigen::Index n = cylinder.centres.rows();
   const Eigen::MatrixXd centred = cylinder.centres.rowwise() - cylinder.centres.colwise().mean();
@@ -64,9 +65,9 @@ Eigen::MatrixXd basis_of(const GeneralizedCylinder& cylinder) {
   return basis;
 }
 
-/// The products of the signs of the three coordinates of a corner: 1, x, y, z are affine, xy, yz, zx and xyz
-/// are not. Equal strains have equal prices: to change the thickness of a plate by half of it is as dear as
-/// to change its length by half.
+/// The functions of a cuboid are products of the signs of the three coordinates of a corner: 1, x, y, z are
+/// affine; xy, yz, zx and xyz are not. Equal strains have equal costs: changing the thickness of a plate by
+/// half costs as much as changing its length by half.
 Eigen::MatrixXd basis_of(const Cuboid& cuboid) {
   Eigen::Vector3d sides;
   for (int axis = 0; axis < 3; ++axis)

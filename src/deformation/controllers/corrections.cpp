@@ -10,11 +10,11 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// How much the part that carries the handle resists corrections of what the edit left open of it: length of
-/// its columns relative to those of other parts.
+/// Column scale of the corrections that the edit leaves to the part of its handle, relative to other parts:
+/// this part resists corrections.
 constexpr double stiffness = 0.3;
 
-/// Orthogonal projection of rows of coefficients onto what they span.
+/// Returns the orthogonal projector onto the space that the rows span.
 Eigen::MatrixXd row_space(const Eigen::MatrixXd& rows) {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
   solver.setThreshold(tolerance::relative);

@@ -10,24 +10,25 @@
 
 namespace stackabilization::detail {
 
-/// What a solver may change of every class of parts, and what it leaves alone.
+/// Corrections that a solver may apply to every class of parts, and the restrictions on them.
 class Corrections {
  public:
   explicit Corrections(const Rig& rig);
 
-  /// Nothing may be changed of the class.
+  /// Forbids all corrections of the class.
   void fix(int of_class);
   bool is_fixed(int of_class) const { return bases_[static_cast<std::size_t>(of_class)].cols() == 0; }
-  /// Of the class that `edit` is made on, what changes none of these linear functions of its control values,
-  /// and dearly.
+  /// Restricts corrections of the edited class to the null space of `rows`, at weight 1/0.3^2. `rows`: linear
+  /// functions of the control values of the class, one per row.
   void hold(const PartEdit& edit, Eigen::MatrixXd rows);
-  /// What is straight in these states may be corrected only so that it stays so. Call last.
+  /// Restricts corrections of the cylinders that are straight in `states` to those that keep them straight.
+  /// Call it after all other restrictions.
   void keep_straight(const std::vector<ControlState>& states);
 
-  /// Per class: columns of changes of control values, all of the same price.
+  /// Returns, per class, columns of changes of control values. All columns have the same cost.
   const std::vector<Eigen::MatrixXd>& bases() const { return bases_; }
-  /// Takes back what a step along the columns did to higher order, and gives the columns that belong to the
-  /// new states.
+  /// Removes the higher-order effects of a step along the columns from `states`, and recomputes the columns
+  /// for the new states.
   void settle(std::vector<ControlState>& states);
 
  private:
@@ -42,7 +43,7 @@ class Corrections {
   const Rig& rig_;
   std::vector<Eigen::MatrixXd> bases_;
   std::optional<Held> held_;
-  std::vector<std::optional<StraightCorrections>> straight_;  ///< per class
+  std::vector<std::optional<StraightCorrections>> straight_;  ///< per class; only for straight cylinders
   std::vector<ControlState> start_;
 };
 

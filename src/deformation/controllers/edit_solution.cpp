@@ -19,11 +19,12 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Rounds in which vertices that a solve made outermost are held as well.
+/// Largest number of rounds that additionally hold the vertices which a solve made outermost.
 constexpr int extent_rounds = 10;
 
-/// Rounds of stretching what a solve leaves of an extent. It goes on while that is more than the first of
-/// these, in multiples of what relations may be off by; what is more than the second is no remainder.
+/// Largest number of rounds of stretching that remove the residual of an extent. The two limits of the
+/// residual are multiples of tolerance::relation: rounds of holding vertices go on while it exceeds the
+/// first, and stretching removes at most the second.
 constexpr int remainder_rounds = 4;
 constexpr double settled_remainder = 0.1, largest_remainder = 10;
 
@@ -54,7 +55,7 @@ class EditSolution {
     } else {
       if (auto refusal = prescribe()) return refused(std::move(*refusal));
       progress_[at(class_)] = Progress::modified;
-      // Where the ends of an extent are fixed, what is moved is not to take everything along.
+      // With fixed ends of an extent, the moved part must not move all others along.
       if (task_.constraints.extent_ends == ExtentEnds::free)
         state_.controls = propagated(rig_, std::move(state_.controls), progress_);
     }
@@ -81,8 +82,8 @@ class EditSolution {
     }
   }
 
-  /// Gives the edited class what the edit prescribes, within its symmetries, and corrections what keeps
-  /// that.
+  /// Gives the edited class the state that the edit prescribes, within its symmetries, and restricts
+  /// corrections to those that keep it.
   std::optional<Refusal> prescribe() {
     if (progress_[at(class_)] == Progress::settled)
       return Refusal{"'" + part_name(edit_.part) + "' is fixed, or symmetric to a part that is", std::nullopt,
@@ -98,7 +99,7 @@ class EditSolution {
     return std::nullopt;
   }
 
-  /// Gives every part what the edit prescribes, as far as all symmetries allow that.
+  /// Gives every part the state that the edit prescribes. Refuses when this violates a symmetry.
   std::optional<Refusal> prescribe_all() {
     std::vector<Primitive> wanted;
     for (const PartEdit& edit : task_.wanted) {
@@ -132,13 +133,15 @@ class EditSolution {
       return;
     const SolverState unbounded = state_;
     bound_extents(constraints);
-    // Relations give way when bounds cannot be met: then the bounds are what is to be reported.
+    // Bounds that cannot be met violate relations. Return to the state without bounds then, so that the
+    // refusal names the bounds.
     if (!(largest_gap(rig_, constraints, state_) <= tolerance::relation * diagonal())) state_ = unbounded;
   }
 
-  /// What stands on the fixed ends of an extent is held from the start: else joints take everything along
-  /// first, and what passes the ends then is not what has to stay on them. False, and nothing done, when
-  /// there is nothing to hold, or it cannot be held together with `constraints`.
+  /// Solves with the vertices at the fixed ends of an extent held from the start. Otherwise the joints first
+  /// move all parts along, and the vertices that pass the ends then are not those that must stay on them.
+  /// Returns false, and changes nothing, when there is nothing to hold, or when it cannot be held together
+  /// with `constraints`.
   bool solve_with_fixed_ends(const std::vector<Constraint>& constraints) {
     const bool fixed = std::any_of(watch_.bounds().begin(), watch_.bounds().end(),
                                    [](const ExtentBound& bound) { return bound.level.has_value(); });
@@ -159,9 +162,10 @@ class EditSolution {
     return false;
   }
 
-  /// Holds the outermost vertices, one of every class: when another one becomes outermost, that instead;
-  /// where they take turns, all of those; and where what was held before is in the way, as on a face that the
-  /// edit tilts by a hair, only what is outermost in any class.
+  /// Holds the outermost vertices in three stages. First, one vertex per class: another vertex that becomes
+  /// outermost replaces it. Second, all of these vertices, when they take turns. Third, only the vertices
+  /// that are outermost in a class now, when earlier ones are in the way, as on a face that the edit tilts by
+  /// a very small angle.
   void bound_extents(const std::vector<Constraint>& constraints) {
     using Former = ExtentWatch::Former;
     for (const Former former : {Former::released, Former::held})
@@ -185,7 +189,7 @@ class EditSolution {
     }
   }
 
-  /// Solves for `constraints` and what is held; these together.
+  /// Solves for `constraints` and the held vertices together. Returns all these constraints.
   std::vector<Constraint> solve_held(std::vector<Constraint> constraints) {
     for (Constraint& held : watch_.constraints(mesh_.transfer)) constraints.push_back(std::move(held));
     state_ = solved(rig_, corrections_, constraints, std::move(state_));
@@ -196,7 +200,8 @@ class EditSolution {
     return mesh_.transfer.vertices(rig_, rig_.space.primitives(state_.controls));
   }
 
-  /// Is every extent off by so little, which take_up_remainder sees to?
+  /// Returns whether every residual is small enough for take_up_remainder: that of a kept extent at most
+  /// `multiple` times tolerance::relation of the diagonal, that of another bound 0.
   bool remains_at_most(double multiple, const Points& vertices) const {
     for (std::size_t k = 0; k < watch_.bounds().size(); ++k) {
       const double most = watch_.is_kept(k) ? multiple * tolerance::relation * diagonal() : 0;
@@ -205,9 +210,10 @@ class EditSolution {
     return true;
   }
 
-  /// What little a solve leaves of a kept extent is taken away by stretching all that moved along it: which
-  /// of two vertices at the foot of a leg is the lower one may change with every solve. Relations between
-  /// what moved do not notice; those to the rest are looked at afterwards.
+  /// Removes the small residual that a solve leaves of a kept extent, by stretching all that moved along it.
+  /// Holding vertices cannot remove this residual: which of two vertices at the foot of a leg is the lower
+  /// one may change with every solve. Relations between moved parts do not change. Relations to the other
+  /// parts are checked afterwards.
   void take_up_remainder() {
     for (int round = 0; round < remainder_rounds; ++round) {
       const Points vertices = current_vertices();
@@ -218,7 +224,7 @@ class EditSolution {
     }
   }
 
-  /// The affine map along `normal` that takes the heights `from` to `to`, on all that moved.
+  /// Applies to all moved classes the affine map along `normal` that maps the heights `from` to `to`.
   void stretch(const Eigen::Vector3d& normal, const Range& from, const Range& to) {
     const double factor = from.length() > 0 ? to.length() / from.length() : 1;
     const auto move = [&](auto& points) {
@@ -239,7 +245,8 @@ class EditSolution {
     }
   }
 
-  /// The points of the surface nearest to the fixed ones stay where they are now.
+  /// Returns the constraints that keep the points of the surface nearest to the fixed points at their current
+  /// positions.
   std::vector<Constraint> fixed_point_constraints() const {
     std::vector<Constraint> constraints;
     for (const Eigen::Vector3d& point : task_.constraints.fixed_points) {
@@ -258,7 +265,7 @@ class EditSolution {
     return constraints;
   }
 
-  /// Classes that nothing moved keep the very numbers they had.
+  /// Returns the current primitives. Classes that did not move keep their primitives bit for bit.
   std::vector<Primitive> current_primitives() const {
     std::vector<Primitive> primitives = rig_.space.primitives(state_.controls);
     for (std::size_t part = 0; part < primitives.size(); ++part) {
@@ -312,7 +319,7 @@ class EditSolution {
   const Rig& rig_;
   const RiggedMesh& mesh_;
   const EditTask& task_;
-  const PartEdit& edit_;  ///< the one of a handle
+  const PartEdit& edit_;  ///< first edit of the task: that of the handle
   int class_;
   std::vector<Progress> progress_;  ///< per class
   Corrections corrections_;

@@ -12,24 +12,25 @@
 
 namespace stackabilization::detail {
 
-/// A mesh on a rig.
+/// A mesh bound to a rig.
 struct RiggedMesh {
   MeshTransfer transfer;
   std::vector<std::vector<int>> by_class;  ///< see vertices_by_class
-  SurfaceIndex surface;                    ///< at rest
+  SurfaceIndex surface;                    ///< surface at rest
 };
 
-/// An edit to be solved for.
+/// An edit to solve for.
 struct EditTask {
-  const Shape& shape;  ///< at rest
-  const std::vector<Primitive>& now;
-  std::vector<PartEdit> wanted;  ///< of one part, or of every part in order
+  const Shape& shape;                 ///< shape at rest
+  const std::vector<Primitive>& now;  ///< primitives before the edit
+  std::vector<PartEdit> wanted;       ///< one edit of one part, or one edit of every part in order
   const DeformationConstraints& constraints;
 };
 
-/// Makes the edit with all relations and constraints, or says why not: prescribes the controls of the edited
-/// part within its symmetries, propagates, solves, checks. An edit of every part starts the solve; joints may
-/// then shift what it left by as much as a cylinder misses the affine map. See ControllerModel::edited.
+/// Applies the edit subject to all relations and constraints, or returns the reason for the refusal. The
+/// function prescribes the controls of the edited part within its symmetries, propagates, solves and checks.
+/// The solve of an edit of every part starts from the prescriptions of all parts; joints may then shift the
+/// parts by as much as a cylinder deviates from the affine map. See ControllerModel::edited.
 EditOutcome solved_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& task);
 
 }  // namespace stackabilization::detail

@@ -111,8 +111,8 @@ bool ExtentWatch::hold_side(std::size_t k, bool upper, const Points& vertices, F
   const double extreme = upper ? whole.high : -whole.low;
   const double end = bound.level ? sign * *bound.level + (upper ? bound.high : 0) : 0;
   const double outermost = bound.level ? std::min(extreme, end) : extreme - std::max(beyond, 0.0);
-  // What is level counts as that, whatever rounding made of it: which vertices are held decides what a solve
-  // does with an edit, and is to change only where the edit does.
+  // Vertices of equal height up to rounding count as equally high. The choice of the held vertices determines
+  // the result of a solve, so it must change only with the edit.
   const double slack = tolerance::relative * whole.length();
   bool added = false;
   for (std::size_t g = 0; g < groups_.size(); ++g) {

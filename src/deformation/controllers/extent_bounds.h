@@ -16,65 +16,67 @@ namespace stackabilization::detail {
 
 /// Bounds of the extent of a mesh along one direction.
 struct ExtentBound {
-  Eigen::Vector3d normal;       ///< unit
-  double low = 0, high = 0;     ///< model units; equal to keep the extent
-  std::optional<double> level;  ///< height at which it begins, where that is fixed: it is kept then
+  Eigen::Vector3d normal;       ///< unit direction
+  double low = 0, high = 0;     ///< bounds of the extent, model units; equal when the extent is kept
+  std::optional<double> level;  ///< height of the lower end, when it is fixed; the extent is kept then
 };
 
-/// What `keep_extent` and `box_tolerance` demand of a shape. Throws UsageError when the tolerance is negative
-/// or not finite.
+/// Returns the bounds that `keep_extent` and `box_tolerance` impose on a shape. Throws UsageError when the
+/// tolerance is negative or not finite.
 std::vector<ExtentBound> extent_bounds(const Shape& rest, const DeformationConstraints& constraints);
 
-/// Rows of the vertices that the triangles of each part use, ascending.
+/// Returns, per part, the rows of the vertices that its triangles use, ascending.
 std::vector<std::vector<int>> vertices_by_part(const Shape& shape);
-/// The same of all parts of each class.
+/// Returns, per class, the rows of the vertices that the triangles of its parts use, ascending.
 std::vector<std::vector<int>> vertices_by_class(const Shape& shape, const Rig& rig);
 
-/// Turns bounds that a mesh breaks into constraints on its outermost vertices.
+/// Converts violated bounds into constraints on the outermost vertices of a mesh.
 class ExtentWatch {
  public:
-  /// `groups` has the vertices of parts that move alike, ascending; it must outlive this.
+  /// `groups`: one list of ascending vertices for each set of parts that move alike. It must outlive this
+  /// object.
   ExtentWatch(const std::vector<std::vector<int>>& groups, std::vector<ExtentBound> bounds)
       : groups_(groups), bounds_(std::move(bounds)) {}
 
   const std::vector<ExtentBound>& bounds() const { return bounds_; }
-  /// By how much the extent passes bound `k`, model units: above zero too long, below too short, 0 within
-  /// half of tolerance::relative of what is demanded. Where the ends are fixed, the farthest that one of them
-  /// is off.
+  /// Returns the violation of bound `k`, model units: positive when the extent is too long, negative when it
+  /// is too short, 0 within half of tolerance::relative of the extent. With fixed ends it is the violation of
+  /// the end that is farther off, positive outwards.
   double excess(std::size_t k, const Points& vertices) const;
   bool any_excess(const Points& vertices) const;
-  /// Heights of the mesh along the normal of bound `k`, and what they are to be where it leaves no choice.
+  /// Returns the heights of the mesh along the normal of bound `k` (`range`), and the heights that the bound
+  /// demands when it is kept (`wanted`).
   Range range(std::size_t k, const Points& vertices) const;
   Range wanted(std::size_t k, const Points& vertices) const;
-  /// Whether bound `k` leaves no choice.
+  /// Returns whether bound `k` keeps the extent, that is, allows a single length.
   bool is_kept(std::size_t k) const { return bounds_[k].low == bounds_[k].high; }
-  /// Lowest heights along the normals of the bounds: levels to start a solve from.
+  /// Returns the lowest heights along the normals of all bounds: levels from which a solve starts.
   Eigen::VectorXd levels(const Points& vertices) const;
 
-  /// What happens to vertices that were held before, where another one of their group became outermost.
+  /// Treatment of the held vertices of a group when another vertex of the group becomes outermost.
   enum class Former { released, held };
-  /// Holds the extent at the bound it passes: in every group the outermost vertex on either side, if it
-  /// reaches into the excess. False when that adds nothing to what is held, or, with those before released,
-  /// to what was.
+  /// Holds the extent at the violated bound: on either side, the outermost vertex of every group that reaches
+  /// into the excess. Returns false when this adds no vertex to the held ones or, with Former::released, to
+  /// those ever held.
   bool hold(std::size_t k, const Points& vertices, Former former);
-  /// The constraints that hold what is held.
+  /// Returns the constraints that keep the held vertices at their heights.
   std::vector<Constraint> constraints(const MeshTransfer& transfer) const;
-  /// Forgets what is held, so that it may be held again.
+  /// Forgets all held vertices, also those held earlier, so that they may be held again.
   void release();
 
  private:
-  /// Of one group on one side of a bound.
+  /// Held vertices of one group on one side of a bound.
   struct Held {
-    std::set<int> vertices;  ///< now
-    std::set<int> ever;
-    double height = 0;  ///< as of Constraint
+    std::set<int> vertices;  ///< vertices held now
+    std::set<int> ever;      ///< vertices held now or earlier
+    double height = 0;       ///< height as in Constraint
   };
 
   bool hold_side(std::size_t k, bool upper, const Points& vertices, Former former);
 
   const std::vector<std::vector<int>>& groups_;
   std::vector<ExtentBound> bounds_;
-  std::map<std::tuple<std::size_t, bool, std::size_t>, Held> held_;  ///< bound, upper side, group
+  std::map<std::tuple<std::size_t, bool, std::size_t>, Held> held_;  ///< key: bound, upper side, group
 };
 
 }  // namespace stackabilization::detail

@@ -13,10 +13,10 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Longest move of a control in the state that is tried out, fraction of the diagonal.
+/// Largest change of a control value in the generic trial state, fraction of the diagonal.
 constexpr double trial = 0.02;
 
-/// A symmetry that takes one part to another, or to itself.
+/// A symmetry that maps one part onto another, or onto itself.
 struct Way {
   int to;
   Eigen::Isometry3d map;
@@ -51,7 +51,7 @@ class JointCopies {
   }
 
  private:
-  /// A state of no special shape, within what the classes allow.
+  /// Computes the positions and gaps of the joints in a generic state within the subspaces of the classes.
   void try_out() {
     std::vector<ControlState> states(at(rig_.space.class_count()));
     double phase = 0;
@@ -76,14 +76,15 @@ class JointCopies {
     }
   }
 
-  /// Joints that are where the map takes joint `k`, between the parts that it takes its parts to.
+  /// Returns the joints at the image of joint `k`, between the images of its parts. `first`: the map and the
+  /// image of its first part. `second`: the image of its second part.
   std::vector<int> copies(int k, const Way& first, int second) const {
     std::vector<int> found;
     const auto list = by_parts_.find(std::minmax(first.to, second));
     if (list == by_parts_.end()) return found;
     const double slack = tolerance::relative * rig_.rest.diagonal;
     for (const int other : list->second) {
-      // The gap of the copy is counted the other way round where its parts are.
+      // The gap of the copy has the opposite sign when its parts are in the opposite order.
       const bool same = rig_.joints[at(other)].parts[0] == first.to;
       const Eigen::Vector3d gap = same ? gaps_[at(other)] : Eigen::Vector3d(-gaps_[at(other)]);
       const Eigen::Vector3d place = same ? places_[at(other)] : Eigen::Vector3d(places_[at(other)] + gap);
@@ -97,7 +98,8 @@ class JointCopies {
   const Rig& rig_;
   std::vector<std::vector<Way>> ways_;                        ///< per part
   std::map<std::pair<int, int>, std::vector<int>> by_parts_;  ///< lower part first
-  std::vector<Eigen::Vector3d> places_, gaps_;                ///< of the joints, in the state tried out
+  /// Positions and gaps of the joints in the trial state.
+  std::vector<Eigen::Vector3d> places_, gaps_;
 };
 
 }  // namespace

@@ -6,9 +6,10 @@
 
 namespace stackabilization::detail {
 
-/// Rows of `rig.joints`, ascending: the first of those that the symmetry relations take onto each other. The
-/// others hold with it in every state of the classes, as they do in one that is tried out, to
-/// tolerance::relative of the diagonal. Needs everything else of the rig.
+/// Returns the first joint of every orbit of the symmetry relations: rows of `rig.joints`, ascending. The
+/// other joints of an orbit hold whenever the first one holds, in every state of the classes. The function
+/// verifies this in one generic state, within tolerance::relative of the diagonal. Precondition: all other
+/// members of `rig` are set.
 std::vector<int> distinct_joints(const Rig& rig);
 
 }  // namespace stackabilization::detail

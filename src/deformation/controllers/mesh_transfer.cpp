@@ -12,10 +12,10 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Reach of a part beyond its border with another, fraction of the diagonal of the smaller of both.
+/// Reach of a part beyond its border with another part, fraction of the diagonal of the smaller of the two.
 constexpr double reach_of_parts = 0.15;
 
-/// 1 at 0, 0 from 1 on, flat at both ends.
+/// Returns a smooth weight: 1 at 0, 0 from 1 on, flat at both ends.
 double fall_off(double t) {
   return t >= 1 ? 0 : 1 - t * t * (3 - 2 * t);
 }
@@ -26,10 +26,10 @@ bool equal(const Primitive& a, const Primitive& b) {
   return p.centres == q.centres && p.radii == q.radii && p.rotation.coeffs() == q.rotation.coeffs();
 }
 
-/// Finds the share of every part in every vertex.
+/// Computes the weight (share) of every part in every vertex.
 class Shares {
  public:
-  /// Share of each part that a vertex rides on.
+  /// Weight of each part to which a vertex is bound.
   using PerVertex = std::map<int, double>;
 
   explicit Shares(const Shape& shape)
@@ -64,7 +64,7 @@ class Shares {
   /// The vertices that a part shares with each other part.
   using Borders = std::map<int, std::vector<int>>;
 
-  /// Per part that shares any.
+  /// Returns the borders of each part that shares vertices.
   std::map<int, Borders> borders() const {
     std::map<int, Borders> borders;
     for (std::size_t v = 0; v < owners_.size(); ++v)
@@ -74,7 +74,7 @@ class Shares {
     return borders;
   }
 
-  /// Lets the parts that share vertices with `part` reach into it.
+  /// Extends the weights of the parts that share vertices with `part` into it.
   void spread_into(int part, const Borders& borders, std::vector<PerVertex>& shares) const {
     const std::map<int, std::set<int>> edges = edges_of(part);
     for (const auto& [other, border] : borders) {
@@ -99,7 +99,8 @@ class Shares {
 
   double diagonal(int part) const { return boxes_[at(part)].diagonal().norm(); }
 
-  /// Dijkstra's algorithm along the edges, up to `most`.
+  /// Returns the distances along the edges from the vertices `from`, up to `most`, by the algorithm of
+  /// Dijkstra.
   std::map<int, double> distances(const std::map<int, std::set<int>>& edges, const std::vector<int>& from,
                                   double most) const {
     std::map<int, double> settled;

@@ -8,18 +8,21 @@
 
 namespace stackabilization::detail {
 
-/// The vertices of a shape bound to its parts. A vertex rides on the part whose triangles use it. Where parts
-/// share vertices, those ride on all of them in equal shares, and the share of the other part falls off
-/// smoothly, to nothing at 0.15 of the diagonal of the smaller part, measured along the edges: no crack and
-/// no step. Vertices that no triangle uses stay. Immutable, safe to share between threads.
+/// Binds the vertices of a shape to its parts. A vertex is bound to the part whose triangles use it. A vertex
+/// that several parts share is bound to all of them with equal weights. Around the shared vertices each part
+/// also carries vertices of the other part. Their weight decreases smoothly with the distance along the
+/// edges, to zero at 0.15 of the diagonal of the smaller part. The deformed mesh therefore has no cracks and
+/// no steps. Vertices that no triangle uses do not move. Immutable, safe to share between threads.
 class MeshTransfer {
  public:
   MeshTransfer(const Shape& shape, const Rig& rig);
 
-  /// n x 3; the vertices at rest to the bit where no part moved.
+  /// Returns the n x 3 vertices for the primitives `now`. Where no part moved, the vertices equal those at
+  /// rest bit for bit.
   Points vertices(const Rig& rig, const std::vector<Primitive>& now) const;
-  /// The same for one vertex, as a weighted sum of riding points.
+  /// Returns the weighted bound points whose sum is the position of vertex `vertex`.
   std::vector<Rider> riders(int vertex) const;
+  /// Returns the n x 3 vertices at rest.
   const Points& rest() const { return rest_; }
 
  private:

@@ -25,7 +25,7 @@ int checked(int index, int count, const std::string& part_name, const std::strin
   return index;
 }
 
-/// Control points that the handle takes hold of.
+/// Returns the control points that the handle holds.
 std::vector<int> held_points(const Primitive& primitive, const Handle& handle, const std::string& part_name) {
   const bool cuboid = std::holds_alternative<Cuboid>(primitive);
   switch (handle.kind) {

@@ -39,7 +39,8 @@ class Prescriber {
  private:
   bool whole() const { return static_cast<Eigen::Index>(edit_.values.size()) == state_.values.size(); }
 
-  /// Rows of the prescribed values of the edited part, given columns of changes of its class.
+  /// Returns the changes of the prescribed values of the edited part, one row each, for columns of changes of
+  /// its class.
   Eigen::MatrixXd handle_rows(const Eigen::MatrixXd& columns) const {
     const auto count = static_cast<int>(3 * control_points(now_).rows());
     Eigen::MatrixXd rows(static_cast<Eigen::Index>(edit_.values.size()), columns.cols());
@@ -75,8 +76,9 @@ class Prescriber {
     return std::nullopt;
   }
 
-  /// As the columns of an edit kernel that belong to the handle, of W W^T: W holds three moves and a change
-  /// of radii, each in proportion to the linear weights, within what the self-symmetries leave free.
+  /// Returns the columns of the kernel W W^T of the linear falloff that belong to the handle. W holds three
+  /// displacements and a change of radii, each in proportion to the linear weights, projected to the subspace
+  /// of the self-symmetries.
   Eigen::MatrixXd linear_spread(int section) const {
     const Eigen::VectorXd weights = linear_weights(std::get<GeneralizedCylinder>(now_), section);
     const auto n = static_cast<int>(weights.size());
@@ -90,9 +92,9 @@ class Prescriber {
     return changes * handle_rows(changes).transpose();
   }
 
-  /// What corrections must leave alone of the rows of the prescribed values: all; but where the ends of an
-  /// extent are fixed, a move across it says nothing about heights, and a foot that leans has to give way to
-  /// stay on the ground.
+  /// Returns the rows that corrections must not change: all rows of the prescribed values. With fixed ends of
+  /// an extent, a move across it leaves the heights free, since a leaning foot must give way to stay on the
+  /// ground: then only the components across the extent.
   Eigen::MatrixXd held(const Eigen::MatrixXd& rows) const {
     const auto points = static_cast<Eigen::Index>(edit_.values.size()) / 3;
     if (!constraints_.keep_extent || constraints_.extent_ends != ExtentEnds::fixed ||
@@ -120,7 +122,7 @@ class Prescriber {
             relation, amount};
   }
 
-  /// The symmetry of the edited class that what is prescribed contradicts most.
+  /// Returns the symmetry of the edited class that the prescription violates most.
   std::optional<int> contradicting_relation() const {
     const ControlState wanted = rig_.space.state_of(edit_.part, changed(now_, edit_));
     const Eigen::VectorXd change = wanted.values - start_.values;

@@ -9,26 +9,27 @@
 
 namespace stackabilization::detail {
 
-/// An edit of one part, to be prescribed.
+/// An edit of one part and the state that it starts from.
 struct PrescriptionTask {
-  const Primitive& now;       ///< the part before the edit
-  const ControlState& start;  ///< state of its class then
+  const Primitive& now;       ///< primitive of the part before the edit
+  const ControlState& start;  ///< state of its class before the edit
   const PartEdit& edit;
   const DeformationConstraints& constraints;
 };
 
-/// The class of an edited part as the edit wants it.
+/// State of the class of an edited part that an edit prescribes.
 struct Prescription {
-  std::optional<Refusal> refusal;  ///< when set, a symmetry stands against the edit and the rest is not set
+  /// Set when a symmetry contradicts the edit; the other members are then not set.
+  std::optional<Refusal> refusal;
   ControlState state;
-  /// Rows of linear functions of its control values (ControlState::values) that corrections must not change;
-  /// nothing: no corrections at all.
+  /// Linear functions of the control values of the class (ControlState::values), one per row, that
+  /// corrections must not change. Without a value, corrections of the class are forbidden.
   std::optional<Eigen::MatrixXd> held;
 };
 
-/// Puts the handle exactly where the edit wants it and spreads the change over the part by its edit kernel,
-/// or linearly, within what its self-symmetries leave free. Corrections are to leave the handle alone, but
-/// for what a move across a fixed extent leaves open.
+/// Computes the state in which the handle is exactly where the edit puts it. The change spreads over the part
+/// by its edit kernel, or linearly, within the subspace of its self-symmetries. Corrections must not change
+/// the handle, except for the heights that a move across a fixed extent leaves free.
 Prescription prescription(const Rig& rig, const PrescriptionTask& task);
 
 }  // namespace stackabilization::detail

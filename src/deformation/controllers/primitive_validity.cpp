@@ -11,13 +11,15 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// So far within the range of coordinates that the surface, which goes beyond the controls, is in it too.
+/// Returns whether the controls are so far within the range of coordinates that the surface, which extends
+/// beyond them, is within it too.
 template <class Numbers>
 bool in_range(const Numbers& numbers) {
   return (numbers.array().abs() <= tolerance::collapse * tolerance::largest_coordinate).all();
 }
 
-/// Columns: the edges of the corner along the three axes of the box, all in their positive direction.
+/// Returns, as columns, the edges at the corner along the three axes of the box, all in their positive
+/// direction.
 Eigen::Matrix3d edges_at(const Cuboid& cuboid, int corner) {
   Eigen::Matrix3d edges;
   for (int a = 0; a < 3; ++a)
@@ -25,7 +27,7 @@ Eigen::Matrix3d edges_at(const Cuboid& cuboid, int corner) {
   return edges;
 }
 
-/// Axes along which the cuboid extends at rest.
+/// Returns the axes along which the cuboid extends at rest.
 std::vector<int> extended_axes(const Cuboid& rest) {
   const Eigen::RowVector3d lengths = edges_at(rest, 0).colwise().norm();
   std::vector<int> axes;
@@ -34,7 +36,8 @@ std::vector<int> extended_axes(const Cuboid& rest) {
   return axes;
 }
 
-/// Volume, area or length at a corner over that at rest; below zero where it is turned over.
+/// Returns the volume, area or length at a corner divided by that at rest; negative where the orientation is
+/// reversed.
 double measure_ratio(const Eigen::Matrix3d& rest, const Eigen::Matrix3d& now, const Eigen::Vector3d& side,
                      const std::vector<int>& axes) {
   if (axes.size() == 3) return now.determinant() / rest.determinant();

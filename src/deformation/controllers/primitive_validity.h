@@ -7,13 +7,15 @@
 
 namespace stackabilization::detail {
 
-/// What is wrong with a deformed primitive, as in "is turned inside out at corner 3", or nothing.
+/// Describes the defect of a deformed primitive, as in "is turned inside out at corner 3". Returns nothing
+/// for a valid primitive.
 ///
-/// A cuboid must keep its orientation at every corner, and a fraction tolerance::collapse of its volume
-/// there; one that is flat at rest the orientation of its faces, one that is a line its length. A generalized
-/// cylinder must keep that fraction of every radius and piece of its curve; no piece may turn by a right
-/// angle from where the rotation of the whole takes it, or run against the tangents at its ends where it did
-/// not at rest. Everything must be finite.
+/// At every corner, a cuboid must keep its orientation and the fraction tolerance::collapse of its volume. A
+/// cuboid that is flat at rest must keep the orientation and that fraction of the area of its faces. A cuboid
+/// that is a line at rest must keep that fraction of its length. A generalized cylinder must keep that
+/// fraction of every radius and of every piece of its curve. No piece may turn by a right angle or more
+/// against the rotation of the whole. No piece may run against the tangents at its ends, unless it does so at
+/// rest. All numbers must be finite and within the range of coordinates.
 std::optional<std::string> defect(const Primitive& rest, const Primitive& now);
 
 }  // namespace stackabilization::detail

@@ -10,19 +10,20 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Pulls what the joints leave undetermined of a rotation towards none; relative to their spread.
+/// Weight that pulls the part of a rotation that the joints leave undetermined towards the identity, relative
+/// to the spread of the joints.
 constexpr double rotation_pull = 0.000001;
-/// The same for the strain.
+/// The same weight for the strain.
 constexpr double strain_pull = 0.001;
 
-/// p -> linear (p - from) + to; `rotation` is that of `linear`.
+/// p -> linear (p - from) + to; `rotation` is the rotation in `linear`.
 struct AffineMotion {
   Eigen::Matrix3d linear, rotation;
   Eigen::Vector3d from, to;
 };
 
-/// Rotation nearest to what takes the rows of `p` to those of `q` (Kabsch), then the least strain for the
-/// rest.
+/// Fits the rotation that best maps the rows of `p` to those of `q` (Kabsch), then the least strain for the
+/// residual.
 AffineMotion fitted(const Points& p, const Points& q) {
   AffineMotion motion{Eigen::Matrix3d::Identity(), Eigen::Matrix3d::Identity(),
                       p.colwise().mean().transpose(), q.colwise().mean().transpose()};
@@ -73,7 +74,7 @@ class Propagation {
  private:
   Progress& progress(int part) { return progress_[at(rig_.space.class_of(part))]; }
 
-  /// The open part with most modified neighbours, or -1.
+  /// Returns the open part with most modified neighbours, or -1.
   int next() {
     std::vector<std::vector<int>> neighbours(now_.size());
     const auto meet = [&](int part, int other) {
@@ -92,7 +93,7 @@ class Propagation {
     return best;
   }
 
-  /// Moves the part, and its class with it, to where its joints with parts that are not open are now.
+  /// Moves the part and its class to the current positions of its joints with parts that are not open.
   void follow(int part) {
     std::vector<Eigen::Vector3d> from, to;
     double farthest = 0;

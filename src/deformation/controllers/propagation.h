@@ -6,18 +6,19 @@
 
 namespace stackabilization::detail {
 
-/// What happened to a class before its neighbours are asked.
+/// Progress of a class during propagation.
 enum class Progress {
-  open,     ///< not looked at yet
-  settled,  ///< stays as it is
-  modified  ///< moved: its neighbours follow
+  open,     ///< not visited yet
+  settled,  ///< visited, does not change
+  modified  ///< changed: its neighbours follow
 };
 
-/// Guess of how the other parts follow an edit (paper, section 4.1; Zheng et al. 2011): of the open parts the
-/// one with most modified neighbours is next, ties by index; symmetric parts follow at once, since they share
-/// their state; a part follows its joints by a translation (one point), with a rotation and a stretch between
-/// them (two), by the affine map of least strain (more); self-symmetry is imposed again. One pass drops
-/// constraints where a part has several: relation_solver.h finishes.
+/// Estimates how the other parts follow an edit (paper, section 4.1; Zheng et al. 2011). Visits next the open
+/// part with most modified neighbours, or the first of several such parts. Symmetric parts follow at once,
+/// since they share their state. A part follows its joints: one point by a translation; two points by a
+/// translation, a rotation and a stretch along the line between them; more points by the affine map of least
+/// strain. The function then imposes self-symmetry again. One pass does not satisfy all constraints of a part
+/// that has several; relation_solver.h then solves for all of them.
 std::vector<ControlState> propagated(const Rig& rig, std::vector<ControlState> states,
                                      std::vector<Progress> progress);
 

@@ -13,9 +13,9 @@ namespace stackabilization::detail {
 namespace {
 
 constexpr int most_steps = 20;
-/// A step that leaves more of the gap than this, twice in a row, is the last.
+/// The solver stops after two consecutive steps that leave more than this fraction of the largest residual.
 constexpr double idle_ratio = 0.9;
-/// Longest step of a control, fraction of the diagonal.
+/// Largest change of a control value in one step, fraction of the diagonal.
 constexpr double longest_step = 0.25;
 
 Eigen::Index rows_of(const Constraint& constraint) {
@@ -34,8 +34,8 @@ Eigen::Quaterniond rotation_of(const Eigen::Vector3d& vector) {
                    : Eigen::Quaterniond::Identity();
 }
 
-/// Solution x of A x = b for a positive semi-definite A that may be singular: pivoted Cholesky, which leaves
-/// out rows that depend on those before them.
+/// Returns a solution x of A x = b for a positive semi-definite A that may be singular. Pivoted Cholesky
+/// omits rows that depend on those before them.
 Eigen::VectorXd semidefinite_solution(Eigen::MatrixXd a, const Eigen::VectorXd& b) {
   const Eigen::Index n = a.rows();
   const Eigen::VectorXd diagonal = a.diagonal();
@@ -111,7 +111,7 @@ class Solver {
       idle = largest > idle_ratio * before ? idle + 1 : 0;
       if (idle == 2) break;
       before = largest;
-      // A joint depends on two classes only: most of it is zeros.
+      // The Jacobian is sparse, because a joint depends on two classes only.
       const Eigen::SparseMatrix<double> jacobian = slopes().sparseView();
       Eigen::MatrixXd gram = jacobian * jacobian.transpose();
       advance(-jacobian.transpose() * semidefinite_solution(std::move(gram), gap));
@@ -141,7 +141,7 @@ class Solver {
     return all;
   }
 
-  /// 3 x m per class of generalized cylinders: rotation vectors of the columns.
+  /// Returns, per class, the 3 x m rotation vectors of the columns; empty for cuboids.
   std::vector<Eigen::MatrixXd> turn_columns() const {
     std::vector<Eigen::MatrixXd> turns;
     for (std::size_t c = 0; c < bases_.size(); ++c) turns.push_back(turned_columns(c, bases_[c]));
@@ -151,7 +151,8 @@ class Solver {
   Eigen::MatrixXd turned_columns(std::size_t c, const Eigen::MatrixXd& columns) const {
     const Eigen::MatrixXd& turning = rig_.turnings[c];
     if (turning.size() == 0 || columns.cols() == 0) return {};
-    // The fit was made at rest: turn displacements back there, and what it finds forth again.
+    // `turning` was fitted at rest: rotate displacements back to rest, and the rotation vectors forward
+    // again.
     const Eigen::Matrix3d rotation = state_.controls[c].rotation.toRotationMatrix();
     Eigen::MatrixXd found(3, turning.cols());
     for (Eigen::Index i = 0; i < turning.cols(); i += 3)

@@ -9,38 +9,42 @@
 
 namespace stackabilization::detail {
 
-/// A point that rides on a part, with a weight in a sum of such.
+/// A point bound to a part, with a weight in a sum of such points.
 struct Rider {
   int part = 0;
   PointBinding binding;
   double weight = 1;
 };
 
-/// The weighted sum of riding points is `target`; or, with a normal, its height along the normal is `height`
-/// above a level that is free, or above 0.
+/// An equation for a weighted sum of bound points. Without a normal, the sum equals `target`. With a normal,
+/// the height of the sum along the normal is `height` above a level, which is a free unknown or 0.
 struct Constraint {
   std::vector<Rider> riders;
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
-  std::optional<Eigen::Vector3d> normal;  ///< unit
-  double height = 0;                      ///< with a normal, model units
-  std::optional<int> level;               ///< with a normal, row of SolverState::levels; nothing: 0
+  std::optional<Eigen::Vector3d> normal;  ///< unit normal
+  double height = 0;                      ///< height above the level, model units; only with a normal
+  /// Row of SolverState::levels, only with a normal; without a value the level is 0.
+  std::optional<int> level;
 };
 
+/// Unknowns of the solver.
 struct SolverState {
-  std::vector<ControlState> controls;  ///< per class
-  Eigen::VectorXd levels;              ///< free levels of constraints with a normal, model units
+  std::vector<ControlState> controls;  ///< state of each class
+  Eigen::VectorXd levels;              ///< free levels of the constraints with a normal, model units
 };
 
-/// One per joint point of the rig that is no symmetric copy of another, in its order.
+/// Returns one constraint per joint point of the rig that is no symmetric copy of another one, in the order
+/// of the rig.
 std::vector<Constraint> joint_constraints(const Rig& rig);
 
-/// Largest violation of the constraints, model units.
+/// Returns the largest absolute residual of the constraints, model units.
 double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state);
 
-/// Gauss-Newton on all constraints at once, each step the one of least norm in the columns of `corrections`,
-/// which settle it: the normal equations in their dual form, a small dense system, with
-/// constraints that repeat others left out by a pivoted Cholesky factorisation. Stops at tolerance::solve of
-/// the diagonal or where steps do not help any more: look at `largest_gap`.
+/// Solves all constraints at once by Gauss-Newton. Each step has the least norm in the columns of
+/// `corrections`, which then settle the state. The normal equations are solved in their dual form, a small
+/// dense system, by a pivoted Cholesky factorisation that omits redundant constraints. Stops when the
+/// residuals are within tolerance::solve of the diagonal, or when steps no longer reduce them: check the
+/// result with `largest_gap`.
 SolverState solved(const Rig& rig, Corrections& corrections, const std::vector<Constraint>& constraints,
                    SolverState start);
 

@@ -11,8 +11,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// What the symmetries of a class leave of `basis`, in as few columns as it takes: B' with B' B'^T = B B^T,
-/// on which alone the steps of the solver depend.
+/// Projects `basis` to the invariant subspace of the class and merges dependent columns: B' with the fewest
+/// columns such that B' B'^T = B B^T. The steps of the solver depend on this product alone.
 Eigen::MatrixXd invariant_basis(const ControlSpace& space, int of_class, const Eigen::MatrixXd& basis) {
   const Eigen::MatrixXd columns = space.invariant_columns(of_class, basis);
   if (space.stabilisers(of_class).empty()) return columns;

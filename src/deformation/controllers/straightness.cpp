@@ -14,10 +14,10 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Largest distance from the chord of what is called straight, of curves and of profiles, fraction of the
-/// chord.
+/// Largest distance of a straight curve or profile from its chord, fraction of the length of the chord.
 constexpr double straight_enough = 0.02;
-/// Fraction of the length at either end that hardly stretches, and how much it does compared with the rest.
+/// Length of the end zones, which hardly stretch, as a fraction of the length of the curve, and their stretch
+/// relative to that of the middle.
 constexpr double end_zone = 0.06;
 constexpr double end_stretch = 0.05;
 
@@ -29,18 +29,18 @@ Eigen::Vector3d chord_of(const GeneralizedCylinder& cylinder) {
   return centre(cylinder, cylinder.centres.rows() - 1) - centre(cylinder, 0);
 }
 
-/// 0 at the first section, 1 at the last.
+/// Returns the positions of the sections along the chord, 0 at the first section, 1 at the last.
 Eigen::VectorXd shares_of_chord(const GeneralizedCylinder& cylinder) {
   return places_along_chord(cylinder) / chord_of(cylinder).norm();
 }
 
-/// Arc length up to `s` of a curve of length 1 with the end zones shortened.
+/// Returns the arc length up to `s` of a curve of length 1 with the end zones shortened.
 double stretchable_length(double s) {
   const double in_start = std::min(s, end_zone), in_end = std::max(s - (1 - end_zone), 0.0);
   return end_stretch * (in_start + in_end) + (s - in_start - in_end);
 }
 
-/// n x 2 functions 1 and x, of mean square 1 and orthogonal, over the given places.
+/// Computes n x 2 functions 1 and x over the given positions, of mean square 1 and orthogonal.
 Eigen::MatrixXd linear_functions(const Eigen::VectorXd& places) {
   Eigen::MatrixXd functions = Eigen::MatrixXd::Ones(places.size(), 2);
   const Eigen::VectorXd centred = places.array() - places.mean();
@@ -130,7 +130,7 @@ Eigen::MatrixXd StraightCorrections::columns(const GeneralizedCylinder& now) con
   const Eigen::Vector3d chord = chord_of(now), along = chord.normalized();
   const Eigen::VectorXd places = shares_of_chord(now);
   const Eigen::MatrixXd linear = linear_functions(places);
-  // As of cuboids, equal strains have equal prices: a disc is not to grow thin, nor a slender leg thick.
+  // Equal strains have equal costs, as for cuboids: a disc must not grow thin, nor a slender leg thick.
   const double proportion = 2 * now.radii.mean() / chord.norm();
   const double flatness = std::min(1.0, 1 / proportion), slenderness = std::min(1.0, proportion);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(4 * n, 6 + slides + 2);

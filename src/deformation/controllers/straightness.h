@@ -7,46 +7,50 @@
 
 namespace stackabilization::detail {
 
-/// Whether the curve of an open generalized cylinder stays near to its chord.
+/// Returns whether the curve of an open generalized cylinder stays within 2 % of its chord length of its
+/// chord.
 bool is_straight(const GeneralizedCylinder& cylinder);
 
-/// Whether, besides, its radii stay near to those of a cylinder or cone through its first and last section.
+/// Returns whether, in addition, its radii stay within 2 % of the chord length of those of a cylinder or cone
+/// through its first and last section.
 bool has_straight_wall(const GeneralizedCylinder& cylinder);
 
-/// n places of the sections along the chord, model units, 0 at the first section.
+/// Returns the n positions of the sections along the chord, model units, 0 at the first section.
 Eigen::VectorXd places_along_chord(const GeneralizedCylinder& cylinder);
 
-/// n x m: what sections of an open cylinder may slide by, as functions of the section, of size 1 in the
-/// middle. Their products sum to the covariance of a Brownian bridge over the arc length at rest [Wahba]: the
-/// ends stay, and of all slides that take some sections to given places the one of least norm is linear
-/// between them, so that nothing crowds. Near the ends, where rims, floors and roundings are, hardly anything
-/// is stretched.
+/// Computes the n x m basis F of the slides of the n sections of an open cylinder along it. F F^T is the
+/// covariance of a Brownian bridge over the arc length at rest [Wahba], with value 1 in the middle. Hence the
+/// ends stay. Of all slides that move some sections to given positions, the one of least norm is linear
+/// between these sections, so that no sections crowd. Near the ends, where rims, floors and roundings are,
+/// slides hardly stretch the cylinder.
 Eigen::MatrixXd slide_functions(const GeneralizedCylinder& rest);
 
-/// What an edit prescribes for a straight cylinder.
+/// Section of a straight cylinder that an edit prescribes.
 struct StraightHandle {
-  std::optional<int> section;  ///< whose centre corrections do not push aside
-  std::optional<int> radius;   ///< of this section, kept
+  std::optional<int> section;  ///< section whose centre corrections do not push aside
+  std::optional<int> radius;   ///< section whose radius corrections keep
 };
 
-/// Corrections of a straight generalized cylinder that leave it straight: it moves, leans and stretches, its
-/// sections slide along it, and its radii change linearly along it. Sections that slide take the radii of the
-/// places that they come to, so that the profile, as a function of the place between both ends, stays but for
-/// that linear change: a cone whose handle goes up stays a cone. What `start` is off its chord it stays.
+/// Corrections of a straight generalized cylinder that keep it straight. It moves, leans and stretches, its
+/// sections slide along it, and its radii change linearly along it. Sliding sections take the radii of their
+/// new positions. The profile, the radius as a function of the position between both ends, therefore changes
+/// only by the linear function: a cone whose handle moves up stays a cone. Offsets of `start` from its chord
+/// are preserved.
 class StraightCorrections {
  public:
-  /// `slides` as of slide_functions, `strain` as of strain_length; `start` is straight.
+  /// `slides`: see slide_functions; it must outlive this object. `strain`: see strain_length. Precondition:
+  /// `start` is straight.
   StraightCorrections(GeneralizedCylinder start, const Eigen::MatrixXd& slides, double strain,
                       StraightHandle handle);
 
-  /// 4n x k: these corrections around `now`, to first order, as columns of changes of control values (see
+  /// Computes these corrections to first order around `now`: 4n x k columns of changes of control values (see
   /// ControlState).
   Eigen::MatrixXd columns(const GeneralizedCylinder& now) const;
-  /// `now` with what steps along the columns did to higher order taken back.
+  /// Removes the higher-order effects of steps along the columns from `now`.
   GeneralizedCylinder settled(GeneralizedCylinder now) const;
 
  private:
-  /// Piece of the profile that a place between both ends lies on, the lower one at a section.
+  /// Returns the piece of the profile at a position between both ends; at a section, the lower piece.
   Eigen::Index piece_at(double place) const;
   double slope(Eigen::Index piece) const;
   double radius_at(double place) const;
@@ -56,9 +60,10 @@ class StraightCorrections {
   const Eigen::MatrixXd& slides_;
   double strain_;
   StraightHandle handle_;
-  int from_, to_;            ///< sections whose centres stay when the others are put on the line through them
-  Points offsets_;           ///< of the sections of `start_` from that line
-  Eigen::VectorXd profile_;  ///< places of the sections of `start_` between both ends, 0 to 1
+  /// Sections that define the line on which `settled` puts the centres of the others.
+  int from_, to_;
+  Points offsets_;           ///< offsets of the sections of `start_` from that line
+  Eigen::VectorXd profile_;  ///< positions of the sections of `start_` between both ends, 0 to 1
 };
 
 }  // namespace stackabilization::detail

@@ -31,7 +31,8 @@ using PlaneBox = boost::geometry::model::box<PlanePoint>;
 using Entry = std::pair<PlaneBox, Eigen::Index>;
 using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 
-/// The part of a convex polygon on one side of a bound of one coordinate.
+/// Clips a convex polygon to one side of a bound of one coordinate: below it for sign 1, above it for sign
+/// -1.
 void clip(std::vector<Eigen::Vector3d>& polygon, int axis, double bound, double sign) {
   const auto inside = [&](const Eigen::Vector3d& p) { return sign * (bound - p(axis)) >= 0; };
   std::vector<Eigen::Vector3d> kept;
@@ -43,7 +44,7 @@ void clip(std::vector<Eigen::Vector3d>& polygon, int axis, double bound, double 
   polygon = std::move(kept);
 }
 
-/// How high triangles reach in narrow columns along the third axis.
+/// Heights that triangles reach in narrow columns along the third axis.
 class Columns {
  public:
   Columns(const Points& points, const Triangles& triangles, double half_width)
@@ -57,7 +58,8 @@ class Columns {
     tree_ = Tree(entries);
   }
 
-  /// Highest point within half the width of point `row`, not below that point.
+  /// Returns the height of the highest point of the triangles within half the width of point `row`, not below
+  /// that point.
   double top(Eigen::Index row) const {
     const Eigen::Vector3d q = points_.row(row);
     double top = q.z();
@@ -105,7 +107,8 @@ class GapScaling : public DeformationModel {
 
   Shape shape_;
   Eigen::Vector3d up_, centre_;
-  Eigen::VectorXd depth_;  ///< per vertex, below the upper envelope; 0 for vertices that no triangle uses
+  /// Depth of each vertex below the upper envelope, model units; 0 for vertices that no triangle uses.
+  Eigen::VectorXd depth_;
 };
 
 GapScaling::GapScaling(const Shape& shape, const Direction& direction)
@@ -119,7 +122,8 @@ GapScaling::GapScaling(const Shape& shape, const Direction& direction)
   const Points local = (places.points.rowwise() - centre_.transpose()) * axes;
   const Columns columns(local, places.triangles, tolerance::rounding * places.points.cwiseAbs().maxCoeff());
   Eigen::VectorXd depths(local.rows());
-  // On the envelope up to rounding, and to the slope within the column's width, is on it.
+  // A vertex is on the envelope (depth 0) when its depth is within rounding and within the slope across the
+  // width of the column.
   const double none = tolerance::relative * 2 * box.half_extents.norm();
   tbb::parallel_for(Eigen::Index{0}, local.rows(), [&](Eigen::Index p) {
     const double depth = columns.top(p) - local(p, 2);

@@ -60,7 +60,8 @@ class FeatureGraph {
       }
   }
 
-  /// Every feature edge in one chain: open ones between corners first, then loops.
+  /// Returns chains that contain every feature edge once: first open ones between corners and loops at a
+  /// corner, then other loops.
   std::vector<Chain> chains() const {
     std::vector<Chain> chains;
     std::vector<char> seen(neighbours_.size(), 0);
@@ -68,7 +69,8 @@ class FeatureGraph {
       if (neighbours(start).empty() || !is_corner(start)) continue;
       for (const int next : neighbours(start)) {
         Chain chain = walk(start, next);
-        // Each open chain is met from both its ends, a loop at a corner in both directions: take the lesser.
+        // The walk finds each open chain from both ends, and a loop at a corner in both directions: keep the
+        // lexicographically smaller one.
         Chained reverse(chain.places.rbegin(), chain.places.rend());
         if (chain.closed) std::rotate(reverse.begin(), reverse.end() - 1, reverse.end());
         if (reverse < chain.places) continue;
@@ -84,7 +86,8 @@ class FeatureGraph {
     return chains;
   }
 
-  /// Makes a corner of every place where a straight run of `longest` and more meets one shorter by `ratio`.
+  /// Makes a corner of every vertex where a straight run of length `longest` or more meets a run shorter by
+  /// more than the factor `ratio`.
   void cut_straight_runs(const std::vector<Chain>& chains, double longest, double ratio) {
     for (const Chain& chain : chains) {
       const std::vector<Run> runs = straight_runs(chain);
@@ -98,14 +101,15 @@ class FeatureGraph {
   std::size_t valence(int place) const { return neighbours(place).size(); }
 
  private:
-  /// Neighbouring segments of nearly the same direction.
+  /// Consecutive segments of nearly the same direction.
   struct Run {
     int start;
     double length;
     Eigen::Vector3d direction;
   };
 
-  /// The runs of a chain in order; of a loop beginning at a bend, nothing where it has none.
+  /// Returns the runs of a chain in order. The runs of a loop begin at a bend; a loop without a bend has
+  /// none.
   std::vector<Run> straight_runs(const Chain& chain) const {
     const std::size_t n = chain.places.size(), segments = chain.closed ? n : n - 1;
     const auto direction = [&](std::size_t i) -> Eigen::Vector3d {
@@ -136,7 +140,8 @@ class FeatureGraph {
       for (std::size_t j = i + 1; j < sides.size(); ++j) {
         const double turn =
             unit_normal(surface_, sides[i].triangle).dot(unit_normal(surface_, sides[j].triangle));
-        // Collapsed triangles have no normal. Of many triangles nobody knows which continues which.
+        // Collapsed triangles have no normal. At an edge of more than two triangles, no orientation tells
+        // which one continues which.
         if (turn == 0 && (collapsed(sides[i].triangle) || collapsed(sides[j].triangle))) continue;
         const double flat = sides.size() > 2                       ? std::abs(turn)
                             : sides[i].forward == sides[j].forward ? -turn
@@ -183,7 +188,7 @@ double length_of(const detail::WeldedMesh& surface, const Chain& chain) {
   return length;
 }
 
-/// Which chains are long enough to matter.
+/// Returns which chains are long enough to keep.
 std::vector<char> significant(const detail::WeldedMesh& surface, const FeatureGraph& graph,
                               const std::vector<Chain>& chains, double smallest) {
   DisjointSets networks(static_cast<std::size_t>(surface.points.rows()));

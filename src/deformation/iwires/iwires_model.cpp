@@ -60,10 +60,10 @@ Eigen::Matrix3d linear_of(const Operation& operation) {
   return Eigen::Matrix3d::Identity() + (scale->factor - 1) * axis * axis.transpose();
 }
 
-/// Nearest point of the polygon of `wire` to `point`, as a mix of two of its vertices.
+/// A point of the polygon of a wire, as a convex combination of two of its vertices.
 struct OnWire {
   std::int32_t from, to;
-  double share;  ///< of `to`
+  double share;  ///< weight of `to`
 };
 
 OnWire nearest_on(const Shape& rest, const Wire& wire, const Eigen::Vector3d& point) {
@@ -140,7 +140,8 @@ struct IWiresModel::Data {
 
 namespace {
 
-/// The state of a shape between edits: its wires, and an affine map after them.
+/// State of a shape between edits: the positions of its wires, and an affine map of the whole, applied after
+/// them.
 class Editing {
  public:
   Editing(const WireNetwork& network, std::vector<std::int32_t> fixed,
@@ -189,7 +190,7 @@ class Editing {
   const Eigen::Affine3d& whole() const { return whole_; }
 
  private:
-  /// With the wires held that define the extent to be kept, if that can be.
+  /// Propagates an edit. Holds the wires that define the kept extent, if possible.
   detail::PropagatedWires propagated(const WireEdit& edit) const {
     WireHolds holds{fixed_, {}};
     if (constraints_.keep_extent) {

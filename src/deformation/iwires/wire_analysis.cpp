@@ -41,7 +41,7 @@ PointColumns points_of(const Shape& shape, const FeatureCurve& curve) {
   return points;
 }
 
-/// Length of the polygon, and the centre of gravity of its segments.
+/// Computes the length of the polygon and the centroid of its segments.
 void measure(const PointColumns& points, Wire& wire) {
   const Eigen::Index n = points.cols();
   for (Eigen::Index i = 0; i + (wire.curve.closed ? 0 : 1) < n; ++i) {
@@ -66,7 +66,8 @@ bool take_as_straight(const PointColumns& points, double resolution, Wire& wire)
   return true;
 }
 
-/// The circle in the plane of `normal` that fits best (Kasa 1976: least squares of |p|^2 = 2 c.p + d).
+/// Fits a circle in the plane with normal `normal` (Kasa 1976: least squares of |p|^2 = 2 c.p + d). Returns
+/// whether there are enough points and all of them are within `resolution` of the circle.
 bool take_as_circle(const PointColumns& points, const Eigen::Vector3d& normal, double resolution,
                     Wire& wire) {
   const Eigen::Index n = points.cols();
@@ -107,7 +108,7 @@ Wire described(const Shape& shape, const FeatureCurve& curve, const WireAnalysis
   return wire;
 }
 
-/// Finds what holds between wires.
+/// Finds the relations between wires.
 class Relations {
  public:
   Relations(const Shape& shape, const WireAnalysisOptions& options, WireStructure& structure)
@@ -232,7 +233,7 @@ class Relations {
         }
   }
 
-  /// Largest distance of the images of a's points from the polygon of b.
+  /// Returns the largest distance of the images of the points of a from the polygon of b.
   double mismatch(const Eigen::Isometry3d& map, int a, int b) const {
     const PointColumns& onto = points(b);
     const Eigen::Index n = onto.cols();

@@ -8,8 +8,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Points span a direction when they spread along it by more than this fraction of their largest spread:
-/// thinner sets would magnify what does not fit.
+/// Points span a direction when they spread along it by more than this fraction of their largest spread. In
+/// thinner directions a fit would magnify residuals.
 constexpr double thin = 0.05;
 
 }  // namespace

@@ -3,27 +3,29 @@
 #include <Eigen/Core>
 #include <vector>
 
-/// Not installed.
+// Least-squares affine maps of sets of points, such as the vertices of a wire.
 namespace stackabilization::detail {
 
-/// The affine map that fits best what happens to some points. Along directions which the points do not span,
-/// it turns with the others and does not stretch.
+/// Least-squares affine map of points to their new positions. In directions that the points do not span, the
+/// map rotates with the spanned directions and does not stretch.
 class AffineFit {
  public:
-  /// `members`: which of `points` take part; one at least.
+  /// `members`: rows of `points` that take part, at least one. `points`: positions at rest.
   AffineFit(std::vector<int> members, const std::vector<Eigen::Vector3d>& points);
 
+  /// Returns the centroid of the members at rest.
   const Eigen::Vector3d& centre() const { return centre_; }
-  /// Where the centre goes when the points go to `points`.
+  /// Returns the centroid of the members at the positions `points`.
   Eigen::Vector3d moved_centre(const std::vector<Eigen::Vector3d>& points) const;
+  /// Returns the linear part of the map from the positions at rest to `points`.
   Eigen::Matrix3d linear(const std::vector<Eigen::Vector3d>& points) const;
 
  private:
   std::vector<int> members_;
   std::vector<Eigen::Vector3d>
-      arms_;  ///< of the members from their centre, times the inverse of their scatter
+      arms_;  ///< offsets of the members from their centre, times the inverse of their scatter matrix
   Eigen::Vector3d centre_;
-  Eigen::Matrix3d directions_;  ///< columns, the spanned ones first
+  Eigen::Matrix3d directions_;  ///< principal directions as columns, the spanned ones first
   int rank_ = 0;
 };
 

@@ -8,12 +8,12 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Wires that change their size by the same factor.
+/// Returns the groups of wires that change their size by the same factor.
 DisjointSets size_groups(const WireStructure& structure, const WireEdit& edit) {
   DisjointSets groups(structure.wires.size());
   for (const WireSymmetry& pair : structure.symmetric)
     groups.join(static_cast<std::size_t>(pair.wire), static_cast<std::size_t>(pair.image));
-  // A turn may make a trapezoid of a rectangle.
+  // A turn may change a rectangle into a trapezoid.
   if (edit.motion == WireMotion::turn) return groups;
   const std::size_t edited = groups.root(static_cast<std::size_t>(edit.wire));
   const bool released = edit.motion == WireMotion::scale &&
@@ -28,7 +28,7 @@ DisjointSets size_groups(const WireStructure& structure, const WireEdit& edit) {
   return groups;
 }
 
-/// The elementary linear maps that a form leaves open; for segments and circles one.
+/// Returns the elementary linear maps that a form allows; one for segments and circles.
 std::vector<Eigen::Matrix3d> open_maps(WireForm form, const Eigen::Vector3d& axis) {
   const Eigen::Matrix3d along = axis * axis.transpose();
   if (form == WireForm::straight) return {along};

@@ -5,40 +5,43 @@
 
 #include "stackabilization/deformation/wire_analysis.h"
 
-/// Not installed.
+// Degrees of freedom of wires: the unknowns of wire_propagation.h.
 namespace stackabilization::detail {
 
+/// Kinds of edits of a wire.
 enum class WireMotion {
-  move,   ///< keeps size and direction
-  scale,  ///< changes the size
-  turn,   ///< changes the direction
+  move,   ///< translation: keeps size and direction
+  scale,  ///< scaling: changes the size
+  turn,   ///< rotation: changes the direction
 };
 
-/// What an edit does to a wire.
+/// An edit of one wire.
 struct WireEdit {
   int wire = 0;
   WireMotion motion = WireMotion::move;
-  Eigen::Vector3d by = Eigen::Vector3d::Zero();          ///< of move
-  double factor = 1;                                     ///< of scale, about the wire's centre
-  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();  ///< of turn, about the wire's centre
+  Eigen::Vector3d by = Eigen::Vector3d::Zero();          ///< translation of a move, model units
+  double factor = 1;                                     ///< factor of a scaling about the wire's centre
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();  ///< linear map of a turn about the wire's centre
 };
 
-/// A way for a wire to change: p -> p + q matrix (p - centre), the unknown q a length.
+/// A degree of freedom of a wire: p -> p + q matrix (p - centre), where the unknown q is a length.
 struct WireMode {
-  int variable;
+  int variable;  ///< index of q among the unknowns
   Eigen::Matrix3d matrix;
 };
 
-/// The unknowns of a problem of least squares over all wires: rows 3 k to 3 k + 2 the displacement of the
-/// centre of wire k, then the q of modes, which wires of equal size share.
+/// The unknowns of the least-squares problem over all wires. Unknowns 3 k to 3 k + 2 are the displacement of
+/// the centre of wire k. The q of the modes follow; wires of equal size share theirs.
 struct WireModes {
   std::vector<std::vector<WireMode>> of_wire;
   int variables = 0;
 };
 
-/// What the forms of wires leave open: to a segment its length, to a circle its radius, to a planar curve any
-/// linear map of its plane, to a spatial one any. `axes`: directions and normals of the wires, unit. A circle
-/// that `edit` scales shares its radius with its mirror images only, and in turns all wires do so.
+/// Computes the modes that the forms of the wires allow: of a segment its length, of a circle its radius, of
+/// a planar curve any linear map of its plane, of a spatial curve any linear map. `axes`: unit directions and
+/// normals of the wires. Wires of equal size share an unknown, with two exceptions: a circle that `edit`
+/// scales shares its radius with its mirror images only, and in turns every wire shares its size with its
+/// mirror images only.
 WireModes wire_modes(const WireStructure& structure, const std::vector<Eigen::Vector3d>& axes,
                      const WireEdit& edit);
 

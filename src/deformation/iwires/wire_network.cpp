@@ -33,7 +33,8 @@ void number_nodes(const Shape& shape, WireNetwork& network) {
   }
 }
 
-/// Joint classes of axes: those of parallel wires are one. `sign` turns a wire's axis into that of its class.
+/// Computes WireNetwork::axes. Parallel wires share one axis; `sign` turns the axis of a wire into that of
+/// its class.
 void align_axes(WireNetwork& network) {
   const WireStructure& structure = network.structure;
   network.class_of.assign(structure.wires.size(), -1);
@@ -56,7 +57,8 @@ void align_axes(WireNetwork& network) {
       row[k] = static_cast<int>(axes.size());
       axes.push_back(structure.wires[k].axis);
     }
-  // Averages over symmetric pairs until all agree: at once for symmetries that commute, soon for others.
+  // Average over symmetric pairs until all agree: after one sweep for symmetries that commute, after a few
+  // for others.
   constexpr int sweeps = 16;
   for (int sweep = 0; sweep < sweeps; ++sweep)
     for (const WireSymmetry& pair : structure.symmetric) {
@@ -74,7 +76,7 @@ void align_axes(WireNetwork& network) {
     network.axes.push_back(sign[k] * axes[static_cast<std::size_t>(row[k])]);
 }
 
-/// Link of `node` to the nearest point of wires of other networks, within `distance`.
+/// Returns the link of `node` to the nearest point of the wires of other networks within `distance`.
 std::optional<WireLink> nearest_point(const WireNetwork& network, const std::vector<std::size_t>& network_of,
                                       std::size_t node, double distance) {
   const Eigen::Vector3d& from = network.points[node];

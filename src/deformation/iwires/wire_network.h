@@ -6,49 +6,50 @@
 
 #include "stackabilization/deformation/wire_analysis.h"
 
-/// Not installed.
+// Wires as a graph of numbered nodes.
 namespace stackabilization::detail {
 
-/// A vertex of one wire and the point of another that keep their offset where they can.
+/// A vertex of one wire and a point of another wire that keep their offset if possible.
 struct WireLink {
   int wire, node;
   int other;
-  Eigen::Vector3d point;  ///< of `other`, at rest
-  bool slides = false;    ///< the point may slide along `other`, a segment with the point inside
+  Eigen::Vector3d point;  ///< point of `other`, at rest
+  /// Whether the point may slide along `other`: `other` is a segment and the point lies inside it.
+  bool slides = false;
 };
 
-/// The vertices of wires as one numbered set of nodes, and what is derived from a WireStructure once.
+/// The vertices of all wires as one numbered set of nodes, and quantities derived once from a WireStructure.
 struct WireNetwork {
   WireStructure structure;
-  double diagonal = 0;                     ///< of the bounding box of the shape, model units
-  double tolerance = 0;                    ///< of relations, model units
-  double mean_length = 0;                  ///< of the wires, model units
-  std::vector<std::int32_t> vertices;      ///< of the nodes, rows of Shape::vertices, ascending
-  std::vector<Eigen::Vector3d> points;     ///< of the nodes
-  std::vector<std::vector<int>> nodes;     ///< of each wire, along it
-  std::vector<std::vector<int>> wires_at;  ///< of each node, ascending
-  std::vector<int> class_of;  ///< of each wire, row of WireStructure::parallel; -1 for curved ones
-  /// Of each wire: Wire::axis, made exactly parallel and symmetric where the relations say so.
+  double diagonal = 0;                     ///< diagonal of the bounding box of the shape, model units
+  double tolerance = 0;                    ///< tolerance of relations at rest, model units
+  double mean_length = 0;                  ///< mean length of the wires, model units
+  std::vector<std::int32_t> vertices;      ///< rows of Shape::vertices of the nodes, ascending
+  std::vector<Eigen::Vector3d> points;     ///< positions of the nodes at rest
+  std::vector<std::vector<int>> nodes;     ///< nodes of each wire, along it
+  std::vector<std::vector<int>> wires_at;  ///< wires at each node, ascending
+  std::vector<int> class_of;  ///< row of WireStructure::parallel of each wire; -1 for curved wires
+  /// Wire::axis of each wire, made exactly parallel and symmetric as the relations demand.
   std::vector<Eigen::Vector3d> axes;
   std::vector<WireLink> links;
 };
 
-/// `link_distance`, model units: every vertex of a wire is linked to the nearest point of another network of
-/// joined wires when that is no farther away. `tolerance`, model units: how well relations hold at
-/// rest.
+/// Creates the network of the wires of a shape. Links every vertex of a wire to the nearest point of another
+/// network of joined wires that is within `link_distance`, model units. `tolerance`: accuracy to which
+/// relations hold at rest, model units.
 WireNetwork wire_network(const Shape& shape, WireStructure structure, double link_distance, double tolerance);
 
-/// A wire and the linear part of the symmetries that lead to it.
+/// An image of a wire, and the linear part of the symmetries that map the wire to this image.
 struct WireImage {
   int wire;
   Eigen::Matrix3d linear;
 };
 
-/// Wire `wire` itself, then its images under the symmetries and their products, each once.
+/// Returns wire `wire` itself, then its images under the symmetries and their products, each once.
 std::vector<WireImage> images_of(const WireStructure& structure, int wire);
 
-/// Where the maps of the wires take the nodes: a junction to the mean over its wires, but the nodes of wire
-/// `exact` to where that one takes them.
+/// Computes the positions of the nodes under the maps of the wires. A junction takes the mean over its wires.
+/// A node of wire `exact` takes the position under the map of that wire.
 std::vector<Eigen::Vector3d> node_positions(const WireNetwork& network,
                                             const std::vector<Eigen::Affine3d>& maps, int exact);
 

@@ -18,15 +18,15 @@ using Row = ConstrainedLeastSquares::Row;
 using Rows3 = std::array<Row, 3>;
 using Turns = std::vector<Eigen::Matrix3d>;
 
-/// What is wished for, against staying where one is.
-constexpr double weight_of_shape = 64;  ///< curved wires keep size and shape
-constexpr double weight_of_links = 64;  ///< linked wires keep their offset
-/// Symmetries are held more exactly than what is measured with noise.
+/// Weights of objective terms, relative to that of keeping the positions of wires.
+constexpr double weight_of_shape = 64;  ///< size and shape of curved wires
+constexpr double weight_of_links = 64;  ///< offset of linked wires
+/// Scale of the equations of symmetries: they hold more exactly than relations that were measured with noise.
 constexpr double factor_of_symmetry = 32;
 constexpr int most_rounds = 16;
-constexpr double thin_angle = 0.1;  ///< sine below which two directions to slide along count as one
+constexpr double thin_angle = 0.1;  ///< sine below which two directions of sliding count as one
 
-/// What an equation is about, for the message when it does not hold.
+/// Subject of an equation, for the message when the equation is violated.
 struct Demand {
   enum class Kind { junction, plane, symmetry, held, height } kind;
   int a = 0, b = 0;
@@ -49,7 +49,7 @@ std::string clause(const Demand& demand) {
   return {};
 }
 
-/// One edit as a problem of least squares.
+/// The least-squares problem of one edit.
 class PropagationProblem {
  public:
   PropagationProblem(const WireNetwork& network, const WireMaps& now, const WireEdit& edit, Turns turns)
@@ -75,7 +75,8 @@ class PropagationProblem {
     if (holds.height) hold_height(*holds.height);
   }
 
-  /// Freezes the size of wires that would be flattened until there are none.
+  /// Solves the problem. Fixes the size of wires that would be flattened and solves again, until there are
+  /// none.
   PropagatedWires solved() {
     for (int round = 0; round < most_rounds; ++round) {
       const auto solution = problem_->solved(tolerance::rounding * network_.diagonal);
@@ -141,12 +142,12 @@ class PropagationProblem {
   const Eigen::Vector3d& axis(int k) const { return axes_[static_cast<std::size_t>(k)]; }
   const std::vector<int>& nodes(int k) const { return network_.nodes[static_cast<std::size_t>(k)]; }
 
-  /// A node where wire k has it now.
+  /// Returns the current position of a node on wire k.
   Eigen::Vector3d point(int k, int node) const {
     return now_[static_cast<std::size_t>(k)] * network_.points[static_cast<std::size_t>(node)];
   }
 
-  /// Directions and normals after the turns.
+  /// Computes directions and normals after the turns.
   void make_axes() {
     for (int k = 0; k < count(); ++k) {
       const Eigen::Matrix3d linear = turn(k) * now_[static_cast<std::size_t>(k)].linear();
@@ -157,22 +158,22 @@ class PropagationProblem {
     }
   }
 
-  /// The edited wire and its images go where the edit puts them.
+  /// Fixes the edited wire and its images at the positions that the edit prescribes.
   void fix_edited() {
     for (const WireImage& image : images_of(structure_, edit_.wire)) {
       const Eigen::Vector3d by = image.linear * edit_.by;
       for (int c = 0; c < 3; ++c) problem_->fix(3 * image.wire + c, by(c));
       for (const WireMode& mode : modes(image.wire)) {
         const double growth = edit_.motion == WireMotion::scale ? edit_.factor - 1 : 0;
-        // Each mode is a multiple of a projection or of an elementary matrix e_i e_j^T, whose trace tells i =
-        // j.
+        // Each mode is a multiple of a projection or of an elementary matrix e_i e_j^T. The trace of the
+        // latter is zero unless i = j.
         const double trace = mode.matrix.trace(), size = mode.matrix.norm();
         problem_->fix(mode.variable, std::abs(trace) > size / 2 ? growth * trace / (size * size) : 0);
       }
     }
   }
 
-  /// How far wire k moves the point x, less what its turn does.
+  /// Returns the rows of the displacement of the point x by wire k, without the displacement by its turn.
   Rows3 displacement(int k, const Eigen::Vector3d& x) const {
     const Eigen::Vector3d arm = turn(k) * (x - centre(k));
     Rows3 rows;
@@ -185,7 +186,7 @@ class PropagationProblem {
     return rows;
   }
 
-  /// What the turn of wire k does to the point x.
+  /// Returns the displacement of the point x by the turn of wire k.
   Eigen::Vector3d turned(int k, const Eigen::Vector3d& x) const {
     return (turn(k) - Eigen::Matrix3d::Identity()) * (x - centre(k));
   }
@@ -237,7 +238,8 @@ class PropagationProblem {
     }
   }
 
-  /// What is left of the projection `across` when sliding along the segment k is free.
+  /// Returns the projection `across` without the direction of the segment k, so that sliding along it is
+  /// free.
   Eigen::Matrix3d without_sliding(int k, const Eigen::Matrix3d& across) const {
     const Eigen::Vector3d left = across * axis(k);
     if (left.norm() <= thin_angle) return across;
@@ -277,7 +279,8 @@ class PropagationProblem {
     }
   }
 
-  /// The normal of a plane that its wires share under linear maps; nothing where they do not.
+  /// Returns the common normal of a plane after the linear maps of its wires; nothing when their normals
+  /// differ.
   template <typename LinearMap>
   static std::optional<Eigen::Vector3d> common_normal(const WirePlane& plane, const LinearMap& map) {
     std::optional<Eigen::Vector3d> normal;
@@ -327,7 +330,7 @@ class PropagationProblem {
     }
   }
 
-  /// The linear change of b is that of a, seen through q.
+  /// Demands that the linear change of b is that of a, conjugated by q.
   void demand_same_change(int a, int b, const Eigen::Matrix3d& q, const Demand& about) {
     const double size = wire(b).length / 2;
     for (int i = 0; i < 3; ++i)

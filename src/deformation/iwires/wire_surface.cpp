@@ -15,7 +15,7 @@ namespace {
 
 constexpr int all_wires = -1;
 
-/// Half the cotangents at the corners of a triangle; of one without area, which has none, 1.
+/// Returns half the cotangents at the corners of a triangle; 1 for a triangle without area.
 std::array<double, 3> cotangent_weights(const std::array<Eigen::Vector3d, 3>& p) {
   std::array<double, 3> weights = {1, 1, 1};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -58,7 +58,7 @@ void WireSurface::find_patches() {
         return surface_
             .of_vertex[static_cast<std::size_t>(network_.vertices[static_cast<std::size_t>(node)])];
       };
-      // The segment that closes an open wire of more than two nodes is no edge, or does no harm as one.
+      // The closing segment of an open wire of more than two nodes is not an edge, or does no harm as one.
       wire_at[std::minmax(place(nodes[i]), place(nodes[(i + 1) % nodes.size()]))] = static_cast<int>(k);
     }
     wires_of_[all_wires].push_back(static_cast<int>(k));
@@ -196,7 +196,7 @@ void WireSurface::factorize() {
   factor_.compute(matrix);
 }
 
-/// Row by free place: its linear map less the identity, column by column.
+/// Computes the linear maps of the free vertices, less the identity: one row per vertex, column by column.
 Eigen::MatrixXd WireSurface::guidance(const std::vector<Eigen::Matrix3d>& rims) const {
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(columns_, 9);
   for (const Element& e : elements_)
@@ -209,7 +209,8 @@ Eigen::MatrixXd WireSurface::guidance(const std::vector<Eigen::Matrix3d>& rims) 
   return factor_.solve(right);
 }
 
-/// Displacements of the places on wires, of pinned ones and of followers; zero for the others.
+/// Computes the displacements of the vertices on wires, of pinned vertices and of followers; zero for the
+/// others.
 std::vector<Eigen::Vector3d> WireSurface::known_displacements(
     const std::vector<Eigen::Vector3d>& nodes, const std::vector<Eigen::Matrix3d>& maps) const {
   std::vector<Eigen::Vector3d> moved(place_count(), Eigen::Vector3d::Zero());
@@ -225,14 +226,15 @@ std::vector<Eigen::Vector3d> WireSurface::known_displacements(
   return moved;
 }
 
-/// What one triangle contributes to the right side; `maps` are those at its corners, less the identity.
+/// Adds the contribution of one triangle to the right side. `maps`: the linear maps at its corners, less the
+/// identity.
 void WireSurface::add_guided(const Element& element, const std::array<Eigen::Matrix3d, 3>& maps,
                              const std::vector<Eigen::Vector3d>& moved, Eigen::MatrixXd& right) const {
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
     const Eigen::Vector3d edge =
         (maps[i] + maps[j]) * (point(element.place[i]) - point(element.place[j])) / 2;
-    // Free places have not moved yet, so `moved` adds what is known only.
+    // `moved` is still zero for free vertices, so it adds known displacements only.
     if (element.column[i] >= 0)
       right.row(element.column[i]) +=
           element.weight[k] * (moved[static_cast<std::size_t>(element.place[j])] + edge).transpose();

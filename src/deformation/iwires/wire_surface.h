@@ -12,39 +12,38 @@
 #include "deformation/iwires/wire_network.h"
 #include "mesh/welded_mesh.h"
 
-/// Not installed.
+// Deformation of the surface between wires.
 namespace stackabilization::detail {
 
-/// Carries a surface along with its wires.
+/// Deforms a surface with its wires.
 ///
 /// The wires cut the surface into patches. At the rim of a patch each wire has a linear map, fitted to the
 /// wire and its neighbours around that patch (wire_fit.h). Harmonic interpolation gives a linear map at every
-/// other vertex, and the vertices follow whose edges come nearest to the edges at rest under these maps
-/// (harmonic guidance, Zayer et al. 2005), with cotangent weights: two linear solves with one factorization,
-/// made once.
+/// other vertex. The positions of these vertices are those whose edges come nearest to the edges at rest
+/// under these maps (harmonic guidance, Zayer et al. 2005), with cotangent weights. Both steps are linear
+/// solves with one factorization, computed once.
 ///
-/// Exact up to rounding: nothing when the wires stay; affine maps of all wires where those around a patch
-/// span it; flat patches stay flat when their rim does; between two circles of a cylinder whose vertices lie
-/// in rings, the straight lines of the cone.
+/// Exact up to rounding: the rest pose when the wires stay; affine maps of all wires, when the wires around
+/// each patch span it; flatness of a flat patch, when its rim stays flat; the straight lines of a cone
+/// between two circles of a cylinder whose vertices lie in rings.
 ///
-/// Connected pieces without a wire follow the map fitted to their
-/// nearest wire and its neighbours.
+/// Connected components without a wire follow the map fitted to their nearest wire and its neighbours.
 class WireSurface {
  public:
-  /// `pinned`: vertices that always stay where they are, with all of equal coordinates.
+  /// `pinned`: rows of Shape::vertices that do not move; vertices of equal coordinates do not move either.
   WireSurface(const Shape& rest, const WireNetwork& network, const std::vector<std::int32_t>& pinned);
 
-  /// The vertices (rows as in Shape::vertices) when the nodes of the network are at `nodes`. Pinned ones
-  /// stay.
+  /// Computes the deformed vertices for the positions `nodes` of the nodes of the network: n x 3, rows as in
+  /// Shape::vertices. Pinned vertices do not move.
   Points deformed(const std::vector<Eigen::Vector3d>& nodes) const;
 
  private:
-  /// A triangle with a free corner. Corners are free (column >= 0) or known (rim >= 0).
+  /// A triangle with a free corner. A corner is free (column >= 0) or known (rim >= 0).
   struct Element {
     std::array<int, 3> place, column, rim;
-    std::array<double, 3> weight;  ///< of the edge opposite each corner
+    std::array<double, 3> weight;  ///< weight of the edge opposite each corner
   };
-  /// A known corner as one patch sees it: its linear map is the mean of these fits.
+  /// A known corner of one patch: its linear map is the mean of these fits.
   using Rim = std::vector<int>;
   struct Follower {
     int place, fit;
@@ -69,11 +68,11 @@ class WireSurface {
   const WireNetwork& network_;
   WeldedMesh surface_;
   Points rest_;
-  std::vector<int> node_of_;                  ///< of each place, -1 off the wires
-  std::vector<char> pinned_;                  ///< of each place
-  std::vector<int> column_;                   ///< of each place, -1 where known
-  std::vector<int> patch_of_;                 ///< of each triangle
-  std::map<int, std::vector<int>> wires_of_;  ///< of each patch, ascending; key -1: all wires
+  std::vector<int> node_of_;                  ///< node of each place, -1 off the wires
+  std::vector<char> pinned_;                  ///< whether each place is pinned
+  std::vector<int> column_;                   ///< unknown of each place, -1 for a known position
+  std::vector<int> patch_of_;                 ///< patch of each triangle
+  std::map<int, std::vector<int>> wires_of_;  ///< wires around each patch, ascending; key -1: all wires
   std::map<std::vector<int>, int> fit_numbers_;
   std::map<std::pair<int, int>, int> rim_numbers_;
   std::vector<AffineFit> fits_;

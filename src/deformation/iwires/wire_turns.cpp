@@ -34,7 +34,8 @@ class TurnSpreader {
     return true;
   }
 
-  /// The turn of the source nearest to wire k; none where two of different turns are equally near.
+  /// Returns the turn of the source nearest to wire k; nothing when sources of different turns are equally
+  /// near.
   std::optional<Eigen::Matrix3d> nearest(int k, const std::vector<int>& sources) {
     std::vector<int> best;
     double least = 0;

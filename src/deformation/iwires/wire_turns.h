@@ -5,12 +5,12 @@
 
 #include "deformation/iwires/wire_network.h"
 
-/// Not installed.
+// Propagation of the turn of one wire to others.
 namespace stackabilization::detail {
 
-/// The linear map that each wire follows when wire `edited` is turned by `linear`: mirror images by its
-/// image; wires parallel to these, and curves in one plane with them, likewise, the nearest one deciding
-/// where images disagree; others not at all.
+/// Computes the linear map of each wire when wire `edited` turns by `linear`. Its mirror images turn by the
+/// image of `linear`. Wires parallel to these, and curves in one plane with them, turn likewise; where images
+/// disagree, the nearest one decides. All other wires do not turn: their map is the identity.
 std::vector<Eigen::Matrix3d> spread_turn(const WireNetwork& network, int edited,
                                          const Eigen::Matrix3d& linear);
 

@@ -18,8 +18,8 @@ ControlJacobian cage_jacobian(const CageBinding& binding) {
   return jacobian;
 }
 
-/// The sections whose centres bear on a point between two neighbours: those and, for their tangents, one more
-/// on either side.
+/// Returns the sections whose centres influence a point between two neighbouring ones: these two and, because
+/// of their tangents, one more on either side.
 std::vector<int> sections_around(const CurveBinding& binding, const GeneralizedCylinder& cylinder) {
   const int n = static_cast<int>(cylinder.centres.rows());
   const auto step = [&](int i, int by) {

@@ -9,15 +9,16 @@
 
 namespace stackabilization::detail {
 
-/// A point that rides on a cuboid.
+/// A point bound to a cuboid.
 struct CageBinding {
-  Eigen::Vector3d point;                ///< at rest
-  Eigen::Matrix<double, 8, 1> weights;  ///< mean value coordinates
+  Eigen::Vector3d point;                ///< position at rest
+  Eigen::Matrix<double, 8, 1> weights;  ///< mean value coordinates, in the order of Cuboid::corners
 };
 
 using PointBinding = std::variant<CageBinding, CurveBinding>;
 
-/// How a carried point moves with the controls of its primitive: the blocks that are not zero.
+/// Derivatives of the position of a bound point with respect to the controls of its primitive; only the
+/// blocks that are not zero.
 struct ControlJacobian {
   struct ByPoint {
     int point;  ///< control point
@@ -29,24 +30,28 @@ struct ControlJacobian {
   };
   std::vector<ByPoint> points;
   std::vector<ByRadius> radii;
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();  ///< by the rotation vector of a generalized cylinder
+  /// Derivative by the rotation vector of a generalized cylinder.
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();
 };
 
-/// A primitive at rest that carries points. Immutable, safe to share between threads.
+/// A primitive at rest to which points are bound. Immutable, safe to share between threads.
 class Carrier {
  public:
   explicit Carrier(const Primitive& rest);
 
   const Primitive& rest() const { return rest_; }
+  /// Returns the binding of a point at rest, model units.
   PointBinding bind(const Eigen::Vector3d& point) const;
-  /// n bindings of n points: the same as one by one.
+  /// Returns the bindings of n points. They equal those of the points one by one.
   std::vector<PointBinding> bind(const Points& points) const;
-  /// Precondition, here and below: `now` is of the kind and size of `rest()`.
+  /// Returns the position of a bound point for the primitive `now`. Precondition, here and below: `now` has
+  /// the kind and size of `rest()`.
   Eigen::Vector3d carried(const PointBinding& binding, const Primitive& now) const;
-  /// Displacements of bound points since rest, n x 3: `carried` minus the point, and exactly zero where the
-  /// cuboid did not move.
+  /// Returns the n x 3 displacements of bound points since rest: `carried` minus the point at rest. They are
+  /// exactly zero where the cuboid did not move.
   Points displacements(const std::vector<PointBinding>& bindings, const Primitive& now) const;
-  /// Exact for cuboids; forward differences over the four sections that matter for generalized cylinders.
+  /// Computes the derivatives of `carried` at `now`. Exact for cuboids; for generalized cylinders, forward
+  /// differences over the four sections that influence the point.
   ControlJacobian jacobian(const PointBinding& binding, const Primitive& now) const;
 
  private:

@@ -14,7 +14,7 @@ namespace stackabilization {
 namespace {
 
 constexpr int readable_digits = 5;
-/// Powers of ten of what people read without exponent.
+/// Powers of ten of the numbers that are written without an exponent.
 constexpr int least_plain = -4, most_plain = 6;
 
 constexpr std::array<const char*, 6> face_names = {"-x", "+x", "-y", "+y", "-z", "+z"};
@@ -23,7 +23,8 @@ int power_of_ten(double value) {
   return static_cast<int>(std::floor(std::log10(value)));
 }
 
-/// To as many places as give five digits of `size`: what is rounding beside it reads 0.
+/// Writes `value` to the decimal places that give `size` five digits. Values below half of the last place
+/// read 0.
 std::string text(double value, double size) {
   if (!std::isfinite(size)) return significant_text(value, readable_digits);
   if (size == 0) return "0";
@@ -86,7 +87,7 @@ void check_number(bool holds, const std::string& expected, double found) {
 void check(const Rotate& rotate) {
   check_axis(rotate.axis, "a rotation");
   const double degrees = rotate.radians * 180 / std::numbers::pi;
-  // Degrees that were typed come here by way of radians.
+  // The angle was typed in degrees and converted to radians: allow for rounding.
   check_number(std::abs(degrees) <= edit_limits::max_degrees * (1 + tolerance::relative),
                "a rotation needs an angle from -" + text(edit_limits::max_degrees) + " to " +
                    text(edit_limits::max_degrees) + " degrees",

@@ -18,10 +18,10 @@ Eigen::Vector3d cube_corner(int k) {
   return {(k & 1) != 0 ? 1.0 : -1.0, (k & 2) != 0 ? 1.0 : -1.0, (k & 4) != 0 ? 1.0 : -1.0};
 }
 
-/// Farthest from the centre, in half sides of the cube, that the formula is used.
+/// Largest distance from the centre, in half sides of the cube, at which the formula is used.
 constexpr double reach = 2;
 
-/// The point moved within reach, and into the planes of those faces that it all but lies in.
+/// Moves the point within reach, and into the planes of the faces that it nearly lies in.
 Eigen::Vector3d tamed(const Eigen::Vector3d& point) {
   Eigen::Vector3d tame = point.cwiseMax(-reach).cwiseMin(reach);
   for (double& x : tame)
@@ -29,8 +29,8 @@ Eigen::Vector3d tamed(const Eigen::Vector3d& point) {
   return tame;
 }
 
-/// Weights of a point on the face across axis `a`: the mean over both diagonals of the barycentric
-/// coordinates of the triangle that the point is in.
+/// Computes the weights of a point on the face across axis `a`: the mean over both diagonals of the
+/// barycentric coordinates in the triangle that contains the point.
 Weights face_coordinates(const Eigen::Vector3d& point, int a) {
   const int b = (a + 1) % 3, c = (a + 2) % 3;
   const double u = point(b), v = point(c);
@@ -44,8 +44,9 @@ Weights face_coordinates(const Eigen::Vector3d& point, int a) {
   return weights;
 }
 
-/// Adds up the weights of the triangles that a point sees. Edges enter both of their triangles with the same
-/// numbers, so that the sum of the mean vectors vanishes and linear precision survives rounding.
+/// Adds up the weights of the triangles of the cage, as seen from a point. Edges enter both of their
+/// triangles with the same numbers, so that the sum of the mean vectors vanishes and linear precision
+/// survives rounding.
 class SeenCube {
  public:
   explicit SeenCube(const Eigen::Vector3d& point) : point_(point) {
@@ -62,7 +63,7 @@ class SeenCube {
     Weights sum = Weights::Zero();
     for (int face = 0; face < 6; ++face) {
       const double height = 1 - (face % 2 == 1 ? 1 : -1) * point_(face / 2);
-      if (height == 0) continue;  // seen edge on, from outside of it
+      if (height == 0) continue;  // the point lies in the plane of the face, outside of it
       const std::array<int, 4> r = cuboid_face(face);
       for (const auto& [i, j, k] : std::array<std::array<int, 3>, 4>{
                {{r[0], r[1], r[2]}, {r[0], r[2], r[3]}, {r[1], r[2], r[3]}, {r[1], r[3], r[0]}}})
@@ -75,8 +76,8 @@ class SeenCube {
   const Eigen::Vector3d& ray(int k) const { return ray_[static_cast<std::size_t>(k)]; }
   static std::size_t slot(int i, int j) { return static_cast<std::size_t>(8 * i + j); }
 
-  /// Crosses the rays to two corners, from the exact difference of the corners, and weighs the unit normal
-  /// with the angle between them.
+  /// Computes the cross product of the rays to two corners from the exact difference of the corners, and the
+  /// unit normal times the angle between the rays.
   void prepare(int i, int j) {
     const Eigen::Vector3d cross = ray(i).cross(cube_corner(j) - cube_corner(i));
     const double length = cross.norm();

@@ -16,19 +16,19 @@ namespace {
 
 using Triangle = std::array<std::int32_t, 3>;
 
-/// One pass over all triangles.
+/// Bisection of edges, with midpoints shared by the triangles of an edge.
 class Refinement {
  public:
   Refinement(const Shape& shape, double longest) : longest_(longest) {
     for (Eigen::Index v = 0; v < shape.vertex_count(); ++v) vertices_.push_back(shape.vertices.row(v));
   }
 
-  /// What `triangle` is cut into: itself where all edges are short enough.
+  /// Appends the children of `triangle` after one bisection of its long edges: itself when it has none.
   void append_pieces(const Triangle& triangle, std::vector<Triangle>& out) {
-    Triangle middle;  // of the edge after each corner; -1 where it stays
+    Triangle middle;  // midpoint of the edge after each corner; -1 where the edge is not cut
     for (std::size_t k = 0; k < 3; ++k) middle[k] = middle_of(triangle[k], triangle[(k + 1) % 3]);
     const auto cuts = std::count_if(middle.begin(), middle.end(), [](std::int32_t m) { return m >= 0; });
-    // Turned so that the edge after the first corner is cut and, of two, the one before it is not.
+    // Start at the corner whose following edge is cut and, of two cut edges, whose preceding edge is not.
     std::size_t k = 0;
     while (cuts > 0 && cuts < 3 && !(middle[k] >= 0 && middle[(k + 2) % 3] < 0)) ++k;
     const std::int32_t a = triangle[k], b = triangle[(k + 1) % 3], c = triangle[(k + 2) % 3];

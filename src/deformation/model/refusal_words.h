@@ -6,10 +6,10 @@
 
 namespace stackabilization::detail {
 
-/// Three digits, for the reasons of refusals.
+/// Formats a number to three significant digits, for the reasons of refusals.
 std::string fraction(double value);
 
-/// "the point_joint of 'leg' and 'seat'".
+/// Names a relation and its parts, as in "the point_joint of 'leg' and 'seat'".
 std::string name_of(const Relation& relation, const Structure& structure);
 
 }  // namespace stackabilization::detail

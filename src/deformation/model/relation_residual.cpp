@@ -10,7 +10,7 @@ namespace stackabilization {
 
 namespace {
 
-/// As std::max, but a distance that is not a number stays one.
+/// Like std::max, but keeps a distance that is not a number.
 void widen(double& gap, double distance) {
   if (!std::isnan(gap) && !(distance <= gap)) gap = distance;
 }

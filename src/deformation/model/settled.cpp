@@ -7,7 +7,7 @@ namespace stackabilization {
 
 namespace {
 
-/// Where the parts of a joint carry its points, on average.
+/// Returns the joint points, each at the mean of the positions to which its parts carry it.
 Points settled_points(const Relation& joint, const Structure& rest,
                       const std::vector<Primitive>& primitives) {
   Points points = Points::Zero(joint.points.rows(), 3);

@@ -12,7 +12,7 @@ Eigen::Vector3d row(const Points& points, Eigen::Index i) {
   return points.row(i).transpose();
 }
 
-/// Tangent of section i alone, as section_tangents gives it.
+/// Returns the tangent of section i alone, equal to that of section_tangents.
 Eigen::Vector3d tangent(const GeneralizedCylinder& cylinder, int i) {
   const int n = static_cast<int>(cylinder.centres.rows());
   const int before = cylinder.closed ? (i + n - 1) % n : std::max(i - 1, 0);
@@ -22,8 +22,8 @@ Eigen::Vector3d tangent(const GeneralizedCylinder& cylinder, int i) {
   return (row(cylinder.centres, after) - row(cylinder.centres, i)).normalized();
 }
 
-/// Root in [0, 1] of a parabola through (0, first) and (1, last), first >= 0 >= last, with the coefficient
-/// `square` of the square.
+/// Returns the root in [0, 1] of the parabola through (0, first) and (1, last) with leading coefficient
+/// `square`. Precondition: first >= 0 >= last.
 double falling_root(double first, double last, double square) {
   const double linear = last - first - square;
   const double root = std::sqrt(std::max(linear * linear - 4 * square * first, 0.0));
@@ -105,7 +105,7 @@ CurveBinding CurveAtRest::bind(const Eigen::Vector3d& point) const {
     if (height(0) <= 0) consider(0, 0);
     if (height(n - 1) >= 0) consider(n - 2, 1);
   }
-  // Around a closed curve every plane may miss the point by rounding: then its nearest section has it.
+  // On a closed curve, rounding may make every plane miss the point: bind it to the nearest section then.
   if (nearest == std::numeric_limits<double>::infinity())
     for (int i = 0; i < pieces(); ++i) consider(i, 0);
   return bound(piece, fraction, point);

@@ -9,56 +9,59 @@ namespace stackabilization {
 
 /// A rigid motion p -> R p + t as a unit dual quaternion.
 struct DualQuaternion {
-  Eigen::Quaterniond real = Eigen::Quaterniond::Identity();  ///< R
-  Eigen::Quaterniond dual = Eigen::Quaterniond(0, 0, 0, 0);  ///< t R / 2
+  Eigen::Quaterniond real = Eigen::Quaterniond::Identity();  ///< rotation R
+  Eigen::Quaterniond dual = Eigen::Quaterniond(0, 0, 0, 0);  ///< t R / 2, with t as a pure quaternion
 };
 
-/// Precondition: `rotation` is of unit length.
+/// Converts a rotation and a translation. Precondition: `rotation` has unit length.
 DualQuaternion dual_quaternion(const Eigen::Quaterniond& rotation, const Eigen::Vector3d& translation);
 
-/// Dual quaternion linear blending (Kavan et al. 2007) of two rigid motions, 0 <= `fraction` <= 1 towards
-/// `b`, along the shorter way, applied to `point`. Exact up to rounding where both are the same.
+/// Applies the dual quaternion linear blend (Kavan et al. 2007) of two rigid motions to `point`, along the
+/// shorter way. `fraction`, in [0, 1], is the weight of `b`. Exact up to rounding where both motions are the
+/// same.
 Eigen::Vector3d blended(const DualQuaternion& a, const DualQuaternion& b, double fraction,
                         const Eigen::Vector3d& point);
 
-/// The rotation by the smallest angle that takes the unit vector `from` to the unit vector `to`; the
-/// identity, bit for bit, when they are the same. Opposite vectors: some half turn.
+/// Returns the rotation by the smallest angle that maps the unit vector `from` to the unit vector `to`. For
+/// equal vectors it is the identity bit for bit, for opposite vectors some half turn.
 Eigen::Quaterniond smallest_rotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-/// Where a point rides on the curve of a generalized cylinder: between two neighbouring sections, in the
-/// plane across the curve, or beyond an open end.
+/// Position of a bound point relative to the curve of a generalized cylinder: between two neighbouring
+/// sections, in the cross-section plane, or beyond an open end.
 struct CurveBinding {
-  int from = 0, to = 1;    ///< sections
-  double fraction = 0;     ///< 0 at `from`, 1 at `to`
-  Eigen::Vector3d axis;    ///< the point of the curve, relative to the origin of the rest
-  Eigen::Vector3d radial;  ///< from there to the point, across the curve; scales with the radius
-  Eigen::Vector3d axial;   ///< beyond an open end: along the curve, scales with its last piece; 0 elsewhere
+  int from = 0, to = 1;    ///< rows of the two sections
+  double fraction = 0;     ///< position between the sections: 0 at `from`, 1 at `to`
+  Eigen::Vector3d axis;    ///< point of the curve, relative to CurveAtRest::origin
+  Eigen::Vector3d radial;  ///< offset from there to the point, across the curve; scales with the radius
+  /// Offset beyond an open end, along the curve; scales with the last piece of the curve; 0 elsewhere.
+  Eigen::Vector3d axial;
 };
 
-/// A generalized cylinder at rest with what every binding needs.
+/// A generalized cylinder at rest, with the data that every binding needs.
 class CurveAtRest {
  public:
   /// Precondition: `validate(cylinder, name)` passes.
   explicit CurveAtRest(GeneralizedCylinder cylinder);
 
-  const GeneralizedCylinder& cylinder() const { return cylinder_; }  ///< the one given
-  /// Mean of the centres: motions are expressed relative to it, which keeps digits far from the origin.
+  const GeneralizedCylinder& cylinder() const { return cylinder_; }  ///< the given cylinder
+  /// Returns the mean of the centres. Motions are relative to it, which keeps digits far from the origin of
+  /// the file.
   const Eigen::Vector3d& origin() const { return origin_; }
 
-  /// The nearest place of the curve whose cross-section plane holds the point; the planes turn linearly with
-  /// the tangents from section to section, so that neighbouring points get neighbouring places, and each
-  /// section carries its own plane.
+  /// Binds a point to the nearest position on the curve whose cross-section plane contains the point. The
+  /// planes rotate linearly with the tangents from section to section, so neighbouring points have
+  /// neighbouring positions, and each section carries its own plane.
   CurveBinding bind(const Eigen::Vector3d& point) const;
 
-  /// Rigid motion of section `i` (relative to the origin on both sides) when the cylinder becomes `now`: its
-  /// centre and tangent follow those of `now`, with as little turning about the tangent as the rotation of
-  /// the whole allows.
+  /// Computes the rigid motion of section `i` (relative to the origin on both sides) when the cylinder
+  /// becomes `now`. Its centre and tangent follow those of `now`. The rotation about the tangent is as small
+  /// as the rotation of the whole allows.
   DualQuaternion motion(const GeneralizedCylinder& now, int i) const;
 
-  /// Where the bound point goes, given the motions of its two sections.
+  /// Returns the position of a bound point, given the motions of its two sections.
   Eigen::Vector3d carried(const CurveBinding& binding, const GeneralizedCylinder& now,
                           const DualQuaternion& from, const DualQuaternion& to) const;
-  /// The same with the motions that `motion` gives.
+  /// Returns the position of a bound point, with the motions that `motion` gives.
   Eigen::Vector3d carried(const CurveBinding& binding, const GeneralizedCylinder& now) const {
     return carried(binding, now, motion(now, binding.from), motion(now, binding.to));
   }

@@ -17,7 +17,7 @@ namespace stackabilization {
 
 namespace {
 
-/// Corners of the triangle that carry the point.
+/// Returns the corners of the triangle whose barycentric weight at the point exceeds tolerance::relative.
 std::vector<std::int32_t> carriers(const Shape& shape, const SurfacePoint& at) {
   const Eigen::Vector3d weights = detail::barycentric_weights(shape, at.triangle, at.point);
   std::vector<std::int32_t> rows;
@@ -42,7 +42,7 @@ Box box_of(const Triangles& triangles, const Points& vertices) {
   return box;
 }
 
-/// What the checks of one call share.
+/// Data that the checks of one call share.
 class Check {
  public:
   Check(const Shape& rest, const DeformationConstraints& constraints, const std::vector<std::int32_t>& fixed)
@@ -59,7 +59,8 @@ class Check {
     return {};
   }
 
-  /// Fixed vertices are put where they are at rest, if they are there up to rounding.
+  /// Resets fixed vertices to their positions at rest. Refuses when one of them has moved by more than
+  /// rounding.
   std::optional<Refusal> fixed_stay(Points& vertices) const {
     for (const std::int32_t v : fixed_) {
       const double moved = (vertices.row(v) - rest_.vertices.row(v)).norm();
@@ -79,7 +80,7 @@ class Check {
     return {what + " by " + significant_text(amount, 4) + " of the diagonal", {}, amount};
   }
 
-  /// Heights over the lowest corner of the box at rest, along the unit vector `up`.
+  /// Returns the heights of vertices above the lowest corner of the box at rest, along the unit vector `up`.
   Eigen::VectorXd heights(const Points& vertices, const Eigen::Vector3d& up) const {
     return (vertices.rowwise() - box_.low.transpose()) * up;
   }
@@ -97,9 +98,9 @@ class Check {
   double diagonal_ = 0, rounding_ = 0;
 };
 
-/// A displacement along an axis, of the height along it: `low` at the lower end, `high` at the upper end,
-/// linear in between; where there are fixed vertices, zero between their heights and linear from there to the
-/// ends.
+/// Displacement along an axis as a function of the height along it: `low` at the lower end, `high` at the
+/// upper end, linear in between. With fixed vertices, it is zero between their heights and linear from there
+/// to the ends.
 struct Stretch {
   Range from;
   std::optional<Range> still;
@@ -124,8 +125,8 @@ std::optional<Refusal> Check::keep_extent(Points& vertices) const {
   if (now.length() == 0)
     return refusal("the edit would flatten the shape along the direction whose extent is kept", -change);
 
-  // Of the intervals of the old length from "lowest point stays" to "highest point stays", the one nearest to
-  // where the shape was at rest.
+  // Candidates are the intervals of the old length from "lowest point stays" to "highest point stays". Choose
+  // the one nearest to the interval at rest.
   const auto [least, most] = std::minmax({now.low, now.low + change});
   Range then{std::clamp(before.low, least, most), 0};
   std::optional<Range> still;

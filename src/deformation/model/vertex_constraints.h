@@ -8,33 +8,39 @@
 
 namespace stackabilization {
 
-// What models that move plain vertices need of DeformationConstraints. Vertices that no triangle uses count
-// nowhere.
+// DeformationConstraints for models that move vertices without primitives. Vertices that no triangle uses are
+// ignored.
 
-/// Ascending rows of the vertices of `rest` that `constraints` fix: those of the fixed parts; for each fixed
-/// point the corners of the triangle that its nearest point of the surface lies on (the two of the edge, the
-/// one corner, where it lies there); and every vertex with the coordinates of one of these. Throws UsageError
-/// as `validate(constraints, rest)` does, InputError when points are to be fixed on a shape without area.
+/// Returns the ascending rows of the vertices of `rest` that `constraints` fix:
+///
+/// * the vertices of the fixed parts;
+/// * for each fixed point, the corners of the triangle that contains the nearest point of the surface (the
+///   two ends of an edge, or the one corner, when the nearest point lies there);
+/// * every vertex with the coordinates of one of these.
+///
+/// Throws UsageError under the conditions of `validate(constraints, rest)`, and InputError when points are
+/// fixed on a shape without area.
 std::vector<std::int32_t> fixed_vertices(const Shape& rest, const DeformationConstraints& constraints);
 
-/// Vertices that satisfy constraints, or why there are none.
+/// Vertices that satisfy constraints, or the reason for the refusal.
 struct ConstrainedVertices {
-  std::optional<Refusal> refusal;  ///< when set, `vertices` are those at rest
-  Points vertices;                 ///< n x 3, model units
+  /// Set when the constraints cannot hold; `vertices` are then those at rest.
+  std::optional<Refusal> refusal;
+  Points vertices;  ///< n x 3 vertices, model units
 };
 
-/// `vertices` of a deformed shape (n x 3, rows as in `rest`), changed as little as it takes to satisfy
-/// `constraints`:
+/// Changes the vertices of a deformed shape as little as necessary to satisfy `constraints`. `vertices`: n x
+/// 3, rows as in `rest`, model units. `fixed`: the result of fixed_vertices.
 ///
-/// * the extent along r is restored by a displacement along r that is linear in the height over r, and keeps
-/// the lowest or
-///   the highest point where either is where it was; with fixed vertices it is zero between the heights of
-///   these, and linear above and below them. Vertices of equal coordinates stay equal;
-/// * fixed vertices (`fixed`, as fixed_vertices gives them) and the box are checked.
+/// * The extent along r is restored by a displacement along r that is a linear function of the height along
+///   r. The lowest or the highest point stays when it is at its height at rest. With fixed vertices the
+///   displacement is zero between their heights, and linear above and below them. Vertices of equal
+///   coordinates stay equal.
+/// * Fixed vertices and the box are checked.
 ///
-/// Refuses when a fixed vertex has moved, the box has changed too much, a vertex is not finite, or fixed
-/// vertices leave the extent no room. Extent and box hold up to rounding, fixed vertices exactly. Throws
-/// UsageError as `validate(constraints, rest)` does.
+/// Refuses when a fixed vertex has moved, the box has changed too much, a vertex is not finite, the shape is
+/// flat along r, or the fixed vertices leave no room for the extent. Extent and box hold up to rounding,
+/// fixed vertices exactly. Throws UsageError under the conditions of `validate(constraints, rest)`.
 ConstrainedVertices constrained(const Shape& rest, Points vertices, const DeformationConstraints& constraints,
                                 const std::vector<std::int32_t>& fixed);
 
