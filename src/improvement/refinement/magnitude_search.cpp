@@ -147,18 +147,18 @@ class MagnitudeSearch {
       for (std::size_t k = 0; k < x.size(); ++k) x[k] += share * (to[k] - from[k]);
       return x;
     };
-    double excess = 1;
+    double surplus = 1;
     const auto margin = [&](double share) {
       const MagnitudeSample& sample = problem_.at(point(share));
       if (!sample.made) return -1.0;
       const double above = sample.stackability - problem_.aim();
-      if (sample.feasible) excess = std::min(excess, std::abs(above));
+      if (sample.feasible) surplus = std::min(surplus, std::abs(above));
       return sample.feasible ? above : std::min(above, -tolerance::target);
     };
     const auto close_enough = [&](double a, double b) {
       const double width = std::abs(b - a);
-      const bool jump = width <= tolerance::magnitude && excess > steep * width;
-      return excess <= tolerance::target / 2 || jump || problem_.stopped();
+      const bool jump = width <= tolerance::magnitude && surplus > steep * width;
+      return surplus <= tolerance::target / 2 || jump || problem_.stopped();
     };
     const double at_start = margin(0), at_end = margin(1);
     if (!(at_start > 0) || !(at_end < 0)) return;
