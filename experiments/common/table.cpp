@@ -5,7 +5,7 @@
 
 #include "common/json.h"
 #include "stackabilization/core/errors.h"
-#include "stackabilization/core/number_text.h"
+#include "stackabilization/core/text.h"
 
 namespace stackabilization::experiments {
 namespace {
@@ -35,7 +35,9 @@ struct CsvCell {
   std::string operator()(std::int64_t number) const { return std::to_string(number); }
   std::string operator()(double number) const {
     if (!std::isfinite(number)) return {};
-    return shortest_text(number);
+    std::string text;
+    append_number(text, number);  // all bits, the sign of zero too
+    return text;
   }
   std::string operator()(const std::string& text) const { return quoted(text); }
 };
