@@ -79,7 +79,7 @@ class TriangleTree {
 
   /// How many triangles a ray meets: odd from inside of a closed surface where it passes between its edges.
   std::size_t count_hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
-    return tree_.number_of_intersected_primitives(ray(origin, direction));
+    return count_met(ray(origin, direction));
   }
 
   /// How many triangles a segment, ray or box of CGAL meets.

@@ -23,24 +23,27 @@ WeldedMesh weld(const Shape& shape, Weld which) {
   WeldedMesh mesh;
   mesh.of_vertex.assign(at(static_cast<std::int32_t>(shape.vertex_count())), -1);
   mesh.triangles.resize(shape.triangle_count(), 3);
-  // Per part the numbers that its points have in the whole mesh.
+  // Per part, or once for all, the numbers that its points have in the whole mesh.
   struct Welder {
     PointIndex points;
     std::vector<std::int32_t> numbers;
   };
-  std::vector<Welder> welders(which == Weld::within_parts ? at(static_cast<std::int32_t>(shape.part_count()))
-                                                          : 1);
+  const bool within_parts = which == Weld::within_parts;
+  std::vector<Welder> welders(within_parts ? at(static_cast<std::int32_t>(shape.part_count())) : 1);
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-    Welder& welder =
-        welders[which == Weld::within_parts ? at(shape.triangle_part[static_cast<std::size_t>(t)]) : 0];
+    Welder& welder = welders[within_parts ? at(shape.triangle_part[static_cast<std::size_t>(t)]) : 0];
     for (int k = 0; k < 3; ++k) {
       const std::int32_t vertex = shape.triangles(t, k);
-      const std::size_t known = at(welder.points.insert(shape.vertices.row(vertex).transpose()));
-      if (known == welder.numbers.size()) {
-        welder.numbers.push_back(static_cast<std::int32_t>(mesh.first_vertex.size()));
-        mesh.first_vertex.push_back(vertex);
+      std::int32_t& row = mesh.of_vertex[at(vertex)];
+      if (row < 0 || within_parts) {  // another part may have used the vertex
+        const std::size_t known = at(welder.points.insert(shape.vertices.row(vertex).transpose()));
+        if (known == welder.numbers.size()) {
+          welder.numbers.push_back(static_cast<std::int32_t>(mesh.first_vertex.size()));
+          mesh.first_vertex.push_back(vertex);
+        }
+        row = welder.numbers[known];
       }
-      mesh.triangles(t, k) = mesh.of_vertex[at(vertex)] = welder.numbers[known];
+      mesh.triangles(t, k) = row;
     }
   }
   mesh.points = shape.vertices(mesh.first_vertex, Eigen::all);

@@ -12,8 +12,9 @@ namespace stackabilization::detail {
 struct WeldedMesh {
   Points points;        ///< k x 3, model units, in order of first use by the triangles
   Triangles triangles;  ///< m x 3 rows of `points`; row t is triangle t of the shape
-  std::vector<std::int32_t>
-      of_vertex;  ///< per vertex of the shape its row of `points`; -1 where no triangle uses it
+  /// Per vertex of the shape its row of `points`, of the last part that uses it where points of parts differ;
+  /// -1 where no triangle uses it.
+  std::vector<std::int32_t> of_vertex;
   std::vector<std::int32_t> first_vertex;  ///< per row of `points` the first vertex that triangles use there
 
   /// Whether two corners of the triangle are one vertex.
@@ -22,7 +23,7 @@ struct WeldedMesh {
   double area(Eigen::Index triangle) const;
 };
 
-/// Which vertices of equal coordinates become one.
+/// Which vertices of equal coordinates become one: all, or those of triangles of the same part.
 enum class Weld { all, within_parts };
 
 /// Welds the vertices of a shape; expected O(m). Precondition: `validate(shape)`.

@@ -10,7 +10,7 @@ namespace {
 
 /// Penalty of a demand against wishes of weight 1: large enough for a few steps, small enough for the digits.
 constexpr double penalty = 1 << 20;
-constexpr int max_active_set_changes = 60;
+constexpr int max_multiplier_steps = 60;
 
 }  // namespace
 
@@ -59,7 +59,7 @@ ConstrainedLeastSquares::Solution ConstrainedLeastSquares::solved(double resolut
   Eigen::VectorXd x = Eigen::VectorXd::Zero(columns);
   Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(demands.right.size());
   Eigen::VectorXd missed = -demands.right;
-  for (int step = 0; step < max_active_set_changes && columns > 0; ++step) {
+  for (int step = 0; step < max_multiplier_steps && columns > 0; ++step) {
     const Eigen::VectorXd gradient =
         a * (wishes.matrix * x - wishes.right) + c * (multipliers + penalty * missed);
     const Eigen::VectorXd change = factor.solve(gradient);

@@ -69,6 +69,25 @@ TEST_CASE("parts in one place stay apart when vertices are welded within parts o
       CHECK(apart.points.row(apart.triangles(t, k)) == two.corner(t, k).transpose());
 }
 
+TEST_CASE("a vertex that two parts use is a point of each when vertices are welded within parts only") {
+  // Two triangles over one edge, without a repeated vertex.
+  Points points(4, 3);
+  points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0;
+  Triangles triangles(2, 3);
+  triangles << 0, 1, 2, 1, 3, 2;
+  Shape two = make_shape(points, triangles);
+  two.parts = {{"near"}, {"far"}};
+  two.triangle_part = {0, 1};
+  CHECK(weld(two).points.rows() == 4);
+  const WeldedMesh apart = weld(two, Weld::within_parts);
+  REQUIRE(apart.points.rows() == 6);
+  CHECK(apart.triangles.row(0) == Eigen::RowVector3i(0, 1, 2));
+  CHECK(apart.triangles.row(1) == Eigen::RowVector3i(3, 4, 5));
+  for (Eigen::Index t = 0; t < 2; ++t)
+    for (int k = 0; k < 3; ++k)
+      CHECK(apart.points.row(apart.triangles(t, k)) == two.corner(t, k).transpose());
+}
+
 TEST_CASE("components hang together by points, numbered by their first triangles") {
   const Shape apart = concatenate(solids::box({1, 1, 1}), solids::box({2, 2, 2}, {3, 3, 3}));
   const std::vector<std::int32_t> two = connected_components(weld(apart));

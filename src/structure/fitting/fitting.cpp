@@ -20,9 +20,9 @@ namespace {
 
 constexpr int fewest_sections = 4;
 
-/// Error, as a fraction of the diagonal, up to which a part counts as held_error by a box or along a straight
-/// axis, so that its skeleton has nothing to add.
-constexpr double held_error = 0.01;
+/// Error, as a fraction of the diagonal, up to which a part counts as held by a box or along a straight axis,
+/// so that its skeleton has nothing to add.
+constexpr double max_held_error = 0.01;
 
 /// Error, as a fraction of the one so far, that the next cylinder has to stay below: hardly less will do for
 /// another straight axis than the longest, a less simple curve has to be clearly better.
@@ -48,7 +48,7 @@ class CylinderFit {
       : part_(part), box_(box), sections_(sections) {}
 
   std::optional<FittedCylinder> best(double box_error) {
-    const double enough = held_error * 2 * box_.half_extents.norm();
+    const double enough = max_held_error * 2 * box_.half_extents.norm();
     if (const std::optional<detail::AxisLine> axis = detail::revolution_axis(part_)) {
       offer(detail::straight_cylinder(part_.shape, *axis, sections_, detail::SectionRadius::outermost),
             other_axis, "along its axis of revolution");
