@@ -58,8 +58,9 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
   add_count(command, {"--seed", "Accepted for scripts: nothing here depends on chance"}, common.seed);
 }
 
-void add_semantics_option(CLI::App& command, Semantics& semantics) {
-  const Choices<Semantics> choices = {{"solid", Semantics::solid}, {"closed", Semantics::closed}};
+void add_semantics_option(CLI::App& command, ContactSemantics& semantics) {
+  const Choices<ContactSemantics> choices = {{"solid", ContactSemantics::solid},
+                                             {"closed", ContactSemantics::closed}};
   add_choice(command, "--semantics", semantics, choices,
              "solid: walls may slide along each other; closed: touching counts, for sheets (default: solid)");
 }

@@ -31,7 +31,7 @@ CLI::App* add_command(CLI::App& program, const std::string& name, const std::str
 void add_common_options(CLI::App& command, CommonOptions& common);
 
 /// --semantics, --boxes.
-void add_semantics_option(CLI::App& command, Semantics& semantics);
+void add_semantics_option(CLI::App& command, ContactSemantics& semantics);
 void add_boxes_option(CLI::App& command, BoxModel& boxes);
 
 /// Limits the threads of all parallel loops while it lives.

@@ -6,7 +6,7 @@
 #include "apps/output.h"
 #include "apps/rendering.h"
 #include "apps/values.h"
-#include "stackabilization/deformation/settled.h"
+#include "stackabilization/deformation/rebase.h"
 #include "stackabilization/structure/project_file.h"
 
 namespace stackabilization::apps {
@@ -46,7 +46,7 @@ int list_handles(const CLI::App& command, const DeformCommandOptions& options, c
 
 void write_result(const DeformCommandOptions& options, const DeformRun& run, const Model& model) {
   if (options.output) write_mesh_output(options.common, *options.output, run.result.shape);
-  if (options.save) write_output(*options.save, project_text(settled(run.rest, run.result)));
+  if (options.save) write_output(*options.save, project_text(rebase(run.rest, run.result)));
   if (options.picture)
     write_deformation_picture({*options.picture, title_of(model)},
                               {run.rest, run.result, run.edits, run.curves, deformation_notes(run)});

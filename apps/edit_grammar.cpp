@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<const char*, 6> face_names = {"-x", "+x", "-y", "+y", "-z", "+z"};
 constexpr const char* linear_word = "linearly";
-constexpr std::uint64_t largest_index = std::numeric_limits<int>::max();
+constexpr std::uint64_t max_index = std::numeric_limits<int>::max();
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
 /// What follows the part in a handle, "face=", and the kind it makes.
@@ -30,9 +30,9 @@ struct Suffix {
 };
 constexpr std::array<Suffix, 3> suffixes = {{{"face=", HandleKind::face, 5},
                                              {"corner=", HandleKind::corner, 7},
-                                             {"section=", HandleKind::section, largest_index}}};
+                                             {"section=", HandleKind::section, max_index}}};
 constexpr std::array<Suffix, 2> partless = {
-    {{"point=", HandleKind::point, largest_index}, {"wire=", HandleKind::wire, largest_index}}};
+    {{"point=", HandleKind::point, max_index}, {"wire=", HandleKind::wire, max_index}}};
 
 /// Words between blanks; one that begins with a quote goes on to the closing one.
 std::vector<std::string> words_of(const std::string& text) {

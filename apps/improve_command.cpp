@@ -10,7 +10,7 @@
 #include "apps/improve_report.h"
 #include "apps/interrupt.h"
 #include "apps/rendering.h"
-#include "stackabilization/deformation/settled.h"
+#include "stackabilization/deformation/rebase.h"
 #include "stackabilization/structure/project_file.h"
 
 namespace stackabilization::apps {
@@ -20,14 +20,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// More copies than that are a comb.
-constexpr int most_compared_copies = 20;
+constexpr int max_compared_copies = 20;
 
 /// The first of some lines, and how many more there are.
 std::vector<std::string> shortened(std::vector<std::string> lines) {
-  constexpr std::size_t most_lines = 4;
-  if (lines.size() <= most_lines) return lines;
-  const std::size_t more = lines.size() - (most_lines - 1);
-  lines.resize(most_lines - 1);
+  constexpr std::size_t max_lines = 4;
+  if (lines.size() <= max_lines) return lines;
+  const std::size_t more = lines.size() - (max_lines - 1);
+  lines.resize(max_lines - 1);
   lines.push_back("and " + std::to_string(more) + " more edits");
   return lines;
 }
@@ -67,7 +67,7 @@ class Writer {
     DeformationResult result;
     result.shape = design.shape;
     result.primitives = design.primitives;
-    write(solution.name + std::string(project_suffix), project_text(settled(report_.task.rest(), result)));
+    write(solution.name + std::string(project_suffix), project_text(rebase(report_.task.rest(), result)));
     solution.written = check_written(folder_ / mesh, report_.task, solution);
   }
 
@@ -100,7 +100,7 @@ class Writer {
   void draw(const SolutionReport& solution) {
     const StructuredShape& rest = report_.task.rest();
     const Shape& after = solution.candidate.design.shape;
-    const Semantics semantics = report_.options.measure.semantics;
+    const ContactSemantics semantics = report_.options.measure.semantics;
     const std::vector<ContactRegion> contacts_before =
         contacts_along(rest.shape, solution.direction(), semantics);
     const std::vector<ContactRegion> contacts = contacts_along(after, solution.direction(), semantics);
@@ -112,7 +112,7 @@ class Writer {
     write_improvement_picture({(folder_ / pair).string(), title}, designs);
     designs.notes = {saving_text(solution.stack, rest.shape.unit)};
     write_stacks_picture({(folder_ / stack).string(), title}, designs,
-                         std::min(solution.stack.copies, most_compared_copies));
+                         std::min(solution.stack.copies, max_compared_copies));
     written_.insert(written_.end(), {pair, stack});
   }
 

@@ -173,7 +173,7 @@ Json target_json(const ImproveReport& report) {
           {"boxes", name_of(measure.boxes)},
           {"deformation", name_of(task.space->kind())},
           {"preset", report.options.preset == ImprovementPreset::paper ? "paper" : "refined"},
-          {"least", change_measure_name(report.options.least)},
+          {"least", change_measure_name(report.options.objective)},
           {"words", wish_lines(report)}};
 }
 

@@ -15,7 +15,7 @@ constexpr double max_seconds = 1e9;  ///< some thirty years
 constexpr double max_effort = 1e6;   ///< about a year
 /// A direction that nobody gave may turn by so much at each edit.
 constexpr double free_cone_degrees = 10;
-constexpr int most_solutions = 20;
+constexpr int max_solutions = 20;
 
 void check_wish(const ImproveCommandOptions& options) {
   if (options.target && (options.copies || options.within))
@@ -39,7 +39,7 @@ void check_gap_scaling(const ImproveCommandOptions& options) {
 
 void add_wish_options(CLI::App& command, ImproveCommandOptions& options) {
   add_number(command, target_option("Stackability to be reached, below 1"), options.target);
-  add_count(command, {"--copies", "Instead: so many copies are to fit ...", 2, most_copies}, options.copies);
+  add_count(command, {"--copies", "Instead: so many copies are to fit ...", 2, max_copies}, options.copies);
   add_length(command, {"--within", "... into this length along the direction, as 1.5 or 150cm", true},
              options.within);
   add_directions(
@@ -51,7 +51,7 @@ void add_wish_options(CLI::App& command, ImproveCommandOptions& options) {
 }
 
 void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
-  add_count(command, {"--solutions", "Different solutions to look for (default: 3)", 1, most_solutions},
+  add_count(command, {"--solutions", "Different solutions to look for (default: 3)", 1, max_solutions},
             options.solutions);
   const Choices<DeformationKind> kinds = {{"controllers", DeformationKind::controllers},
                                           {"surface", DeformationKind::surface},
@@ -67,7 +67,7 @@ void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
                                            {"displacement", ChangeMeasure::displacement},
                                            {"both", ChangeMeasure::both}};
   add_choice(
-      command, "--least", options.least, measures,
+      command, "--least", options.objective, measures,
       "What refinement makes small: the distortion D of the primitives, the displacement of the vertices "
       "(root mean square), or the sum of both (default: both)");
   add_number(
@@ -123,7 +123,7 @@ ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) 
   BestFirstOptions& search = improvement.search;
   search.alpha = options.alpha.value_or(search.alpha);
   improvement.refinement.alpha = search.alpha;
-  improvement.refinement.least = options.least;
+  improvement.refinement.objective = options.objective;
   if (options.preset == ImprovementPreset::paper) search.edits.family = EditFamily::paper;
   search.edits.bends = options.bends;
   search.edits.contacts.semantics = options.measure.semantics;

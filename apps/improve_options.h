@@ -23,7 +23,7 @@ struct ImproveCommandOptions {
   int solutions = 3;
   DeformationKind kind = DeformationKind::controllers;
   ImprovementPreset preset = ImprovementPreset::refined;
-  ChangeMeasure least = ChangeMeasure::both;
+  ChangeMeasure objective = ChangeMeasure::both;
   std::vector<Eigen::Vector3d> directions;
   bool bends = false;
   std::optional<double> cone_degrees, alpha, effort, seconds;

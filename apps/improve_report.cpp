@@ -29,15 +29,15 @@ void add_requirement_lines(std::vector<std::string>& lines, const ImproveReport&
     lines.push_back("only this may change: " + part_list(asked.editable_parts, rest));
   if (asked.box_tolerance)
     lines.push_back("sides of the box change by at most " + percent(*asked.box_tolerance));
-  if (asked.least_thickness)
-    lines.push_back("walls no thinner than " + quantity(*asked.least_thickness, unit) + ", or than they are");
+  if (asked.min_thickness)
+    lines.push_back("walls no thinner than " + quantity(*asked.min_thickness, unit) + ", or than they are");
   if (asked.clearance > 0) lines.push_back("air between copies: " + quantity(asked.clearance, unit));
   if (asked.play > 0) lines.push_back("sideways play: " + quantity(asked.play, unit));
-  if (asked.least_draft_degrees)
-    lines.push_back("draft at the contacts: at least " + rounded(*asked.least_draft_degrees) + " degrees");
+  if (asked.min_draft_degrees)
+    lines.push_back("draft at the contacts: at least " + rounded(*asked.min_draft_degrees) + " degrees");
   if (asked.standing_copies)
     lines.push_back("a stack of " + std::to_string(*asked.standing_copies) +
-                    " stands, on ground tilted by up to " + rounded(asked.least_tilt_degrees) + " degrees");
+                    " stands, on ground tilted by up to " + rounded(asked.min_tipping_degrees) + " degrees");
 }
 
 void add_solution_rows(ColumnTable& table, const ImproveTask& task, const SolutionReport& solution) {

@@ -98,7 +98,8 @@ std::vector<Eigen::Vector3d> starting_directions(const ImproveCommandOptions& op
 
 /// The target that a wish for copies comes to, with the height and the boxes at rest.
 double target_of(const ImproveCommandOptions& options, const Requirements& asked, const Stackability& rest) {
-  const StackPlan plan = plan_within(rest, {asked.room->copies, asked.room->length, asked.clearance});
+  const StackPlan plan =
+      plan_stack(rest, {asked.length_limit->copies, asked.length_limit->length, asked.clearance});
   if (!plan.possible || *plan.stackability >= 1)
     throw UsageError(
         "--within " + options.within->text + " has no room for " + std::to_string(*options.copies) +
@@ -148,7 +149,7 @@ ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& o
     task.directions = starting_directions(options, rest, watch, task);
     const Direction first(task.directions.front());
     if (task.room) {
-      requirements.room = StackRoom{*options.copies, *task.room};
+      requirements.length_limit = StackLengthLimit{*options.copies, *task.room};
       requirements.target =
           target_of(options, requirements, stackability(rest.shape, first, options.measure));
     }

@@ -16,7 +16,7 @@ namespace {
 using Verdict = WrittenCheck::Verdict;
 
 /// Collision tests take seconds beyond this many triangles.
-constexpr Eigen::Index most_collision_triangles = 50000;
+constexpr Eigen::Index max_collision_triangles = 50000;
 
 StackHeights stack_heights(const ImproveCommandOptions& options, const ImproveTask& task,
                            const SolutionReport& report) {
@@ -56,10 +56,11 @@ class CollisionChecks {
   CollisionChecks(const Shape& shape, const Direction& direction)
       : shape_(shape), direction_(direction), tree_(shape), tester_(shape, shape) {}
 
-  std::vector<WrittenCheck> run(Semantics semantics) const {
-    if (semantics == Semantics::solid && !tester_.interior_defect()) return around(Semantics::solid);
-    std::vector<WrittenCheck> checks = around(Semantics::closed);
-    if (semantics == Semantics::solid)
+  std::vector<WrittenCheck> run(ContactSemantics semantics) const {
+    if (semantics == ContactSemantics::solid && !tester_.interior_defect())
+      return around(ContactSemantics::solid);
+    std::vector<WrittenCheck> checks = around(ContactSemantics::closed);
+    if (semantics == ContactSemantics::solid)
       for (WrittenCheck& check : checks)
         check.note += tester_.solids() ? ", of surfaces: it is partly inside out or without volume"
                                        : ", of surfaces: an open mesh has no interior";
@@ -67,7 +68,7 @@ class CollisionChecks {
   }
 
  private:
-  std::vector<WrittenCheck> around(Semantics semantics) const {
+  std::vector<WrittenCheck> around(ContactSemantics semantics) const {
     SeparationOptions options;
     options.semantics = semantics;
     const Separation answer = separation(tree_, tree_, direction_, options);
@@ -76,7 +77,7 @@ class CollisionChecks {
     std::vector<WrittenCheck> checks = {expected(semantics, answer, 1)};
     // Where a triangle without area attains f_max, or a sheet ends, only freedom above it can be demanded.
     const bool with_area = has_area(answer.witness.lower_triangle) && has_area(answer.witness.upper_triangle);
-    if (semantics == Semantics::solid)
+    if (semantics == ContactSemantics::solid)
       checks.push_back(expected(semantics, answer, -1));
     else if (with_area)
       checks.push_back(expected(semantics, answer, 0));
@@ -84,12 +85,12 @@ class CollisionChecks {
   }
 
   /// A test so many margins above f_max: free above it, colliding at it (closed) and below it.
-  WrittenCheck expected(Semantics semantics, const Separation& answer, int margins) const {
+  WrittenCheck expected(ContactSemantics semantics, const Separation& answer, int margins) const {
     const double size = range_along(shape_, direction_.unit()).length();
     const Rational lift =
         answer.value + Rational(margins * tolerance::collision_margin * size / direction_.length());
-    const bool collides = semantics == Semantics::solid ? tester_.interiors_overlap(direction_, lift)
-                                                        : tester_.closed_contact(direction_, lift);
+    const bool collides = semantics == ContactSemantics::solid ? tester_.interiors_overlap(direction_, lift)
+                                                               : tester_.closed_contact(direction_, lift);
     const bool right = collides == (margins <= 0);
     const char* const place = margins > 0 ? "above" : margins < 0 ? "below" : "at";
     return {right ? Verdict::agrees : Verdict::disagrees, "collision " + std::string(place) + " f_max",
@@ -149,9 +150,9 @@ std::vector<WrittenCheck> check_written(const std::filesystem::path& mesh, const
       same_lift(minimal_stacking_translation(shape, direction, options), report.assessment.separation)};
   if (asked.keep_height)
     checks.push_back(compared("height over that at rest", measured.extent / report.before.extent, 1));
-  if (shape.triangle_count() > most_collision_triangles) {
+  if (shape.triangle_count() > max_collision_triangles) {
     checks.push_back({Verdict::skipped, "collision",
-                      "more than " + std::to_string(most_collision_triangles) + " triangles"});
+                      "more than " + std::to_string(max_collision_triangles) + " triangles"});
     return checks;
   }
   for (WrittenCheck& check : CollisionChecks(shape, direction).run(asked.measure.semantics))
@@ -160,7 +161,7 @@ std::vector<WrittenCheck> check_written(const std::filesystem::path& mesh, const
 }
 
 std::vector<ContactRegion> contacts_along(const Shape& shape, const Direction& direction,
-                                          Semantics semantics) {
+                                          ContactSemantics semantics) {
   const SeparationTree tree(shape);
   SeparationOptions options;
   options.semantics = semantics;

@@ -58,6 +58,6 @@ std::vector<WrittenCheck> check_written(const std::filesystem::path& mesh, const
 
 /// Where copies of a shape touch along a direction.
 std::vector<ContactRegion> contacts_along(const Shape& shape, const Direction& direction,
-                                          Semantics semantics);
+                                          ContactSemantics semantics);
 
 }  // namespace stackabilization::apps

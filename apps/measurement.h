@@ -43,7 +43,7 @@ Measurement measure_by_sampling(const StackabilitySolver& solver, const Directio
 
 /// Spellings on the command line.
 std::string name_of(Method method);
-std::string name_of(Semantics semantics);
+std::string name_of(ContactSemantics semantics);
 std::string name_of(BoxModel boxes);
 
 void add_measurement(Json& document, const Measurement& measurement, const Model& model);

@@ -127,8 +127,8 @@ std::string name_of(Method method) {
   return "";
 }
 
-std::string name_of(Semantics semantics) {
-  return semantics == Semantics::solid ? "solid" : "closed";
+std::string name_of(ContactSemantics semantics) {
+  return semantics == ContactSemantics::solid ? "solid" : "closed";
 }
 
 std::string name_of(BoxModel boxes) {

@@ -34,16 +34,16 @@ void add_requirement_options(CLI::App& command, RequirementArguments& arguments)
              {"--draft-degrees", "Least angle between the direction and surfaces that copies touch with", 0,
               max_degrees},
              arguments.draft_degrees);
-  add_count(command, {"--standing", "A stack of so many copies stands by itself", 1, most_copies},
+  add_count(command, {"--standing", "A stack of so many copies stands by itself", 1, max_copies},
             arguments.standing);
   add_number(
       command,
       {"--tilt-degrees", "... also on ground that is tilted by this angle (default: 0)", 0, max_degrees},
-      arguments.tilt_degrees);
+      arguments.tipping_degrees);
 }
 
 void check(const RequirementArguments& arguments) {
-  if (arguments.tilt_degrees && !arguments.standing)
+  if (arguments.tipping_degrees && !arguments.standing)
     throw UsageError(
         "--tilt-degrees is the tilt at which the stack of --standing still stands: give that too");
   for (const std::string& name : arguments.kept)
@@ -58,12 +58,12 @@ Requirements requirements_of(const RequirementArguments& arguments, const Shape&
   requirements.kept_parts = parts_named("--keep", arguments.kept, rest);
   requirements.editable_parts = parts_named("--only", arguments.editable, rest);
   requirements.box_tolerance = arguments.box_tolerance;
-  if (arguments.thickness) requirements.least_thickness = length_in(arguments.thickness, unit);
+  if (arguments.thickness) requirements.min_thickness = length_in(arguments.thickness, unit);
   requirements.clearance = length_in(arguments.clearance, unit);
   requirements.play = length_in(arguments.lateral_clearance, unit);
-  requirements.least_draft_degrees = arguments.draft_degrees;
+  requirements.min_draft_degrees = arguments.draft_degrees;
   requirements.standing_copies = arguments.standing;
-  requirements.least_tilt_degrees = arguments.tilt_degrees.value_or(0);
+  requirements.min_tipping_degrees = arguments.tipping_degrees.value_or(0);
   return requirements;
 }
 

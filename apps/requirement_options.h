@@ -15,7 +15,7 @@ struct RequirementArguments {
   bool change_height = false;
   std::optional<double> box_tolerance;  ///< fraction
   std::optional<Length> thickness, clearance, lateral_clearance;
-  std::optional<double> draft_degrees, tilt_degrees;
+  std::optional<double> draft_degrees, tipping_degrees;
   std::optional<int> standing;
 };
 

@@ -65,7 +65,7 @@ Command make_stack_command(CLI::App& program) {
       add_command(program, "stack", "Stack copies of a shape, or put it into another one",
                   "stackabilize stack chair.obj -n 10 --unit m --within 2m -o stack.3mf");
   add_common_options(*command, options->common);
-  add_count(*command, {"-n", "Number of copies (default: 2)", 1, most_copies}, options->copies);
+  add_count(*command, {"-n", "Number of copies (default: 2)", 1, max_copies}, options->copies);
   command->add_option("--into", options->into, "Lower MODEL into this container instead of stacking copies")
       ->type_name("CONTAINER");
   add_direction(*command, "--direction", options->direction, "Stacking direction (default: 0 0 1)");

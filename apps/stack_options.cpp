@@ -7,7 +7,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-constexpr int most_drawn_copies = 200;
+constexpr int max_drawn_copies = 200;
 
 }  // namespace
 
@@ -18,7 +18,7 @@ void check(const StackCommandOptions& options) {
                                   {"--picture", options.picture, OutputKind::picture}},
                                  container});
   if (options.picture) require_rendering();
-  refuse_option(options.picture && options.copy_count() > most_drawn_copies, "--picture",
+  refuse_option(options.picture && options.copy_count() > max_drawn_copies, "--picture",
                 "draws at most 200 copies");
   refuse_option(options.best_twist && options.period, "--twist-degrees auto",
                 "cannot be combined with --period");

@@ -53,8 +53,8 @@ StackRun run_stack(const StackCommandOptions& options, const Model& model) {
   if (options.within) {
     Wish wish;
     wish.length = options.within->in(model.shape.unit);
-    wish.plan = plan_within(measured_with_play(options, run, model),
-                            {run.options.copies, wish.length, run.options.clearance});
+    wish.plan = plan_stack(measured_with_play(options, run, model),
+                           {run.options.copies, wish.length, run.options.clearance});
     run.wish = wish;
   }
   if (options.best_twist)

@@ -7,7 +7,7 @@
 #include "apps/progress.h"
 #include "apps/values.h"
 #include "stackabilization/core/part_names.h"
-#include "stackabilization/structure/authors_files.h"
+#include "stackabilization/structure/ctrl_grp_files.h"
 #include "stackabilization/structure/seeds.h"
 
 namespace stackabilization::apps {
@@ -71,10 +71,10 @@ AnalysisOptions analysis_options(const AnalysisArguments& arguments) {
 
 /// The structure as the authors of the paper wrote it down.
 StructuredShape authored(const Shape& shape, const AnalysisArguments& arguments) {
-  AuthorsFiles files;
+  CtrlGrpFiles files;
   if (arguments.controllers) files.controls = *arguments.controllers;
   if (arguments.relations) files.groups = *arguments.relations;
-  return {shape, read_authors_structure(shape, files)};
+  return {shape, read_ctrl_grp(shape, files)};
 }
 
 const char* words_for(AnalysisStep step) {
@@ -116,7 +116,7 @@ StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& a
   }
   Shape& shape = result.model.shape;
   if (arguments.seeds) {
-    shape = segmented(shape, read_seeds(*arguments.seeds, shape));
+    shape = segment(shape, read_seeds(*arguments.seeds, shape));
     options.segmentation.method = SegmentationMethod::given;
   }
   result.structured = arguments.controllers || arguments.relations

@@ -143,7 +143,7 @@ Length parse_length(const LengthOption& option, const std::string& text) {
   if (leading.value < 0 || (option.above_zero && leading.value == 0))
     throw UsageError(option.name + " expects a length " +
                      (option.above_zero ? "above 0" : "that is not negative") + ", found " + text);
-  if (leading.value > tolerance::largest_coordinate)
+  if (leading.value > tolerance::max_coordinate)
     throw UsageError(option.name + " expects a length of at most 1e60, found " + text);
   return {leading.value, *unit, text};
 }
@@ -153,7 +153,7 @@ double Length::in(Unit model_unit) const {
   if (model_unit == Unit::unknown)
     throw UsageError("the length " + text + " has a unit but the model has none: say which with --unit");
   const double converted = value * (metres_per_unit(unit) / metres_per_unit(model_unit));
-  if (converted > tolerance::largest_coordinate)
+  if (converted > tolerance::max_coordinate)
     throw UsageError("the length " + text + " is more than 1e60 in the unit of the model");
   return converted;
 }

@@ -36,14 +36,14 @@ double parse_number(const Number& number, const std::string& text);
 /// Largest angle between two directions, or between a direction and a surface.
 inline constexpr double max_degrees = 90;
 
-/// A length as typed: "0.5" in model units, or with a unit, "5mm". From 0 to tolerance::largest_coordinate.
+/// A length as typed: "0.5" in model units, or with a unit, "5mm". From 0 to tolerance::max_coordinate.
 struct Length {
   double value = 0;
   Unit unit = Unit::unknown;  ///< unknown: model units
   std::string text;           ///< as typed
 
   /// In units of a model. Throws UsageError when a unit was typed and the model has none, or the length is
-  /// beyond tolerance::largest_coordinate in that unit.
+  /// beyond tolerance::max_coordinate in that unit.
   double in(Unit model_unit) const;
 };
 /// In units of a model, 0 where none was given. Throws UsageError as `in`.
@@ -67,7 +67,7 @@ struct Count {
 std::uint64_t parse_count(const Count& count, const std::string& text);
 
 /// Copies of a stack: more is a typing error.
-inline constexpr int most_copies = 10000;
+inline constexpr int max_copies = 10000;
 
 /// `target` is a whole number or std::optional of one; what it cannot hold is refused.
 template <class Target>

@@ -24,7 +24,7 @@ using namespace stackabilization::experiments;
 
 namespace {
 
-constexpr int fewest = 100, most_random = 10000;
+constexpr int fewest = 100, max_random = 10000;
 
 struct Settings {
   int largest = 100000, seeds = 3;
@@ -94,7 +94,7 @@ class Comparison {
       const Best even = best_of(solver, hemisphere_lattice(count));
       add_sampling("even", {}, count, even);
       if (even.S - searched_ > 1e-6) report_.deny();
-      for (int seed = 1; count <= most_random && seed <= settings_.seeds; ++seed)
+      for (int seed = 1; count <= max_random && seed <= settings_.seeds; ++seed)
         add_sampling("random", std::int64_t{seed}, count,
                      best_of(solver, random_directions(count, static_cast<unsigned>(seed))));
     }

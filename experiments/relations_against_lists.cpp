@@ -25,7 +25,7 @@
 #include "stackabilization/io/labels.h"
 #include "stackabilization/io/read.h"
 #include "stackabilization/structure/analysis.h"
-#include "stackabilization/structure/authors_files.h"
+#include "stackabilization/structure/ctrl_grp_files.h"
 
 using namespace stackabilization;
 using namespace stackabilization::experiments;
@@ -151,11 +151,11 @@ void compare_groups(const fs::path& folder, Comparison& comparison) {
     const fs::path model = sibling(groups, ".obj");
     if (model.empty()) continue;
     const Shape shape = labelled(model, sibling(groups, ".seg"));
-    AuthorsFiles files{.controls = {}, .groups = groups};
+    CtrlGrpFiles files{.controls = {}, .groups = groups};
     if (const fs::path controls = sibling(groups, ".ctrl"); !controls.empty()) files.controls = controls;
     AnalysisOptions given;
     given.segmentation.method = SegmentationMethod::given;
-    comparison.add(model, groups.filename().string(), relations_of(read_authors_structure(shape, files)),
+    comparison.add(model, groups.filename().string(), relations_of(read_ctrl_grp(shape, files)),
                    relations_of(analyse_structure(shape, given).structure));
   }
 }

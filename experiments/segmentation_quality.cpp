@@ -118,7 +118,7 @@ int number_per_component(const Model& model) {
   for (const Labels& labels : model.people) counts.push_back(parts_of(labels));
   SegmentationOptions options;
   options.method = SegmentationMethod::components;
-  const auto components = static_cast<double>(segmented(model.shape, options).part_count());
+  const auto components = static_cast<double>(segment(model.shape, options).part_count());
   return std::max(1, static_cast<int>(std::lround(median(counts) / components)));
 }
 
@@ -127,7 +127,7 @@ Row method_row(const Model& model, SegmentationMethod method, bool same_number) 
   options.method = method;
   options.parts = same_number ? number_per_component(model) : 0;
   const double start = now();
-  const Shape found = segmented(model.shape, options);
+  const Shape found = segment(model.shape, options);
   Row row{method == SegmentationMethod::primitives ? "hierarchical_fitting" : "shape_diameter",
           same_number ? "people's" : "own", static_cast<double>(found.part_count()), 0, now() - start};
   for (const Labels& labels : model.people)

@@ -13,7 +13,7 @@
 namespace stackabilization::figures {
 namespace {
 
-constexpr int most_expansions = 10000;
+constexpr int max_expansions = 10000;
 
 std::vector<std::string> optional_texts(const Fields& fields, const std::string& key) {
   return fields.has(key) ? fields.texts(key) : std::vector<std::string>{};
@@ -63,7 +63,7 @@ DesignTask read_design_task(const Fields& fields) {
       fields, "preset", {{"refined", ImprovementPreset::refined}, {"paper", ImprovementPreset::paper}});
   // As published: cross-sections that are moved bend what was straight.
   task.options.search.edits.bends = task.options.preset == ImprovementPreset::paper;
-  task.options.search.expansions = fields.whole("expansions", 1, most_expansions);
+  task.options.search.expansions = fields.whole("expansions", 1, max_expansions);
   task.options.effort = std::numeric_limits<double>::infinity();  // what ends it are the expansions
   task.options.search.directions = {direction};
   return task;

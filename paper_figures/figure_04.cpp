@@ -30,7 +30,7 @@ struct BenchVariant {
 struct Figure04Options {
   Bench bench;
   std::vector<BenchVariant> variants;
-  double most_lean = 0;  ///< of the curve, metres
+  double max_lean = 0;  ///< of the curve, metres
 };
 
 Figure04Options read_figure_04(const Fields& fields) {
@@ -47,10 +47,10 @@ Figure04Options read_figure_04(const Fields& fields) {
   return options;
 }
 
-using Outline = std::vector<Eigen::Vector2d>;
+using ConvexPolygon = std::vector<Eigen::Vector2d>;
 
 /// A polygon drawn out along y, counter-clockwise seen from -y. The reader cuts the polygons into triangles.
-Shape prism(const Outline& outline, double depth) {
+Shape prism(const ConvexPolygon& outline, double depth) {
   const std::size_t count = outline.size();
   std::ostringstream front, back, sides, vertices;
   vertices.precision(17);
@@ -92,7 +92,7 @@ Shape bench_shape(const Bench& bench, const BenchVariant& variant) {
 /// The gap function across the bench, along the middle of its depth.
 CurvePlot bench_gap_plot(const Shape& shape, const Stackability& measured, const Figure04Options& options) {
   const Direction up(measured.direction);
-  const double half = options.bench.top / 2 + options.most_lean;
+  const double half = options.bench.top / 2 + options.max_lean;
   const Window window{-half, 0, 2 * half / samples, samples, 1};
   const Eigen::MatrixXd values = gap(height_field_by_scanline(shape, up, window));
   CurvePlot plot;
@@ -117,18 +117,18 @@ double largest_gap(const Panel& panel) {
 CurvePlot lean_plot(const Figure04Options& options, const std::vector<double>& values) {
   constexpr int steps = 80;
   CurvePlot plot;
-  plot.x = {"lean of the legs in m", Range{0, options.most_lean}};
+  plot.x = {"lean of the legs in m", Range{0, options.max_lean}};
   plot.y = {"S", Range{-0.15, 0.8}};
   PlotSeries curve{"", palette::upper, {}}, shown{"", palette::contact, {}, PlotLine::none, PlotMark::circle};
   for (int k = 0; k <= steps; ++k) {
-    const double lean = options.most_lean * k / steps;
+    const double lean = options.max_lean * k / steps;
     const Shape shape = bench_shape(options.bench, {"", lean, 0});
     curve.points.emplace_back(lean, stackability(shape, Direction(0, 0, 1)).value);
   }
   for (std::size_t k = 0; k < values.size(); ++k) {
     shown.points.emplace_back(options.variants[k].lean, values[k]);
     plot.notes.push_back(
-        {shown.points.back() + Eigen::Vector2d(0.012 * options.most_lean, -0.08), options.variants[k].name});
+        {shown.points.back() + Eigen::Vector2d(0.012 * options.max_lean, -0.08), options.variants[k].name});
   }
   plot.series = {curve, shown};
   return plot;
@@ -165,7 +165,7 @@ FigureResult make_figure_04(const Figure04Options& options, const ModelFolder&) 
   curve.panels = {{lean_plot(options, values), "", {}, 1}};
   const auto [least, largest] = std::minmax_element(values.begin(), values.end());
   constexpr double considerable = 0.5;
-  result.claims = {{"the shapes differ by at most " + length_text(options.most_lean, Unit::metre) +
+  result.claims = {{"the shapes differ by at most " + length_text(options.max_lean, Unit::metre) +
                         " at the feet and one bar, and S by more than 0.5",
                     *largest - *least > considerable},
                    {"no sample of a gap function exceeds f_max, from which S follows", largest_excess <= 0}};

@@ -5,7 +5,7 @@
 #include "paper_figures/shown.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/gap_scaling.h"
-#include "stackabilization/deformation/refined.h"
+#include "stackabilization/deformation/refine.h"
 
 namespace stackabilization::figures {
 namespace {
@@ -19,13 +19,13 @@ struct Figure06Options {
   DesignTask task;
   Camera camera;
   int copies = 1;
-  double longest_edge = 0;  ///< of the triangles that gap scaling moves, fraction of the diagonal
+  double max_edge_length = 0;  ///< of the triangles that gap scaling moves, fraction of the diagonal
 };
 
 Figure06Options read_figure_06(const Fields& fields) {
   Figure06Options options{read_design_task(fields.object("task")), read_camera(fields), read_copies(fields),
                           fields.number("longest_edge")};
-  if (!(options.longest_edge > 0)) fields.refuse("longest_edge", "a number above 0");
+  if (!(options.max_edge_length > 0)) fields.refuse("longest_edge", "a number above 0");
   return options;
 }
 
@@ -35,14 +35,14 @@ class GapScaling {
   GapScaling(const Shape& rest, const Figure06Options& options)
       : direction_(options.task.space.direction),
         measure_(options.task.requirements.measure),
-        rest_(refined(rest, {options.longest_edge})),
+        rest_(refine(rest, {options.max_edge_length})),
         model_(gap_scaling(rest_, direction_)) {}
 
   /// `factor`: what the gap was scaled by in the end.
   MeasuredShape as_compact_as(const Stackability& wanted, double& factor) const {
-    constexpr int most_steps = 12;
+    constexpr int max_steps = 12;
     MeasuredShape shape = measured_shape(rest_, direction_, measure_);
-    for (int k = 0; k < most_steps; ++k) {
+    for (int k = 0; k < max_steps; ++k) {
       const double ratio = wanted.f_max / shape.measured.f_max;
       if (std::abs(ratio - 1) <= compactness_tolerance) return shape;
       factor *= ratio;

@@ -4,7 +4,7 @@
 #include "paper_figures/shown.h"
 #include "stackabilization/rendering/structure_views.h"
 #include "stackabilization/structure/analysis.h"
-#include "stackabilization/structure/authors_files.h"
+#include "stackabilization/structure/ctrl_grp_files.h"
 
 namespace stackabilization::figures {
 namespace {

@@ -20,9 +20,9 @@ struct Figure08Options {
 };
 
 Figure08Options read_figure_08(const Fields& fields) {
-  constexpr int most_states = 8;
+  constexpr int max_states = 8;
   Figure08Options options;
-  options.states = fields.whole("states", 2, most_states);
+  options.states = fields.whole("states", 2, max_states);
   for (const Fields& object : fields.objects("objects"))
     options.objects.push_back({read_named_task(object), read_row_height(object)});
   return options;

@@ -28,7 +28,8 @@ Figure11Options read_figure_11(const Fields& fields) {
 }
 
 double stackability_by(BoxModel boxes, const MeasuredShape& shape) {
-  return stackability(shape.shape, Direction(shape.measured.direction), {Semantics::solid, boxes}).value;
+  return stackability(shape.shape, Direction(shape.measured.direction), {ContactSemantics::solid, boxes})
+      .value;
 }
 
 std::vector<std::string> captions(const MeasuredShape& shape) {

@@ -18,8 +18,8 @@ struct GalleryOptions {
 
 GalleryOptions read_gallery(const Fields& fields) {
   GalleryOptions options;
-  constexpr int most_columns = 8;
-  options.columns = static_cast<std::size_t>(fields.whole("columns", 1, most_columns));
+  constexpr int max_columns = 8;
+  options.columns = static_cast<std::size_t>(fields.whole("columns", 1, max_columns));
   options.copies = read_copies(fields);
   options.height = read_row_height(fields);
   for (const Fields& object : fields.objects("objects")) options.objects.push_back(read_named_task(object));

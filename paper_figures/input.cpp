@@ -150,8 +150,8 @@ Camera read_camera(const Fields& fields) {
 }
 
 int read_copies(const Fields& fields, int least) {
-  constexpr int most_copies = 20;
-  return fields.whole("copies", least, most_copies);
+  constexpr int max_copies = 20;
+  return fields.whole("copies", least, max_copies);
 }
 
 ModelSource read_model_source(const Fields& fields) {

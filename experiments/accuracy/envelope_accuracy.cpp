@@ -45,7 +45,8 @@ std::vector<Accuracy> along(const StackabilitySolver& solver, const std::vector<
                             const Direction& direction, bool one_of_few) {
   const Stackability exact = solver.measure(direction);
   const Separation solid = solver.separation(direction);
-  const Separation closed = separation(solver.tree(), solver.tree(), direction, {Semantics::closed, {}});
+  const Separation closed =
+      separation(solver.tree(), solver.tree(), direction, {ContactSemantics::closed, {}});
   std::vector<Accuracy> rows;
   if (!solid.blocked) return rows;
   for (Sampling& sampling : sample_all(solver.shape(), samplers, direction, one_of_few)) {

@@ -55,7 +55,7 @@ std::vector<Sampling> sample_all(const Shape& shape, const std::vector<Sampler>&
   const double side = longer_side(shape, direction);
   std::vector<Sampling> all;
   for (const Sampler& sampler : samplers)
-    for (int n = coarsest; n <= (one_of_few ? sampler.largest : sampler.largest_for_all); n *= 2)
+    for (int n = coarsest; n <= (one_of_few ? sampler.largest : sampler.max_for_all); n *= 2)
       all.push_back(sampled(sampler, direction, window_around(shape, direction, n)));
 #ifdef STACKABILIZATION_WITH_RENDERING
   all.push_back(sampled(samplers.back(), direction, authors_window(shape, direction)));

@@ -15,8 +15,8 @@ namespace stackabilization::experiments {
 struct Sampler {
   std::string method;  ///< "CPU raster", "OpenGL raster", "rays"
   std::function<HeightField(const Direction&, const Window&)> sample;
-  int largest_for_all = 0;  ///< samples a side up to which it is quick enough for every direction
-  int largest = 0;          ///< samples a side up to which it is run at all
+  int max_for_all = 0;  ///< samples a side up to which it is quick enough for every direction
+  int largest = 0;      ///< samples a side up to which it is run at all
 };
 
 /// Every way there is; the OpenGL raster only when pictures are built. `shape` must outlive them.

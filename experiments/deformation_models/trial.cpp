@@ -11,7 +11,7 @@
 namespace stackabilization::experiments {
 namespace {
 
-constexpr StackabilityOptions frame_measure{Semantics::solid, BoxModel::frame};
+constexpr StackabilityOptions frame_measure{ContactSemantics::solid, BoxModel::frame};
 const Direction upwards(0, 0, 1);
 
 StructuredShape analysed(const Shape& shape, const std::optional<PrimitiveKind>& kind) {

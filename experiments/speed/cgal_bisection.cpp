@@ -10,7 +10,7 @@ std::vector<Competitor> cgal_bisections(const Shape& shape) {
   const Stopwatch watch;
   const auto tester = std::make_shared<CollisionTester>(shape, shape);
   const double build_seconds = watch.processor_seconds();
-  const auto bisection = [&](const std::string& name, Semantics semantics) {
+  const auto bisection = [&](const std::string& name, ContactSemantics semantics) {
     return Competitor{name, semantics, build_seconds, [tester, semantics](const Direction& direction) {
                         BisectionOptions options;
                         options.semantics = semantics;
@@ -19,8 +19,8 @@ std::vector<Competitor> cgal_bisections(const Shape& shape) {
                         return bracket ? bracket->free * direction.length() : 0.0;
                       }};
   };
-  std::vector<Competitor> list{bisection("CGAL contact bisection", Semantics::closed)};
-  if (tester->solids()) list.push_back(bisection("CGAL interior bisection", Semantics::solid));
+  std::vector<Competitor> list{bisection("CGAL contact bisection", ContactSemantics::closed)};
+  if (tester->solids()) list.push_back(bisection("CGAL interior bisection", ContactSemantics::solid));
   return list;
 }
 

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Settings {
-  int largest_parts = 10000, largest_triangles = 1000000, limit = 60;
+  int max_parts = 10000, max_triangles = 1000000, limit = 60;
 };
 
 /// A folder of its own, gone with the object.
@@ -110,12 +110,11 @@ class CommandCosts {
                                  {"said", ColumnKind::clock}})) {}
 
   void run() {
-    constexpr int fewest_parts = 10, fewest_triangles = 1000;
-    for (const Family& family :
-         {Family{"cubes", cube_grid, fewest_parts, settings_.largest_parts},
-          Family{"rack", rack, fewest_parts, settings_.largest_parts},
-          Family{"coincident cubes", coincident_cubes, fewest_parts, settings_.largest_parts},
-          Family{"cup", wavy_cup, fewest_triangles, settings_.largest_triangles}})
+    constexpr int min_parts = 10, min_triangles = 1000;
+    for (const Family& family : {Family{"cubes", cube_grid, min_parts, settings_.max_parts},
+                                 Family{"rack", rack, min_parts, settings_.max_parts},
+                                 Family{"coincident cubes", coincident_cubes, min_parts, settings_.max_parts},
+                                 Family{"cup", wavy_cup, min_triangles, settings_.max_triangles}})
       measure(family);
   }
 
@@ -162,10 +161,10 @@ int main(int argc, char** argv) {
                         Inputs::none);
   Settings settings;
   experiment.app()
-      .add_option("--largest-parts", settings.largest_parts, "parts of the largest models")
+      .add_option("--largest-parts", settings.max_parts, "parts of the largest models")
       ->check(CLI::Range(10, 100000));
   experiment.app()
-      .add_option("--largest-triangles", settings.largest_triangles, "triangles of the largest cup")
+      .add_option("--largest-triangles", settings.max_triangles, "triangles of the largest cup")
       ->check(CLI::Range(1000, 10000000));
   experiment.app()
       .add_option("--limit", settings.limit, "processor seconds after which a command is stopped")

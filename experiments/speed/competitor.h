@@ -14,8 +14,8 @@ namespace stackabilization::experiments {
 /// units. A maker gives nothing when its way does not apply to the shape.
 struct Competitor {
   std::string name;
-  Semantics semantics = Semantics::solid;  ///< whose f_max it looks for
-  double build_seconds = 0;                ///< of the processor
+  ContactSemantics semantics = ContactSemantics::solid;  ///< whose f_max it looks for
+  double build_seconds = 0;                              ///< of the processor
   std::function<double(const Direction&)> measure;
 };
 

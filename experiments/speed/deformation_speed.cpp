@@ -33,7 +33,7 @@ struct Options {
 };
 
 /// Every triangle cut in four at its edge midpoints, which neighbours share.
-Shape refined(const Shape& shape) {
+Shape refine(const Shape& shape) {
   std::map<std::pair<int, int>, int> midpoints;
   std::vector<Eigen::RowVector3d> added;
   Shape fine = shape;
@@ -104,7 +104,7 @@ void add_row(const ModelFile& file, const Shape& shape, const std::string& hash,
   double start = now();
   StructuredShape structured = analyse_structure(shape);
   const double analysis_ms = 1e3 * (now() - start);
-  while (structured.shape.triangle_count() < options.triangles) structured.shape = refined(structured.shape);
+  while (structured.shape.triangle_count() < options.triangles) structured.shape = refine(structured.shape);
   const std::int64_t triangles = structured.shape.triangle_count();
   const auto parts = static_cast<std::int64_t>(structured.structure.parts.size());
   const auto relations = static_cast<std::int64_t>(structured.structure.relations.size());

@@ -38,7 +38,7 @@ double extent(const Shape& shape, const Eigen::Vector3d& unit) {
 Competitor fcl_bisection(const Shape& shape) {
   Competitor result;
   result.name = "FCL bisection";
-  result.semantics = Semantics::closed;
+  result.semantics = ContactSemantics::closed;
   const double start = processor_now();
   const std::shared_ptr<Model> model = build(shape);
   result.build_seconds = processor_now() - start;

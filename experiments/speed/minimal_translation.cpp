@@ -40,15 +40,15 @@ std::vector<Competitor> exact(const Shape& shape) {
   const Stopwatch watch;
   const auto tree = std::make_shared<SeparationTree>(shape);
   const double build_seconds = watch.processor_seconds();
-  return {{"exact (rational)", Semantics::solid, build_seconds,
+  return {{"exact (rational)", ContactSemantics::solid, build_seconds,
            [tree](const Direction& direction) { return separation(*tree, *tree, direction).length; }},
-          {"exact (interval)", Semantics::solid, build_seconds, [tree](const Direction& direction) {
+          {"exact (interval)", ContactSemantics::solid, build_seconds, [tree](const Direction& direction) {
              return separation_enclosure(*tree, *tree, direction).upper * direction.length();
            }}};
 }
 
 Competitor scanline(const Shape& shape, int resolution) {
-  return {"CPU raster " + std::to_string(resolution), Semantics::solid, 0,
+  return {"CPU raster " + std::to_string(resolution), ContactSemantics::solid, 0,
           [&shape, resolution](const Direction& direction) {
             const Window window = window_around(shape, direction, resolution);
             return maximum_gap(height_field_by_scanline(shape, direction, window)).value;
@@ -58,7 +58,7 @@ Competitor scanline(const Shape& shape, int resolution) {
 Competitor rays(const Shape& shape, int resolution) {
   const Stopwatch watch;
   const auto caster = std::make_shared<RayCaster>(shape);
-  return {"CGAL rays " + std::to_string(resolution), Semantics::solid, watch.processor_seconds(),
+  return {"CGAL rays " + std::to_string(resolution), ContactSemantics::solid, watch.processor_seconds(),
           [caster, &shape, resolution](const Direction& direction) {
             return maximum_gap(caster->cast(direction, window_around(shape, direction, resolution))).value;
           }};
@@ -68,7 +68,7 @@ Competitor rays(const Shape& shape, int resolution) {
 Competitor depth_buffer(const Shape& shape, int resolution) {
   const Stopwatch watch;
   const auto rasterizer = std::make_shared<DepthRasterizer>(shape);
-  return {"OpenGL raster " + std::to_string(resolution), Semantics::solid, watch.processor_seconds(),
+  return {"OpenGL raster " + std::to_string(resolution), ContactSemantics::solid, watch.processor_seconds(),
           [rasterizer, &shape, resolution](const Direction& direction) {
             const Window window = window_around(shape, direction, resolution);
             return maximum_gap(rasterizer->height_field(direction, window)).value;
@@ -92,7 +92,7 @@ std::vector<Competitor> competitors(const Shape& shape) {
 #endif
   for (Competitor& bisection : cgal_bisections(shape)) list.push_back(std::move(bisection));
   if (shape.triangle_count() <= max_minkowski_triangles && closed_surface(shape).closed)
-    list.push_back({"Minkowski sum", Semantics::solid, 0, [&shape](const Direction& direction) {
+    list.push_back({"Minkowski sum", ContactSemantics::solid, 0, [&shape](const Direction& direction) {
                       return minkowski_translation(shape, direction).to_double() * direction.length();
                     }});
   return list;
@@ -117,7 +117,7 @@ Reference reference(const Shape& shape, const std::vector<Direction>& directions
   Reference result;
   for (const Direction& r : directions) {
     result.solid.push_back(separation(tree, tree, r).length);
-    result.closed.push_back(separation(tree, tree, r, {Semantics::closed, {}}).length);
+    result.closed.push_back(separation(tree, tree, r, {ContactSemantics::closed, {}}).length);
     result.extent.push_back(range_along(shape, r.unit()).length());
   }
   return result;
@@ -133,7 +133,7 @@ Row measured(const Competitor& competitor, const std::vector<Direction>& directi
     const Stopwatch watch;
     const double value = competitor.measure(directions[at]);
     times.push_back(1e3 * watch.processor_seconds());
-    const bool solid = competitor.semantics == Semantics::solid;
+    const bool solid = competitor.semantics == ContactSemantics::solid;
     const double error = (value - (solid ? reference.solid : reference.closed)[at]) / reference.extent[at];
     row.least_error = std::min(row.least_error, error);
     row.largest_error = std::max(row.largest_error, error);
@@ -200,14 +200,14 @@ void add_summary(const ByMethod& methods, Report& report) {
 }
 
 void add_plot(const ByMethod& methods, Report& report) {
-  constexpr double least_shown = 1e-16;
+  constexpr double min_shown = 1e-16;
   Plot plot{"The minimal translation by every road, one mark per model",
             {"processor milliseconds per direction", true},
             {"largest error of f_max / h (1e-16: none)", true},
             {}};
   for (const auto& [method, rows] : methods) {
     Series series{method, {}, SeriesStyle::dots, static_cast<int>(plot.series.size()) % plot_colours};
-    for (const Row& row : rows) series.points.emplace_back(row.median_ms, std::max(row.error(), least_shown));
+    for (const Row& row : rows) series.points.emplace_back(row.median_ms, std::max(row.error(), min_shown));
     plot.series.push_back(std::move(series));
   }
   report.plot("", plot);

@@ -37,7 +37,7 @@ namespace {
 constexpr double coarsest_spacing = 0.32;
 
 struct Settings {
-  int largest_triangles = 1 << 20, largest_parts = 128, directions = 50;
+  int max_triangles = 1 << 20, max_parts = 128, directions = 50;
   double finest_spacing = 0.02;  ///< radians
 };
 
@@ -105,7 +105,7 @@ class Scaling {
   }
 
   void against_triangles() {
-    for (int triangles = 1024; triangles <= settings_.largest_triangles; triangles *= 2) {
+    for (int triangles = 1024; triangles <= settings_.max_triangles; triangles *= 2) {
       const Shape shape = wavy_cup(triangles);
       std::optional<SeparationTree> tree;
       const auto add_quantity = [&](const std::string& quantity, const Measurement& found) {
@@ -125,7 +125,7 @@ class Scaling {
   }
 
   void against_directions() {
-    const StackabilitySolver solver(wavy_cup(std::min(settings_.largest_triangles, 4096)));
+    const StackabilitySolver solver(wavy_cup(std::min(settings_.max_triangles, 4096)));
     for (int count = 100; count <= 6400; count *= 2)
       add("directions", "best of even directions", count, timed([&] {
             double best = -1;
@@ -147,7 +147,7 @@ class Scaling {
   }
 
   void against_parts() {
-    for (int parts = 4; parts <= settings_.largest_parts; parts *= 2) {
+    for (int parts = 4; parts <= settings_.max_parts; parts *= 2) {
       const Shape shape = rack(parts);
       AnalysisOptions options;
       options.segmentation.method = SegmentationMethod::given;
@@ -161,7 +161,7 @@ class Scaling {
   }
 
   void against_threads() {
-    const StackabilitySolver solver(wavy_cup(std::min(settings_.largest_triangles, 1 << 14)));
+    const StackabilitySolver solver(wavy_cup(std::min(settings_.max_triangles, 1 << 14)));
     SearchOptions options;
     options.spacing = std::max(options.spacing, settings_.finest_spacing);
     for (int threads = 1; threads <= threads_; threads *= 2) {
@@ -211,10 +211,10 @@ int main(int argc, char** argv) {
                         Inputs::none);
   Settings settings;
   experiment.app()
-      .add_option("--largest-triangles", settings.largest_triangles, "triangles of the largest cup")
+      .add_option("--largest-triangles", settings.max_triangles, "triangles of the largest cup")
       ->check(CLI::Range(2048, 1 << 24));
   experiment.app()
-      .add_option("--largest-parts", settings.largest_parts, "parts of the largest rack")
+      .add_option("--largest-parts", settings.max_parts, "parts of the largest rack")
       ->check(CLI::Range(8, 4096));
   experiment.app()
       .add_option("--directions", settings.directions, "directions per shape")

@@ -12,7 +12,7 @@ namespace stackabilization::experiments {
 namespace {
 
 /// The largest steps of the automatic method (ContactEditOptions: three times the least).
-constexpr double largest_move = 0.18, largest_scaling = 0.3;
+constexpr double max_move = 0.18, max_scaling = 0.3;
 
 /// In [0, count).
 int choice(int count, Random& random) {
@@ -30,10 +30,10 @@ Edit random_edit(const ManualTool& tool, const std::vector<Handle>& handles, Ran
   if (edit.handle.kind == HandleKind::section && random.uniform() < 0.5) edit.falloff = Falloff::linear;
   const int axis = choice(3, random);
   if (edit.handle.kind == HandleKind::corner || random.uniform() < 0.5) {
-    edit.operation = Move{signed_size(random) * largest_move * tool.extent(axis) * tool.frame().col(axis)};
+    edit.operation = Move{signed_size(random) * max_move * tool.extent(axis) * tool.frame().col(axis)};
     return edit;
   }
-  Scale scale{1 + signed_size(random) * largest_scaling, std::nullopt};
+  Scale scale{1 + signed_size(random) * max_scaling, std::nullopt};
   if (edit.handle.kind == HandleKind::part && random.uniform() < 0.75) scale.along = tool.frame().col(axis);
   edit.operation = scale;
   return edit;
@@ -82,7 +82,7 @@ ManualTool::ManualTool(const RequirementChecker& checker, const Eigen::Vector3d&
       meter_(checker.space().rest(), checker.requirements().measure.boxes),
       handles_(checker.space().handles()),
       frame_(frame_along(direction)),
-      before_(checker.measured(checker.space().rest().shape, direction_).value) {
+      before_(checker.measure(checker.space().rest().shape, direction_).value) {
   std::erase_if(handles_, [](const Handle& handle) { return handle.kind == HandleKind::shape; });
   for (int axis = 0; axis < 3; ++axis)
     extents_[axis] = range_along(checker.space().rest().shape, frame_.col(axis)).length();
@@ -95,7 +95,7 @@ Candidate ManualTool::at_rest() const {
 Candidate ManualTool::measured(Design design) const {
   Candidate candidate;
   candidate.direction = direction_.vector();
-  candidate.measured = checker_.measured(design.shape, direction_);
+  candidate.measured = checker_.measure(design.shape, direction_);
   candidate.energy = meter_.energy(design, candidate.measured.value - before_);
   candidate.design = std::move(design);
   return candidate;
@@ -112,12 +112,12 @@ std::vector<Handle> ManualTool::touching_handles(const Candidate& now) const {
 
 std::optional<Candidate> ManualTool::edited(const Candidate& now, const Edit& edit) const {
   DesignOutcome outcome = checker_.space().edited(now.design, edit, constraints_);
-  if (outcome.refusal || checker_.out_of_proportion(outcome.design)) return std::nullopt;
+  if (outcome.refusal || checker_.size_ratio_violation(outcome.design)) return std::nullopt;
   return measured(std::move(outcome.design));
 }
 
 bool ManualTool::finished(const Candidate& candidate) const {
-  return checker_.reaches(candidate.measured) && checker_.checked(candidate.design, direction_).passed();
+  return checker_.meets_target(candidate.measured) && checker_.check(candidate.design, direction_).passed();
 }
 
 ManualWork worked(const ManualTool& tool, const ManualUser& user) {
@@ -126,10 +126,10 @@ ManualWork worked(const ManualTool& tool, const ManualUser& user) {
   work.reached = tool.finished(work.result);
   const bool watching = user.habit == Habit::careful;
   std::vector<Handle> handles = watching ? tool.touching_handles(work.result) : tool.handles();
-  while (!work.reached && work.tried < user.most_edits) {
+  while (!work.reached && work.tried < user.max_edits) {
     std::optional<Candidate> best;
     const int compared = user.habit == Habit::random ? 1 : user.compared;
-    for (int k = 0; k < compared && work.tried < user.most_edits; ++k, ++work.tried) {
+    for (int k = 0; k < compared && work.tried < user.max_edits; ++k, ++work.tried) {
       std::optional<Candidate> next = tool.edited(work.result, random_edit(tool, handles, random));
       if (next && preferred(*next, best ? *best : work.result, user.habit)) best = std::move(next);
     }

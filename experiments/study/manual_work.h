@@ -23,8 +23,8 @@ std::string name_of(Habit habit);
 struct ManualUser {
   Habit habit = Habit::random;
   unsigned seed = 1;
-  int most_edits = 200;  ///< tried before giving up, kept or not
-  int compared = 8;      ///< edits tried from one design; all habits but random
+  int max_edits = 200;  ///< tried before giving up, kept or not
+  int compared = 8;     ///< edits tried from one design; all habits but random
 };
 
 /// The tool in the hands of a user: takes hold of what the automatic method takes hold of, makes its kinds of

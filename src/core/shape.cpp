@@ -47,7 +47,7 @@ double checked_magnitude(const Shape& shape, std::int32_t vertex, Eigen::Index t
   };
   if (!shape.vertices.row(vertex).allFinite()) fail("has a coordinate that is not a finite number");
   const double magnitude = shape.vertices.row(vertex).cwiseAbs().maxCoeff();
-  if (magnitude > tolerance::largest_coordinate) fail("has a coordinate beyond 10^60, choose another unit");
+  if (magnitude > tolerance::max_coordinate) fail("has a coordinate beyond 10^60, choose another unit");
   return magnitude;
 }
 
@@ -64,7 +64,7 @@ void validate(const Shape& shape) {
                          " of " + std::to_string(shape.vertex_count()));
       magnitude = std::max(magnitude, checked_magnitude(shape, vertex, t));
     }
-  if (magnitude > 0 && magnitude < tolerance::smallest_shape)
+  if (magnitude > 0 && magnitude < tolerance::min_shape_size)
     throw InputError("no coordinate of the shape exceeds 10^-60, choose another unit");
   validate_parts(shape);
 }

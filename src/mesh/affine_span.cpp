@@ -61,7 +61,7 @@ int exact_dimension(const Points& points, const std::array<Eigen::Index, 4>& far
 
 int working_exponent(const Points& points) {
   const double largest = points.cwiseAbs().maxCoeff();
-  if (largest == 0 || (largest >= tolerance::smallest_shape && largest <= tolerance::largest_coordinate))
+  if (largest == 0 || (largest >= tolerance::min_shape_size && largest <= tolerance::max_coordinate))
     return 0;
   int exponent = 0;
   std::frexp(largest, &exponent);

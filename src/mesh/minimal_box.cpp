@@ -113,7 +113,7 @@ class MinimalBoxSearch {
   void visit_faces();
   void visit_arcs();
   void split(const Interval& interval);
-  bool least_at_an_end(const Interval& interval);
+  bool is_minimal_at_an_end(const Interval& interval);
   void minimise_inside(const Interval& interval);
 
   const HullSupport& hull_;
@@ -158,7 +158,7 @@ void MinimalBoxSearch::split(const Interval& interval) {
 }
 
 /// Do boxes grow from the end with the smaller one on? Then it is the minimum of the interval.
-bool MinimalBoxSearch::least_at_an_end(const Interval& interval) {
+bool MinimalBoxSearch::is_minimal_at_an_end(const Interval& interval) {
   if (interval.width() < 2 * beside) return false;
   const bool at_low = interval.low.volume <= interval.high.volume;
   const double angle = at_low ? interval.low.angle + beside : interval.high.angle - beside;
@@ -170,7 +170,7 @@ bool MinimalBoxSearch::least_at_an_end(const Interval& interval) {
 /// another corner.
 void MinimalBoxSearch::minimise_inside(const Interval& interval) {
   constexpr double golden = 0.6180339887498949;
-  if (least_at_an_end(interval)) return;
+  if (is_minimal_at_an_end(interval)) return;
   const Arc& arc = arcs_[interval.arc];
   double low = interval.low.angle, high = interval.high.angle;
   const auto inner = [&](double fraction) {

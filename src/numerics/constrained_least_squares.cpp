@@ -14,18 +14,18 @@ constexpr int max_multiplier_steps = 60;
 
 }  // namespace
 
-void ConstrainedLeastSquares::wish(const Row& row, double right, double weight) {
+void ConstrainedLeastSquares::add_soft(const Row& row, double right, double weight) {
   const double factor = std::sqrt(weight);
   for (const Term& term : row)
-    wishes_.triplets.emplace_back(static_cast<int>(wishes_.right.size()), term.variable,
-                                  factor * term.factor);
-  wishes_.right.push_back(factor * right);
+    soft_rows_.triplets.emplace_back(static_cast<int>(soft_rows_.right.size()), term.variable,
+                                     factor * term.factor);
+  soft_rows_.right.push_back(factor * right);
 }
 
-void ConstrainedLeastSquares::demand(const Row& row, double right) {
+void ConstrainedLeastSquares::add_equality(const Row& row, double right) {
   for (const Term& term : row)
-    demands_.triplets.emplace_back(static_cast<int>(demands_.right.size()), term.variable, term.factor);
-  demands_.right.push_back(right);
+    equalities_.triplets.emplace_back(static_cast<int>(equalities_.right.size()), term.variable, term.factor);
+  equalities_.right.push_back(right);
 }
 
 ConstrainedLeastSquares::Matrices ConstrainedLeastSquares::reduced(const Rows& rows,
@@ -47,32 +47,33 @@ ConstrainedLeastSquares::Matrices ConstrainedLeastSquares::reduced(const Rows& r
   return out;
 }
 
-ConstrainedLeastSquares::Solution ConstrainedLeastSquares::solved(double resolution) const {
+ConstrainedLeastSquares::Solution ConstrainedLeastSquares::solve(double resolution) const {
   std::vector<int> column(fixed_.size(), -1);
   int columns = 0;
   for (std::size_t v = 0; v < fixed_.size(); ++v)
     if (!fixed_[v]) column[v] = columns++;
-  const Matrices wishes = reduced(wishes_, column, columns), demands = reduced(demands_, column, columns);
-  const Eigen::SparseMatrix<double> a = wishes.matrix.transpose(), c = demands.matrix.transpose();
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(a * wishes.matrix +
-                                                                  penalty * (c * demands.matrix));
+  const Matrices soft_rows = reduced(soft_rows_, column, columns),
+                 equalities = reduced(equalities_, column, columns);
+  const Eigen::SparseMatrix<double> a = soft_rows.matrix.transpose(), c = equalities.matrix.transpose();
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(a * soft_rows.matrix +
+                                                                  penalty * (c * equalities.matrix));
   Eigen::VectorXd x = Eigen::VectorXd::Zero(columns);
-  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(demands.right.size());
-  Eigen::VectorXd missed = -demands.right;
+  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(equalities.right.size());
+  Eigen::VectorXd residual = -equalities.right;
   for (int step = 0; step < max_multiplier_steps && columns > 0; ++step) {
     const Eigen::VectorXd gradient =
-        a * (wishes.matrix * x - wishes.right) + c * (multipliers + penalty * missed);
+        a * (soft_rows.matrix * x - soft_rows.right) + c * (multipliers + penalty * residual);
     const Eigen::VectorXd change = factor.solve(gradient);
     x -= change;
-    missed = demands.matrix * x - demands.right;
-    multipliers += penalty * missed;
+    residual = equalities.matrix * x - equalities.right;
+    multipliers += penalty * residual;
     if (change.cwiseAbs().maxCoeff() <= resolution) break;
   }
   Solution solution;
   solution.values.resize(static_cast<Eigen::Index>(fixed_.size()));
   for (std::size_t v = 0; v < fixed_.size(); ++v)
     solution.values(static_cast<Eigen::Index>(v)) = fixed_[v] ? *fixed_[v] : x(column[v]);
-  solution.missed = std::move(missed);
+  solution.residual = std::move(residual);
   return solution;
 }
 

@@ -23,19 +23,19 @@ class ConstrainedLeastSquares {
     Eigen::VectorXd values;  ///< one per variable
     /// Row - right side, one per equation: rounding, unless they contradict one another; then the sum of
     /// their squares is least.
-    Eigen::VectorXd missed;
+    Eigen::VectorXd residual;
   };
 
   /// Weights of wishes should be near 1, or below.
   explicit ConstrainedLeastSquares(int variables) : fixed_(static_cast<std::size_t>(variables)) {}
 
-  void wish(const Row& row, double right, double weight);
-  void demand(const Row& row, double right);
+  void add_soft(const Row& row, double right, double weight);
+  void add_equality(const Row& row, double right);
   void fix(int variable, double value) { fixed_[static_cast<std::size_t>(variable)] = value; }
 
   /// `resolution`: change of the variables below which steps end. Precondition: wishes and equations together
   /// determine every variable.
-  Solution solved(double resolution) const;
+  Solution solve(double resolution) const;
 
  private:
   struct Rows {
@@ -50,7 +50,7 @@ class ConstrainedLeastSquares {
   Matrices reduced(const Rows& rows, const std::vector<int>& column, int columns) const;
 
   std::vector<std::optional<double>> fixed_;
-  Rows wishes_, demands_;
+  Rows soft_rows_, equalities_;
 };
 
 }  // namespace stackabilization::detail

@@ -9,7 +9,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr int most_steps = 60;
+constexpr int max_steps = 60;
 
 /// Steps end this far before the first multiplier or slack would vanish, as a share of the way.
 constexpr double share_of_way = 0.995;
@@ -31,7 +31,7 @@ class InteriorPoint {
         multipliers_(Eigen::VectorXd::Ones(programme.b.size())) {}
 
   QuadraticMinimum run() {
-    for (int step = 0; step < most_steps && !settled(); ++step)
+    for (int step = 0; step < max_steps && !settled(); ++step)
       if (!advance()) break;
     return {x_, multipliers_};
   }
@@ -95,7 +95,7 @@ class InteriorPoint {
 
 }  // namespace
 
-QuadraticMinimum minimum(const QuadraticProgramme& programme) {
+QuadraticMinimum minimize(const QuadraticProgramme& programme) {
   return InteriorPoint(programme).run();
 }
 

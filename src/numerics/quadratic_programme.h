@@ -22,6 +22,6 @@ struct QuadraticMinimum {
 /// 2006, Algorithm 16.4), dense: for up to some hundreds of variables and rows, of which any number may
 /// repeat or depend on each other. Numbers are best of the order of 1. Where nothing satisfies all rows, some
 /// point that violates them little. Deterministic.
-QuadraticMinimum minimum(const QuadraticProgramme& programme);
+QuadraticMinimum minimize(const QuadraticProgramme& programme);
 
 }  // namespace stackabilization::detail

@@ -75,7 +75,7 @@ TEST_CASE("what a user ends with is what the edits make, and it holds all requir
         deformation_constraints(task.checker.requirements(), task.space->rest(), Direction(0, 0, 1)));
     REQUIRE_FALSE(again.refusal);
     CHECK(again.design.shape.vertices == result.design.shape.vertices);
-    const Assessment assessment = task.checker.checked(again.design, Direction(0, 0, 1));
+    const Assessment assessment = task.checker.check(again.design, Direction(0, 0, 1));
     CHECK(assessment.measured.value == Approx(result.measured.value).margin(1e-11));
     for (const Check& check : assessment.checks) CHECK(check.passed == (check.name != "target"));
     const EnergyMeter meter(task.space->rest(), BoxModel::frame);

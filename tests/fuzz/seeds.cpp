@@ -147,8 +147,8 @@ std::vector<Seed> seeds() {
   seed("labels", "numbers", "0\n3\n3\n1\n");
   seed("project", "written", project_text(two_primitives()));
   seed("history", "written", project_text(two_designs()));
-  seed("authors_files", "controls", controls);
-  seed("authors_files", "groups", groups);
+  seed("ctrl_grp_files", "controls", controls);
+  seed("ctrl_grp_files", "groups", groups);
   seed("seeds", "marked", "leg 0 1\nseat 3 # c\nleg 2\n");
   seed("search_state", "written", detail::text_of(two_candidates()));
   for (const char* text :

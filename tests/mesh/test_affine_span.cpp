@@ -17,7 +17,7 @@ using point_sets::nearly_flat_sets;
 
 namespace {
 
-double largest_coordinate(const Points& points) {
+double max_coordinate(const Points& points) {
   return points.cwiseAbs().maxCoeff();
 }
 
@@ -95,7 +95,7 @@ TEST_CASE("a flat hull is its polygon, and does not depend on the order of the p
 TEST_CASE("what is solid up to a resolution is solid exactly, and thin sets are flat") {
   for (const auto& [name, points, dimension] : nearly_flat_sets()) {
     INFO(name);
-    const double unit = largest_coordinate(points);
+    const double unit = max_coordinate(points);
     int before = 3;
     for (const double relative : {0.0, 1e-16, tolerance::rounding, tolerance::relative, 1e-2, 10.0}) {
       const AffineSpan span = affine_span(points, relative * unit);
@@ -116,7 +116,7 @@ TEST_CASE("what is solid up to a resolution is solid exactly, and thin sets are 
 TEST_CASE("hull faces, and boxes on them, take sets of any thickness") {
   for (const auto& [name, points, dimension] : nearly_flat_sets()) {
     INFO(name);
-    const double unit = largest_coordinate(points);
+    const double unit = max_coordinate(points);
     for (const double relative : {0.0, 1e-16, tolerance::rounding, tolerance::relative, 1e-2}) {
       const HullFaces hull = hull_faces(points, relative * unit);
       REQUIRE(hull.dimension <= affine_dimension(points));

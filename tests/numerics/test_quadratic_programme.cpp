@@ -66,7 +66,7 @@ TEST_CASE("minima of random convex programmes satisfy the conditions for one") {
     const Eigen::VectorXd bounds = number.matrix(2 * n, 1).cwiseAbs() / 4;
     add_rows(programme, rows, bounds);
     add_rows(programme, rows, bounds);
-    check_minimum(programme, minimum(programme));
+    check_minimum(programme, minimize(programme));
   }
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("multipliers say how fast a minimum falls when a bound gives way") {
   programme.q(0, 0) = 1;
   programme.c(0) = -2;
   programme.b(0) = 0.5;
-  const QuadraticMinimum found = minimum(programme);
+  const QuadraticMinimum found = minimize(programme);
   CHECK(found.x(0) == Approx(0.5).epsilon(1e-8));
   CHECK(found.multipliers(0) == Approx(1.5).epsilon(1e-7));
   CHECK(found.multipliers(1) == Approx(0).margin(1e-8));
@@ -86,7 +86,7 @@ TEST_CASE("bounds of zero width leave nothing to choose") {
   QuadraticProgramme programme = in_a_box(2, 1);
   programme.c << -1, -1;
   programme.b(0) = programme.b(2) = 0;
-  const QuadraticMinimum found = minimum(programme);
+  const QuadraticMinimum found = minimize(programme);
   CHECK(found.x(0) == Approx(0).margin(1e-6));
   CHECK(found.x(1) == Approx(1).epsilon(1e-6));
 }
@@ -94,7 +94,7 @@ TEST_CASE("bounds of zero width leave nothing to choose") {
 TEST_CASE("contradictory rows end in a point that is finite") {
   QuadraticProgramme programme = in_a_box(2, 1);
   add_rows(programme, Eigen::RowVector2d(1, 1), Eigen::VectorXd::Constant(1, -3));
-  const QuadraticMinimum found = minimum(programme);
+  const QuadraticMinimum found = minimize(programme);
   CHECK(found.x.allFinite());
   CHECK(found.multipliers.allFinite());
 }

@@ -7,7 +7,7 @@ namespace stackabilization {
 
 /// In units of the direction vector.
 inline Rational exact_f_max(const Shape& shape, const Direction& direction,
-                            Semantics semantics = Semantics::solid) {
+                            ContactSemantics semantics = ContactSemantics::solid) {
   const Separation found = minimal_stacking_translation(shape, direction, {semantics, {}});
   REQUIRE(found.blocked);
   return found.value;

@@ -51,8 +51,8 @@ inline constexpr double stackability = 1e-11;
 
 /// Coordinates of a shape lie within these, in any unit, so that volumes, inertia and squares of areas
 /// neither overflow nor underflow.
-inline constexpr double largest_coordinate = 1e60;
-inline constexpr double smallest_shape = 1e-60;  ///< of the largest coordinate, unless all are 0
+inline constexpr double max_coordinate = 1e60;
+inline constexpr double min_shape_size = 1e-60;  ///< of the largest coordinate, unless all are 0
 
 /// Height, as a fraction of the extent, of the slab whose points `inspect` takes as what a shape stands on.
 inline constexpr double support_slab = 1e-2;
@@ -62,7 +62,7 @@ inline constexpr double clear_lead = 0.9;
 
 /// Least thickness of a cuboid, as a fraction of its diagonal: thinner ones are thickened to it, for mean
 /// value coordinates in a cage without volume are undefined.
-inline constexpr double least_thickness = 1e-3;
+inline constexpr double min_thickness = 1e-3;
 
 /// Symmetries that take the same part to places nearer than this, as a fraction of the bounding-box diagonal
 /// of the shape, or whose planes meet within this many radians of a simple angle, are meant to be one, or to
@@ -76,7 +76,7 @@ inline constexpr double file_axis = 1e-3;
 /// How exactly primitives satisfy symmetries after they were made symmetric, as a fraction of the diagonal or
 /// of the largest coordinate, whichever is larger: ten million times below what is promised for edits, 10
 /// times above what rounding leaves.
-inline constexpr double idealised = 1e-13;
+inline constexpr double symmetrized = 1e-13;
 
 /// Step to which project files round the centres and axes of boxes, as a fraction of a power of two above
 /// their largest coordinate: 16 times the rounding of what they are computed from, so that writing, reading

@@ -24,7 +24,7 @@ struct RotatedPoints {
 };
 
 /// An additional edge, besides those of the triangles.
-struct Tie {
+struct StitchingEdge {
   std::int32_t a, b;  ///< rows of two different points
   double weight;      ///< edge weight, about 1 as for other edges
 };
@@ -41,7 +41,7 @@ class RigidSurface {
  public:
   /// `points`: n x 3, all different, model units. `triangles`: rows of `points`. Triangles without area still
   /// connect their corners, by weak edges. `ties`: additional edges.
-  RigidSurface(Points points, const Triangles& triangles, const std::vector<Tie>& ties = {});
+  RigidSurface(Points points, const Triangles& triangles, const std::vector<StitchingEdge>& ties = {});
 
   /// Returns the shell (connected component) of every point: n numbers, counted from 0 in the order of the
   /// points. Edges of triangles and ties connect points.
@@ -63,7 +63,7 @@ class RigidSurface {
   };
   class Solution;
 
-  void add_edges(const Triangles& triangles, const std::vector<Tie>& ties);
+  void add_edges(const Triangles& triangles, const std::vector<StitchingEdge>& ties);
   void find_shells();
   const Edge* begin(std::size_t point) const { return edges_.data() + first_[point]; }
   const Edge* end(std::size_t point) const { return edges_.data() + first_[point + 1]; }

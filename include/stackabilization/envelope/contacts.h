@@ -36,10 +36,10 @@ struct ContactRegion {
 
 /// What `contact_regions` counts as contact, and how it names the shapes of regions.
 struct ContactOptions {
-  Semantics semantics = Semantics::solid;  ///< that of the separation
-  double band = tolerance::contact_band;   ///< eps as a fraction of the extent h(M, r); in [0, 1]
-  double line_aspect = 4;                  ///< a region at least this many times longer than wide is a line
-  double least_hole = 0.01;  ///< a ring's hole takes at least this share of the rectangle around the region
+  ContactSemantics semantics = ContactSemantics::solid;  ///< that of the separation
+  double band = tolerance::contact_band;  ///< eps as a fraction of the extent h(M, r); in [0, 1]
+  double line_aspect = 4;                 ///< a region at least this many times longer than wide is a line
+  double min_hole = 0.01;  ///< a ring's hole takes at least this share of the rectangle around the region
   /// Pairs of triangles that are looked at one by one: at most this many, and eight more per triangle of the
   /// shape. Coincident parts touch each other in quadratically many.
   std::int64_t max_pairs = std::int64_t{1} << 16;

@@ -13,7 +13,7 @@
 namespace stackabilization {
 
 /// What counts as a collision between two shapes.
-enum class Semantics {
+enum class ContactSemantics {
   solid,   ///< interiors meet: columns of zero width do not count, so sliding along walls parallel to r is
            ///< free
   closed,  ///< any common point: two walls in the same plane block each other; right for zero-thickness
@@ -37,7 +37,7 @@ struct SeparationWork {
   std::int64_t node_pairs = 0;      ///< pairs of nodes that were split, or whose triangles were looked at
   std::int64_t triangle_pairs = 0;  ///< pairs of triangles bounded in double precision
   std::int64_t exact_pairs = 0;     ///< pairs of triangles decided in rational arithmetic
-  std::int64_t largest_queue = 0;   ///< most pairs that waited at a time, in the queue and beside it
+  std::int64_t longest_queue = 0;   ///< most pairs that waited at a time, in the queue and beside it
 };
 
 /// Result of an exact separation query.
@@ -62,7 +62,7 @@ struct Enclosure {
 
 /// Options of `separation` and `separation_enclosure`.
 struct SeparationOptions {
-  Semantics semantics = Semantics::solid;  ///< what counts as a collision
+  ContactSemantics semantics = ContactSemantics::solid;  ///< what counts as a collision
   /// Stop as soon as the separation is certainly greater than this many units of r (enclosure queries only).
   std::optional<double> abandon_above;
   /// Most pairs that wait in the queue of the best-first search (of 32 bytes each). Once it is full, further

@@ -45,7 +45,7 @@ struct BestFirstOptions {
   std::function<void(const ImprovementProgress&)> progress = {};  ///< called from the calling thread
   std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends the search
   /// Called before the first step, now and then, and at the end, from the calling thread.
-  /// `best_first_resumed` accepts the text.
+  /// `resume_best_first` accepts the text.
   std::function<void(const std::string& state)> save = {};
 };
 
@@ -124,8 +124,8 @@ BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOpt
 /// except for the limits. The expansions and trials of the saved search count against the limits. Its seconds
 /// do not: the text holds no times, so equal searches save equal bytes. Throws SavedSearchError, and as
 /// `best_first`.
-BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
-                                   const SavedSearch& state);
+BestFirstResult resume_best_first(const RequirementChecker& checker, const BestFirstOptions& options,
+                                  const SavedSearch& state);
 
 /// Returns the text that a search saves before its first step. Throws as `best_first`.
 std::string search_at_start(const RequirementChecker& checker, const BestFirstOptions& options);

@@ -27,7 +27,7 @@ struct ContactEditOptions {
   /// scale_step.
   std::vector<double> multiples = {1, 3};
   /// Largest number of regions considered, largest area first; symmetric regions count once; >= 1.
-  int most_regions = 12;
+  int max_regions = 12;
   ContactOptions contacts;  ///< options of the contact regions; `band` also defines the ends of the extent
 };
 

@@ -48,7 +48,7 @@ struct Diagnosis {
   std::vector<Remedy> remedies;  ///< changes that would help, largest S first
 };
 
-/// Options of `diagnosed`.
+/// Options of `diagnose`.
 struct DiagnosisOptions {
   /// Largest number of designs made to find reasons and remedies, >= 0.
   double designs = std::numeric_limits<double>::infinity();
@@ -62,8 +62,8 @@ struct DiagnosisOptions {
 /// and changes that would help: another direction, freeing a part that had to stay, relaxing the height or
 /// the box, leaving out a part (removal.h). Blocking pairs are always determined; reasons and remedies only
 /// within the limits of the options. Precondition: `result.nearest` is not empty.
-Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& result,
-                    const DiagnosisOptions& options = {});
+Diagnosis diagnose(const RequirementChecker& checker, const BestFirstResult& result,
+                   const DiagnosisOptions& options = {});
 
 /// Returns the diagnosis as text for people, a few lines.
 std::string text(const Diagnosis& diagnosis, const StructuredShape& rest);

@@ -35,7 +35,7 @@ struct ImprovementOptions {
 struct Improvement {
   Candidate before;  ///< the shape at rest, along the direction of the best solution
   /// Solutions, best first. Preset `paper`: least E first. Preset `refined`: least change first
-  /// (RefinementOptions::least), since all refined solutions meet the target and a larger S is no merit.
+  /// (RefinementOptions::objective), since all refined solutions meet the target and a larger S is no merit.
   std::vector<Candidate> solutions;
   std::vector<Assessment> assessments;  ///< one assessment per solution
   std::optional<Candidate> nearest;     ///< candidate of largest S, when there is no solution
@@ -52,7 +52,7 @@ struct Improvement {
 /// Searches for designs that meet the requirements. Preset `refined`: a pursuit along every starting
 /// direction, the paper's search, a search with the extended edits, then refinement of the designs found
 /// (with too few solutions, also of the candidates of largest S). Solutions are checked; without a solution
-/// the result has a diagnosis. Guarantees: see pursuit.h, best_first.h and refinement.h. If the effort
+/// the result has a diagnosis. Guarantees: see gap_descent.h, best_first.h and refinement.h. If the effort
 /// suffices for the paper's search, the refined preset changes the shape by at most as much as the paper's
 /// preset for the same target. The result is the same for any number of threads and on every machine, unless
 /// a deadline ends the run.

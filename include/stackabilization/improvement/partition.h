@@ -26,9 +26,9 @@ struct Partition {
 /// Finds where to cut an object so that its pieces stack well (paper, Fig. 14). For every class of symmetric
 /// parts, all joints between the class and the other parts are cut; the components still connected by joints
 /// are the pieces (legs cut off a top are one piece each). Cuts that separate nothing and cuts with the same
-/// pieces as an earlier one are left out. Order: largest S first, ties with fewer pieces first. `partitioned`
-/// makes the pieces. The result is the same for any number of threads. Throws UsageError without directions,
-/// InputError when the whole shape has no volume.
+/// pieces as an earlier one are left out. Order: largest S first, ties with fewer pieces first.
+/// `split_into_groups` makes the pieces. The result is the same for any number of threads. Throws UsageError
+/// without directions, InputError when the whole shape has no volume.
 std::vector<Partition> suggested_partitions(const StructuredShape& structured,
                                             const RemovalOptions& options = {});
 

@@ -9,18 +9,18 @@
 
 namespace stackabilization {
 
-/// Options of `refined_candidate`.
+/// Options of `refine_candidate`.
 struct RefinementOptions {
-  int joining = 12;                           ///< edits added per round, chosen by reduced cost, >= 0
-  ChangeMeasure least = ChangeMeasure::both;  ///< objective to minimise
+  int max_added_edits = 12;                       ///< edits added per round, chosen by reduced cost, >= 0
+  ChangeMeasure objective = ChangeMeasure::both;  ///< objective to minimise
   /// Largest number of designs measured, >= 10. The test of which edits can be dropped may exceed it.
   int evaluations = 800;
   double alpha = 0.2;  ///< weight of D in Eq. 5, for the energies reported
   /// Bound of the magnitudes, > 0: they lie in [-reach, max(reach, 1)] times those given.
-  double reach = 3;
+  double magnitude_bound = 3;
   /// Drop edits whose removal loses less than this fraction of the total gain in S, if the other edits can
   /// make up for it; >= 0.
-  double negligible = 0.02;
+  double drop_threshold = 0.02;
   std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends with the best so far
 };
 
@@ -31,9 +31,9 @@ Edit with_magnitude(Edit edit, double x);
 
 /// Merges edits that do the same to the same handle into one, at the position of the first: moves along one
 /// line, rotations about one axis, scalings along one axis or uniform. Leaves out edits that change nothing.
-std::vector<Edit> merged(const std::vector<Edit>& edits);
+std::vector<Edit> merge_edits(const std::vector<Edit>& edits);
 
-/// Result of `refined_candidate`.
+/// Result of `refine_candidate`.
 struct RefinementResult {
   Candidate candidate;   ///< the best design found, with its edits
   bool reached = false;  ///< whether it reaches the target and passes every check
@@ -63,7 +63,7 @@ struct RefinementResult {
 /// (tolerance::target) unless S jumps there or the change does not depend on it. The direction is kept. The
 /// result is never worse than the start: if the start reaches the target, the change of the result is at most
 /// that of the start. Deterministic for any number of threads. Throws UsageError for options out of range.
-RefinementResult refined_candidate(const RequirementChecker& checker, const Candidate& start,
-                                   const RefinementOptions& options = {});
+RefinementResult refine_candidate(const RequirementChecker& checker, const Candidate& start,
+                                  const RefinementOptions& options = {});
 
 }  // namespace stackabilization

@@ -19,8 +19,8 @@ StructuredShape without_parts(const StructuredShape& structured, const std::vect
 /// Cuts a shape at its joints into groups of parts (paper, Fig. 14). Returns one structured shape per group,
 /// in the order of the groups, each as `without_parts` makes it. Throws UsageError unless every part is in
 /// exactly one group and no group is empty.
-std::vector<StructuredShape> partitioned(const StructuredShape& structured,
-                                         const std::vector<std::vector<int>>& groups);
+std::vector<StructuredShape> split_into_groups(const StructuredShape& structured,
+                                               const std::vector<std::vector<int>>& groups);
 
 /// Returns the classes of parts that symmetry relations connect, directly or through other parts. Every part
 /// is in one class. Parts ascend within a class; classes are ordered by their first parts.

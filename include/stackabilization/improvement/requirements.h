@@ -11,7 +11,7 @@
 namespace stackabilization {
 
 /// Number of copies that must fit into a length along r: h + (copies - 1) f_max <= length.
-struct StackRoom {
+struct StackLengthLimit {
   int copies = 2;     ///< number of copies, >= 2
   double length = 0;  ///< length along r, model units, > 0
 };
@@ -21,7 +21,7 @@ struct Requirements {
   double target = 0;  ///< S(M, r) to be reached, < 1
   /// Replaces the target, which is then used in reports only. The S that a length needs depends on the boxes,
   /// and they change with the design.
-  std::optional<StackRoom> room;
+  std::optional<StackLengthLimit> length_limit;
   StackabilityOptions measure;  ///< meaning of S: boxes and semantics of all measurements
   bool keep_height = true;      ///< h(M, r) = h(M0, r), within tolerance::relative of it
   std::vector<int> kept_parts;  ///< parts that must not change
@@ -29,16 +29,16 @@ struct Requirements {
   std::vector<int> editable_parts;
   /// Least allowed ratio of a size of a part to its size at rest (proportions.h); the inverse is the largest
   /// one. In [0, 1]; 0 allows everything.
-  double least_proportion = 0.4;
+  double min_size_ratio = 0.4;
   std::optional<double> box_tolerance;  ///< largest relative change of each side of the file's box
   /// Least thickness, model units. Places that are thinner at rest may stay as thin as they are.
-  std::optional<double> least_thickness;
+  std::optional<double> min_thickness;
   /// Air between copies. It counts in f_max of the target: separation_with_play plus clearance.
   double clearance = 0, play = 0;  ///< along r, and sideways; model units, >= 0
   /// Least draft angle: between r and every surface on which copies touch, degrees, in [0, 90].
-  std::optional<double> least_draft_degrees;
+  std::optional<double> min_draft_degrees;
   std::optional<int> standing_copies;  ///< number of copies whose stack must stand
-  double least_tilt_degrees = 0;       ///< least tilt at which that stack topples, degrees, in [0, 90]
+  double min_tipping_degrees = 0;      ///< least tilt at which that stack topples, degrees, in [0, 90]
 };
 
 /// Throws UsageError for a target >= 1, a room out of range, negative lengths, fractions or angles, air of
@@ -72,8 +72,8 @@ struct Check {
 /// Measures and checks of a design along one direction.
 struct Assessment {
   Stackability measured;      ///< from the exact separation, f_max with clearance and play
-  Separation separation;      ///< exact, without clearance and play; set by RequirementChecker::checked only
-  std::vector<Check> checks;  ///< one per requirement; set by `checked` only
+  Separation separation;      ///< exact, without clearance and play; set by RequirementChecker::check only
+  std::vector<Check> checks;  ///< one per requirement; set by `check` only
   /// Returns whether every check passed; true without checks.
   bool passed() const;
 };
@@ -88,20 +88,20 @@ class RequirementChecker {
   const Requirements& requirements() const;  ///< the requirements given
   const DesignSpace& space() const;          ///< the space given; it must still exist
   /// Returns S(M, r) with the required clearance and play: the only measure that a search needs for every
-  /// candidate. Within 1e-12 of the value that `checked` compares with the target. Throws InputError for a
+  /// candidate. Within 1e-12 of the value that `check` compares with the target. Throws InputError for a
   /// shape without volume.
-  Stackability measured(const Shape& shape, const Direction& direction) const;
+  Stackability measure(const Shape& shape, const Direction& direction) const;
   /// Returns the same unless S is certainly below `threshold`.
-  std::optional<Stackability> measured_above(const Shape& shape, const Direction& direction,
-                                             double threshold) const;
+  std::optional<Stackability> measure_if_above(const Shape& shape, const Direction& direction,
+                                               double threshold) const;
   /// Returns whether a design with these measures reaches the target or, where a room is required, fits into
   /// it. No slack.
-  bool reaches(const Stackability& measured) const;
-  /// Returns the least S for which `reaches` holds, up to rounding, for a design with the extent and boxes of
-  /// `measured`.
-  double needed(const Stackability& measured) const;
+  bool meets_target(const Stackability& measured) const;
+  /// Returns the least S for which `meets_target` holds, up to rounding, for a design with the extent and
+  /// boxes of `measured`.
+  double required_stackability(const Stackability& measured) const;
   /// Returns why a design violates the proportions, one clause, or nothing. Cheap.
-  std::optional<std::string> out_of_proportion(const Design& design) const;
+  std::optional<std::string> size_ratio_violation(const Design& design) const;
   /// Checks every requirement that was made, in the order of Check::name. The target is compared without
   /// slack, from exact separations. The other quantities are computed in double precision and compared within
   /// tolerance::relative.
@@ -112,7 +112,7 @@ class RequirementChecker {
   /// * thickness: every probe is at least as thick as required or, where the shape at rest is thinner, as at
   ///   rest;
   /// * draft: at the contacts of the copies without clearance and play.
-  Assessment checked(const Design& design, const Direction& direction) const;
+  Assessment check(const Design& design, const Direction& direction) const;
 
  private:
   struct Data;

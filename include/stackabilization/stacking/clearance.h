@@ -12,7 +12,7 @@ namespace stackabilization {
 /// Which envelope of a dilated shape is wanted; one side has about half the triangles of both.
 enum class DilatedSide { lower, upper, both };
 
-/// How far and how finely `dilated_sideways` dilates.
+/// How far and how finely `dilate_laterally` dilates.
 struct DilationOptions {
   double play = 0;                       ///< radius of the disc of lateral shifts, model units, >= 0
   int corners = 16;                      ///< corners of the polygon around that disc, even, in [4, 256]
@@ -35,13 +35,13 @@ struct DilatedShape {
 /// corners of P, edges swept along the edges of P, P at the vertices) those that certainly touch no wanted
 /// envelope are left out. Constructions in double precision. O(m log m). Throws UsageError on options outside
 /// their ranges, InputError when `validate(shape)` fails.
-DilatedShape dilated_sideways(const Shape& shape, const Direction& direction, const DilationOptions& options);
+DilatedShape dilate_laterally(const Shape& shape, const Direction& direction, const DilationOptions& options);
 
 /// Play that `separation_with_play` leaves.
 struct PlayOptions {
-  double play = 0;                         ///< largest lateral shift, model units, >= 0
-  int corners = 16;                        ///< as in DilationOptions
-  Semantics semantics = Semantics::solid;  ///< what counts as a collision
+  double play = 0;                                       ///< largest lateral shift, model units, >= 0
+  int corners = 16;                                      ///< as in DilationOptions
+  ContactSemantics semantics = ContactSemantics::solid;  ///< what counts as a collision
 };
 
 /// The least t such that `above` + t' r + s is clear of `below` for all t' >= t and every lateral shift s,

@@ -77,9 +77,9 @@ bool interiors_overlap(const Shape& below, const Shape& above, const Direction& 
 
 /// How `translation_by_bisection` walks down.
 struct BisectionOptions {
-  Semantics semantics =
-      Semantics::solid;  ///< `solid` tests interiors (closed shapes only), `closed` any contact
-  int steps = 64;        ///< lifts tried on the way down from the top, in [1, 1000000]
+  ContactSemantics semantics =
+      ContactSemantics::solid;  ///< `solid` tests interiors (closed shapes only), `closed` any contact
+  int steps = 64;               ///< lifts tried on the way down from the top, in [1, 1000000]
   double relative_width =
       tolerance::relative;  ///< width of the bracket at which to stop, relative to the way
 };

@@ -8,10 +8,10 @@ namespace stackabilization {
 
 /// Air that `nest` leaves between content and container.
 struct NestOptions {
-  Semantics semantics = Semantics::solid;  ///< what counts as a collision
-  double clearance = 0;                    ///< air added along r where they touch, model units, in [0, 1e60]
-  double play = 0;                         ///< lateral play that must remain possible, model units, >= 0
-  int play_corners = 16;                   ///< see DilationOptions
+  ContactSemantics semantics = ContactSemantics::solid;  ///< what counts as a collision
+  double clearance = 0;   ///< air added along r where they touch, model units, in [0, 1e60]
+  double play = 0;        ///< lateral play that must remain possible, model units, >= 0
+  int play_corners = 16;  ///< see DilationOptions
 };
 
 /// One object set down into or onto another.

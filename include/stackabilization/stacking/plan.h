@@ -8,7 +8,7 @@
 namespace stackabilization {
 
 /// "10 chairs within 2 m."
-struct StackWish {
+struct StackRequest {
   int copies = 2;        ///< N, >= 1
   double length = 0;     ///< L, room along r, model units, > 0
   double clearance = 0;  ///< air between copies along r, model units, >= 0
@@ -43,6 +43,6 @@ double stackability_within(const Stackability& measured, int copies, double leng
 /// From a wish to numbers, for a shape measured along r (StackabilitySolver::measure or stackability()).
 /// Lengths are compared within tolerance::relative of L, in favour of the shape. Throws UsageError on wishes
 /// outside their ranges.
-StackPlan plan_within(const Stackability& measured, const StackWish& wish);
+StackPlan plan_stack(const Stackability& measured, const StackRequest& wish);
 
 }  // namespace stackabilization

@@ -15,10 +15,10 @@ namespace stackabilization {
 /// T_k = turn(k twist_degrees) o poses[k mod K], with the turn about the line along r through `axis_point`,
 /// and then lifted along r.
 struct StackOptions {
-  int copies = 2;                          ///< n, in [1, 10000]
-  Semantics semantics = Semantics::solid;  ///< what counts as a collision
-  BoxModel boxes = BoxModel::oriented;     ///< of V(M) and V_stack
-  double twist_degrees = 0;                ///< turn about r from each copy to the next, right-handed
+  int copies = 2;                                        ///< n, in [1, 10000]
+  ContactSemantics semantics = ContactSemantics::solid;  ///< what counts as a collision
+  BoxModel boxes = BoxModel::oriented;                   ///< of V(M) and V_stack
+  double twist_degrees = 0;  ///< turn about r from each copy to the next, right-handed
   /// A point of the twist axis, model units; default: the centre of the box, see box_axis.
   std::optional<Eigen::Vector3d> axis_point;
   /// Poses repeated with period K, or as many as copies for a free choice; empty means K = 1, the shape as it

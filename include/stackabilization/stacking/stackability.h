@@ -28,9 +28,9 @@ enum class FlatShapes {
 
 /// What a stackability means: every number depends on these.
 struct StackabilityOptions {
-  Semantics semantics = Semantics::solid;       ///< of f_max
-  BoxModel boxes = BoxModel::oriented;          ///< of V(M) and V(M, r)
-  FlatShapes flat_shapes = FlatShapes::refuse;  ///< what to do where V(M) = 0
+  ContactSemantics semantics = ContactSemantics::solid;  ///< of f_max
+  BoxModel boxes = BoxModel::oriented;                   ///< of V(M) and V(M, r)
+  FlatShapes flat_shapes = FlatShapes::refuse;           ///< what to do where V(M) = 0
 };
 
 /// Everything that Eq. 2 and 3 need, for one direction.

@@ -46,6 +46,6 @@ StructuredShape analyse_structure(const Shape& shape, const AnalysisOptions& opt
 /// Makes the primitives satisfy all symmetry relations of `structure` exactly, up to rounding: symmetric
 /// parts get the same kind of primitive and the mean of their control points. Throws InputError when
 /// relations contradict each other, naming them.
-void idealise(Structure& structure);
+void symmetrize(Structure& structure);
 
 }  // namespace stackabilization

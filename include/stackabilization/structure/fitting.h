@@ -28,7 +28,7 @@ struct FittedPrimitive {
 /// * Cuboid: the minimal oriented box; where others are as good to the eye, the one best aligned with
 ///   the file's axes or the part's own, so that round and square parts of a model get boxes alike. Its
 ///   axes are in the order and signs that lie nearest to the file's. A box thinner than
-///   tolerance::least_thickness is thickened to it.
+///   tolerance::min_thickness is thickened to it.
 /// * Generalized cylinder of a body of revolution, hollow or not: along its axis, radii those of its
 ///   outermost points; or, of a ring, around it, closed.
 /// * Of any other part: a straight axis of the box or line through the middle of its outlines, radii

@@ -16,10 +16,10 @@ struct JointOptions {
   /// Regions of contact nearer than this are one joint, fraction of the diameter of the ball around the
   /// smaller part.
   double separate = 0.15;
-  /// A contact this many times longer than wide, and longer than `least_line`, is a line joint.
+  /// A contact this many times longer than wide, and longer than `min_line`, is a line joint.
   double line_aspect = 4;
   /// Shortest line joint, fraction of the diameter of the smallest ball around the smaller part.
-  double least_line = 0.25;
+  double min_line = 0.25;
   /// Pairs of parts that are looked at; more are refused.
   std::size_t max_pairs = 100'000;
   /// Triangles of the parts of these pairs, each pair counting those of both its parts; more are refused.

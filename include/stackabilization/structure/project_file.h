@@ -48,7 +48,8 @@ std::string project_text(const StructuredShape& structured, const ProjectSection
 /// Writes that text (`write_file_atomically`). Throws OutputError as well.
 void write_project(const StructuredShape& structured, const std::filesystem::path& path);
 
-/// Reads a project. Primitives that miss a symmetry, after editing by hand, are made symmetric (`idealise`).
+/// Reads a project. Primitives that miss a symmetry, after editing by hand, are made symmetric
+/// (`symmetrize`).
 ///
 /// Throws InputError, one sentence with `name`, the place as a JSON pointer ("/parts/2/primitive/half_axes";
 /// the line for text that is no JSON) and what was expected there, for anything that is not as described

@@ -24,7 +24,7 @@ struct SegmentationOptions {
   SegmentationMethod method = SegmentationMethod::automatic;  ///< how parts are found
   int parts = 0;  ///< parts to end with per component; 0: as many as the shape has by the method's measure
   /// Crumbs below this share of the component's area join a neighbour; in [0, 1).
-  double smallest_part = 0.005;
+  double min_part_area = 0.005;
 };
 
 /// `shape` with its parts replaced: same vertices and triangles in the same order. Parts are called "part_1"
@@ -41,7 +41,7 @@ struct SegmentationOptions {
 ///
 /// Guarantee: one label per triangle, also for open, non-manifold and several-shelled shapes. Throws
 /// UsageError for options outside their ranges and InputError when `validate(shape)` fails.
-Shape segmented(const Shape& shape, const SegmentationOptions& options = {});
+Shape segment(const Shape& shape, const SegmentationOptions& options = {});
 
 /// Triangles that a user has marked as belonging to a part.
 struct PartSeeds {
@@ -53,6 +53,6 @@ struct PartSeeds {
 /// to, over the surface, where crossing a concave edge costs most. `shape`'s own parts are not looked at.
 /// Components without seeds go to the part that is nearest in space. Throws UsageError when a part has no
 /// seed, a triangle is seeded twice or does not exist.
-Shape segmented(const Shape& shape, const std::vector<PartSeeds>& seeds);
+Shape segment(const Shape& shape, const std::vector<PartSeeds>& seeds);
 
 }  // namespace stackabilization

@@ -40,9 +40,10 @@ void append_edges(const Points& points, const std::array<std::int32_t, 3>& corne
 
 }  // namespace
 
-RigidSurface::RigidSurface(Points points, const Triangles& triangles, const std::vector<Tie>& ties)
+RigidSurface::RigidSurface(Points points, const Triangles& triangles,
+                           const std::vector<StitchingEdge>& stitches)
     : points_(std::move(points)) {
-  add_edges(triangles, ties);
+  add_edges(triangles, stitches);
   find_shells();
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const Eigen::Vector3d a = points_.row(triangles(t, 0));
@@ -51,14 +52,14 @@ RigidSurface::RigidSurface(Points points, const Triangles& triangles, const std:
   }
 }
 
-void RigidSurface::add_edges(const Triangles& triangles, const std::vector<Tie>& ties) {
+void RigidSurface::add_edges(const Triangles& triangles, const std::vector<StitchingEdge>& stitches) {
   std::vector<WeightedEdge> edges;
   edges.reserve(6 * static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index t = 0; t < triangles.rows(); ++t)
     append_edges(points_, {triangles(t, 0), triangles(t, 1), triangles(t, 2)}, edges);
-  for (const Tie& tie : ties) {
-    edges.push_back({tie.a, tie.b, tie.weight});
-    edges.push_back({tie.b, tie.a, tie.weight});
+  for (const StitchingEdge& stitch : stitches) {
+    edges.push_back({stitch.a, stitch.b, stitch.weight});
+    edges.push_back({stitch.b, stitch.a, stitch.weight});
   }
   // A stable sort adds the weights of both directions of an edge in the same order, so their sums are equal
   // bit for bit.

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/index.h"
-#include "deformation/arap/shell_ties.h"
+#include "deformation/arap/stitching_edges.h"
 #include "deformation/arap/surface_handles.h"
 #include "deformation/model/vertex_constraints.h"
 #include "mesh/barycentric.h"
@@ -99,7 +99,7 @@ void apply(Targets& targets, const Edit& edit, const detail::HeldSurface& held, 
 
 /// Returns whether the squares of all coordinates are in the range of numbers.
 bool in_range(const Points& points) {
-  return (points.array().abs() <= tolerance::largest_coordinate).all();
+  return (points.array().abs() <= tolerance::max_coordinate).all();
 }
 
 /// Rigid motion of the surface around a point at rest: a rotation about the point, then a translation.
@@ -129,8 +129,8 @@ class SurfaceModel : public DeformationModel {
         handles_(shape, places_, options),
         options_(options),
         diagonal_((places_.points.colwise().maxCoeff() - places_.points.colwise().minCoeff()).norm()),
-        ties_(detail::shell_ties(places_, RigidSurface(places_.points, places_.triangles).shells(),
-                                 options.reach * diagonal_)),
+        ties_(detail::stitching_edges(places_, RigidSurface(places_.points, places_.triangles).shells(),
+                                      options.reach * diagonal_)),
         surface_(places_.points, places_.triangles, ties_) {}
 
   std::vector<Handle> handles() const override { return handles_.all(); }
@@ -146,7 +146,7 @@ class SurfaceModel : public DeformationModel {
   /// Holds the places that stay: fixed ones, and those beyond the influence of the held ones. Returns which
   /// places stay.
   std::vector<bool> hold_the_rest(Targets& targets, const std::vector<std::int32_t>& fixed) const;
-  RotatedPoints solved(const Targets& targets, const std::vector<bool>& stays) const;
+  RotatedPoints solve(const Targets& targets, const std::vector<bool>& stays) const;
   void follow(RotatedPoints& now, const Targets& targets) const;
   std::vector<SurfacePoint> nearest_leaders(const Shape& leaders, const std::vector<bool>& led) const;
   std::vector<std::int32_t> vertices_at(const std::vector<bool>& places) const;
@@ -156,7 +156,7 @@ class SurfaceModel : public DeformationModel {
   detail::SurfaceHandles handles_;
   SurfaceModelOptions options_;
   double diagonal_;
-  std::vector<Tie> ties_;
+  std::vector<StitchingEdge> ties_;
   RigidSurface surface_;
 };
 
@@ -194,7 +194,7 @@ std::vector<bool> SurfaceModel::hold_the_rest(Targets& targets,
   return stays;
 }
 
-RotatedPoints SurfaceModel::solved(const Targets& targets, const std::vector<bool>& stays) const {
+RotatedPoints SurfaceModel::solve(const Targets& targets, const std::vector<bool>& stays) const {
   RotatedPoints start = targets.held;
   // Initial rotations: a shell without places that stay starts with the rotation of its handles, any other
   // shell from rest.
@@ -275,7 +275,7 @@ DeformationResult SurfaceModel::deformed(const std::vector<Edit>& edits,
   if (targets.held.points != targets.background && in_range(targets.held.points) &&
       in_range(targets.background)) {
     stays = hold_the_rest(targets, fixed);
-    RotatedPoints now = solved(targets, stays);
+    RotatedPoints now = solve(targets, stays);
     follow(now, targets);
     places = std::move(now.points);
   }
@@ -284,9 +284,9 @@ DeformationResult SurfaceModel::deformed(const std::vector<Edit>& edits,
     if (places_.of_vertex[v] >= 0)
       result.shape.vertices.row(static_cast<Eigen::Index>(v)) = places.row(places_.of_vertex[v]);
 
-  ConstrainedVertices kept = constrained(shape_, result.shape.vertices, constraints, fixed);
+  ConstrainedVertices kept = constrain(shape_, result.shape.vertices, constraints, fixed);
   if (constraints.keep_extent && !targets.whole) {
-    ConstrainedVertices local = constrained(shape_, result.shape.vertices, constraints, vertices_at(stays));
+    ConstrainedVertices local = constrain(shape_, result.shape.vertices, constraints, vertices_at(stays));
     if (!local.refusal) kept = std::move(local);
   }
   result.shape.vertices = std::move(kept.vertices);

@@ -95,12 +95,12 @@ EditOutcome ControllerModel::edited(const std::vector<Primitive>& now, const Edi
   data_->check(now);
   detail::EditTask task{data_->rest.shape, now, {}, constraints};
   if (edit.handle.kind == HandleKind::shape) {
-    task.wanted = detail::prescribed(now, edit.operation);
+    task.wanted = detail::edit_handle(now, edit.operation);
   } else {
     const Part& part = data_->part(edit.handle);
-    task.wanted = {detail::prescribed(now[static_cast<std::size_t>(edit.handle.part)], edit, part.name)};
+    task.wanted = {detail::edit_handle(now[static_cast<std::size_t>(edit.handle.part)], edit, part.name)};
   }
-  return detail::solved_edit(data_->rig, data_->mesh, task);
+  return detail::solve_edit(data_->rig, data_->mesh, task);
 }
 
 Shape ControllerModel::shape_of(const std::vector<Primitive>& now) const {

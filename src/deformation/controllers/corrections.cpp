@@ -24,26 +24,27 @@ Eigen::MatrixXd row_space(const Eigen::MatrixXd& rows) {
 
 }  // namespace
 
-Corrections::Corrections(const Rig& rig) : rig_(rig), bases_(rig.bases), straight_(rig.bases.size()) {}
+CorrectionSpace::CorrectionSpace(const Rig& rig)
+    : rig_(rig), bases_(rig.bases), straight_(rig.bases.size()) {}
 
-void Corrections::fix(int of_class) {
+void CorrectionSpace::fix(int of_class) {
   bases_[at(of_class)].resize(bases_[at(of_class)].rows(), 0);
 }
 
-void Corrections::hold(const PartEdit& edit, Eigen::MatrixXd rows) {
+void CorrectionSpace::hold(const PartEdit& edit, Eigen::MatrixXd rows) {
   held_ = Held{edit, std::move(rows)};
   const int c = rig_.space.class_of(edit.part);
   allow(c, Eigen::MatrixXd(bases_[at(c)]));
 }
 
-void Corrections::allow(int of_class, const Eigen::MatrixXd& columns) {
+void CorrectionSpace::allow(int of_class, const Eigen::MatrixXd& columns) {
   Eigen::MatrixXd& basis = bases_[at(of_class)];
   basis = columns;
   if (!held_ || rig_.space.class_of(held_->edit.part) != of_class) return;
   basis = stiffness * (columns - columns * row_space(held_->rows * columns));
 }
 
-StraightHandle Corrections::handle_in(int of_class) const {
+StraightHandle CorrectionSpace::handle_in(int of_class) const {
   StraightHandle handle;
   if (!held_ || rig_.space.class_of(held_->edit.part) != of_class) return handle;
   const int part = held_->edit.part, value = held_->edit.values.front();
@@ -55,7 +56,7 @@ StraightHandle Corrections::handle_in(int of_class) const {
   return handle;
 }
 
-void Corrections::keep_straight(const std::vector<ControlState>& states) {
+void CorrectionSpace::keep_straight(const std::vector<ControlState>& states) {
   start_ = states;
   for (int c = 0; c < rig_.space.class_count(); ++c) {
     const Primitive now = rig_.space.primitive(rig_.space.members(c).front(), states[at(c)]);
@@ -66,13 +67,13 @@ void Corrections::keep_straight(const std::vector<ControlState>& states) {
   }
 }
 
-void Corrections::settle(std::vector<ControlState>& states) {
+void CorrectionSpace::retract(std::vector<ControlState>& states) {
   for (int c = 0; c < rig_.space.class_count(); ++c) {
     ControlState& state = states[at(c)];
     if (!straight_[at(c)] || state.values == start_[at(c)].values) continue;
     const int first = rig_.space.members(c).front();
     const auto now =
-        straight_[at(c)]->settled(std::get<GeneralizedCylinder>(rig_.space.primitive(first, state)));
+        straight_[at(c)]->retract(std::get<GeneralizedCylinder>(rig_.space.primitive(first, state)));
     ControlState settled = rig_.space.state_of(first, now);
     settled.rotation = state.rotation;
     state = rig_.space.invariant(c, std::move(settled));

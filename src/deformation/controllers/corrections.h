@@ -11,9 +11,9 @@
 namespace stackabilization::detail {
 
 /// Corrections that a solver may apply to every class of parts, and the restrictions on them.
-class Corrections {
+class CorrectionSpace {
  public:
-  explicit Corrections(const Rig& rig);
+  explicit CorrectionSpace(const Rig& rig);
 
   /// Forbids all corrections of the class.
   void fix(int of_class);
@@ -29,7 +29,7 @@ class Corrections {
   const std::vector<Eigen::MatrixXd>& bases() const { return bases_; }
   /// Removes the higher-order effects of a step along the columns from `states`, and recomputes the columns
   /// for the new states.
-  void settle(std::vector<ControlState>& states);
+  void retract(std::vector<ControlState>& states);
 
  private:
   struct Held {

@@ -6,7 +6,7 @@
 
 #include "core/index.h"
 #include "deformation/controllers/corrections.h"
-#include "deformation/controllers/prescription.h"
+#include "deformation/controllers/edit_target.h"
 #include "deformation/controllers/primitive_validity.h"
 #include "deformation/controllers/propagation.h"
 #include "deformation/model/refusal_words.h"
@@ -42,7 +42,7 @@ class EditSolution {
         class_(rig.space.class_of(edit_.part)),
         progress_(at(rig.space.class_count()), Progress::open),
         corrections_(rig),
-        watch_(mesh.by_class, extent_bounds(task.shape, task.constraints)) {}
+        extents_(mesh.by_class, extent_bounds(task.shape, task.constraints)) {}
 
   EditOutcome run() {
     fix_parts();
@@ -57,7 +57,7 @@ class EditSolution {
       progress_[at(class_)] = Progress::modified;
       // With fixed ends of an extent, the moved part must not move all others along.
       if (task_.constraints.extent_ends == ExtentEnds::free)
-        state_.controls = propagated(rig_, std::move(state_.controls), progress_);
+        state_.controls = propagate(rig_, std::move(state_.controls), progress_);
     }
     corrections_.keep_straight(state_.controls);
     solve();
@@ -88,8 +88,8 @@ class EditSolution {
     if (progress_[at(class_)] == Progress::settled)
       return Refusal{"'" + part_name(edit_.part) + "' is fixed, or symmetric to a part that is", std::nullopt,
                      0};
-    Prescription wanted =
-        prescription(rig_, {task_.now[at(edit_.part)], start_[at(class_)], edit_, task_.constraints});
+    EditTarget wanted =
+        edit_target(rig_, {task_.now[at(edit_.part)], start_[at(class_)], edit_, task_.constraints});
     if (wanted.refusal) return std::move(wanted.refusal);
     state_.controls[at(class_)] = std::move(wanted.state);
     if (wanted.held)
@@ -128,8 +128,9 @@ class EditSolution {
     fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.distinct_joints.size()),
                      constraints.end()};
     if (!solve_with_fixed_ends(constraints))
-      state_ = solved(rig_, corrections_, constraints, std::move(state_));
-    if (watch_.bounds().empty() || largest_gap(rig_, constraints, state_) > tolerance::relation * diagonal())
+      state_ = solve_relations(rig_, corrections_, constraints, std::move(state_));
+    if (extents_.bounds().empty() ||
+        largest_gap(rig_, constraints, state_) > tolerance::relation * diagonal())
       return;
     const SolverState unbounded = state_;
     bound_extents(constraints);
@@ -143,20 +144,21 @@ class EditSolution {
   /// Returns false, and changes nothing, when there is nothing to hold, or when it cannot be held together
   /// with `constraints`.
   bool solve_with_fixed_ends(const std::vector<Constraint>& constraints) {
-    const bool fixed = std::any_of(watch_.bounds().begin(), watch_.bounds().end(),
+    const bool fixed = std::any_of(extents_.bounds().begin(), extents_.bounds().end(),
                                    [](const ExtentBound& bound) { return bound.level.has_value(); });
     if (!fixed) return false;
     const SolverState prescribed = state_;
     const Points vertices = current_vertices();
-    state_.levels = watch_.levels(vertices);
+    state_.levels = extents_.levels(vertices);
     bool held = false;
-    for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
-      if (watch_.bounds()[k].level) held |= watch_.hold(k, vertices, ExtentWatch::Former::held);
+    for (std::size_t k = 0; k < extents_.bounds().size(); ++k)
+      if (extents_.bounds()[k].level)
+        held |= extents_.hold(k, vertices, ActiveExtentConstraints::OnExchange::held);
     if (held) {
       const std::vector<Constraint> all = solve_held(constraints);
       if (largest_gap(rig_, all, state_) <= tolerance::relation * diagonal()) return true;
     }
-    watch_.release();
+    extents_.release();
     state_ = prescribed;
     corrections_.keep_straight(state_.controls);
     return false;
@@ -167,32 +169,33 @@ class EditSolution {
   /// that are outermost in a class now, when earlier ones are in the way, as on a face that the edit tilts by
   /// a very small angle.
   void bound_extents(const std::vector<Constraint>& constraints) {
-    using Former = ExtentWatch::Former;
-    for (const Former former : {Former::released, Former::held})
+    using OnExchange = ActiveExtentConstraints::OnExchange;
+    for (const OnExchange on_exchange : {OnExchange::release, OnExchange::held})
       for (int round = 0; round < extent_rounds; ++round) {
         const Points vertices = current_vertices();
-        if (state_.levels.size() == 0) state_.levels = watch_.levels(vertices);
+        if (state_.levels.size() == 0) state_.levels = extents_.levels(vertices);
         if (remains_at_most(settled_remainder, vertices)) return;
         bool held = false;
-        for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
-          if (watch_.excess(k, vertices) != 0) held |= watch_.hold(k, vertices, former);
+        for (std::size_t k = 0; k < extents_.bounds().size(); ++k)
+          if (extents_.excess(k, vertices) != 0) held |= extents_.hold(k, vertices, on_exchange);
         if (!held) break;
         solve_held(constraints);
       }
     for (int round = 0; round < extent_rounds; ++round) {
       const Points vertices = current_vertices();
       if (remains_at_most(settled_remainder, vertices)) return;
-      watch_.release();
-      for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
-        if (watch_.excess(k, vertices) != 0 || watch_.is_kept(k)) watch_.hold(k, vertices, Former::released);
+      extents_.release();
+      for (std::size_t k = 0; k < extents_.bounds().size(); ++k)
+        if (extents_.excess(k, vertices) != 0 || extents_.is_kept(k))
+          extents_.hold(k, vertices, OnExchange::release);
       solve_held(constraints);
     }
   }
 
   /// Solves for `constraints` and the held vertices together. Returns all these constraints.
   std::vector<Constraint> solve_held(std::vector<Constraint> constraints) {
-    for (Constraint& held : watch_.constraints(mesh_.transfer)) constraints.push_back(std::move(held));
-    state_ = solved(rig_, corrections_, constraints, std::move(state_));
+    for (Constraint& held : extents_.constraints(mesh_.transfer)) constraints.push_back(std::move(held));
+    state_ = solve_relations(rig_, corrections_, constraints, std::move(state_));
     return constraints;
   }
 
@@ -203,9 +206,9 @@ class EditSolution {
   /// Returns whether every residual is small enough for take_up_remainder: that of a kept extent at most
   /// `multiple` times tolerance::relation of the diagonal, that of another bound 0.
   bool remains_at_most(double multiple, const Points& vertices) const {
-    for (std::size_t k = 0; k < watch_.bounds().size(); ++k) {
-      const double most = watch_.is_kept(k) ? multiple * tolerance::relation * diagonal() : 0;
-      if (std::abs(watch_.excess(k, vertices)) > most) return false;
+    for (std::size_t k = 0; k < extents_.bounds().size(); ++k) {
+      const double most = extents_.is_kept(k) ? multiple * tolerance::relation * diagonal() : 0;
+      if (std::abs(extents_.excess(k, vertices)) > most) return false;
     }
     return true;
   }
@@ -217,10 +220,10 @@ class EditSolution {
   void take_up_remainder() {
     for (int round = 0; round < remainder_rounds; ++round) {
       const Points vertices = current_vertices();
-      if (!watch_.any_excess(vertices) || !remains_at_most(largest_remainder, vertices)) return;
-      for (std::size_t k = 0; k < watch_.bounds().size(); ++k)
-        if (watch_.is_kept(k) && watch_.excess(k, vertices) != 0)
-          stretch(watch_.bounds()[k].normal, watch_.range(k, vertices), watch_.wanted(k, vertices));
+      if (!extents_.any_excess(vertices) || !remains_at_most(largest_remainder, vertices)) return;
+      for (std::size_t k = 0; k < extents_.bounds().size(); ++k)
+        if (extents_.is_kept(k) && extents_.excess(k, vertices) != 0)
+          stretch(extents_.bounds()[k].normal, extents_.range(k, vertices), extents_.wanted(k, vertices));
     }
   }
 
@@ -254,11 +257,11 @@ class EditSolution {
       const Eigen::Vector3d weights = barycentric_weights(task_.shape, nearest.triangle, nearest.point);
       Constraint constraint;
       for (int k = 0; k < 3; ++k)
-        for (Rider rider : mesh_.transfer.riders(task_.shape.triangles(nearest.triangle, k))) {
-          rider.weight *= weights(k);
-          constraint.target +=
-              rider.weight * rig_.carriers[at(rider.part)].carried(rider.binding, task_.now[at(rider.part)]);
-          constraint.riders.push_back(std::move(rider));
+        for (BoundPoint bound : mesh_.transfer.bound_points(task_.shape.triangles(nearest.triangle, k))) {
+          bound.weight *= weights(k);
+          constraint.target += bound.weight * rig_.primitive_bindings[at(bound.part)].position_of(
+                                                  bound.binding, task_.now[at(bound.part)]);
+          constraint.bound_points.push_back(std::move(bound));
         }
       constraints.push_back(std::move(constraint));
     }
@@ -299,15 +302,15 @@ class EditSolution {
   }
 
   std::optional<Refusal> broken_extent() const {
-    if (watch_.bounds().empty()) return std::nullopt;
+    if (extents_.bounds().empty()) return std::nullopt;
     const Points vertices = mesh_.transfer.vertices(rig_, primitives_);
-    for (std::size_t k = 0; k < watch_.bounds().size(); ++k) {
-      const double excess = watch_.excess(k, vertices);
+    for (std::size_t k = 0; k < extents_.bounds().size(); ++k) {
+      const double excess = extents_.excess(k, vertices);
       if (excess == 0) continue;
-      const Eigen::Vector3d& n = watch_.bounds()[k].normal;
-      const std::string what = watch_.bounds()[k].level ? ") would begin or end elsewhere, off by "
-                               : excess > 0             ? ") would be too long by "
-                                                        : ") would be too short by ";
+      const Eigen::Vector3d& n = extents_.bounds()[k].normal;
+      const std::string what = extents_.bounds()[k].level ? ") would begin or end elsewhere, off by "
+                               : excess > 0               ? ") would be too long by "
+                                                          : ") would be too short by ";
       return Refusal{"the extent along (" + fraction(n.x()) + ", " + fraction(n.y()) + ", " +
                          fraction(n.z()) + what + fraction(std::abs(excess) / diagonal()) +
                          " of the diagonal",
@@ -322,8 +325,8 @@ class EditSolution {
   const PartEdit& edit_;  ///< first edit of the task: that of the handle
   int class_;
   std::vector<Progress> progress_;  ///< per class
-  Corrections corrections_;
-  ExtentWatch watch_;
+  CorrectionSpace corrections_;
+  ActiveExtentConstraints extents_;
   std::vector<ControlState> start_;
   SolverState state_;
   std::vector<Constraint> fixed_points_;
@@ -332,7 +335,7 @@ class EditSolution {
 
 }  // namespace
 
-EditOutcome solved_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& task) {
+EditOutcome solve_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& task) {
   return EditSolution(rig, mesh, task).run();
 }
 

@@ -31,6 +31,6 @@ struct EditTask {
 /// function prescribes the controls of the edited part within its symmetries, propagates, solves and checks.
 /// The solve of an edit of every part starts from the prescriptions of all parts; joints may then shift the
 /// parts by as much as a cylinder deviates from the affine map. See ControllerModel::edited.
-EditOutcome solved_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& task);
+EditOutcome solve_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& task);
 
 }  // namespace stackabilization::detail

@@ -55,7 +55,7 @@ std::vector<std::vector<int>> vertices_by_class(const Shape& shape, const Rig& r
   return by_class;
 }
 
-Range ExtentWatch::range(std::size_t k, const Points& vertices) const {
+Range ActiveExtentConstraints::range(std::size_t k, const Points& vertices) const {
   const Eigen::Vector3d& normal = bounds_[k].normal;
   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const std::vector<int>& group : groups_)
@@ -67,12 +67,12 @@ Range ExtentWatch::range(std::size_t k, const Points& vertices) const {
   return range;
 }
 
-Range ExtentWatch::wanted(std::size_t k, const Points& vertices) const {
+Range ActiveExtentConstraints::wanted(std::size_t k, const Points& vertices) const {
   const double low = bounds_[k].level.value_or(range(k, vertices).low);
   return {low, low + bounds_[k].high};
 }
 
-double ExtentWatch::excess(std::size_t k, const Points& vertices) const {
+double ActiveExtentConstraints::excess(std::size_t k, const Points& vertices) const {
   const Range now = range(k, vertices);
   const double length = now.length(), slack = tolerance::relative / 2 * length;
   if (const std::optional<double> level = bounds_[k].level) {
@@ -85,26 +85,27 @@ double ExtentWatch::excess(std::size_t k, const Points& vertices) const {
   return 0;
 }
 
-bool ExtentWatch::any_excess(const Points& vertices) const {
+bool ActiveExtentConstraints::any_excess(const Points& vertices) const {
   for (std::size_t k = 0; k < bounds_.size(); ++k)
     if (excess(k, vertices) != 0) return true;
   return false;
 }
 
-Eigen::VectorXd ExtentWatch::levels(const Points& vertices) const {
+Eigen::VectorXd ActiveExtentConstraints::levels(const Points& vertices) const {
   Eigen::VectorXd levels(static_cast<Eigen::Index>(bounds_.size()));
   for (std::size_t k = 0; k < bounds_.size(); ++k)
     levels(static_cast<Eigen::Index>(k)) = range(k, vertices).low;
   return levels;
 }
 
-bool ExtentWatch::hold(std::size_t k, const Points& vertices, Former former) {
-  const bool above = hold_side(k, true, vertices, former);
-  const bool below = hold_side(k, false, vertices, former);
+bool ActiveExtentConstraints::hold(std::size_t k, const Points& vertices, OnExchange on_exchange) {
+  const bool above = hold_side(k, true, vertices, on_exchange);
+  const bool below = hold_side(k, false, vertices, on_exchange);
   return above || below;
 }
 
-bool ExtentWatch::hold_side(std::size_t k, bool upper, const Points& vertices, Former former) {
+bool ActiveExtentConstraints::hold_side(std::size_t k, bool upper, const Points& vertices,
+                                        OnExchange on_exchange) {
   const ExtentBound& bound = bounds_[k];
   const double sign = upper ? 1 : -1, beyond = excess(k, vertices);
   const Range whole = range(k, vertices);
@@ -123,21 +124,21 @@ bool ExtentWatch::hold_side(std::size_t k, bool upper, const Points& vertices, F
     const int top = *std::find_if(groups_[g].begin(), groups_[g].end(),
                                   [&](int v) { return height(v) >= highest - slack; });
     Held& held = held_[{k, upper, g}];
-    if (former == Former::released) held.vertices.clear();
+    if (on_exchange == OnExchange::release) held.vertices.clear();
     const bool joins = held.vertices.insert(top).second, first = held.ever.insert(top).second;
-    added |= former == Former::released ? first : joins;
+    added |= on_exchange == OnExchange::release ? first : joins;
     held.height = bound.level ? sign * end : upper ? (beyond > 0 ? bound.high : bound.low) : 0;
   }
   return added;
 }
 
-std::vector<Constraint> ExtentWatch::constraints(const MeshTransfer& transfer) const {
+std::vector<Constraint> ActiveExtentConstraints::constraints(const MeshTransfer& transfer) const {
   std::vector<Constraint> constraints;
   for (const auto& [where, held] : held_)
     for (const int vertex : held.vertices) {
       const std::size_t k = std::get<0>(where);
       Constraint constraint;
-      constraint.riders = transfer.riders(vertex);
+      constraint.bound_points = transfer.bound_points(vertex);
       constraint.normal = bounds_[k].normal;
       constraint.height = held.height;
       if (!bounds_[k].level) constraint.level = static_cast<int>(k);
@@ -146,7 +147,7 @@ std::vector<Constraint> ExtentWatch::constraints(const MeshTransfer& transfer) c
   return constraints;
 }
 
-void ExtentWatch::release() {
+void ActiveExtentConstraints::release() {
   held_.clear();
 }
 

@@ -31,11 +31,11 @@ std::vector<std::vector<int>> vertices_by_part(const Shape& shape);
 std::vector<std::vector<int>> vertices_by_class(const Shape& shape, const Rig& rig);
 
 /// Converts violated bounds into constraints on the outermost vertices of a mesh.
-class ExtentWatch {
+class ActiveExtentConstraints {
  public:
   /// `groups`: one list of ascending vertices for each set of parts that move alike. It must outlive this
   /// object.
-  ExtentWatch(const std::vector<std::vector<int>>& groups, std::vector<ExtentBound> bounds)
+  ActiveExtentConstraints(const std::vector<std::vector<int>>& groups, std::vector<ExtentBound> bounds)
       : groups_(groups), bounds_(std::move(bounds)) {}
 
   const std::vector<ExtentBound>& bounds() const { return bounds_; }
@@ -54,11 +54,11 @@ class ExtentWatch {
   Eigen::VectorXd levels(const Points& vertices) const;
 
   /// Treatment of the held vertices of a group when another vertex of the group becomes outermost.
-  enum class Former { released, held };
+  enum class OnExchange { release, held };
   /// Holds the extent at the violated bound: on either side, the outermost vertex of every group that reaches
   /// into the excess. Returns false when this adds no vertex to the held ones or, with Former::released, to
   /// those ever held.
-  bool hold(std::size_t k, const Points& vertices, Former former);
+  bool hold(std::size_t k, const Points& vertices, OnExchange on_exchange);
   /// Returns the constraints that keep the held vertices at their heights.
   std::vector<Constraint> constraints(const MeshTransfer& transfer) const;
   /// Forgets all held vertices, also those held earlier, so that they may be held again.
@@ -72,7 +72,7 @@ class ExtentWatch {
     double height = 0;       ///< height as in Constraint
   };
 
-  bool hold_side(std::size_t k, bool upper, const Points& vertices, Former former);
+  bool hold_side(std::size_t k, bool upper, const Points& vertices, OnExchange on_exchange);
 
   const std::vector<std::vector<int>>& groups_;
   std::vector<ExtentBound> bounds_;

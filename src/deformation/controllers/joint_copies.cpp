@@ -69,7 +69,7 @@ class JointCopies {
     for (const JointPoint& joint : rig_.joints) {
       const auto place = [&](std::size_t side) {
         const std::size_t part = at(joint.parts[side]);
-        return rig_.carriers[part].carried(joint.bindings[side], now[part]);
+        return rig_.primitive_bindings[part].position_of(joint.bindings[side], now[part]);
       };
       places_.push_back(place(0));
       gaps_.push_back(place(0) - place(1));

@@ -127,7 +127,7 @@ class Shares {
 }  // namespace
 
 MeshTransfer::MeshTransfer(const Shape& shape, const Rig& rig)
-    : rest_(shape.vertices), parts_(rig.carriers.size()) {
+    : rest_(shape.vertices), parts_(rig.primitive_bindings.size()) {
   const std::vector<Shares::PerVertex> shares = Shares(shape).all();
   for (std::size_t v = 0; v < shares.size(); ++v)
     for (const auto& [part, share] : shares[v]) {
@@ -138,32 +138,32 @@ MeshTransfer::MeshTransfer(const Shape& shape, const Rig& rig)
     Points points(static_cast<Eigen::Index>(parts_[part].vertices.size()), 3);
     for (Eigen::Index i = 0; i < points.rows(); ++i)
       points.row(i) = rest_.row(parts_[part].vertices[static_cast<std::size_t>(i)]);
-    parts_[part].bindings = rig.carriers[part].bind(points);
+    parts_[part].bindings = rig.primitive_bindings[part].bind(points);
   }
 }
 
 Points MeshTransfer::vertices(const Rig& rig, const std::vector<Primitive>& now) const {
   Points vertices = rest_;
   for (std::size_t part = 0; part < parts_.size(); ++part) {
-    if (equal(rig.carriers[part].rest(), now[part])) continue;
+    if (equal(rig.primitive_bindings[part].rest(), now[part])) continue;
     const BoundPart& bound = parts_[part];
-    const Points moved = rig.carriers[part].displacements(bound.bindings, now[part]);
+    const Points moved = rig.primitive_bindings[part].displacements(bound.bindings, now[part]);
     for (std::size_t i = 0; i < bound.vertices.size(); ++i)
       vertices.row(bound.vertices[i]) += bound.shares[i] * moved.row(static_cast<Eigen::Index>(i));
   }
   return vertices;
 }
 
-std::vector<Rider> MeshTransfer::riders(int vertex) const {
-  std::vector<Rider> riders;
+std::vector<BoundPoint> MeshTransfer::bound_points(int vertex) const {
+  std::vector<BoundPoint> bound_points;
   for (std::size_t part = 0; part < parts_.size(); ++part) {
     const BoundPart& bound = parts_[part];
     const auto found = std::lower_bound(bound.vertices.begin(), bound.vertices.end(), vertex);
     if (found == bound.vertices.end() || *found != vertex) continue;
     const auto i = static_cast<std::size_t>(found - bound.vertices.begin());
-    riders.push_back({static_cast<int>(part), bound.bindings[i], bound.shares[i]});
+    bound_points.push_back({static_cast<int>(part), bound.bindings[i], bound.shares[i]});
   }
-  return riders;
+  return bound_points;
 }
 
 }  // namespace stackabilization::detail

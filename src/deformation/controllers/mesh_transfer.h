@@ -21,7 +21,7 @@ class MeshTransfer {
   /// rest bit for bit.
   Points vertices(const Rig& rig, const std::vector<Primitive>& now) const;
   /// Returns the weighted bound points whose sum is the position of vertex `vertex`.
-  std::vector<Rider> riders(int vertex) const;
+  std::vector<BoundPoint> bound_points(int vertex) const;
   /// Returns the n x 3 vertices at rest.
   const Points& rest() const { return rest_; }
 

@@ -151,7 +151,7 @@ Eigen::VectorXd radius_factors(const GeneralizedCylinder& cylinder, const Eigen:
   return factors;
 }
 
-PartEdit prescribed(const Primitive& now, const Edit& edit, const std::string& part_name) {
+PartEdit edit_handle(const Primitive& now, const Edit& edit, const std::string& part_name) {
   const std::vector<int> held = held_points(now, edit.handle, part_name);
   check_operation(edit, part_name);
   const Eigen::Vector3d centre = handle_centre(now, edit.handle, part_name);
@@ -170,7 +170,7 @@ PartEdit prescribed(const Primitive& now, const Edit& edit, const std::string& p
   return result;
 }
 
-std::vector<PartEdit> prescribed(const std::vector<Primitive>& now, const Operation& operation) {
+std::vector<PartEdit> edit_handle(const std::vector<Primitive>& now, const Operation& operation) {
   const Eigen::Vector3d centre = shape_centre(now);
   std::vector<PartEdit> edits;
   for (std::size_t part = 0; part < now.size(); ++part)

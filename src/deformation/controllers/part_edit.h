@@ -43,11 +43,11 @@ Eigen::VectorXd radius_factors(const GeneralizedCylinder& cylinder, const Eigen:
 /// change such that the areas of the cross-sections change as under that map (circles stay circles). A face
 /// moves, rotates, and scales within its plane. A corner moves. A cross-section moves or changes its radius.
 /// Throws UsageError for other handles and operations.
-PartEdit prescribed(const Primitive& now, const Edit& edit, const std::string& part_name);
+PartEdit edit_handle(const Primitive& now, const Edit& edit, const std::string& part_name);
 
 /// Computes the prescriptions of one operation on all parts as wholes about the centre of the shape, one per
 /// part in order.
-std::vector<PartEdit> prescribed(const std::vector<Primitive>& now, const Operation& operation);
+std::vector<PartEdit> edit_handle(const std::vector<Primitive>& now, const Operation& operation);
 
 /// Returns `primitive` with the changes of control values and, for a generalized cylinder, the rotation of
 /// `edit`.

@@ -15,7 +15,7 @@ namespace {
 /// beyond them, is within it too.
 template <class Numbers>
 bool in_range(const Numbers& numbers) {
-  return (numbers.array().abs() <= tolerance::collapse * tolerance::largest_coordinate).all();
+  return (numbers.array().abs() <= tolerance::collapse * tolerance::max_coordinate).all();
 }
 
 /// Returns, as columns, the edges at the corner along the three axes of the box, all in their positive

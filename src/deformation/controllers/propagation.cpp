@@ -101,8 +101,9 @@ class Propagation {
       for (const std::size_t side : {0u, 1u}) {
         const int other = joint.parts[1 - side];
         if (joint.parts[side] != part || progress(other) == Progress::open) continue;
-        from.push_back(rig_.carriers[at(part)].carried(joint.bindings[side], now_[at(part)]));
-        to.push_back(rig_.carriers[at(other)].carried(joint.bindings[1 - side], now_[at(other)]));
+        from.push_back(rig_.primitive_bindings[at(part)].position_of(joint.bindings[side], now_[at(part)]));
+        to.push_back(
+            rig_.primitive_bindings[at(other)].position_of(joint.bindings[1 - side], now_[at(other)]));
         farthest = std::max(farthest, (to.back() - from.back()).norm());
       }
     if (farthest <= tolerance::solve * rig_.rest.diagonal) {
@@ -130,8 +131,8 @@ class Propagation {
 
 }  // namespace
 
-std::vector<ControlState> propagated(const Rig& rig, std::vector<ControlState> states,
-                                     std::vector<Progress> progress) {
+std::vector<ControlState> propagate(const Rig& rig, std::vector<ControlState> states,
+                                    std::vector<Progress> progress) {
   return Propagation(rig, std::move(states), std::move(progress)).run();
 }
 

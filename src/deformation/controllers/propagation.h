@@ -19,7 +19,7 @@ enum class Progress {
 /// translation, a rotation and a stretch along the line between them; more points by the affine map of least
 /// strain. The function then imposes self-symmetry again. One pass does not satisfy all constraints of a part
 /// that has several; relation_solver.h then solves for all of them.
-std::vector<ControlState> propagated(const Rig& rig, std::vector<ControlState> states,
-                                     std::vector<Progress> progress);
+std::vector<ControlState> propagate(const Rig& rig, std::vector<ControlState> states,
+                                    std::vector<Progress> progress);
 
 }  // namespace stackabilization::detail

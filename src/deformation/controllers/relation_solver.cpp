@@ -12,7 +12,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr int most_steps = 20;
+constexpr int max_steps = 20;
 /// The solver stops after two consecutive steps that leave more than this fraction of the largest residual.
 constexpr double idle_ratio = 0.9;
 /// Largest change of a control value in one step, fraction of the diagonal.
@@ -73,8 +73,9 @@ Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints,
   Eigen::Index row = 0;
   for (const Constraint& constraint : constraints) {
     Eigen::Vector3d sum = -constraint.target;
-    for (const Rider& rider : constraint.riders)
-      sum += rider.weight * rig.carriers[at(rider.part)].carried(rider.binding, now[at(rider.part)]);
+    for (const BoundPoint& bound : constraint.bound_points)
+      sum += bound.weight *
+             rig.primitive_bindings[at(bound.part)].position_of(bound.binding, now[at(bound.part)]);
     if (constraint.normal)
       all(row) = constraint.normal->dot(sum) - constraint.height -
                  (constraint.level ? state.levels(*constraint.level) : 0);
@@ -87,7 +88,7 @@ Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints,
 
 class Solver {
  public:
-  Solver(const Rig& rig, Corrections& corrections, const std::vector<Constraint>& constraints,
+  Solver(const Rig& rig, CorrectionSpace& corrections, const std::vector<Constraint>& constraints,
          SolverState start)
       : rig_(rig),
         corrections_(corrections),
@@ -103,7 +104,7 @@ class Solver {
   SolverState run() {
     double before = std::numeric_limits<double>::infinity();
     int idle = 0;
-    for (int step = 0; step < most_steps; ++step) {
+    for (int step = 0; step < max_steps; ++step) {
       now_ = rig_.space.primitives(state_.controls);
       const Eigen::VectorXd gap = gaps(rig_, constraints_, state_, now_);
       const double largest = gap.size() > 0 ? gap.cwiseAbs().maxCoeff() : 0;
@@ -125,10 +126,10 @@ class Solver {
     const std::vector<Eigen::MatrixXd> turns = turn_columns();
     Eigen::Index row = 0;
     for (const Constraint& constraint : constraints_) {
-      for (const Rider& rider : constraint.riders) {
-        const int c = rig_.space.class_of(rider.part);
+      for (const BoundPoint& bound : constraint.bound_points) {
+        const int c = rig_.space.class_of(bound.part);
         if (bases_[at(c)].cols() == 0) continue;
-        const Eigen::MatrixXd slope = rider.weight * rider_slope(rider, turns[at(c)]);
+        const Eigen::MatrixXd slope = bound.weight * bound_point_slope(bound, turns[at(c)]);
         auto block = all.block(row, offsets_[at(c)], rows_of(constraint), slope.cols());
         if (constraint.normal)
           block += constraint.normal->transpose() * slope;
@@ -160,18 +161,18 @@ class Solver {
     return found * columns.topRows(turning.cols());
   }
 
-  Eigen::Matrix<double, 3, Eigen::Dynamic> rider_slope(const Rider& rider,
-                                                       const Eigen::MatrixXd& turns) const {
-    const Eigen::MatrixXd& basis = bases_[at(rig_.space.class_of(rider.part))];
+  Eigen::Matrix<double, 3, Eigen::Dynamic> bound_point_slope(const BoundPoint& bound,
+                                                             const Eigen::MatrixXd& turns) const {
+    const Eigen::MatrixXd& basis = bases_[at(rig_.space.class_of(bound.part))];
     const ControlJacobian jacobian =
-        rig_.carriers[at(rider.part)].jacobian(rider.binding, now_[at(rider.part)]);
+        rig_.primitive_bindings[at(bound.part)].jacobian(bound.binding, now_[at(bound.part)]);
     Eigen::Matrix<double, 3, Eigen::Dynamic> slope =
         Eigen::Matrix<double, 3, Eigen::Dynamic>::Zero(3, basis.cols());
     for (const auto& [point, block] : jacobian.points)
-      slope.noalias() += block * rig_.space.point_rows(rider.part, point, basis);
+      slope.noalias() += block * rig_.space.point_rows(bound.part, point, basis);
     for (const auto& [section, column] : jacobian.radii)
-      slope.noalias() += column * rig_.space.radius_row(rider.part, section, basis);
-    if (turns.size() > 0) slope.noalias() += jacobian.rotation * rig_.space.axial(rider.part) * turns;
+      slope.noalias() += column * rig_.space.radius_row(bound.part, section, basis);
+    if (turns.size() > 0) slope.noalias() += jacobian.rotation * rig_.space.axial(bound.part) * turns;
     return slope;
   }
 
@@ -191,11 +192,11 @@ class Solver {
       state.values += scale * changes[c];
     }
     state_.levels += scale * step.tail(state_.levels.size());
-    corrections_.settle(state_.controls);
+    corrections_.retract(state_.controls);
   }
 
   const Rig& rig_;
-  Corrections& corrections_;
+  CorrectionSpace& corrections_;
   const std::vector<Eigen::MatrixXd>& bases_;
   const std::vector<Constraint>& constraints_;
   SolverState state_;
@@ -211,7 +212,8 @@ std::vector<Constraint> joint_constraints(const Rig& rig) {
   for (const int k : rig.distinct_joints) {
     const JointPoint& joint = rig.joints[at(k)];
     Constraint constraint;
-    constraint.riders = {{joint.parts[0], joint.bindings[0], 1}, {joint.parts[1], joint.bindings[1], -1}};
+    constraint.bound_points = {{joint.parts[0], joint.bindings[0], 1},
+                               {joint.parts[1], joint.bindings[1], -1}};
     constraints.push_back(std::move(constraint));
   }
   return constraints;
@@ -222,8 +224,8 @@ double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, c
   return all.size() > 0 ? all.cwiseAbs().maxCoeff() : 0;
 }
 
-SolverState solved(const Rig& rig, Corrections& corrections, const std::vector<Constraint>& constraints,
-                   SolverState start) {
+SolverState solve_relations(const Rig& rig, CorrectionSpace& corrections,
+                            const std::vector<Constraint>& constraints, SolverState start) {
   return Solver(rig, corrections, constraints, std::move(start)).run();
 }
 

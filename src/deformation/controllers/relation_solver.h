@@ -10,7 +10,7 @@
 namespace stackabilization::detail {
 
 /// A point bound to a part, with a weight in a sum of such points.
-struct Rider {
+struct BoundPoint {
   int part = 0;
   PointBinding binding;
   double weight = 1;
@@ -19,7 +19,7 @@ struct Rider {
 /// An equation for a weighted sum of bound points. Without a normal, the sum equals `target`. With a normal,
 /// the height of the sum along the normal is `height` above a level, which is a free unknown or 0.
 struct Constraint {
-  std::vector<Rider> riders;
+  std::vector<BoundPoint> bound_points;
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
   std::optional<Eigen::Vector3d> normal;  ///< unit normal
   double height = 0;                      ///< height above the level, model units; only with a normal
@@ -45,7 +45,7 @@ double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, c
 /// dense system, by a pivoted Cholesky factorisation that omits redundant constraints. Stops when the
 /// residuals are within tolerance::solve of the diagonal, or when steps no longer reduce them: check the
 /// result with `largest_gap`.
-SolverState solved(const Rig& rig, Corrections& corrections, const std::vector<Constraint>& constraints,
-                   SolverState start);
+SolverState solve_relations(const Rig& rig, CorrectionSpace& corrections,
+                            const std::vector<Constraint>& constraints, SolverState start);
 
 }  // namespace stackabilization::detail

@@ -2,8 +2,8 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "deformation/controllers/correction_basis.h"
 #include "deformation/controllers/joint_copies.h"
+#include "deformation/controllers/reduced_basis.h"
 #include "deformation/controllers/straightness.h"
 #include "stackabilization/core/tolerances.h"
 
@@ -28,14 +28,14 @@ Eigen::MatrixXd invariant_basis(const ControlSpace& space, int of_class, const E
 }  // namespace
 
 Rig::Rig(const Structure& structure) : rest(structure), space(structure) {
-  for (const Part& part : rest.parts) carriers.emplace_back(part.primitive);
+  for (const Part& part : rest.parts) primitive_bindings.emplace_back(part.primitive);
   for (std::size_t k = 0; k < rest.relations.size(); ++k) {
     const Relation& relation = rest.relations[k];
     if (relation.type != RelationType::point_joint && relation.type != RelationType::line_joint) continue;
     const std::array<int, 2> parts = {relation.parts[0], relation.parts[1]};
     for (Eigen::Index i = 0; i < relation.points.rows(); ++i) {
       const auto bind = [&](int part) {
-        return carriers[static_cast<std::size_t>(part)].bind(
+        return primitive_bindings[static_cast<std::size_t>(part)].bind(
             Eigen::Vector3d(relation.points.row(i).transpose()));
       };
       joints.push_back({static_cast<int>(k), parts, {bind(parts[0]), bind(parts[1])}});
@@ -45,8 +45,8 @@ Rig::Rig(const Structure& structure) : rest(structure), space(structure) {
     const Primitive& first = space.rest(space.members(c).front());
     const Eigen::MatrixXd half = space.invariant_columns(c, edit_kernel(first));
     edit_kernels.push_back(space.invariant_columns(c, half.transpose()));
-    strains.push_back(strain_length(first, rest.diagonal));
-    bases.push_back(invariant_basis(space, c, correction_basis(first, strains.back())));
+    strains.push_back(strain_scale(first, rest.diagonal));
+    bases.push_back(invariant_basis(space, c, reduced_basis(first, strains.back())));
     const auto* cylinder = std::get_if<GeneralizedCylinder>(&first);
     slides.push_back(cylinder && !cylinder->closed ? slide_functions(*cylinder) : Eigen::MatrixXd());
     turnings.push_back(cylinder ? turning(*cylinder) : Eigen::MatrixXd());

@@ -25,13 +25,13 @@ struct Rig {
 
   Structure rest;
   ControlSpace space;
-  std::vector<Carrier> carriers;     ///< carrier of each part
-  std::vector<JointPoint> joints;    ///< points of all joints; a line joint has two
-  std::vector<int> distinct_joints;  ///< rows of `joints`, see joint_copies.h
+  std::vector<PrimitiveBinding> primitive_bindings;  ///< binding of each part
+  std::vector<JointPoint> joints;                    ///< points of all joints; a line joint has two
+  std::vector<int> distinct_joints;                  ///< rows of `joints`, see joint_copies.h
   /// Per class: edit_kernel, projected to the subspace of its self-symmetries.
   std::vector<Eigen::MatrixXd> edit_kernels;
-  std::vector<Eigen::MatrixXd> bases;   ///< per class: correction_basis, projected likewise
-  std::vector<double> strains;          ///< per class: strain_length
+  std::vector<Eigen::MatrixXd> bases;   ///< per class: reduced_basis, projected likewise
+  std::vector<double> strains;          ///< per class: strain_scale
   std::vector<Eigen::MatrixXd> slides;  ///< per class: slide_functions of an open cylinder, otherwise empty
   /// Per class: `turning` of a generalized cylinder, empty for a cuboid.
   std::vector<Eigen::MatrixXd> turnings;

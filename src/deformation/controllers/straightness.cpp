@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "deformation/controllers/correction_basis.h"
+#include "deformation/controllers/reduced_basis.h"
 #include "deformation/model/skinning.h"
 #include "stackabilization/core/tolerances.h"
 
@@ -131,22 +131,22 @@ Eigen::MatrixXd StraightCorrections::columns(const GeneralizedCylinder& now) con
   const Eigen::VectorXd places = shares_of_chord(now);
   const Eigen::MatrixXd linear = linear_functions(places);
   // Equal strains have equal costs, as for cuboids: a disc must not grow thin, nor a slender leg thick.
-  const double proportion = 2 * now.radii.mean() / chord.norm();
-  const double flatness = std::min(1.0, 1 / proportion), slenderness = std::min(1.0, proportion);
+  const double size_ratio = 2 * now.radii.mean() / chord.norm();
+  const double flatness = std::min(1.0, 1 / size_ratio), slenderness = std::min(1.0, size_ratio);
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(4 * n, 6 + slides + 2);
   for (Eigen::Index i = 0; i < n; ++i) {
     columns.block<3, 3>(3 * i, 0) = linear(i, 0) * Eigen::Matrix3d::Identity();
     columns.block<3, 3>(3 * i, 3) = flatness * linear(i, 1) * Eigen::Matrix3d::Identity();
-    columns.block(3 * i, 6, 3, slides) = sliding_length * along * slides_.row(i);
+    columns.block(3 * i, 6, 3, slides) = sliding_scale * along * slides_.row(i);
     columns.block(3 * n + i, 6, 1, slides) =
-        sliding_length * slope_at(places(i)) / chord.norm() * slides_.row(i);
+        sliding_scale * slope_at(places(i)) / chord.norm() * slides_.row(i);
   }
-  columns.bottomRightCorner(n, 2) = slenderness * radius_length * linear;
+  columns.bottomRightCorner(n, 2) = slenderness * radius_scale * linear;
   columns.rightCols(columns.cols() - 3) *= strain_;
   return columns;
 }
 
-GeneralizedCylinder StraightCorrections::settled(GeneralizedCylinder now) const {
+GeneralizedCylinder StraightCorrections::retract(GeneralizedCylinder now) const {
   const Eigen::Vector3d before = centre(start_, to_) - centre(start_, from_);
   const Eigen::RowVector3d anchor = now.centres.row(from_);
   const Eigen::Vector3d along = (centre(now, to_) - anchor.transpose()).normalized();

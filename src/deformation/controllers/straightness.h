@@ -38,7 +38,7 @@ struct StraightHandle {
 /// are preserved.
 class StraightCorrections {
  public:
-  /// `slides`: see slide_functions; it must outlive this object. `strain`: see strain_length. Precondition:
+  /// `slides`: see slide_functions; it must outlive this object. `strain`: see strain_scale. Precondition:
   /// `start` is straight.
   StraightCorrections(GeneralizedCylinder start, const Eigen::MatrixXd& slides, double strain,
                       StraightHandle handle);
@@ -47,7 +47,7 @@ class StraightCorrections {
   /// ControlState).
   Eigen::MatrixXd columns(const GeneralizedCylinder& now) const;
   /// Removes the higher-order effects of steps along the columns from `now`.
-  GeneralizedCylinder settled(GeneralizedCylinder now) const;
+  GeneralizedCylinder retract(GeneralizedCylinder now) const;
 
  private:
   /// Returns the piece of the profile at a position between both ends; at a section, the lower piece.
@@ -60,7 +60,7 @@ class StraightCorrections {
   const Eigen::MatrixXd& slides_;
   double strain_;
   StraightHandle handle_;
-  /// Sections that define the line on which `settled` puts the centres of the others.
+  /// Sections that define the line on which `retract` puts the centres of the others.
   int from_, to_;
   Points offsets_;           ///< offsets of the sections of `start_` from that line
   Eigen::VectorXd profile_;  ///< positions of the sections of `start_` between both ends, 0 to 1

@@ -151,7 +151,7 @@ DeformationResult GapScaling::deformed(const std::vector<Edit>& edits,
   for (Eigen::Index v = 0; v < vertices.rows(); ++v)
     if (depth_(v) > 0) vertices.row(v) += (1 - factor) * depth_(v) * up_.transpose();
   ConstrainedVertices kept =
-      constrained(shape_, std::move(vertices), constraints, fixed_vertices(shape_, constraints));
+      constrain(shape_, std::move(vertices), constraints, fixed_vertices(shape_, constraints));
   result.shape.vertices = std::move(kept.vertices);
   result.refusal = std::move(kept.refusal);
   return result;

@@ -176,9 +176,9 @@ class Editing {
       edit.motion = WireMotion::turn;
       edit.linear = inverse * linear_of(operation) * whole_.linear();
     }
-    const detail::PropagatedWires result = propagated(edit);
+    const detail::PropagatedWires result = propagate(edit);
     if (!(result.excess <= 1)) {
-      const double amount = result.missed_by / network_.diagonal;
+      const double amount = result.violation / network_.diagonal;
       return Refusal{result.missed + ", by " + significant_text(amount, 3) + " of the diagonal", {}, amount};
     }
     maps_ = result.maps;
@@ -191,15 +191,15 @@ class Editing {
 
  private:
   /// Propagates an edit. Holds the wires that define the kept extent, if possible.
-  detail::PropagatedWires propagated(const WireEdit& edit) const {
+  detail::PropagatedWires propagate(const WireEdit& edit) const {
     WireHolds holds{fixed_, {}};
     if (constraints_.keep_extent) {
       holds.height = (whole_.linear().transpose() * constraints_.keep_extent->unit()).normalized();
-      const auto result = detail::propagated(network_, maps_, edit, holds);
+      const auto result = detail::propagate(network_, maps_, edit, holds);
       if (result.excess <= 1) return result;
       holds.height.reset();
     }
-    return detail::propagated(network_, maps_, edit, holds);
+    return detail::propagate(network_, maps_, edit, holds);
   }
 
   std::optional<Refusal> check_symmetries() const {
@@ -287,7 +287,7 @@ DeformationResult IWiresModel::deformed(const std::vector<Edit>& edits,
                              : WireSurface(data_->rest, data_->network, fixed).deformed(state.nodes());
   const Eigen::Affine3d& whole = state.whole();
   vertices = detail::transformed(vertices, whole);
-  ConstrainedVertices kept = constrained(data_->rest, std::move(vertices), constraints, fixed);
+  ConstrainedVertices kept = constrain(data_->rest, std::move(vertices), constraints, fixed);
   if (kept.refusal) {
     result.refusal = kept.refusal;
     return result;

@@ -23,7 +23,7 @@ constexpr double weight_of_shape = 64;  ///< size and shape of curved wires
 constexpr double weight_of_links = 64;  ///< offset of linked wires
 /// Scale of the equations of symmetries: they hold more exactly than relations that were measured with noise.
 constexpr double factor_of_symmetry = 32;
-constexpr int most_rounds = 16;
+constexpr int max_rounds = 16;
 constexpr double thin_angle = 0.1;  ///< sine below which two directions of sliding count as one
 
 /// Subject of an equation, for the message when the equation is violated.
@@ -77,9 +77,9 @@ class PropagationProblem {
 
   /// Solves the problem. Fixes the size of wires that would be flattened and solves again, until there are
   /// none.
-  PropagatedWires solved() {
-    for (int round = 0; round < most_rounds; ++round) {
-      const auto solution = problem_->solved(tolerance::rounding * network_.diagonal);
+  PropagatedWires solve() {
+    for (int round = 0; round < max_rounds; ++round) {
+      const auto solution = problem_->solve(tolerance::rounding * network_.diagonal);
       const std::vector<int> flattened = collapses(solution.values);
       if (flattened.empty()) return result_of(solution);
       for (const int k : flattened) {
@@ -124,13 +124,13 @@ class PropagationProblem {
       const bool measured =
           demands_[i].kind == Demand::Kind::junction || demands_[i].kind == Demand::Kind::plane;
       const double exact = tolerance::relation * network_.diagonal;
-      const double missed_by = std::abs(solution.missed(static_cast<Eigen::Index>(i))) /
+      const double violation = std::abs(solution.residual(static_cast<Eigen::Index>(i))) /
                                (demands_[i].kind == Demand::Kind::symmetry ? factor_of_symmetry : 1);
-      double excess = missed_by / (measured ? std::max(network_.tolerance, exact) : exact);
+      double excess = violation / (measured ? std::max(network_.tolerance, exact) : exact);
       if (std::isnan(excess)) excess = std::numeric_limits<double>::infinity();
       if (excess <= result.excess) continue;
       result.excess = excess;
-      result.missed_by = missed_by;
+      result.violation = violation;
       result.missed = clause(demands_[i]);
     }
     return result;
@@ -205,17 +205,17 @@ class PropagationProblem {
     return a;
   }
 
-  void demand(Row row, double right, const Demand& about) {
+  void add_equality(Row row, double right, const Demand& about) {
     if (about.kind == Demand::Kind::symmetry) {
       for (auto& term : row) term.factor *= factor_of_symmetry;
       right *= factor_of_symmetry;
     }
-    problem_->demand(row, right);
+    problem_->add_equality(row, right);
     demands_.push_back(about);
   }
 
   void demand_equal(const Rows3& rows, const Eigen::Vector3d& right, const Demand& about) {
-    for (int c = 0; c < 3; ++c) demand(rows[static_cast<std::size_t>(c)], right(c), about);
+    for (int c = 0; c < 3; ++c) add_equality(rows[static_cast<std::size_t>(c)], right(c), about);
   }
 
   void demand_zero(const Rows3& rows, const Demand& about) {
@@ -231,10 +231,10 @@ class PropagationProblem {
       if (straight) held = {held.front(), held.back()};
       for (const int node : held)
         for (const Row& row : displacement(k, point(k, node)))
-          problem_->wish(row, 0, weight(k) / static_cast<double>(held.size()));
+          problem_->add_soft(row, 0, weight(k) / static_cast<double>(held.size()));
       if (!straight)
         for (const WireMode& mode : modes(k))
-          problem_->wish({{mode.variable, 1}}, 0, weight_of_shape * weight(k));
+          problem_->add_soft({{mode.variable, 1}}, 0, weight_of_shape * weight(k));
     }
   }
 
@@ -262,7 +262,7 @@ class PropagationProblem {
       const double strength = weight_of_links * std::min(weight(link.wire), weight(link.other));
       for (int c = 0; c < 3; ++c) {
         const Eigen::Vector3d along = across.col(c);
-        problem_->wish(combined(rows, along), along.dot(right), strength);
+        problem_->add_soft(combined(rows, along), along.dot(right), strength);
       }
     }
   }
@@ -307,7 +307,7 @@ class PropagationProblem {
           row.push_back({3 * k + c, (*after)(c)});
           row.push_back({3 * first + c, -(*after)(c)});
         }
-        demand(row, before->dot(between) - after->dot(between), {Demand::Kind::plane, k, first});
+        add_equality(row, before->dot(between) - after->dot(between), {Demand::Kind::plane, k, first});
       }
     }
   }
@@ -339,7 +339,7 @@ class PropagationProblem {
         for (const WireMode& mode : modes(b)) row.push_back({mode.variable, size * mode.matrix(i, j)});
         for (const WireMode& mode : modes(a))
           row.push_back({mode.variable, -size * (q * mode.matrix * q.transpose())(i, j)});
-        demand(row, 0, about);
+        add_equality(row, 0, about);
       }
   }
 
@@ -356,7 +356,7 @@ class PropagationProblem {
     const double slack = tolerance::relative * network_.diagonal;
     each_node([&](int k, const Eigen::Vector3d& x, double height) {
       if (height > low + slack && height < high - slack) return;
-      demand(combined(displacement(k, x), along), -along.dot(turned(k, x)), {Demand::Kind::height, k});
+      add_equality(combined(displacement(k, x), along), -along.dot(turned(k, x)), {Demand::Kind::height, k});
     });
   }
 
@@ -373,19 +373,19 @@ class PropagationProblem {
 
 }  // namespace
 
-PropagatedWires propagated(const WireNetwork& network, const WireMaps& now, const WireEdit& edit,
-                           const WireHolds& holds) {
+PropagatedWires propagate(const WireNetwork& network, const WireMaps& now, const WireEdit& edit,
+                          const WireHolds& holds) {
   const std::size_t count = network.structure.wires.size();
   const bool turning = edit.motion == WireMotion::turn;
-  const auto solved = [&](Turns turns) {
+  const auto solve = [&](Turns turns) {
     PropagationProblem problem(network, now, edit, std::move(turns));
     problem.hold(holds);
-    return problem.solved();
+    return problem.solve();
   };
-  PropagatedWires result = solved(turning ? spread_turn(network, edit.wire, edit.linear)
-                                          : Turns(count, Eigen::Matrix3d::Identity()));
+  PropagatedWires result = solve(turning ? spread_turn(network, edit.wire, edit.linear)
+                                         : Turns(count, Eigen::Matrix3d::Identity()));
   if (!turning || result.excess <= 1) return result;
-  PropagatedWires whole = solved(Turns(count, edit.linear));
+  PropagatedWires whole = solve(Turns(count, edit.linear));
   return whole.excess < result.excess ? whole : result;
 }
 

@@ -29,7 +29,7 @@ struct PropagatedWires {
   /// tolerance::relation of the diagonal for symmetries and held points. The edit was possible when this is
   /// at most 1.
   double excess = 0;
-  double missed_by = 0;  ///< violation of this relation, model units
+  double violation = 0;  ///< violation of this relation, model units
   std::string missed;    ///< clause that describes the violation
 };
 
@@ -45,7 +45,7 @@ struct PropagatedWires {
 ///
 /// A turn propagates first to the mirror images, from them to parallel wires and to curves of the same plane.
 /// When the equations cannot hold then, the turn applies to all wires.
-PropagatedWires propagated(const WireNetwork& network, const WireMaps& now, const WireEdit& edit,
-                           const WireHolds& holds);
+PropagatedWires propagate(const WireNetwork& network, const WireMaps& now, const WireEdit& edit,
+                          const WireHolds& holds);
 
 }  // namespace stackabilization::detail

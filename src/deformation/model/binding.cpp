@@ -33,7 +33,7 @@ std::vector<int> sections_around(const CurveBinding& binding, const GeneralizedC
 
 ControlJacobian curve_jacobian(const CurveAtRest& curve, const CurveBinding& binding,
                                GeneralizedCylinder now) {
-  const Eigen::Vector3d here = curve.carried(binding, now);
+  const Eigen::Vector3d here = curve.position_of(binding, now);
   const double size =
       (curve.cylinder().centres.row(binding.to) - curve.cylinder().centres.row(binding.from)).norm() +
       curve.cylinder().radii(binding.from);
@@ -42,7 +42,7 @@ ControlJacobian curve_jacobian(const CurveAtRest& curve, const CurveBinding& bin
   const auto slope = [&](double& variable) -> Eigen::Vector3d {
     const double before = variable;
     variable += step;
-    const Eigen::Vector3d there = curve.carried(binding, now);
+    const Eigen::Vector3d there = curve.position_of(binding, now);
     const double varied = variable - before;
     variable = before;
     return (there - here) / varied;
@@ -57,23 +57,23 @@ ControlJacobian curve_jacobian(const CurveAtRest& curve, const CurveBinding& bin
   const Eigen::Quaterniond rotation = now.rotation;
   for (int k = 0; k < 3; ++k) {
     now.rotation = Eigen::AngleAxisd(tolerance::difference_step, Eigen::Vector3d::Unit(k)) * rotation;
-    jacobian.rotation.col(k) = (curve.carried(binding, now) - here) / tolerance::difference_step;
+    jacobian.rotation.col(k) = (curve.position_of(binding, now) - here) / tolerance::difference_step;
   }
   return jacobian;
 }
 
 }  // namespace
 
-Carrier::Carrier(const Primitive& rest) : rest_(rest) {
+PrimitiveBinding::PrimitiveBinding(const Primitive& rest) : rest_(rest) {
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&rest)) curve_ = CurveAtRest(*cylinder);
 }
 
-PointBinding Carrier::bind(const Eigen::Vector3d& point) const {
+PointBinding PrimitiveBinding::bind(const Eigen::Vector3d& point) const {
   if (const auto* curve = std::get_if<CurveAtRest>(&curve_)) return curve->bind(point);
   return CageBinding{point, mean_value_coordinates(std::get<Cuboid>(rest_), point.transpose())};
 }
 
-std::vector<PointBinding> Carrier::bind(const Points& points) const {
+std::vector<PointBinding> PrimitiveBinding::bind(const Points& points) const {
   std::vector<PointBinding> bindings(static_cast<std::size_t>(points.rows()));
   if (const auto* curve = std::get_if<CurveAtRest>(&curve_)) {
     for (std::size_t i = 0; i < bindings.size(); ++i)
@@ -88,15 +88,16 @@ std::vector<PointBinding> Carrier::bind(const Points& points) const {
   return bindings;
 }
 
-Eigen::Vector3d Carrier::carried(const PointBinding& binding, const Primitive& now) const {
+Eigen::Vector3d PrimitiveBinding::position_of(const PointBinding& binding, const Primitive& now) const {
   if (const auto* curve = std::get_if<CurveAtRest>(&curve_))
-    return curve->carried(std::get<CurveBinding>(binding), std::get<GeneralizedCylinder>(now));
+    return curve->position_of(std::get<CurveBinding>(binding), std::get<GeneralizedCylinder>(now));
   const auto& [point, weights] = std::get<CageBinding>(binding);
   const BoxCorners moved = std::get<Cuboid>(now).corners - std::get<Cuboid>(rest_).corners;
   return point + moved.transpose() * weights;
 }
 
-Points Carrier::displacements(const std::vector<PointBinding>& bindings, const Primitive& now) const {
+Points PrimitiveBinding::displacements(const std::vector<PointBinding>& bindings,
+                                       const Primitive& now) const {
   Points moved(static_cast<Eigen::Index>(bindings.size()), 3);
   if (const auto* curve = std::get_if<CurveAtRest>(&curve_)) {
     const auto& cylinder = std::get<GeneralizedCylinder>(now);
@@ -106,8 +107,8 @@ Points Carrier::displacements(const std::vector<PointBinding>& bindings, const P
       const auto& binding = std::get<CurveBinding>(bindings[i]);
       const Eigen::Vector3d rest = curve->origin() + binding.axis + binding.radial + binding.axial;
       moved.row(static_cast<Eigen::Index>(i)) =
-          curve->carried(binding, cylinder, motions[static_cast<std::size_t>(binding.from)],
-                         motions[static_cast<std::size_t>(binding.to)]) -
+          curve->position_of(binding, cylinder, motions[static_cast<std::size_t>(binding.from)],
+                             motions[static_cast<std::size_t>(binding.to)]) -
           rest;
     }
     return moved;
@@ -119,7 +120,7 @@ Points Carrier::displacements(const std::vector<PointBinding>& bindings, const P
   return moved;
 }
 
-ControlJacobian Carrier::jacobian(const PointBinding& binding, const Primitive& now) const {
+ControlJacobian PrimitiveBinding::jacobian(const PointBinding& binding, const Primitive& now) const {
   if (const auto* curve = std::get_if<CurveAtRest>(&curve_))
     return curve_jacobian(*curve, std::get<CurveBinding>(binding), std::get<GeneralizedCylinder>(now));
   return cage_jacobian(std::get<CageBinding>(binding));

@@ -35,9 +35,9 @@ struct ControlJacobian {
 };
 
 /// A primitive at rest to which points are bound. Immutable, safe to share between threads.
-class Carrier {
+class PrimitiveBinding {
  public:
-  explicit Carrier(const Primitive& rest);
+  explicit PrimitiveBinding(const Primitive& rest);
 
   const Primitive& rest() const { return rest_; }
   /// Returns the binding of a point at rest, model units.
@@ -46,7 +46,7 @@ class Carrier {
   std::vector<PointBinding> bind(const Points& points) const;
   /// Returns the position of a bound point for the primitive `now`. Precondition, here and below: `now` has
   /// the kind and size of `rest()`.
-  Eigen::Vector3d carried(const PointBinding& binding, const Primitive& now) const;
+  Eigen::Vector3d position_of(const PointBinding& binding, const Primitive& now) const;
   /// Returns the n x 3 displacements of bound points since rest: `carried` minus the point at rest. They are
   /// exactly zero where the cuboid did not move.
   Points displacements(const std::vector<PointBinding>& bindings, const Primitive& now) const;

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int readable_digits = 5;
 /// Powers of ten of the numbers that are written without an exponent.
-constexpr int least_plain = -4, most_plain = 6;
+constexpr int min_plain_exponent = -4, max_plain_exponent = 6;
 
 constexpr std::array<const char*, 6> face_names = {"-x", "+x", "-y", "+y", "-z", "+z"};
 
@@ -30,7 +30,7 @@ std::string text(double value, double size) {
   if (size == 0) return "0";
   const int power = power_of_ten(size), places = readable_digits - 1 - power;
   if (std::abs(value) <= std::pow(10.0, -places) / 2) return "0";
-  if (power < least_plain || power > most_plain)
+  if (power < min_plain_exponent || power > max_plain_exponent)
     return significant_text(value, std::max(1, places + 1 + power_of_ten(std::abs(value))));
   std::string digits = fixed_text(value, std::max(0, places));
   if (places > 0) digits.erase(digits.find_last_not_of('0') + 1);

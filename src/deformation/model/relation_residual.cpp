@@ -43,7 +43,7 @@ double joint_gap(const Relation& relation, const Structure& rest, const std::vec
   for (Eigen::Index i = 0; i < relation.points.rows(); ++i) {
     const auto place = [&](int part) {
       const auto k = static_cast<std::size_t>(part);
-      return carried(rest.parts[k].primitive, deformed[k], relation.points.row(i).transpose());
+      return deform_point(rest.parts[k].primitive, deformed[k], relation.points.row(i).transpose());
     };
     widen(gap, (place(relation.parts[0]) - place(relation.parts[1])).norm());
   }

@@ -118,8 +118,8 @@ DualQuaternion CurveAtRest::motion(const GeneralizedCylinder& now, int i) const 
                          row(now.centres, i) - origin_ - rotation * (row(cylinder_.centres, i) - origin_));
 }
 
-Eigen::Vector3d CurveAtRest::carried(const CurveBinding& binding, const GeneralizedCylinder& now,
-                                     const DualQuaternion& from, const DualQuaternion& to) const {
+Eigen::Vector3d CurveAtRest::position_of(const CurveBinding& binding, const GeneralizedCylinder& now,
+                                         const DualQuaternion& from, const DualQuaternion& to) const {
   const auto radius = [&](const Eigen::VectorXd& radii) {
     return (1 - binding.fraction) * radii(binding.from) + binding.fraction * radii(binding.to);
   };

@@ -59,11 +59,11 @@ class CurveAtRest {
   DualQuaternion motion(const GeneralizedCylinder& now, int i) const;
 
   /// Returns the position of a bound point, given the motions of its two sections.
-  Eigen::Vector3d carried(const CurveBinding& binding, const GeneralizedCylinder& now,
-                          const DualQuaternion& from, const DualQuaternion& to) const;
+  Eigen::Vector3d position_of(const CurveBinding& binding, const GeneralizedCylinder& now,
+                              const DualQuaternion& from, const DualQuaternion& to) const;
   /// Returns the position of a bound point, with the motions that `motion` gives.
-  Eigen::Vector3d carried(const CurveBinding& binding, const GeneralizedCylinder& now) const {
-    return carried(binding, now, motion(now, binding.from), motion(now, binding.to));
+  Eigen::Vector3d position_of(const CurveBinding& binding, const GeneralizedCylinder& now) const {
+    return position_of(binding, now, motion(now, binding.from), motion(now, binding.to));
   }
 
  private:

@@ -4,9 +4,9 @@
 
 namespace stackabilization {
 
-Eigen::Vector3d carried(const Primitive& rest, const Primitive& now, const Eigen::Vector3d& point) {
-  const detail::Carrier carrier(rest);
-  return carrier.carried(carrier.bind(point), now);
+Eigen::Vector3d deform_point(const Primitive& rest, const Primitive& now, const Eigen::Vector3d& point) {
+  const detail::PrimitiveBinding binding(rest);
+  return binding.position_of(binding.bind(point), now);
 }
 
 }  // namespace stackabilization

@@ -11,6 +11,6 @@ namespace stackabilization {
 ///
 /// Exact up to rounding: `point` itself when nothing moved; affine maps of a cuboid; rigid motions and
 /// uniform scalings of a generalized cylinder. Precondition: `rest` and `now` have the same kind and size.
-Eigen::Vector3d carried(const Primitive& rest, const Primitive& now, const Eigen::Vector3d& point);
+Eigen::Vector3d deform_point(const Primitive& rest, const Primitive& now, const Eigen::Vector3d& point);
 
 }  // namespace stackabilization

@@ -18,7 +18,7 @@ namespace stackabilization {
 namespace {
 
 /// Returns the corners of the triangle whose barycentric weight at the point exceeds tolerance::relative.
-std::vector<std::int32_t> carriers(const Shape& shape, const SurfacePoint& at) {
+std::vector<std::int32_t> containing_corners(const Shape& shape, const SurfacePoint& at) {
   const Eigen::Vector3d weights = detail::barycentric_weights(shape, at.triangle, at.point);
   std::vector<std::int32_t> rows;
   for (int k = 0; k < 3; ++k)
@@ -54,7 +54,7 @@ class Check {
 
   std::optional<Refusal> finite(const Points& vertices) const {
     for (const std::int32_t v : rest_.triangles.reshaped<Eigen::RowMajor>())
-      if (!(vertices.row(v).cwiseAbs().maxCoeff() <= tolerance::largest_coordinate))
+      if (!(vertices.row(v).cwiseAbs().maxCoeff() <= tolerance::max_coordinate))
         return Refusal{"the edit takes vertex " + std::to_string(v) + " out of the range of numbers", {}, 0};
     return {};
   }
@@ -175,7 +175,7 @@ std::vector<std::int32_t> fixed_vertices(const Shape& rest, const DeformationCon
   if (!constraints.fixed_points.empty()) {
     const SurfaceIndex surface(rest);
     for (const Eigen::Vector3d& point : constraints.fixed_points)
-      for (const std::int32_t v : carriers(rest, surface.nearest(point))) rows.push_back(v);
+      for (const std::int32_t v : containing_corners(rest, surface.nearest(point))) rows.push_back(v);
   }
   if (rows.empty()) return rows;
   const std::vector<std::int32_t> place = detail::weld(rest).of_vertex;
@@ -189,8 +189,8 @@ std::vector<std::int32_t> fixed_vertices(const Shape& rest, const DeformationCon
   return rows;
 }
 
-ConstrainedVertices constrained(const Shape& rest, Points vertices, const DeformationConstraints& constraints,
-                                const std::vector<std::int32_t>& fixed) {
+ConstrainedVertices constrain(const Shape& rest, Points vertices, const DeformationConstraints& constraints,
+                              const std::vector<std::int32_t>& fixed) {
   validate(constraints, rest);
   const Check check(rest, constraints, fixed);
   std::optional<Refusal> refusal = check.finite(vertices);

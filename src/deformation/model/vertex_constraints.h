@@ -41,7 +41,7 @@ struct ConstrainedVertices {
 /// Refuses when a fixed vertex has moved, the box has changed too much, a vertex is not finite, the shape is
 /// flat along r, or the fixed vertices leave no room for the extent. Extent and box hold up to rounding,
 /// fixed vertices exactly. Throws UsageError under the conditions of `validate(constraints, rest)`.
-ConstrainedVertices constrained(const Shape& rest, Points vertices, const DeformationConstraints& constraints,
-                                const std::vector<std::int32_t>& fixed);
+ConstrainedVertices constrain(const Shape& rest, Points vertices, const DeformationConstraints& constraints,
+                              const std::vector<std::int32_t>& fixed);
 
 }  // namespace stackabilization

@@ -153,7 +153,7 @@ class DeepestPartners {
 
   /// In solid semantics walls along r touch nothing.
   bool may_touch(std::int32_t triangle) const {
-    if (projection_.semantics == Semantics::closed) return true;
+    if (projection_.semantics == ContactSemantics::closed) return true;
     const ProjectedTriangle seen(tree_.triangles[triangle], projection_);
     return seen.area != 0 || seen.area_error != 0;
   }
@@ -178,7 +178,7 @@ class DeepestPartners {
     for (int visited = 0; !open.empty() && visited < max_partners; ++visited) {
       const Open next = open.back();
       open.pop_back();
-      if (next.bound <= cut_ || next.bound.high <= least_depth(best, own.count) + resolution_) continue;
+      if (next.bound <= cut_ || next.bound.high <= min_depth(best, own.count) + resolution_) continue;
       const TreeNode& node = tree_.nodes[next.node];
       if (node.count > 0) {
         for (std::int32_t own_at = 0; own_at < own.count; ++own_at)
@@ -195,7 +195,7 @@ class DeepestPartners {
     for (std::int32_t t = 0; t < own.count; ++t) found[own.first + t] = best[t].at;
   }
 
-  static double least_depth(const Partners& best, std::int32_t count) {
+  static double min_depth(const Partners& best, std::int32_t count) {
     double depth = best[0].depth;
     for (std::int32_t t = 1; t < count; ++t) depth = std::min(depth, best[t].depth);
     return depth;

@@ -10,7 +10,7 @@ namespace stackabilization::detail {
 
 /// What counts as contact, and how much of it is listed.
 struct ContactBand {
-  Semantics semantics = Semantics::solid;
+  ContactSemantics semantics = ContactSemantics::solid;
   double floor = 0;            ///< contact is where f >= floor; units of r
   std::int64_t max_pairs = 0;  ///< pairs of triangles that may be listed one by one
   double resolution = 0;       ///< depths that differ by less are equal; units of r

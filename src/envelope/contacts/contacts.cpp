@@ -17,12 +17,12 @@ using namespace detail;
 /// A contact polygon with its outline in the plane orthogonal to r.
 struct Patch {
   ContactPolygon polygon;
-  Outline outline;
+  ConvexPolygon outline;
 };
 
 /// Consecutive patches [first, last) that act as one in the plane.
 struct Tile {
-  Outline outline;
+  ConvexPolygon outline;
   std::size_t first, last;
 };
 
@@ -48,8 +48,8 @@ ContactPolygon witness_polygon(const Witness& witness) {
   return polygon;
 }
 
-Outline outline_of(const Points& points, const Frame& frame) {
-  Outline outline;
+ConvexPolygon outline_of(const Points& points, const Frame& frame) {
+  ConvexPolygon outline;
   for (Eigen::Index p = 0; p < points.rows(); ++p) {
     const Eigen::Vector3d local = frame.to_local(points.row(p).transpose());
     outline.push_back({local.x(), local.y()});
@@ -69,7 +69,7 @@ std::vector<Tile> tiles(const std::vector<Patch>& patches, const Shape& shape, c
       area += outline_area(patches[last].outline);
     Points corners(3, 3);
     for (int c = 0; c < 3; ++c) corners.row(c) = shape.corner(triangle, c);
-    const Outline whole = outline_of(corners, frame);
+    const ConvexPolygon whole = outline_of(corners, frame);
     if (last - first > 1 && std::abs(area - outline_area(whole)) <= tolerance::relative * area) {
       result.push_back({whole, first, last});
     } else {
@@ -105,12 +105,12 @@ Centres centres_of(const std::vector<const Patch*>& patches) {
 }
 
 /// Area, long axis, and ring, line or dot, from the union of the outlines.
-ContactRegion classified(const std::vector<Outline>& outlines, const Setting& setting) {
+ContactRegion classified(const std::vector<ConvexPolygon>& outlines, const Setting& setting) {
   ContactRegion region;
   region.area = union_area(outlines);
   const Elongation elongation = elongation_of(outlines);
   region.long_axis = setting.frame.u * elongation.axis.x() + setting.frame.v * elongation.axis.y();
-  if (largest_hole(outlines) > setting.options.least_hole * elongation.length * elongation.width) {
+  if (largest_hole(outlines) > setting.options.min_hole * elongation.length * elongation.width) {
     region.type = ContactType::ring;
   } else if (elongation.length > 0 && elongation.length >= setting.options.line_aspect * elongation.width) {
     region.type = ContactType::line;
@@ -122,7 +122,7 @@ ContactRegion classified(const std::vector<Outline>& outlines, const Setting& se
 ContactRegion make_region(std::vector<Patch>& patches, const std::vector<Tile>& members,
                           const Setting& setting) {
   std::vector<const Patch*> chosen;
-  std::vector<Outline> outlines;
+  std::vector<ConvexPolygon> outlines;
   for (const Tile& tile : members) {
     outlines.push_back(tile.outline);
     for (std::size_t p = tile.first; p < tile.last; ++p) chosen.push_back(&patches[p]);
@@ -141,7 +141,7 @@ ContactRegion make_region(std::vector<Patch>& patches, const std::vector<Tile>& 
 std::vector<ContactRegion> regions_of(std::vector<Patch>& patches, const Shape& shape,
                                       const Setting& setting) {
   const std::vector<Tile> all = tiles(patches, shape, setting.frame);
-  std::vector<Outline> outlines;
+  std::vector<ConvexPolygon> outlines;
   for (const Tile& tile : all) outlines.push_back(tile.outline);
   std::vector<ContactRegion> regions;
   for (const std::vector<std::size_t>& component : connected_outlines(outlines, setting.reach)) {
@@ -197,7 +197,7 @@ Contacts contact_regions(const ContactQuery& query, const ContactOptions& option
 
   PatchesByParts by_parts;
   for (ContactPolygon& polygon : found.polygons) {
-    Outline outline = outline_of(polygon.upper_points, setting.frame);
+    ConvexPolygon outline = outline_of(polygon.upper_points, setting.frame);
     by_parts[{shape.triangle_part[polygon.upper_triangle], shape.triangle_part[polygon.lower_triangle]}]
         .push_back({std::move(polygon), std::move(outline)});
   }

@@ -17,7 +17,7 @@ class CoverageBitmap {
     cell_ = longer > 0 ? longer / (side - 2) : 1;
   }
 
-  void add(const Outline& outline) {
+  void add(const ConvexPolygon& outline) {
     OutlineBounds bounds;
     bounds.add(outline);
     const int last = row_of(bounds.high.y());
@@ -41,7 +41,7 @@ class CoverageBitmap {
   int row_of(double y) const { return index_of(y - low_.y()); }
 
   /// Covers the cells of one row that the outline reaches within it.
-  void fill_row(const Outline& outline, int row) {
+  void fill_row(const ConvexPolygon& outline, int row) {
     const double bottom = low_.y() + (row - 1) * cell_, top = bottom + cell_;
     double left = std::numeric_limits<double>::infinity(), right = -left;
     for (std::size_t c = 0; c < outline.size(); ++c) {
@@ -98,11 +98,11 @@ class CoverageBitmap {
 
 }  // namespace
 
-double largest_hole(const std::vector<Outline>& outlines) {
+double largest_hole(const std::vector<ConvexPolygon>& outlines) {
   OutlineBounds bounds;
-  for (const Outline& outline : outlines) bounds.add(outline);
+  for (const ConvexPolygon& outline : outlines) bounds.add(outline);
   CoverageBitmap bitmap(bounds);
-  for (const Outline& outline : outlines) bitmap.add(outline);
+  for (const ConvexPolygon& outline : outlines) bitmap.add(outline);
   return bitmap.largest_hole();
 }
 

@@ -12,7 +12,7 @@ struct OutlineBounds {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d high = -low;
 
-  void add(const Outline& outline) {
+  void add(const ConvexPolygon& outline) {
     for (const Eigen::Vector2d& p : outline) {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);

@@ -15,10 +15,10 @@ namespace {
 
 /// Distance between two convex outlines along the best separating axis among their sides: 0 when they
 /// overlap, never more than the true distance.
-double separating_distance(const Outline& a, const Outline& b) {
+double separating_distance(const ConvexPolygon& a, const ConvexPolygon& b) {
   double best = 0;
   const auto try_axis = [&](const Eigen::Vector2d& axis) {
-    const auto range = [&axis](const Outline& outline) {
+    const auto range = [&axis](const ConvexPolygon& outline) {
       double low = std::numeric_limits<double>::infinity(), high = -low;
       for (const Eigen::Vector2d& p : outline) {
         low = std::min(low, axis.dot(p));
@@ -30,7 +30,7 @@ double separating_distance(const Outline& a, const Outline& b) {
     const auto [b_low, b_high] = range(b);
     best = std::max({best, b_low - a_high, a_low - b_high});
   };
-  for (const Outline* outline : {&a, &b})
+  for (const ConvexPolygon* outline : {&a, &b})
     for (std::size_t p = 0; p < outline->size(); ++p) {
       const Eigen::Vector2d side = (*outline)[(p + 1) % outline->size()] - (*outline)[p];
       const double length = side.norm();
@@ -45,14 +45,14 @@ double separating_distance(const Outline& a, const Outline& b) {
 
 }  // namespace
 
-double outline_area(const Outline& outline) {
+double outline_area(const ConvexPolygon& outline) {
   double twice = 0;
   for (std::size_t p = 2; p < outline.size(); ++p)
     twice += cross(outline[p - 1] - outline[0], outline[p] - outline[0]);
   return std::abs(twice) / 2;
 }
 
-Eigen::VectorXd outline_centroid(const Outline& outline) {
+Eigen::VectorXd outline_centroid(const ConvexPolygon& outline) {
   const auto count = static_cast<Eigen::Index>(outline.size());
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(count);
   double total = 0;
@@ -71,7 +71,7 @@ namespace {
 /// that touches is enough, so outlines that lie many deep cost no more than those side by side.
 class OutlineSweep {
  public:
-  OutlineSweep(const std::vector<Outline>& outlines, double reach)
+  OutlineSweep(const std::vector<ConvexPolygon>& outlines, double reach)
       : outlines_(outlines), reach_(reach), bounds_(outlines.size()), components_(outlines.size()) {
     for (std::size_t o = 0; o < outlines.size(); ++o) bounds_[o].add(outlines[o]);
   }
@@ -124,7 +124,7 @@ class OutlineSweep {
     return false;
   }
 
-  const std::vector<Outline>& outlines_;
+  const std::vector<ConvexPolygon>& outlines_;
   double reach_;
   std::vector<OutlineBounds> bounds_;
   DisjointSets components_;
@@ -133,7 +133,8 @@ class OutlineSweep {
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outline>& outlines, double reach) {
+std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<ConvexPolygon>& outlines,
+                                                         double reach) {
   DisjointSets components = OutlineSweep(outlines, reach).run();
   std::vector<std::vector<std::size_t>> result;
   std::vector<std::size_t> place(outlines.size());
@@ -148,12 +149,12 @@ std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<Outli
   return result;
 }
 
-Elongation elongation_of(const std::vector<Outline>& outlines) {
+Elongation elongation_of(const std::vector<ConvexPolygon>& outlines) {
   Eigen::Index count = 0;
-  for (const Outline& outline : outlines) count += static_cast<Eigen::Index>(outline.size());
+  for (const ConvexPolygon& outline : outlines) count += static_cast<Eigen::Index>(outline.size());
   Eigen::Matrix2Xd points(2, count);
   Eigen::Index column = 0;
-  for (const Outline& outline : outlines)
+  for (const ConvexPolygon& outline : outlines)
     for (const Eigen::Vector2d& p : outline) points.col(column++) = p;
   const std::vector<int> corners = convex_polygon(points, 0);
   Eigen::Matrix2Xd polygon(2, static_cast<Eigen::Index>(corners.size()));

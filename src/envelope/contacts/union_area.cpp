@@ -12,10 +12,10 @@ namespace stackabilization::detail {
 namespace {
 
 /// More outlines than these, which often lie many deep, are not united: that takes quadratic time.
-constexpr std::size_t most_united = 4096;
+constexpr std::size_t max_united_outlines = 4096;
 
 /// What of the line at height y lies in the convex outline: from, to.
-std::optional<std::pair<double, double>> cut_at(const Outline& outline, double y) {
+std::optional<std::pair<double, double>> cut_at(const ConvexPolygon& outline, double y) {
   double left = std::numeric_limits<double>::infinity(), right = -left;
   for (std::size_t c = 0; c < outline.size(); ++c) {
     const Eigen::Vector2d &a = outline[c], &b = outline[(c + 1) % outline.size()];
@@ -42,14 +42,14 @@ double covered_length(std::vector<std::pair<double, double>>& intervals) {
 /// The lines of the midpoint rule that an outline reaches: first, last.
 using LineRange = std::pair<int, int>;
 
-std::vector<LineRange> line_ranges(const std::vector<Outline>& outlines, const OutlineBounds& bounds,
+std::vector<LineRange> line_ranges(const std::vector<ConvexPolygon>& outlines, const OutlineBounds& bounds,
                                    int lines) {
   const double step = (bounds.high.y() - bounds.low.y()) / lines;
   const auto line_at = [&](double y) {
     return std::clamp(static_cast<int>((y - bounds.low.y()) / step), 0, lines - 1);
   };
   std::vector<LineRange> ranges;
-  for (const Outline& outline : outlines) {
+  for (const ConvexPolygon& outline : outlines) {
     OutlineBounds own;
     own.add(outline);
     ranges.emplace_back(line_at(own.low.y()), line_at(own.high.y()));
@@ -57,18 +57,18 @@ std::vector<LineRange> line_ranges(const std::vector<Outline>& outlines, const O
   return ranges;
 }
 
-/// As many lines as most_cuts allows.
-int line_count(const std::vector<Outline>& outlines, const OutlineBounds& bounds) {
-  constexpr int most_lines = 2048, fewest_lines = 16;
-  constexpr std::int64_t most_cuts = std::int64_t{1} << 24;
+/// As many lines as max_cuts allows.
+int line_count(const std::vector<ConvexPolygon>& outlines, const OutlineBounds& bounds) {
+  constexpr int max_lines = 2048, min_lines = 16;
+  constexpr std::int64_t max_cuts = std::int64_t{1} << 24;
   std::int64_t cuts = 0;
-  for (const auto& [first, last] : line_ranges(outlines, bounds, most_lines)) cuts += last - first + 1;
-  if (cuts <= most_cuts) return most_lines;
-  return std::max(fewest_lines, static_cast<int>(most_lines * most_cuts / cuts));
+  for (const auto& [first, last] : line_ranges(outlines, bounds, max_lines)) cuts += last - first + 1;
+  if (cuts <= max_cuts) return max_lines;
+  return std::max(min_lines, static_cast<int>(max_lines * max_cuts / cuts));
 }
 
 /// Area of the union by the midpoint rule: what of evenly spaced lines is covered.
-double area_by_lines(const std::vector<Outline>& outlines, const OutlineBounds& bounds) {
+double area_by_lines(const std::vector<ConvexPolygon>& outlines, const OutlineBounds& bounds) {
   if (!(bounds.high.y() > bounds.low.y())) return 0;
   const int lines = line_count(outlines, bounds);
   const double step = (bounds.high.y() - bounds.low.y()) / lines;
@@ -122,11 +122,11 @@ std::vector<GridCorner> hull_of(std::vector<GridCorner> corners) {
 /// ways, for borders that do not close have no area.
 class UnionBorder {
  public:
-  UnionBorder(const std::vector<Outline>& outlines, const OutlineBounds& bounds) {
+  UnionBorder(const std::vector<ConvexPolygon>& outlines, const OutlineBounds& bounds) {
     const Eigen::Vector2d centre = (bounds.low + bounds.high) / 2;
     const double longer = (bounds.high - bounds.low).maxCoeff();
     scale_ = longer > 0 ? cells / longer : 1;
-    for (const Outline& outline : outlines) add(outline, centre);
+    for (const ConvexPolygon& outline : outlines) add(outline, centre);
   }
 
   double area() const {
@@ -151,14 +151,14 @@ class UnionBorder {
   static constexpr double cells = 1 << 30;
 
   /// The convex hull of the outline on the grid; nothing where that has no area.
-  void add(const Outline& outline, const Eigen::Vector2d& centre) {
+  void add(const ConvexPolygon& outline, const Eigen::Vector2d& centre) {
     std::vector<GridCorner> corners;
     OutlineBounds bounds;
     for (const Eigen::Vector2d& corner : outline)
       corners.push_back(((corner - centre) * scale_).array().round().cast<std::int64_t>());
     corners = hull_of(std::move(corners));
     if (corners.size() < 3) return;
-    Outline hull;
+    ConvexPolygon hull;
     for (const GridCorner& corner : corners) hull.push_back(corner.cast<double>());
     bounds.add(hull);
     bounds_.push_back(bounds);
@@ -204,10 +204,10 @@ class UnionBorder {
 
 }  // namespace
 
-double union_area(const std::vector<Outline>& outlines) {
+double union_area(const std::vector<ConvexPolygon>& outlines) {
   OutlineBounds bounds;
-  for (const Outline& outline : outlines) bounds.add(outline);
-  if (outlines.size() > most_united) return area_by_lines(outlines, bounds);
+  for (const ConvexPolygon& outline : outlines) bounds.add(outline);
+  if (outlines.size() > max_united_outlines) return area_by_lines(outlines, bounds);
   return UnionBorder(outlines, bounds).area();
 }
 

@@ -80,8 +80,8 @@ class ExactPair {
   }
 
   /// False when there are no common columns.
-  bool maximise(Semantics semantics) {
-    if (semantics == Semantics::solid && !interiors_meet()) return false;
+  bool maximise(ContactSemantics semantics) {
+    if (semantics == ContactSemantics::solid && !interiors_meet()) return false;
     take_corners_inside();
     for (int e = 0; e < 3; ++e)
       for (int f = 0; f < 3; ++f) take_edges(e, f);
@@ -245,14 +245,14 @@ class ExactPair {
 }  // namespace
 
 std::optional<Rational> exact_maximum(const TreeTriangle& upper, const TreeTriangle& lower,
-                                      const Shear& shear, Semantics semantics) {
+                                      const Shear& shear, ContactSemantics semantics) {
   ExactPair pair(upper, lower, shear);
   if (!pair.maximise(semantics)) return std::nullopt;
   return pair.value();
 }
 
 ExactPoints exact_points(const TreeTriangle& upper, const TreeTriangle& lower, const Shear& shear,
-                         Semantics semantics) {
+                         ContactSemantics semantics) {
   ExactPair pair(upper, lower, shear);
   pair.maximise(semantics);
   return pair.points();

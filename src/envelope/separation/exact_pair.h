@@ -10,7 +10,7 @@ namespace stackabilization::detail {
 /// Largest (a - b).r / r.r over points a of `upper` and b of `lower` on common lines along r, in rational
 /// arithmetic; nothing when the projections have no common interior (solid) or no common point (closed).
 std::optional<Rational> exact_maximum(const TreeTriangle& upper, const TreeTriangle& lower,
-                                      const Shear& shear, Semantics semantics);
+                                      const Shear& shear, ContactSemantics semantics);
 
 /// Where that maximum is attained: the exact points, each coordinate rounded to the nearest double.
 /// Precondition: there is a maximum.
@@ -18,6 +18,6 @@ struct ExactPoints {
   Eigen::Vector3d upper, lower;
 };
 ExactPoints exact_points(const TreeTriangle& upper, const TreeTriangle& lower, const Shear& shear,
-                         Semantics semantics);
+                         ContactSemantics semantics);
 
 }  // namespace stackabilization::detail

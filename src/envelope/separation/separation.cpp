@@ -149,8 +149,8 @@ class SeparationQuery {
     } else {
       excess_.push_back(task);
     }
-    work_.largest_queue =
-        std::max(work_.largest_queue, static_cast<std::int64_t>(tasks_.size() + excess_.size()));
+    work_.longest_queue =
+        std::max(work_.longest_queue, static_cast<std::int64_t>(tasks_.size() + excess_.size()));
   }
 
   void work_on(const Task& task) {

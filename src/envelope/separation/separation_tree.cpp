@@ -20,7 +20,7 @@ using namespace detail;
 
 /// A slab over many triangles is no tighter than the box; larger nodes keep none.
 constexpr std::int32_t largest_slab = 256;
-constexpr std::int32_t smallest_task = 8192;
+constexpr std::int32_t min_task_size = 8192;
 
 /// Where the box of a triangle has its centre, for splitting: little that is moved about.
 struct Place {
@@ -78,7 +78,7 @@ class TreeBuilder {
       Eigen::Vector3d left_facing, right_facing;
       const auto left = [&] { left_facing = build(free, left_descendants, first, middle); };
       const auto right = [&] { right_facing = build(free + 1, right_descendants, middle, last); };
-      if (count < smallest_task) {
+      if (count < min_task_size) {
         left();
         right();
       } else {

@@ -6,7 +6,7 @@ namespace stackabilization::detail {
 namespace {
 
 /// Far above what the few products of one bound can lose by underflow, far below all that counts in a shape
-/// (tolerance::smallest_shape).
+/// (tolerance::min_shape_size).
 constexpr double underflow = std::numeric_limits<double>::min();
 
 /// A computed number and a bound on its error. Comparisons that involve NaN fall on the undecided side.
@@ -62,8 +62,8 @@ struct Overlap {
   bool excluded = false;
   bool certain = true;
 
-  void take(const Sides& sides, Semantics semantics) {
-    const bool solid = semantics == Semantics::solid;
+  void take(const Sides& sides, ContactSemantics semantics) {
+    const bool solid = semantics == ContactSemantics::solid;
     for (const auto& edge : sides) {
       bool all_outside = true, some_inside = false;
       for (const Approximate& side : edge) {
@@ -202,7 +202,7 @@ PairBounds bound_pair(const ProjectedTriangle& upper, const ProjectedTriangle& l
   if (upper.possibly_edge_on() || lower.possibly_edge_on()) {
     const bool degenerate =
         (upper.area == 0 && upper.area_error == 0) || (lower.area == 0 && lower.area_error == 0);
-    if (!(degenerate && projection.semantics == Semantics::solid)) result.high = highest;
+    if (!(degenerate && projection.semantics == ContactSemantics::solid)) result.high = highest;
     return result;
   }
   const Sides of_upper_edges = sides(upper, lower, projection),

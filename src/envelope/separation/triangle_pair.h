@@ -11,9 +11,9 @@ namespace stackabilization::detail {
 struct Projection {
   Shear shear;
   double x_error, y_error;  ///< bounds on |computed - exact| of projected coordinates
-  Semantics semantics;
+  ContactSemantics semantics;
 
-  Projection(const Direction& direction, double magnitude, Semantics s)
+  Projection(const Direction& direction, double magnitude, ContactSemantics s)
       : shear(direction),
         x_error(shear.x_error(magnitude)),
         y_error(shear.y_error(magnitude)),

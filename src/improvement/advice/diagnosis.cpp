@@ -24,8 +24,8 @@ namespace {
 
 /// Least increase of S that counts as help.
 constexpr double worth_saying = 0.01;
-constexpr int most_blockers = 4;
-constexpr std::size_t most_constraints = 3, most_removals = 3;
+constexpr int max_blockers = 4;
+constexpr std::size_t max_constraints = 3, max_removals = 3;
 
 std::string number(double value, int digits = 3) {
   return fixed_text(value, digits);
@@ -66,10 +66,10 @@ struct Trial {
   bool stopped = false;  ///< whether the trial ended before all edits were tried
 };
 
-class Diagnostician {
+class DiagnosisBuilder {
  public:
-  Diagnostician(const RequirementChecker& checker, const BestFirstResult& result,
-                const DiagnosisOptions& options)
+  DiagnosisBuilder(const RequirementChecker& checker, const BestFirstResult& result,
+                   const DiagnosisOptions& options)
       : checker_(checker),
         result_(result),
         options_(options),
@@ -80,12 +80,12 @@ class Diagnostician {
         solver_(best_.design.shape, checker.requirements().measure) {}
 
   Diagnosis run() {
-    diagnosis_.target = checker_.needed(best_.measured);
+    diagnosis_.target = checker_.required_stackability(best_.measured);
     diagnosis_.reached = best_.measured.value;
     diagnosis_.direction = best_.direction;
     find_blockers();
     for (const RefusalCount& refusal : result_.refusals) {
-      if (diagnosis_.constraints.size() == most_constraints) break;
+      if (diagnosis_.constraints.size() == max_constraints) break;
       diagnosis_.constraints.push_back(refusal.reason + " (" + std::to_string(refusal.count) +
                                        (refusal.count == 1 ? " edit)" : " edits)"));
     }
@@ -115,7 +115,7 @@ class Diagnostician {
     const std::vector<ContactRegion> all =
         contact_regions({best_.design.shape, solver_.tree(), direction_, separation}, contacts).regions;
     const detail::ContactSymmetry symmetry(rest_.structure);
-    for (const int row : detail::different_regions(all, symmetry, most_blockers)) {
+    for (const int row : detail::different_regions(all, symmetry, max_blockers)) {
       regions_.push_back(all[static_cast<std::size_t>(row)]);
       diagnosis_.blockers.push_back(blocker(regions_.back()));
     }
@@ -167,7 +167,7 @@ class Diagnostician {
       const DesignOutcome outcome = space.edited(best_.design, edits[k].edit, constraints);
       if (outcome.refusal)
         refusals[k] = detail::without_amounts(outcome.refusal->reason);
-      else if (const auto better = checker_.measured_above(outcome.design.shape, direction_, reached[k]))
+      else if (const auto better = checker_.measure_if_above(outcome.design.shape, direction_, reached[k]))
         reached[k] = std::max(reached[k], better->value);
     });
     Trial trial;
@@ -268,7 +268,7 @@ class Diagnostician {
     options.cancelled = options_.cancelled;
     std::size_t offered = 0;
     for (const Removal& removal : removals(rest_, options)) {
-      if (offered == most_removals || !helps(removal.stackability)) break;
+      if (offered == max_removals || !helps(removal.stackability)) break;
       const bool all_may_go = std::none_of(removal.parts.begin(), removal.parts.end(), [&](int part) {
         return contains(checker_.requirements().kept_parts, part);
       });
@@ -307,9 +307,9 @@ std::string sentence(const Blocker& blocker, const Shape& shape) {
 
 }  // namespace
 
-Diagnosis diagnosed(const RequirementChecker& checker, const BestFirstResult& result,
-                    const DiagnosisOptions& options) {
-  return Diagnostician(checker, result, options).run();
+Diagnosis diagnose(const RequirementChecker& checker, const BestFirstResult& result,
+                   const DiagnosisOptions& options) {
+  return DiagnosisBuilder(checker, result, options).run();
 }
 
 std::string text(const Diagnosis& diagnosis, const StructuredShape& rest) {

@@ -42,7 +42,7 @@ Partition measured(const StructuredShape& structured, const Groups& groups, doub
                    const RemovalOptions& options) {
   Partition partition;
   double left = 0;
-  const std::vector<StructuredShape> shapes = partitioned(structured, groups);
+  const std::vector<StructuredShape> shapes = split_into_groups(structured, groups);
   for (std::size_t k = 0; k < groups.size(); ++k) {
     Piece piece;
     piece.parts = groups[k];

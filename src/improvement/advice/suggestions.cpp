@@ -14,21 +14,21 @@ namespace stackabilization {
 namespace {
 
 /// Measures and checks designs along one direction.
-class Judge {
+class SuggestionScorer {
  public:
-  Judge(const RequirementChecker& checker, const Direction& direction, double alpha)
+  SuggestionScorer(const RequirementChecker& checker, const Direction& direction, double alpha)
       : checker_(checker),
         direction_(direction),
         meter_(checker.space().rest(), checker.requirements().measure.boxes, alpha),
         constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction)),
-        at_rest_(checker.checked(checker.space().at_rest(), direction).measured.value) {}
+        at_rest_(checker.check(checker.space().at_rest(), direction).measured.value) {}
 
   Energy energy(const Design& design, const Stackability& measured) const {
     return meter_.energy(design, measured.value - at_rest_);
   }
 
   /// Fills in the effect of `suggestion.edit` on `design`.
-  void judge(Suggestion& suggestion, const Design& design) const {
+  void scorer(Suggestion& suggestion, const Design& design) const {
     const DesignOutcome outcome = checker_.space().edited(design, suggestion.edit.edit, constraints_);
     if (outcome.refusal) {
       suggestion.refusal = outcome.refusal->reason;
@@ -39,7 +39,7 @@ class Judge {
       suggestion.refusal = "nothing would change";
       return;
     }
-    const Assessment assessment = checker_.checked(outcome.design, direction_);
+    const Assessment assessment = checker_.check(outcome.design, direction_);
     for (const Check& check : assessment.checks)
       if (check.name == "target")
         suggestion.reaches_target = check.passed;
@@ -66,8 +66,8 @@ class Judge {
 Situation situation(const RequirementChecker& checker, const Design& design, const Direction& direction,
                     const SuggestionOptions& options) {
   Situation result;
-  result.measured = checker.checked(design, direction).measured;
-  result.energy = Judge(checker, direction, options.alpha).energy(design, result.measured);
+  result.measured = checker.check(design, direction).measured;
+  result.energy = SuggestionScorer(checker, direction, options.alpha).energy(design, result.measured);
   result.contacts = detail::contacts_of(checker, design.shape, direction, options.edits.contacts);
   return result;
 }
@@ -80,11 +80,11 @@ std::vector<Suggestion> suggestions(const RequirementChecker& checker, const Des
   const std::vector<Handle> handles = space.handles();
   const std::vector<ContactEdit> edits = contact_edits(
       {space.rest(), space.kind(), handles, design, regions, direction, space.centres()}, options.edits);
-  const Judge judge(checker, direction, options.alpha);
+  const SuggestionScorer scorer(checker, direction, options.alpha);
   std::vector<Suggestion> result(edits.size());
   tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
     result[k].edit = edits[k];
-    judge.judge(result[k], design);
+    scorer.scorer(result[k], design);
   });
   std::stable_sort(result.begin(), result.end(), [](const Suggestion& a, const Suggestion& b) {
     if (a.refusal.has_value() != b.refusal.has_value()) return b.refusal.has_value();

@@ -22,11 +22,11 @@ struct BlockSeparations::Placed {
   std::shared_ptr<const SeparationTree> tree;  ///< built on demand
 };
 
-BlockSeparations::BlockSeparations(const Shape& rest, const Direction& direction, Semantics semantics,
-                                   int most_slabs)
+BlockSeparations::BlockSeparations(const Shape& rest, const Direction& direction, ContactSemantics semantics,
+                                   int max_slabs)
     : direction_(direction), frame_(frame_of(direction)), semantics_(semantics) {
   const Range heights = range_along(rest, frame_.w);
-  const int slabs = std::clamp(many_blocks / static_cast<int>(rest.part_count()), 1, most_slabs);
+  const int slabs = std::clamp(many_blocks / static_cast<int>(rest.part_count()), 1, max_slabs);
   std::vector<std::vector<std::int32_t>> members(static_cast<std::size_t>(rest.part_count() * slabs));
   for (std::int32_t t = 0; t < rest.triangle_count(); ++t) {
     const double height = frame_.w.dot(rest.corner(t, 0) + rest.corner(t, 1) + rest.corner(t, 2)) / 3;

@@ -31,8 +31,9 @@ struct BlockSeparation {
 /// any number of threads.
 class BlockSeparations {
  public:
-  /// `rest`: shape that defines the blocks. `most_slabs`: largest number of slabs per part.
-  BlockSeparations(const Shape& rest, const Direction& direction, Semantics semantics, int most_slabs = 12);
+  /// `rest`: shape that defines the blocks. `max_slabs`: largest number of slabs per part.
+  BlockSeparations(const Shape& rest, const Direction& direction, ContactSemantics semantics,
+                   int max_slabs = 12);
 
   /// Returns the blocked pairs whose separation in `shape` is at least `least` (model units), largest
   /// separation first. `shape` must have the triangles of `rest`.
@@ -60,7 +61,7 @@ class BlockSeparations {
   std::vector<Block> blocks_;
   Direction direction_;
   Frame frame_;
-  Semantics semantics_;
+  ContactSemantics semantics_;
 };
 
 }  // namespace stackabilization::detail

@@ -21,7 +21,7 @@ using Role = ContactHandle::Role;
 constexpr double off_centre = 0.25;
 /// Least and largest size of an edit that clears the other part, in steps. Below the least one the edit would
 /// creep out of the contact in tiny steps.
-constexpr double least_steps = 0.2, most_steps = 6;
+constexpr double min_steps = 0.2, max_steps = 6;
 
 /// A direction is across r if the absolute value of its cosine to r is at most this.
 constexpr double across_r = 0.1;
@@ -37,7 +37,7 @@ void check(const ContactEditOptions& options) {
     throw UsageError("the step of a scaling must be between 0 and 1");
   if (multiples.empty() || !std::all_of(multiples.begin(), multiples.end(), fits))
     throw UsageError("multiples of steps must be above 0, and times the step of a scaling below 1");
-  if (options.most_regions < 1) throw UsageError("at least one contact region must be looked at");
+  if (options.max_regions < 1) throw UsageError("at least one contact region must be looked at");
 }
 
 /// Collects the edits of one situation.
@@ -55,7 +55,7 @@ class ContactEditor {
   }
 
   std::vector<ContactEdit> run() {
-    for (const int row : different_regions(situation_.regions, symmetry_, options_.most_regions))
+    for (const int row : different_regions(situation_.regions, symmetry_, options_.max_regions))
       for (const ContactSide& side : contact_sides(situation_, row, frame_)) look_at(side);
     return std::move(edits_);
   }
@@ -114,7 +114,7 @@ class ContactEditor {
 
   /// Returns the multiples of `step` below `enough`, and `enough` itself.
   std::vector<double> sizes(double step, std::optional<double> enough) const {
-    if (enough) enough = std::max(*enough, least_steps * step);
+    if (enough) enough = std::max(*enough, min_steps * step);
     std::vector<double> result;
     for (const double m : multiples_)
       if (!enough || m * step < *enough) result.push_back(m * step);
@@ -165,7 +165,7 @@ class ContactEditor {
         if (!shorter && handle.role != Role::nearest) continue;
         if (!shorter)
           chosen.resize(1);
-        else if (out >= least_steps * step && out <= most_steps * step)
+        else if (out >= min_steps * step && out <= max_steps * step)
           chosen = with_reserve(sizes(step, out), out);
       }
       for (const double size : chosen)
@@ -186,7 +186,7 @@ class ContactEditor {
                    ((side.of_lower_copy ? polygon.upper_points : polygon.lower_points) * inwards).maxCoeff());
     const double step = options_.move_step * extent(inwards);
     const double enough = innermost - handle.centre.dot(inwards) + options_.contacts.band * extent(inwards);
-    const bool near = enough <= most_steps * step;
+    const bool near = enough <= max_steps * step;
     for (const double size : near ? with_reserve(sizes(step, enough), enough) : sizes(step, std::nullopt))
       add(side, handle, Move{size * *allowed}, "edge inwards");
   }
@@ -253,7 +253,7 @@ class ContactEditor {
     const double free =
         range_of_part(side.other, outwards).low - options_.contacts.band * extent(axis) - middle;
     const double size = 1 - free / reach;
-    if (!(size >= least_steps * options_.scale_step) || size > most_steps * options_.scale_step || size >= 1)
+    if (!(size >= min_steps * options_.scale_step) || size > max_steps * options_.scale_step || size >= 1)
       return std::nullopt;
     return size;
   }

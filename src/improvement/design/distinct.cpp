@@ -18,17 +18,17 @@ namespace {
 constexpr double far_apart = 0.5;
 constexpr double apart = 0.1;
 
-void set_direction(Gesture& gesture, const Eigen::Vector3d& vector) {
+void set_direction(EditSignature& signature, const Eigen::Vector3d& vector) {
   const double length = vector.norm();
   if (!(length > 0)) return;
-  gesture.x = static_cast<int>(std::lround(vector.x() / length));
-  gesture.y = static_cast<int>(std::lround(vector.y() / length));
-  gesture.z = static_cast<int>(std::lround(vector.z() / length));
+  signature.x = static_cast<int>(std::lround(vector.x() / length));
+  signature.y = static_cast<int>(std::lround(vector.y() / length));
+  signature.z = static_cast<int>(std::lround(vector.z() / length));
 }
 
 }  // namespace
 
-Distinctness::Distinctness(const StructuredShape& rest) : rest_(rest) {
+SolutionDiversity::SolutionDiversity(const StructuredShape& rest) : rest_(rest) {
   const std::size_t count = rest.structure.parts.size();
   DisjointSets classes(count);
   for (const Relation& relation : rest.structure.relations)
@@ -38,35 +38,35 @@ Distinctness::Distinctness(const StructuredShape& rest) : rest_(rest) {
     part_class_.push_back(static_cast<int>(classes.root(part)));
 }
 
-Gesture Distinctness::gesture(const Edit& edit) const {
-  Gesture gesture;
+EditSignature SolutionDiversity::signature(const Edit& edit) const {
+  EditSignature signature;
   const auto part = static_cast<std::size_t>(edit.handle.part);
-  if (part < part_class_.size()) gesture.part_class = part_class_[part];
-  gesture.handle_kind = static_cast<int>(edit.handle.kind);
-  gesture.index = edit.handle.index;
-  gesture.operation = static_cast<int>(edit.operation.index());
-  gesture.falloff = static_cast<int>(edit.falloff);
-  if (const auto* move = std::get_if<Move>(&edit.operation)) set_direction(gesture, move->by);
-  if (const auto* turn = std::get_if<Rotate>(&edit.operation)) set_direction(gesture, turn->axis);
-  if (const auto* scale = std::get_if<Scale>(&edit.operation)) gesture.x = scale->factor > 1 ? 1 : -1;
-  return gesture;
+  if (part < part_class_.size()) signature.part_class = part_class_[part];
+  signature.handle_kind = static_cast<int>(edit.handle.kind);
+  signature.index = edit.handle.index;
+  signature.operation = static_cast<int>(edit.operation.index());
+  signature.falloff = static_cast<int>(edit.falloff);
+  if (const auto* move = std::get_if<Move>(&edit.operation)) set_direction(signature, move->by);
+  if (const auto* turn = std::get_if<Rotate>(&edit.operation)) set_direction(signature, turn->axis);
+  if (const auto* scale = std::get_if<Scale>(&edit.operation)) signature.x = scale->factor > 1 ? 1 : -1;
+  return signature;
 }
 
-std::vector<Gesture> Distinctness::gestures(const std::vector<Edit>& edits) const {
-  std::vector<Gesture> gestures;
-  for (const Edit& edit : edits) gestures.push_back(gesture(edit));
-  std::sort(gestures.begin(), gestures.end());
-  gestures.erase(std::unique(gestures.begin(), gestures.end()), gestures.end());
-  return gestures;
+std::vector<EditSignature> SolutionDiversity::signatures(const std::vector<Edit>& edits) const {
+  std::vector<EditSignature> signatures;
+  for (const Edit& edit : edits) signatures.push_back(signature(edit));
+  std::sort(signatures.begin(), signatures.end());
+  signatures.erase(std::unique(signatures.begin(), signatures.end()), signatures.end());
+  return signatures;
 }
 
-bool Distinctness::differ(const Design& a, const Design& b) const {
+bool SolutionDiversity::differ(const Design& a, const Design& b) const {
   const auto change = [](const Shape& from, const Shape& to) {
     return shape_change(from, to).root_mean_square;
   };
   const double from_rest = std::min(change(rest_.shape, a.shape), change(rest_.shape, b.shape));
   const double between = change(a.shape, b.shape);
-  const bool same_gestures = gestures(a.edits) == gestures(b.edits);
+  const bool same_gestures = signatures(a.edits) == signatures(b.edits);
   return between > tolerance::relative && between >= (same_gestures ? far_apart : apart) * from_rest;
 }
 

@@ -10,7 +10,7 @@ namespace stackabilization::detail {
 
 /// Signature of an edit: its handle and its kind of operation, without amounts. Equal for parts that
 /// symmetries connect.
-struct Gesture {
+struct EditSignature {
   int part_class = 0;
   int handle_kind = 0, index = 0;
   int operation = 0;  ///< index of the alternative of Operation
@@ -18,21 +18,21 @@ struct Gesture {
   int x = 0, y = 0, z = 0;
   int falloff = 0;
 
-  auto operator<=>(const Gesture&) const = default;
+  auto operator<=>(const EditSignature&) const = default;
 };
 
 /// Decides whether two solutions are different.
-class Distinctness {
+class SolutionDiversity {
  public:
-  explicit Distinctness(const StructuredShape& rest);
+  explicit SolutionDiversity(const StructuredShape& rest);
 
   /// Returns the signatures of the edits, sorted, without duplicates.
-  std::vector<Gesture> gestures(const std::vector<Edit>& edits) const;
+  std::vector<EditSignature> signatures(const std::vector<Edit>& edits) const;
   /// Returns whether two designs are different, as documented at `best_first`.
   bool differ(const Design& a, const Design& b) const;
 
  private:
-  Gesture gesture(const Edit& edit) const;
+  EditSignature signature(const Edit& edit) const;
 
   const StructuredShape& rest_;
   std::vector<int> part_class_;

@@ -132,8 +132,8 @@ StructuredShape without_parts(const StructuredShape& structured, const std::vect
   return selected(structured, std::move(others));
 }
 
-std::vector<StructuredShape> partitioned(const StructuredShape& structured,
-                                         const std::vector<std::vector<int>>& groups) {
+std::vector<StructuredShape> split_into_groups(const StructuredShape& structured,
+                                               const std::vector<std::vector<int>>& groups) {
   std::vector<int> uses(structured.structure.parts.size(), 0);
   for (const std::vector<int>& group : groups) {
     if (group.empty()) throw UsageError("a group of a partition has no part");

@@ -198,13 +198,13 @@ class HistoryReader {
       node.expect_keys({"kind"});
     if (has_part(result.kind)) result.part = static_cast<int>(node["part"].one_of(rest_.shape.part_names));
     if (has_index(result.kind))
-      result.index = static_cast<int>(node["index"].integer(0, largest_index(node, result)));
+      result.index = static_cast<int>(node["index"].integer(0, max_index(node, result)));
     return result;
   }
 
   /// Returns the largest index of a handle of this kind. Without a bound for wires: only their model knows
   /// how many there are.
-  std::int64_t largest_index(const JsonNode& node, const Handle& handle) const {
+  std::int64_t max_index(const JsonNode& node, const Handle& handle) const {
     if (handle.kind == HandleKind::point) return rest_.shape.vertex_count() - 1;
     if (handle.kind == HandleKind::wire || project_.space.kind != DeformationKind::controllers)
       return std::numeric_limits<int>::max();

@@ -122,7 +122,7 @@ std::vector<Edit> edits_of(const Handle& handle, const StructuredShape& rest, co
 
 namespace detail {
 
-std::vector<MagnitudeEdit> merged_edits(
+std::vector<MagnitudeEdit> merge_magnitude_edits(
     const std::vector<Edit>& edits,
     const std::function<bool(const std::vector<MagnitudeEdit>&)>& acceptable) {
   std::vector<MagnitudeEdit> result;
@@ -182,9 +182,10 @@ Edit with_magnitude(Edit edit, double x) {
   return edit;
 }
 
-std::vector<Edit> merged(const std::vector<Edit>& edits) {
+std::vector<Edit> merge_edits(const std::vector<Edit>& edits) {
   std::vector<Edit> result;
-  for (const detail::MagnitudeEdit& one : detail::merged_edits(edits, [](const auto&) { return true; }))
+  for (const detail::MagnitudeEdit& one :
+       detail::merge_magnitude_edits(edits, [](const auto&) { return true; }))
     result.push_back(one.edit);
   return result;
 }

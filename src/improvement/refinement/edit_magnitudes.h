@@ -14,9 +14,9 @@ struct MagnitudeEdit {
   std::optional<std::size_t> source;  ///< row of the given edit that it replaces; nothing for an added edit
 };
 
-/// Merges edits as `merged` (refinement.h) and keeps the first source of each. Two edits are merged only if
-/// the whole resulting list is `acceptable`, since the order of edits may matter.
-std::vector<MagnitudeEdit> merged_edits(
+/// Merges edits as `merge_edits` (refinement.h) and keeps the first source of each. Two edits are merged only
+/// if the whole resulting list is `acceptable`, since the order of edits may matter.
+std::vector<MagnitudeEdit> merge_magnitude_edits(
     const std::vector<Edit>& edits, const std::function<bool(const std::vector<MagnitudeEdit>&)>& acceptable);
 
 /// Returns small edits that could be added to `edits`, for controllers only:

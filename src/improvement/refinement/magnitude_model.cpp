@@ -13,11 +13,11 @@ namespace stackabilization::detail {
 namespace {
 
 /// Number of parabolas that successively approximate the length of the displacement.
-constexpr int most_parabolas = 3;
+constexpr int max_parabolas = 3;
 
 /// Largest number of cuts kept, the most nearly active ones, and how far below 0 a cut may lie. Violations
 /// are in units of S.
-constexpr std::size_t most_cuts = 400;
+constexpr std::size_t max_cuts = 400;
 constexpr double far_below = 0.5;
 
 /// Corrections take back this multiple of the violation, so that iterates do not approach the boundary from
@@ -44,21 +44,21 @@ class MagnitudeModel::Programme {
 
   QuadraticMinimum step(const Eigen::VectorXd& lowest, const Eigen::VectorXd& highest) const {
     QuadraticProgramme programme = linear_part(lowest, highest);
-    if (minimal_shortfall() || gram().size() == 0) return minimum(programme);
+    if (minimal_shortfall() || gram().size() == 0) return minimize(programme);
     QuadraticMinimum result{Eigen::VectorXd::Zero(size_), {}};
     // Every parabola that touches the length bounds it from above. Successive minima approach that of the
     // length.
-    for (int round = 0; round < most_parabolas; ++round) {
+    for (int round = 0; round < max_parabolas; ++round) {
       const double length = std::max(displacement(result.x.head(size_)), tolerance::relative * scale());
       programme.q.topLeftCorner(size_, size_) = gram().bottomRightCorner(size_, size_) / (length * scale());
       programme.c.head(size_) = gram().col(0).tail(size_) / (length * scale());
-      result = minimum(programme);
+      result = minimize(programme);
     }
     return result;
   }
 
   /// Returns the reduced costs at a minimum, see Step::pull.
-  Eigen::VectorXd pull(const QuadraticMinimum& minimum) const {
+  Eigen::VectorXd reduced_costs(const QuadraticMinimum& minimum) const {
     return scale() * (minimum.multipliers.head(size_) + minimum.multipliers.segment(size_, size_));
   }
 
@@ -128,7 +128,7 @@ MagnitudeModel::MagnitudeModel(MagnitudeGoal goal, Magnitudes centre, const Magn
 }
 
 double MagnitudeModel::merit(const MagnitudeSample& sample) const {
-  return goal_ == MagnitudeGoal::feasible ? sample.shortfalls.maxCoeff() : sample.change;
+  return goal_ == MagnitudeGoal::feasible ? sample.violations.maxCoeff() : sample.change;
 }
 
 double MagnitudeModel::level(const Cut& cut) const {
@@ -140,16 +140,16 @@ void MagnitudeModel::move_to(Magnitudes centre, const MagnitudeSample& base, con
   base_ = base;
   slopes_ = slopes;
   std::erase_if(cuts_, [&](const Cut& cut) {
-    return level(cut) > base.shortfalls[cut.row] + tolerance::target || level(cut) < -far_below;
+    return level(cut) > base.violations[cut.row] + tolerance::target || level(cut) < -far_below;
   });
-  if (cuts_.size() > most_cuts) {
+  if (cuts_.size() > max_cuts) {
     std::stable_sort(cuts_.begin(), cuts_.end(),
                      [&](const Cut& a, const Cut& b) { return level(a) > level(b); });
-    cuts_.resize(most_cuts);
+    cuts_.resize(max_cuts);
   }
   changes_.clear();
   constant_ = 0;
-  if (goal_ == MagnitudeGoal::unchanged) group_changes(base, slopes);
+  if (goal_ == MagnitudeGoal::min_change) group_changes(base, slopes);
   add(centre_, base, slopes);
 }
 
@@ -180,17 +180,17 @@ void MagnitudeModel::group_changes(const MagnitudeSample& base, const MagnitudeS
 
 void MagnitudeModel::add(const Magnitudes& at, const MagnitudeSample& sample, const MagnitudeSlopes& slopes) {
   std::erase_if(cuts_, [](const Cut& cut) { return !cut.measured; });
-  for (Eigen::Index row = 0; row < sample.shortfalls.size(); ++row) {
-    const Row slope = slopes.shortfalls.row(row);
-    add({row, sample.shortfalls[row] - slope.dot(vector_of(at)), slope, true});
+  for (Eigen::Index row = 0; row < sample.violations.size(); ++row) {
+    const Row slope = slopes.violations.row(row);
+    add({row, sample.violations[row] - slope.dot(vector_of(at)), slope, true});
   }
 }
 
 void MagnitudeModel::correct(const Magnitudes& at, const MagnitudeSample& sample) {
-  for (Eigen::Index row = 0; row < sample.shortfalls.size(); ++row) {
-    const Row slope = slopes_.shortfalls.row(row);
-    if (sample.shortfalls[row] > 0)
-      add({row, excess * sample.shortfalls[row] - slope.dot(vector_of(at)), slope, false});
+  for (Eigen::Index row = 0; row < sample.violations.size(); ++row) {
+    const Row slope = slopes_.violations.row(row);
+    if (sample.violations[row] > 0)
+      add({row, excess * sample.violations[row] - slope.dot(vector_of(at)), slope, false});
   }
 }
 
@@ -198,9 +198,9 @@ void MagnitudeModel::correct(const Magnitudes& at, const MagnitudeSample& sample
 void MagnitudeModel::add(Cut cut) {
   // S is not convex: a cut from a distant point may be too high at the centre. It is lowered to the measured
   // value.
-  if (cut.measured) cut.value -= std::max(0.0, level(cut) - base_.shortfalls[cut.row]);
+  if (cut.measured) cut.value -= std::max(0.0, level(cut) - base_.violations[cut.row]);
   const double now = level(cut);
-  if (goal_ == MagnitudeGoal::unchanged && now < -far_below) return;
+  if (goal_ == MagnitudeGoal::min_change && now < -far_below) return;
   const bool known = std::any_of(cuts_.begin(), cuts_.end(), [&](const Cut& other) {
     return std::abs(level(other) - now) <= tolerance::magnitude &&
            (other.slope - cut.slope).norm() <= tolerance::magnitude * (1 + cut.slope.norm());
@@ -215,7 +215,7 @@ MagnitudeModel::Step MagnitudeModel::step(const Magnitudes& lowest, const Magnit
   const Programme programme(*this);
   const QuadraticMinimum minimum = programme.step(low, high);
   const Eigen::VectorXd by = minimum.x.head(centre.size());
-  Step step{centre_, merit(base_) - programme.merit(by), programme.pull(minimum)};
+  Step step{centre_, merit(base_) - programme.merit(by), programme.reduced_costs(minimum)};
   for (std::size_t k = 0; k < centre_.size(); ++k)
     step.to[k] = std::clamp(centre_[k] + by(static_cast<Eigen::Index>(k)), lowest[k], highest[k]);
   return step;

@@ -6,8 +6,8 @@ namespace stackabilization::detail {
 
 /// Objective of a run of the optimiser.
 enum class MagnitudeGoal {
-  feasible,   ///< minimise the largest constraint violation, until a sample is feasible
-  unchanged,  ///< minimise the change subject to all constraints
+  feasible,    ///< minimise the largest constraint violation, until a sample is feasible
+  min_change,  ///< minimise the change subject to all constraints
 };
 
 /// Convex model of a MagnitudeProblem around a point, the centre. Changes and displacement are modelled by
@@ -34,10 +34,10 @@ class MagnitudeModel {
   /// A step of the model.
   struct Step {
     Magnitudes to;
-    double promised = 0;  ///< predicted decrease of the merit
+    double predicted_decrease = 0;  ///< predicted decrease of the merit
     /// Reduced cost per magnitude: further predicted decrease per unit by which the bounds of the magnitude
     /// are relaxed.
-    Eigen::VectorXd pull;
+    Eigen::VectorXd reduced_costs;
   };
   /// Returns the step to the minimum of the model within the bounds `lowest` and `highest`.
   Step step(const Magnitudes& lowest, const Magnitudes& highest) const;

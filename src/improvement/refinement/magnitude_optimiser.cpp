@@ -9,19 +9,19 @@ namespace {
 
 /// First and least radius of the trust region, in magnitudes.
 constexpr double first_radius = 0.5;
-constexpr double least_radius = 0.001;
+constexpr double min_radius = 0.001;
 
 /// Stop when the predicted decrease is below this fraction of the merit.
-constexpr double least_promise = 0.0001;
+constexpr double min_predicted_decrease = 0.0001;
 
 /// Accept a step whose actual decrease is at least this share of the predicted decrease.
-constexpr double least_share = 0.1;
+constexpr double min_share = 0.1;
 
 /// Number of rejected steps answered with the slopes at hand before slopes are measured at a rejected point.
-constexpr std::size_t most_corrections = 2;
+constexpr std::size_t max_corrections = 2;
 
 /// Number of times that slopes are measured at rejected points before the trust region shrinks.
-constexpr int most_lessons = 1;
+constexpr int max_cut_rounds = 1;
 
 /// A step of at least this share of the radius enlarges the trust region.
 constexpr double share_of_radius = 0.99;
@@ -37,13 +37,13 @@ class BundleDescent {
         model_(run.goal, run.start, base_, problem.slopes(run.start)) {}
 
   Magnitudes end() {
-    while (radius_ >= least_radius && !done()) {
+    while (radius_ >= min_radius && !done()) {
       const MagnitudeModel::Step step = model_.step(limits(-radius_), limits(radius_));
-      const bool promising = step.promised > least_promise * std::abs(model_.merit(base_));
+      const bool promising = step.predicted_decrease > min_predicted_decrease * std::abs(model_.merit(base_));
       if (promising)
         try_step(step);
       else if (!failed_.empty())
-        learn();
+        add_cuts();
       else
         break;
     }
@@ -56,29 +56,29 @@ class BundleDescent {
     const double length = this->length(step.to);
     if (!sample.made) {
       radius_ = length / 4;
-    } else if (accepted(sample, step.promised)) {
+    } else if (accepted(sample, step.predicted_decrease)) {
       if (length >= share_of_radius * radius_) radius_ = 2 * radius_;
       base_ = sample;
       failed_.clear();
-      learnt_ = 0;
+      cut_rounds_ = 0;
       if (!done()) model_.move_to(step.to, base_, problem_.slopes(step.to));
-    } else if (!(sample.shortfalls.maxCoeff() > 0)) {
+    } else if (!(sample.violations.maxCoeff() > 0)) {
       radius_ = length / 2;
     } else {
       failed_.push_back(step.to);
-      if (failed_.size() <= most_corrections)
+      if (failed_.size() <= max_corrections)
         model_.correct(step.to, sample);
       else
-        learn();
+        add_cuts();
     }
   }
 
   /// Adds cuts at the last rejected point. From the second time after an accepted step on, the radius becomes
   /// half the length of the rejected step.
-  void learn() {
+  void add_cuts() {
     const Magnitudes at = failed_.back();
     model_.add(at, problem_.at(at), problem_.slopes(at));
-    if (++learnt_ > most_lessons) radius_ = length(at) / 2;
+    if (++cut_rounds_ > max_cut_rounds) radius_ = length(at) / 2;
     failed_.clear();
   }
 
@@ -86,9 +86,9 @@ class BundleDescent {
     return problem_.stopped() || (run_.goal == MagnitudeGoal::feasible && problem_.best());
   }
 
-  bool accepted(const MagnitudeSample& sample, double promised) const {
+  bool accepted(const MagnitudeSample& sample, double predicted_decrease) const {
     const bool allowed = run_.goal == MagnitudeGoal::feasible || sample.feasible;
-    return allowed && model_.merit(base_) - model_.merit(sample) >= least_share * promised;
+    return allowed && model_.merit(base_) - model_.merit(sample) >= min_share * predicted_decrease;
   }
 
   double length(const Magnitudes& to) const {
@@ -110,14 +110,14 @@ class BundleDescent {
   const MagnitudeRun& run_;
   double radius_;
   std::vector<Magnitudes> failed_;  ///< points rejected since cuts were last added
-  int learnt_ = 0;                  ///< times cuts were added since the last accepted step
+  int cut_rounds_ = 0;              ///< times cuts were added since the last accepted step
   MagnitudeSample base_;
   MagnitudeModel model_;
 };
 
 }  // namespace
 
-Magnitudes optimised_magnitudes(MagnitudeProblem& problem, const MagnitudeRun& run) {
+Magnitudes optimise_magnitudes(MagnitudeProblem& problem, const MagnitudeRun& run) {
   return BundleDescent(problem, run).end();
 }
 

@@ -8,7 +8,7 @@
 #include <thread>
 #include <utility>
 
-#include "improvement/requirements/proportions.h"
+#include "improvement/requirements/size_ratios.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/improvement/refinement.h"
 
@@ -17,9 +17,9 @@ namespace stackabilization::detail {
 namespace {
 
 /// A pair of blocks is near if its separation is within this fraction of the extent of f_max, or of the f_max
-/// that the target allows. At most most_pairs pairs are used.
+/// that the target allows. At most max_pairs pairs are used.
 constexpr double near_band = 0.1;
-constexpr std::size_t most_pairs = 80;
+constexpr std::size_t max_pairs = 80;
 
 /// Violation reported for the whole shape where pairs of blocks represent it.
 constexpr double no_shortfall = -1;
@@ -35,7 +35,7 @@ bool is_open(const Check& check) {
 }
 
 /// Returns the relative violation of a check, > 0 if it fails.
-double shortfall(const Check& check) {
+double violation(const Check& check) {
   const double lack = check.demanded - check.value;
   if (!std::isfinite(lack)) return check.passed ? -1 : 1;
   return check.demanded > 0 ? lack / check.demanded : lack;
@@ -49,10 +49,10 @@ Eigen::VectorXd in_a_row(const DistortionChanges& changes) {
 }
 
 /// Largest number of vertices, evenly chosen, used for the slopes of the displacement.
-constexpr Eigen::Index most_vertices = 20000;
+constexpr Eigen::Index max_vertices = 20000;
 
 Points some_rows(const Points& all) {
-  const Eigen::Index stride = (all.rows() + most_vertices - 1) / most_vertices;
+  const Eigen::Index stride = (all.rows() + max_vertices - 1) / max_vertices;
   if (stride <= 1) return all;
   Points some((all.rows() + stride - 1) / stride, 3);
   for (Eigen::Index row = 0; row < some.rows(); ++row) some.row(row) = all.row(row * stride);
@@ -76,14 +76,14 @@ MagnitudeProblem::MagnitudeProblem(const RequirementChecker& checker, std::vecto
       meter_(checker.space().rest(), checker.requirements().measure.boxes),
       blocks_(checker.space().rest().shape, direction, checker.requirements().measure.semantics) {
   const Requirements& asked = checker.requirements();
-  checks_ = asked.least_thickness || asked.least_draft_degrees || asked.standing_copies;
+  checks_ = asked.min_thickness || asked.min_draft_degrees || asked.standing_copies;
 }
 
-double MagnitudeProblem::handicap(const Stackability& measured) const {
-  return checker_.needed(measured) - checker_.requirements().target;
+double MagnitudeProblem::target_offset(const Stackability& measured) const {
+  return checker_.required_stackability(measured) - checker_.requirements().target;
 }
 
-double MagnitudeProblem::aim() const {
+double MagnitudeProblem::target() const {
   return checker_.requirements().target + tolerance::target / 2;
 }
 
@@ -107,12 +107,12 @@ void MagnitudeProblem::constrain_pairs(const Magnitudes& x) {
   pairs_.clear();
   if (checker_.requirements().play > 0) return;
   const Design design = this->design(x).design;
-  const Stackability whole = checker_.measured(design.shape, direction_);
-  const double allowed = (1 - aim() - handicap(whole)) / loss_per_length(whole);
+  const Stackability whole = checker_.measure(design.shape, direction_);
+  const double allowed = (1 - target() - target_offset(whole)) / loss_per_length(whole);
   const double clearance = checker_.requirements().clearance;
   pairs_ = blocks_.pairs_above(design.shape,
                                std::min(whole.f_max, allowed) - clearance - near_band * whole.extent);
-  if (pairs_.size() > most_pairs) pairs_.resize(most_pairs);
+  if (pairs_.size() > max_pairs) pairs_.resize(max_pairs);
 }
 
 void MagnitudeProblem::measure_blocks(const Design& design, const Stackability& whole,
@@ -121,13 +121,13 @@ void MagnitudeProblem::measure_blocks(const Design& design, const Stackability& 
   const std::vector<BlockSeparation> separations = blocks_.separations(design.shape, pairs_);
   double largest = 0;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {
-    const double f = separations[p].f + clearance, lack = aim() + handicap(whole) - (1 - f * loss);
-    sample.shortfalls[static_cast<Eigen::Index>(p) + 1] =
+    const double f = separations[p].f + clearance, lack = target() + target_offset(whole) - (1 - f * loss);
+    sample.violations[static_cast<Eigen::Index>(p) + 1] =
         separations[p].blocked ? lack : std::min(lack, -passing_surplus);
     if (separations[p].blocked) largest = std::max(largest, f);
   }
   const bool covered = !pairs_.empty() && largest >= whole.f_max - tolerance::relative * whole.extent;
-  sample.shortfalls[0] = covered ? no_shortfall : aim() - sample.stackability;
+  sample.violations[0] = covered ? no_shortfall : target() - sample.stackability;
 }
 
 MagnitudeProblem::Measured MagnitudeProblem::measured(const Magnitudes& x) const {
@@ -149,25 +149,25 @@ MagnitudeProblem::Measured MagnitudeProblem::measured(const Magnitudes& x) const
   }
   Assessment assessment;
   if (checks_) {
-    assessment = checker_.checked(outcome.design, direction_);
+    assessment = checker_.check(outcome.design, direction_);
   } else {
-    assessment.measured = checker_.measured(outcome.design.shape, direction_);
+    assessment.measured = checker_.measure(outcome.design.shape, direction_);
   }
   std::erase_if(assessment.checks, [](const Check& check) { return !is_open(check); });
-  sample.stackability = assessment.measured.value - handicap(assessment.measured);
+  sample.stackability = assessment.measured.value - target_offset(assessment.measured);
   const Requirements& asked = checker_.requirements();
-  const double proportion = least_proportion(checker_.space().rest(), outcome.design).ratio;
+  const double size_ratio = min_size_ratio(checker_.space().rest(), outcome.design).ratio;
   sample.passes =
-      proportion >= asked.least_proportion && std::all_of(assessment.checks.begin(), assessment.checks.end(),
-                                                          [](const Check& c) { return c.passed; });
+      size_ratio >= asked.min_size_ratio && std::all_of(assessment.checks.begin(), assessment.checks.end(),
+                                                        [](const Check& c) { return c.passed; });
   sample.feasible = sample.passes && sample.stackability >= asked.target + tolerance::stackability;
   const auto of_pairs = static_cast<Eigen::Index>(pairs_.size()) + 1;
   const auto checks = static_cast<Eigen::Index>(assessment.checks.size());
-  sample.shortfalls.resize(of_pairs + checks + 1);
+  sample.violations.resize(of_pairs + checks + 1);
   measure_blocks(outcome.design, assessment.measured, sample);
   for (Eigen::Index c = 0; c < checks; ++c)
-    sample.shortfalls[of_pairs + c] = shortfall(assessment.checks[static_cast<std::size_t>(c)]);
-  sample.shortfalls[of_pairs + checks] = asked.least_proportion + tolerance::magnitude - proportion;
+    sample.violations[of_pairs + c] = violation(assessment.checks[static_cast<std::size_t>(c)]);
+  sample.violations[of_pairs + checks] = asked.min_size_ratio + tolerance::magnitude - size_ratio;
   return result;
 }
 
@@ -232,7 +232,7 @@ MagnitudeSlopes MagnitudeProblem::slopes(const Magnitudes& x) {
   if (!made.front().sample.made) {  // only after cancellation
     const auto columns = static_cast<Eigen::Index>(size());
     return {Eigen::MatrixXd::Zero(at(x).changes.size(), columns),
-            Eigen::MatrixXd::Zero(at(x).shortfalls.size(), columns),
+            Eigen::MatrixXd::Zero(at(x).violations.size(), columns),
             {},
             std::vector<bool>(size())};
   }
@@ -256,7 +256,7 @@ MagnitudeSlopes MagnitudeProblem::differences(const std::vector<Measured>& made,
   const MagnitudeSample& base = made.front().sample;
   const auto columns = static_cast<Eigen::Index>(steps.size());
   MagnitudeSlopes result{Eigen::MatrixXd::Zero(base.changes.size(), columns),
-                         Eigen::MatrixXd::Zero(base.shortfalls.size(), columns),
+                         Eigen::MatrixXd::Zero(base.violations.size(), columns),
                          {},
                          std::vector<bool>(steps.size())};
   Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(made.front().moved.size(), columns + 1);
@@ -267,7 +267,7 @@ MagnitudeSlopes MagnitudeProblem::differences(const std::vector<Measured>& made,
     result.made[k] = true;
     const auto column = static_cast<Eigen::Index>(k);
     result.changes.col(column) = (there.changes - base.changes) / steps[k];
-    result.shortfalls.col(column) = (there.shortfalls - base.shortfalls) / steps[k];
+    result.violations.col(column) = (there.violations - base.violations) / steps[k];
     if (moved.rows() > 0)
       moved.col(column + 1) = (made[k + 1].moved.reshaped() - made.front().moved.reshaped()) / steps[k];
   }

@@ -16,7 +16,7 @@ namespace stackabilization::detail {
 /// Steps of the finite differences for slopes, as fractions of the given edits. The shortest step tells apart
 /// kinks that lie close together. The longest step hides the residuals of the deformation solves (up to 1e-5
 /// of the diagonal, where the shape is stretched to keep a height).
-inline constexpr double shortest_magnitude_step = 1.0 / (1 << 12), longest_magnitude_step = 1.0 / (1 << 8);
+inline constexpr double min_magnitude_step = 1.0 / (1 << 12), max_magnitude_step = 1.0 / (1 << 8);
 
 /// Magnitudes of the edits, one per edit; 1: as given, 0: none.
 using Magnitudes = std::vector<double>;
@@ -30,12 +30,12 @@ struct MagnitudeSample {
   double displacement = 0;  ///< share of `change` that is a root mean square displacement; 0 if not measured
   double stackability = 0;  ///< S with clearance and play, minus the handicap
   Eigen::VectorXd changes;  ///< signed changes whose absolute values add up to the rest of `change`
-  Eigen::VectorXd shortfalls;  ///< constraint violations, > 0 where a constraint is violated
+  Eigen::VectorXd violations;  ///< constraint violations, > 0 where a constraint is violated
 };
 
 /// Slopes of a sample: one column per magnitude, 0 where no neighbour could be made.
 struct MagnitudeSlopes {
-  Eigen::MatrixXd changes, shortfalls;
+  Eigen::MatrixXd changes, violations;
   /// Model of the displacement: its square after a step y is about (1 y) gram (1 y)^T. Empty if not measured.
   Eigen::MatrixXd gram;
   std::vector<bool> made;  ///< per magnitude, whether a neighbour could be made
@@ -48,7 +48,7 @@ class MagnitudeProblem {
   /// Limits and objective.
   struct Limits {
     int evaluations = 0;                          ///< `stopped` is true from this number of samples on
-    double reach = 0;                             ///< magnitudes lie in [-reach, max(reach, 1)]
+    double magnitude_bound = 0;                   ///< magnitudes lie in [-reach, max(reach, 1)]
     ChangeMeasure measure = ChangeMeasure::both;  ///< objective
     std::function<bool()> cancelled;
   };
@@ -57,10 +57,10 @@ class MagnitudeProblem {
                    Limits limits);
 
   std::size_t size() const { return edits_.size(); }
-  double lowest() const { return -limits_.reach; }
-  double highest() const { return std::max(limits_.reach, 1.0); }
+  double lowest() const { return -limits_.magnitude_bound; }
+  double highest() const { return std::max(limits_.magnitude_bound, 1.0); }
   /// Returns the S to aim at: the target plus half of the allowed excess, tolerance::target.
-  double aim() const;
+  double target() const;
 
   /// Defines the constraints, that is the rows of MagnitudeSample::shortfalls: the whole shape, every pair of
   /// blocks whose separation comes near f_max (or what the target allows) at `x`, every check, and the
@@ -92,7 +92,7 @@ class MagnitudeProblem {
   int evaluations() const { return evaluations_; }
   /// Sets the total number of evaluations allowed.
   void allow(int evaluations) { limits_.evaluations = evaluations; }
-  /// Sets the step of finite differences; initially shortest_magnitude_step.
+  /// Sets the step of finite differences; initially min_magnitude_step.
   void step_by(double step) { step_ = step; }
   /// Returns whether the evaluations are used up or the caller cancelled.
   bool stopped() const;
@@ -109,7 +109,7 @@ class MagnitudeProblem {
                                  const std::function<bool()>& cancelled) const;
   /// Returns the S needed for these boxes minus the target: 0 unless a room is required, for which the S
   /// needed depends on the boxes.
-  double handicap(const Stackability& measured) const;
+  double target_offset(const Stackability& measured) const;
   void measure_blocks(const Design& design, const Stackability& whole, MagnitudeSample& sample) const;
   void remember(const Magnitudes& x, MagnitudeSample sample);
   /// Returns the slopes from measurements at a point and at one neighbour per magnitude.
@@ -128,7 +128,7 @@ class MagnitudeProblem {
   std::optional<Magnitudes> best_, nearest_;
   double best_change_ = 0, nearest_stackability_ = 0;
   int evaluations_ = 0;
-  double step_ = shortest_magnitude_step;
+  double step_ = min_magnitude_step;
 };
 
 }  // namespace stackabilization::detail

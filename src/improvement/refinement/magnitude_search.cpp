@@ -20,21 +20,21 @@ constexpr double multiples[] = {1.25, 1.5, 2, 3};
 /// blocks. A run makes no progress if it lessens the change, or what S lacks to 1, by less than
 /// min_relative_progress. When the change is minimised, runs alternate between short and long finite
 /// differences until neither makes progress.
-constexpr int most_runs = 8;
+constexpr int max_runs = 8;
 constexpr double min_relative_progress = 0.001;
 
 /// If a list of more edits than this shrinks to half by removing unneeded edits, the rest is refined afresh.
-constexpr std::size_t most_at_once = 6;
+constexpr std::size_t max_dropped_at_once = 6;
 
 /// Share of the evaluations that the optimiser may use. The rest is for the steps after it.
 constexpr double share_of_descent = 0.8;
 
 /// Largest number of rounds that pull back one magnitude after the other.
-constexpr int most_sweeps = 3;
+constexpr int max_sweeps = 3;
 
 /// Largest number of steps of a search along a segment. S is taken to jump where the bracket is narrow and S
 /// stays farther from the aim than `steep` times the bracket.
-constexpr std::uintmax_t most_steps = 40;
+constexpr std::uintmax_t max_steps = 40;
 constexpr double steep = 1000;
 
 /// Enlargements of the other magnitudes, minus 1, tried when edits are dropped; and the relative growth of
@@ -64,7 +64,7 @@ class MagnitudeSearch {
     const std::size_t given = made(given_);
     do_without();
     pull_back();
-    if (given > most_at_once && 2 * made(*problem_.best()) <= given) return;
+    if (given > max_dropped_at_once && 2 * made(*problem_.best()) <= given) return;
     descend();
     pull_back_singly();
     leave_out();
@@ -76,13 +76,13 @@ class MagnitudeSearch {
   void reach() {
     std::vector<Magnitudes> larger;
     for (const double factor : multiples)
-      if (factor <= options_.reach) larger.push_back(scaled(given_, factor));
+      if (factor <= options_.magnitude_bound) larger.push_back(scaled(given_, factor));
     problem_.prepare(larger);
-    for (int run = 0; run < most_runs && !problem_.best() && !problem_.stopped(); ++run) {
+    for (int run = 0; run < max_runs && !problem_.best() && !problem_.stopped(); ++run) {
       const Magnitudes from = problem_.nearest().value_or(given_);
       const double before = problem_.nearest_stackability();
       problem_.constrain_pairs(from);
-      optimised_magnitudes(problem_, {from, MagnitudeGoal::feasible});
+      optimise_magnitudes(problem_, {from, MagnitudeGoal::feasible});
       if (problem_.nearest_stackability() - before < min_relative_progress * (1 - before)) break;
     }
   }
@@ -124,12 +124,12 @@ class MagnitudeSearch {
   void descend() {
     problem_.allow(static_cast<int>(share_of_descent * options_.evaluations));
     int idle = 0;
-    for (int run = 0; run < most_runs && idle < 2 && !problem_.stopped(); ++run) {
+    for (int run = 0; run < max_runs && idle < 2 && !problem_.stopped(); ++run) {
       const Magnitudes from = *problem_.best();
       const double before = problem_.best_change();
-      problem_.step_by(run % 2 == 0 ? shortest_magnitude_step : longest_magnitude_step);
+      problem_.step_by(run % 2 == 0 ? min_magnitude_step : max_magnitude_step);
       problem_.constrain_pairs(from);
-      optimised_magnitudes(problem_, {from, MagnitudeGoal::unchanged});
+      optimise_magnitudes(problem_, {from, MagnitudeGoal::min_change});
       pull_back();
       idle = problem_.best_change() < before * (1 - min_relative_progress) ? 0 : idle + 1;
     }
@@ -151,7 +151,7 @@ class MagnitudeSearch {
     const auto margin = [&](double share) {
       const MagnitudeSample& sample = problem_.at(point(share));
       if (!sample.made) return -1.0;
-      const double above = sample.stackability - problem_.aim();
+      const double above = sample.stackability - problem_.target();
       if (sample.feasible) surplus = std::min(surplus, std::abs(above));
       return sample.feasible ? above : std::min(above, -tolerance::target);
     };
@@ -162,7 +162,7 @@ class MagnitudeSearch {
     };
     const double at_start = margin(0), at_end = margin(1);
     if (!(at_start > 0) || !(at_end < 0)) return;
-    std::uintmax_t steps = most_steps;
+    std::uintmax_t steps = max_steps;
     boost::math::tools::toms748_solve(margin, 0.0, 1.0, at_start, at_end, close_enough, steps);
   }
 
@@ -172,10 +172,10 @@ class MagnitudeSearch {
   /// Pulls back one magnitude after the other while that helps. Needed where S jumps: slopes do not show
   /// jumps.
   void pull_back_singly() {
-    for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    for (int sweep = 0; sweep < max_sweeps; ++sweep) {
       const double before = problem_.best_change();
       for (std::size_t k = 0; k < problem_.size() && !problem_.stopped(); ++k) {
-        if (problem_.at(*problem_.best()).stackability <= problem_.aim() + tolerance::target / 2) return;
+        if (problem_.at(*problem_.best()).stackability <= problem_.target() + tolerance::target / 2) return;
         Magnitudes without = *problem_.best();
         without[k] = 0;
         approach(without);
@@ -189,11 +189,11 @@ class MagnitudeSearch {
   void leave_out() {
     const Magnitudes best = *problem_.best();
     const double allowed = problem_.best_change() * (1 + spare_change);
-    const double gained = problem_.aim() - problem_.at(Magnitudes(best.size(), 0)).stackability;
+    const double gained = problem_.target() - problem_.at(Magnitudes(best.size(), 0)).stackability;
     std::vector<std::pair<double, std::size_t>> little;
     for (const auto& [k, sample] : each_left_out(best))
       if (sample.passes && sample.change <= allowed &&
-          problem_.aim() - sample.stackability <= options_.negligible * gained)
+          problem_.target() - sample.stackability <= options_.drop_threshold * gained)
         little.emplace_back(-sample.stackability, k);
     std::sort(little.begin(), little.end());
     const auto goes_without = [&](std::size_t count) {

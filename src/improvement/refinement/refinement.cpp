@@ -17,17 +17,17 @@ using namespace detail;
 
 /// Edits are added in rounds, few at a time: every variable costs a sample per slope. They are chosen by
 /// reduced cost in a trust region of radius pricing_radius. An edit is added only if its reduced cost per
-/// unit of magnitude is above least_pull times the change. A round that lessens the change by less than the
-/// fraction least_gain is the last.
-constexpr int most_rounds = 4;
+/// unit of magnitude is above min_reduced_cost times the change. A round that lessens the change by less than
+/// the fraction min_gain is the last.
+constexpr int max_rounds = 4;
 constexpr double pricing_radius = 0.1;
-constexpr double least_pull = 0.01;
-constexpr double least_gain = 0.01;
+constexpr double min_reduced_cost = 0.01;
+constexpr double min_gain = 0.01;
 
 /// Largest number of times that a result with fewer edits is refined again, and the fewest evaluations of a
 /// refinement.
-constexpr int most_restarts = 3;
-constexpr int least_evaluations = 10;
+constexpr int max_restarts = 3;
+constexpr int min_evaluations = 10;
 
 /// A candidate with all checks made.
 struct Verdict {
@@ -39,17 +39,17 @@ struct Verdict {
 /// Refinement of the magnitudes of one list of edits.
 class MagnitudeRefiner {
  public:
-  /// `joining`: edits added to those of the start, with magnitude 0.
+  /// `added`: edits added to those of the start, with magnitude 0.
   MagnitudeRefiner(const RequirementChecker& checker, const Candidate& start,
-                   const RefinementOptions& options, const std::vector<MagnitudeEdit>& joining = {})
+                   const RefinementOptions& options, const std::vector<MagnitudeEdit>& added = {})
       : checker_(checker),
         start_(start),
         options_(options),
         direction_(start.direction),
-        edits_(variables(checker, start, options, joining)),
+        edits_(variables(checker, start, options, added)),
         meter_(checker.space().rest(), checker.requirements().measure.boxes, options.alpha),
         problem_(checker, plain(edits_), direction_,
-                 {options.evaluations, options.reach, options.least, options.cancelled}) {}
+                 {options.evaluations, options.magnitude_bound, options.objective, options.cancelled}) {}
 
   /// Returns the added edits of largest reduced cost at the start, at most `most`.
   std::vector<MagnitudeEdit> promising(std::size_t most) {
@@ -57,21 +57,22 @@ class MagnitudeRefiner {
     if (!problem_.at(x).made) return {};
     problem_.constrain_pairs(x);
     const MagnitudeSlopes slopes = problem_.slopes(x);
-    const MagnitudeModel model(MagnitudeGoal::unchanged, x, problem_.at(x), slopes);
+    const MagnitudeModel model(MagnitudeGoal::min_change, x, problem_.at(x), slopes);
     Magnitudes low = x, high = x;
     for (double& magnitude : low) magnitude -= pricing_radius;
     for (double& magnitude : high) magnitude += pricing_radius;
-    const Eigen::VectorXd pulls = model.step(low, high).pull;
-    const double least = least_pull * model.merit(problem_.at(x));
+    const Eigen::VectorXd pulls = model.step(low, high).reduced_costs;
+    const double least = min_reduced_cost * model.merit(problem_.at(x));
     std::vector<std::pair<double, std::size_t>> ranked;
     for (std::size_t k = 0; k < edits_.size(); ++k) {
-      const double pull = pulls(static_cast<Eigen::Index>(k));
-      if (!edits_[k].source && slopes.made[k] && pull > least) ranked.emplace_back(-pull, k);
+      const double reduced_costs = pulls(static_cast<Eigen::Index>(k));
+      if (!edits_[k].source && slopes.made[k] && reduced_costs > least)
+        ranked.emplace_back(-reduced_costs, k);
     }
     std::sort(ranked.begin(), ranked.end());
     if (ranked.size() > most) ranked.resize(most);
     std::vector<MagnitudeEdit> result;
-    for (const auto& [pull, k] : ranked) result.push_back(edits_[k]);
+    for (const auto& [reduced_costs, k] : ranked) result.push_back(edits_[k]);
     return result;
   }
 
@@ -95,15 +96,15 @@ class MagnitudeRefiner {
   /// Returns the given edits and the added ones. Given edits are merged unless the merged list is refused.
   static std::vector<MagnitudeEdit> variables(const RequirementChecker& checker, const Candidate& start,
                                               const RefinementOptions& options,
-                                              const std::vector<MagnitudeEdit>& joining) {
+                                              const std::vector<MagnitudeEdit>& added) {
     const DeformationConstraints constraints =
         deformation_constraints(checker.requirements(), checker.space().rest(), Direction(start.direction));
     std::vector<MagnitudeEdit> edits =
-        merged_edits(start.design.edits, [&](const std::vector<MagnitudeEdit>& fewer) {
+        merge_magnitude_edits(start.design.edits, [&](const std::vector<MagnitudeEdit>& fewer) {
           const bool late = options.cancelled && options.cancelled();  // replaying long lists is slow
           return !late && !checker.space().replayed(plain(fewer), constraints).refusal;
         });
-    edits.insert(edits.end(), joining.begin(), joining.end());
+    edits.insert(edits.end(), added.begin(), added.end());
     return edits;
   }
   static std::vector<Edit> plain(const std::vector<MagnitudeEdit>& edits) {
@@ -146,7 +147,7 @@ class MagnitudeRefiner {
 
   Verdict judged(Design design, std::vector<std::string> reasons) const {
     Verdict verdict;
-    const Assessment assessment = checker_.checked(design, direction_);
+    const Assessment assessment = checker_.check(design, direction_);
     Candidate& candidate = verdict.candidate;
     candidate.measured = assessment.measured;
     const double gain = start_.energy.gain + assessment.measured.value - start_.measured.value;
@@ -155,7 +156,7 @@ class MagnitudeRefiner {
     candidate.direction = start_.direction;
     candidate.reasons = std::move(reasons);
     verdict.reached = assessment.passed();
-    verdict.change = size_of(options_.least, candidate, checker_.space().rest().shape);
+    verdict.change = size_of(options_.objective, candidate, checker_.space().rest().shape);
     return verdict;
   }
 
@@ -182,21 +183,21 @@ Offer offered(const RequirementChecker& checker, const Candidate& candidate,
   MagnitudeRefiner all(checker, candidate, options,
                        possible_edits(given, checker.space(), Direction(candidate.direction)));
   Offer offer;
-  offer.edits = all.promising(static_cast<std::size_t>(options.joining));
+  offer.edits = all.promising(static_cast<std::size_t>(options.max_added_edits));
   offer.evaluations = all.evaluations();
   return offer;
 }
 
 }  // namespace
 
-RefinementResult refined_candidate(const RequirementChecker& checker, const Candidate& start,
-                                   const RefinementOptions& options) {
-  if (options.evaluations < least_evaluations)
-    throw UsageError("a refinement needs at least " + std::to_string(least_evaluations) + " evaluations");
-  if (!(options.reach > 0) || !std::isfinite(options.reach))
+RefinementResult refine_candidate(const RequirementChecker& checker, const Candidate& start,
+                                  const RefinementOptions& options) {
+  if (options.evaluations < min_evaluations)
+    throw UsageError("a refinement needs at least " + std::to_string(min_evaluations) + " evaluations");
+  if (!(options.magnitude_bound > 0) || !std::isfinite(options.magnitude_bound))
     throw UsageError("the reach of a refinement must be a positive number");
-  if (options.joining < 0) throw UsageError("the number of edits that join must not be negative");
-  if (!(options.negligible >= 0)) throw UsageError("the negligible magnitude must not be negative");
+  if (options.max_added_edits < 0) throw UsageError("the number of edits that join must not be negative");
+  if (!(options.drop_threshold >= 0)) throw UsageError("the negligible magnitude must not be negative");
   RefinementResult result = MagnitudeRefiner(checker, start, options).result();
   const auto options_left = [&] {
     RefinementOptions left = options;
@@ -204,7 +205,7 @@ RefinementResult refined_candidate(const RequirementChecker& checker, const Cand
     return left;
   };
   const auto goes_on = [&] {
-    return result.reached && options_left().evaluations >= least_evaluations &&
+    return result.reached && options_left().evaluations >= min_evaluations &&
            !(options.cancelled && options.cancelled());
   };
   const auto take = [&](RefinementResult next) {
@@ -212,19 +213,19 @@ RefinementResult refined_candidate(const RequirementChecker& checker, const Cand
     result = std::move(next);
   };
   std::size_t edits = start.design.edits.size();
-  for (int restart = 0; restart < most_restarts && goes_on(); ++restart) {
+  for (int restart = 0; restart < max_restarts && goes_on(); ++restart) {
     if (result.candidate.design.edits.size() >= edits) break;
     edits = result.candidate.design.edits.size();
     take(MagnitudeRefiner(checker, result.candidate, options_left()).result());
   }
   const Shape& rest = checker.space().rest().shape;
-  for (int round = 0; options.joining > 0 && round < most_rounds && goes_on(); ++round) {
-    const double before = size_of(options.least, result.candidate, rest);
+  for (int round = 0; options.max_added_edits > 0 && round < max_rounds && goes_on(); ++round) {
+    const double before = size_of(options.objective, result.candidate, rest);
     const Offer offer = offered(checker, result.candidate, options_left());
     result.evaluations += offer.evaluations;
     if (offer.edits.empty() || !goes_on()) break;
     take(MagnitudeRefiner(checker, result.candidate, options_left(), offer.edits).result());
-    if (!(size_of(options.least, result.candidate, rest) < before * (1 - least_gain))) break;
+    if (!(size_of(options.objective, result.candidate, rest) < before * (1 - min_gain))) break;
   }
   return result;
 }

@@ -20,9 +20,9 @@ struct Touched {
 };
 
 /// Measures the draft angle at contact polygons.
-class DraftGauge {
+class DraftAngles {
  public:
-  DraftGauge(const Shape& shape, const Direction& direction)
+  DraftAngles(const Shape& shape, const Direction& direction)
       : shape_(shape), up_(direction.unit()), reach_(tolerance::relative * bounding_diagonal(shape)) {}
 
   /// Returns the draft angle at a contact polygon, radians. Nothing if a triangle has no area.
@@ -36,7 +36,7 @@ class DraftGauge {
   double reach_;
 };
 
-std::optional<Touched> DraftGauge::touched(Eigen::Index triangle, const Eigen::Vector3d& point) const {
+std::optional<Touched> DraftAngles::touched(Eigen::Index triangle, const Eigen::Vector3d& point) const {
   const Eigen::Vector3d a = shape_.corner(triangle, 0);
   const Eigen::Vector3d normal =
       (shape_.corner(triangle, 1) - a).cross(shape_.corner(triangle, 2) - a).stableNormalized();
@@ -50,7 +50,7 @@ std::optional<Touched> DraftGauge::touched(Eigen::Index triangle, const Eigen::V
   return result;
 }
 
-std::optional<double> DraftGauge::draft(const ContactPolygon& polygon) const {
+std::optional<double> DraftAngles::draft(const ContactPolygon& polygon) const {
   // The copies touch where f is largest over the polygon.
   const Eigen::VectorXd f = (polygon.upper_points - polygon.lower_points) * up_;
   const double touching = f.maxCoeff() - reach_;
@@ -74,7 +74,7 @@ std::optional<double> DraftGauge::draft(const ContactPolygon& polygon) const {
 double contact_draft_degrees(const Shape& shape, const std::vector<ContactRegion>& regions,
                              const Direction& direction) {
   if (regions.empty()) return 90;
-  const DraftGauge gauge(shape, direction);
+  const DraftAngles gauge(shape, direction);
   double least = std::numbers::pi / 2;
   for (const ContactRegion& region : regions)
     for (const ContactPolygon& polygon : region.polygons)

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "improvement/requirements/draft.h"
-#include "improvement/requirements/proportions.h"
+#include "improvement/requirements/size_ratios.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/relation_residual.h"
 #include "stackabilization/envelope/contacts.h"
-#include "stackabilization/stacking/standing.h"
+#include "stackabilization/stacking/static_stability.h"
 
 namespace stackabilization::detail {
 
@@ -67,26 +67,27 @@ RequirementChecks::RequirementChecks(const DesignSpace& space, const Requirement
     if (entry.by_primitive) entry.vertices.clear();
     staying_.push_back(std::move(entry));
   }
-  if (requirements.least_thickness) probes_ = thickness_probes(rest);
+  if (requirements.min_thickness) probes_ = thickness_probes(rest);
 }
 
 std::vector<Check> RequirementChecks::of(const CheckedDesign& checked) const {
   std::vector<Check> checks = {reached(checked.assessment.measured)};
   if (requirements_.keep_height) checks.push_back(height(checked));
   if (space_.kind() == DeformationKind::controllers) checks.push_back(relations(checked));
-  if (requirements_.least_proportion > 0) checks.push_back(proportions(checked));
+  if (requirements_.min_size_ratio > 0) checks.push_back(proportions(checked));
   if (requirements_.box_tolerance) checks.push_back(box(checked));
   if (!staying_.empty()) checks.push_back(parts(checked));
-  if (requirements_.least_thickness) checks.push_back(thickness(checked));
-  if (requirements_.least_draft_degrees) checks.push_back(draft(checked));
+  if (requirements_.min_thickness) checks.push_back(thickness(checked));
+  if (requirements_.min_draft_degrees) checks.push_back(draft(checked));
   if (requirements_.standing_copies) checks.push_back(standing(checked));
   return checks;
 }
 
 Check RequirementChecks::reached(const Stackability& measured) const {
-  if (!requirements_.room)
+  if (!requirements_.length_limit)
     return {"target", measured.value, requirements_.target, measured.value >= requirements_.target, "", ""};
-  const double length = stack_length(*requirements_.room, measured), room = requirements_.room->length;
+  const double length = stack_length(*requirements_.length_limit, measured),
+               room = requirements_.length_limit->length;
   return {"room", length, room, length <= room, "model units", ""};
 }
 
@@ -111,8 +112,8 @@ Check RequirementChecks::relations(const CheckedDesign& checked) const {
 }
 
 Check RequirementChecks::proportions(const CheckedDesign& checked) const {
-  const Proportion least = least_proportion(space_.rest(), checked.design);
-  Check check{"proportions", least.ratio, requirements_.least_proportion, true, "of the size at rest", ""};
+  const SizeRatio least = min_size_ratio(space_.rest(), checked.design);
+  Check check{"proportions", least.ratio, requirements_.min_size_ratio, true, "of the size at rest", ""};
   check.passed = least.ratio >= check.demanded - tolerance::relative;
   if (least.part >= 0) check.note = quoted(space_.rest().structure, least.part);
   return check;
@@ -157,7 +158,7 @@ Check RequirementChecks::parts(const CheckedDesign& checked) const {
 
 Check RequirementChecks::thickness(const CheckedDesign& checked) const {
   const Structure& structure = space_.rest().structure;
-  const double least = *requirements_.least_thickness, slack = tolerance::relative * structure.diagonal;
+  const double least = *requirements_.min_thickness, slack = tolerance::relative * structure.diagonal;
   Check check{"thickness", 0, least, true, "model units", "nothing has a thickness"};
   // `worst`: least excess over the required thickness, which decides. `thinnest`: least thickness, which is
   // reported.
@@ -179,7 +180,7 @@ Check RequirementChecks::thickness(const CheckedDesign& checked) const {
 }
 
 Check RequirementChecks::draft(const CheckedDesign& checked) const {
-  const double least = *requirements_.least_draft_degrees;
+  const double least = *requirements_.min_draft_degrees;
   const Shape& shape = checked.design.shape;
   Check check{"draft", 90, least, true, "degrees", ""};
   if (!checked.assessment.separation.blocked) return check;
@@ -195,17 +196,18 @@ Check RequirementChecks::draft(const CheckedDesign& checked) const {
 }
 
 Check RequirementChecks::standing(const CheckedDesign& checked) const {
-  Check check{"standing", 0, requirements_.least_tilt_degrees, false, "degrees", ""};
+  Check check{"standing", 0, requirements_.min_tipping_degrees, false, "degrees", ""};
   if (!checked.assessment.separation.blocked) {
     check.note = "copies pass each other along the direction";
     return check;
   }
-  StandingOptions options;
+  StaticStabilityOptions options;
   options.copies = *requirements_.standing_copies;
   options.semantics = requirements_.measure.semantics;
-  const Standing stack = stackabilization::standing(checked.design.shape, checked.direction, options);
-  check.value = stack.tilt_degrees;
-  check.passed = stack.stands && stack.tilt_degrees >= check.demanded * (1 - tolerance::relative);
+  const StaticStability stack =
+      stackabilization::static_stability(checked.design.shape, checked.direction, options);
+  check.value = stack.tipping_degrees;
+  check.passed = stack.stands && stack.tipping_degrees >= check.demanded * (1 - tolerance::relative);
   check.note = "copy " + std::to_string(stack.weakest_copy + 1) + " of " + std::to_string(options.copies) +
                " topples first";
   return check;

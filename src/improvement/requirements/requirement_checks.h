@@ -16,7 +16,7 @@ struct CheckedDesign {
 };
 
 /// Returns the length of a stack of room.copies copies, model units.
-inline double stack_length(const StackRoom& room, const Stackability& measured) {
+inline double stack_length(const StackLengthLimit& room, const Stackability& measured) {
   return measured.extent + (room.copies - 1) * measured.f_max;
 }
 

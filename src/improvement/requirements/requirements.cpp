@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "improvement/design/design_match.h"
-#include "improvement/requirements/proportions.h"
 #include "improvement/requirements/requirement_checks.h"
+#include "improvement/requirements/size_ratios.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/removal.h"
 #include "stackabilization/stacking/clearance.h"
@@ -19,7 +19,7 @@ namespace {
 
 /// Largest clearance and play, in diagonals. Larger values are a mistake in the unit, and numbers that no
 /// file can hold.
-constexpr double most_air = 1e6;
+constexpr double max_air = 1e6;
 
 void require_at_least_zero(double value, const std::string& what) {
   if (!std::isfinite(value) || value < 0)
@@ -28,7 +28,7 @@ void require_at_least_zero(double value, const std::string& what) {
 
 void require_air(double value, const std::string& what, double diagonal) {
   require_at_least_zero(value, what);
-  if (value > most_air * diagonal)
+  if (value > max_air * diagonal)
     throw UsageError("the " + what + " that is required cannot exceed a million times the size of the shape");
 }
 
@@ -44,7 +44,7 @@ void require_parts(const std::vector<int>& parts, const Structure& structure) {
                        std::to_string(structure.parts.size()));
 }
 
-void require_room(const StackRoom& room) {
+void require_length_limit(const StackLengthLimit& room) {
   if (room.copies < 2) throw UsageError("a room is for two copies at least");
   if (!std::isfinite(room.length) || room.length <= 0)
     throw UsageError("the room for a stack must be a finite positive length");
@@ -73,20 +73,20 @@ void validate(const Requirements& requirements, const StructuredShape& rest) {
     throw UsageError("the target must be a stackability below 1");
   if (requirements.measure.flat_shapes != FlatShapes::refuse)
     throw UsageError("a target needs shapes whose box has a volume");
-  if (requirements.room) require_room(*requirements.room);
+  if (requirements.length_limit) require_length_limit(*requirements.length_limit);
   require_parts(requirements.kept_parts, rest.structure);
   require_parts(requirements.editable_parts, rest.structure);
-  if (!(requirements.least_proportion >= 0 && requirements.least_proportion <= 1))
+  if (!(requirements.min_size_ratio >= 0 && requirements.min_size_ratio <= 1))
     throw UsageError("the least proportion that is required must be from 0 to 1");
   require_air(requirements.clearance, "clearance", rest.structure.diagonal);
   require_air(requirements.play, "play", rest.structure.diagonal);
   require_at_least_zero(requirements.box_tolerance.value_or(0), "tolerance of the box");
-  require_at_least_zero(requirements.least_thickness.value_or(0), "thickness");
-  require_angle(requirements.least_draft_degrees.value_or(0), "draft angle");
-  require_angle(requirements.least_tilt_degrees, "tilt");
+  require_at_least_zero(requirements.min_thickness.value_or(0), "thickness");
+  require_angle(requirements.min_draft_degrees.value_or(0), "draft angle");
+  require_angle(requirements.min_tipping_degrees, "tilt");
   if (requirements.standing_copies.value_or(1) < 1)
     throw UsageError("a stack that stands needs at least one copy");
-  if (requirements.least_tilt_degrees > 0 && !requirements.standing_copies)
+  if (requirements.min_tipping_degrees > 0 && !requirements.standing_copies)
     throw UsageError("a least tilt needs the number of copies that are to stand");
 }
 
@@ -151,12 +151,13 @@ const DesignSpace& RequirementChecker::space() const {
   return data_->space;
 }
 
-Stackability RequirementChecker::measured(const Shape& shape, const Direction& direction) const {
+Stackability RequirementChecker::measure(const Shape& shape, const Direction& direction) const {
   return data_->with_air(shape, direction, stackability(shape, direction, data_->requirements.measure));
 }
 
-std::optional<Stackability> RequirementChecker::measured_above(const Shape& shape, const Direction& direction,
-                                                               double threshold) const {
+std::optional<Stackability> RequirementChecker::measure_if_above(const Shape& shape,
+                                                                 const Direction& direction,
+                                                                 double threshold) const {
   // Clearance and play never raise S. A shape whose S is too low without them is not measured further.
   const std::optional<Stackability> touching =
       stackability_if_above(shape, direction, threshold, data_->requirements.measure);
@@ -166,27 +167,28 @@ std::optional<Stackability> RequirementChecker::measured_above(const Shape& shap
   return measured;
 }
 
-bool RequirementChecker::reaches(const Stackability& measured) const {
+bool RequirementChecker::meets_target(const Stackability& measured) const {
   const Requirements& asked = data_->requirements;
-  return asked.room ? detail::stack_length(*asked.room, measured) <= asked.room->length
-                    : measured.value >= asked.target;
+  return asked.length_limit
+             ? detail::stack_length(*asked.length_limit, measured) <= asked.length_limit->length
+             : measured.value >= asked.target;
 }
 
-double RequirementChecker::needed(const Stackability& measured) const {
-  const std::optional<StackRoom>& room = data_->requirements.room;
+double RequirementChecker::required_stackability(const Stackability& measured) const {
+  const std::optional<StackLengthLimit>& room = data_->requirements.length_limit;
   return room ? stackability_within(measured, room->copies, room->length) : data_->requirements.target;
 }
 
-std::optional<std::string> RequirementChecker::out_of_proportion(const Design& design) const {
-  if (data_->requirements.least_proportion == 0) return std::nullopt;
+std::optional<std::string> RequirementChecker::size_ratio_violation(const Design& design) const {
+  if (data_->requirements.min_size_ratio == 0) return std::nullopt;
   const StructuredShape& rest = data_->space.rest();
-  const Proportion proportion = least_proportion(rest, design);
-  if (proportion.ratio >= data_->requirements.least_proportion) return std::nullopt;
-  return "'" + rest.structure.parts[static_cast<std::size_t>(proportion.part)].name +
+  const SizeRatio size_ratio = min_size_ratio(rest, design);
+  if (size_ratio.ratio >= data_->requirements.min_size_ratio) return std::nullopt;
+  return "'" + rest.structure.parts[static_cast<std::size_t>(size_ratio.part)].name +
          "' would lose its proportions";
 }
 
-Assessment RequirementChecker::checked(const Design& design, const Direction& direction) const {
+Assessment RequirementChecker::check(const Design& design, const Direction& direction) const {
   detail::require_match(design, data_->primitives, data_->space.rest().shape.vertex_count());
   validate(design.shape);
   const StackabilityOptions& measure = data_->requirements.measure;

@@ -39,9 +39,9 @@ struct Hit {
 };
 
 /// Finds the material behind points of a surface.
-class MaterialFinder {
+class WallThicknessRays {
  public:
-  explicit MaterialFinder(const Shape& shape)
+  explicit WallThicknessRays(const Shape& shape)
       : shape_(shape),
         shell_(detail::connected_components(detail::weld(shape))),
         diagonal_(bounding_diagonal(shape)),
@@ -62,8 +62,8 @@ class MaterialFinder {
 
 /// Returns the crossings of a ray with the shell of the triangle from which the ray starts, nearest first. A
 /// crossing at an edge or a corner counts once.
-std::vector<Hit> MaterialFinder::hits(std::int32_t triangle, const Eigen::Vector3d& point,
-                                      const Eigen::Vector3d& along) const {
+std::vector<Hit> WallThicknessRays::hits(std::int32_t triangle, const Eigen::Vector3d& point,
+                                         const Eigen::Vector3d& along) const {
   std::vector<std::size_t> met;
   tree_.append_met(Kernel::Segment_3(detail::to_cgal<Kernel>(point),
                                      detail::to_cgal<Kernel>(point + 2 * diagonal_ * along)),
@@ -85,8 +85,8 @@ std::vector<Hit> MaterialFinder::hits(std::int32_t triangle, const Eigen::Vector
   return found;
 }
 
-std::optional<ThicknessProbe> MaterialFinder::probe(std::int32_t triangle,
-                                                    const Eigen::Vector3d& point) const {
+std::optional<ThicknessProbe> WallThicknessRays::probe(std::int32_t triangle,
+                                                       const Eigen::Vector3d& point) const {
   const Eigen::Vector3d a = shape_.corner(triangle, 0);
   const Eigen::Vector3d normal =
       (shape_.corner(triangle, 1) - a).cross(shape_.corner(triangle, 2) - a).stableNormalized();
@@ -102,7 +102,8 @@ std::optional<ThicknessProbe> MaterialFinder::probe(std::int32_t triangle,
 }
 
 /// Appends the probes of the samples at which there is material.
-void find(const MaterialFinder& finder, const SurfaceSamples& samples, std::vector<ThicknessProbe>& probes) {
+void find(const WallThicknessRays& finder, const SurfaceSamples& samples,
+          std::vector<ThicknessProbe>& probes) {
   std::vector<std::optional<ThicknessProbe>> found(samples.triangles.size());
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t k) {
     found[k] =
@@ -134,7 +135,7 @@ std::vector<ThicknessProbe> thickness_probes(const Shape& shape, const Thickness
   if (options.probes < 1) throw UsageError("thickness needs at least one probe");
   validate(shape);
   const SurfaceSamples samples = surface_samples(shape, options.probes);
-  const MaterialFinder finder(shape);
+  const WallThicknessRays finder(shape);
   std::vector<ThicknessProbe> probes;
   find(finder, samples, probes);
   std::vector<char> probed(static_cast<std::size_t>(shape.part_count()), 0);

@@ -5,7 +5,7 @@
 
 #include "improvement/design/distinct.h"
 #include "improvement/run/work_budget.h"
-#include "improvement/search/pursuit.h"
+#include "improvement/search/gap_descent.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/effort.h"
 
@@ -49,7 +49,7 @@ class Refinements {
         options_(options.refinement),
         wanted_(static_cast<std::size_t>(options.search.solutions)),
         budget_(budget),
-        less_changed_([measure = options.refinement.least, &rest = checker.space().rest().shape](
+        less_changed_([measure = options.refinement.objective, &rest = checker.space().rest().shape](
                           const Candidate& a, const Candidate& b) {
           return size_of(measure, a, rest) < size_of(measure, b, rest);
         }),
@@ -91,15 +91,15 @@ class Refinements {
   RefinementResult refinement(const Candidate& start, RefinementOptions options) {
     options.evaluations =
         static_cast<int>(std::min<std::int64_t>(options.evaluations, budget_.designs_until(share_)));
-    RefinementResult result = refined_candidate(checker_, start, options);
+    RefinementResult result = refine_candidate(checker_, start, options);
     budget_.charge(result.evaluations);
     return result;
   }
 
   void add(const Candidate& start) {
-    if (start.design.edits.empty() && !checker_.reaches(start.measured)) return;
+    if (start.design.edits.empty() && !checker_.meets_target(start.measured)) return;
     RefinementOptions alone = options_;
-    alone.joining = 0;
+    alone.max_added_edits = 0;
     alone.evaluations = std::min(options_.evaluations, first_evaluations);
     RefinementResult result = at_end() ? as_it_is(start) : refinement(start, alone);
     if (result.reached) {
@@ -112,8 +112,8 @@ class Refinements {
 
   /// Returns `start` checked, without refinement.
   RefinementResult as_it_is(const Candidate& start) const {
-    const bool reached = checker_.reaches(start.measured) &&
-                         checker_.checked(start.design, Direction(start.direction)).passed();
+    const bool reached = checker_.meets_target(start.measured) &&
+                         checker_.check(start.design, Direction(start.direction)).passed();
     return {start, reached, 0};
   }
 
@@ -147,7 +147,7 @@ class Refinements {
   WorkBudget& budget_;
   double share_ = diagnosis_begin;  ///< share of the work at which the current phase ends
   std::function<bool(const Candidate&, const Candidate&)> less_changed_;
-  detail::Distinctness distinct_;
+  detail::SolutionDiversity distinct_;
   std::vector<Candidate> solutions_;
   std::optional<Candidate> nearest_;
 };
@@ -156,7 +156,7 @@ Candidate at_rest(const RequirementChecker& checker, const Eigen::Vector3d& dire
   Candidate rest;
   rest.design = checker.space().at_rest();
   rest.direction = direction;
-  rest.measured = checker.measured(rest.design.shape, Direction(direction));
+  rest.measured = checker.measure(rest.design.shape, Direction(direction));
   return rest;
 }
 
@@ -210,7 +210,7 @@ class ImprovementRun {
 
   /// Runs a pursuit along every starting direction.
   std::vector<Candidate> pursuits(const BestFirstOptions& search) {
-    PursuitOptions options;
+    GapDescentOptions options;
     options.alpha = search.alpha;
     options.edits = search.edits;
     options.cancelled = [this] { return late(pursuit_share); };
@@ -222,7 +222,7 @@ class ImprovementRun {
       start.energy.gain = start.measured.value - first;
       start.energy.value = -(1 - search.alpha) * start.energy.gain;
       options.evaluations = budget_.designs_until(pursuit_share);
-      PursuitResult result = pursued(checker_, start, options);
+      GapDescentResult result = descend_gaps(checker_, start, options);
       budget_.charge(result.evaluations);
       result_.progress.evaluated += result.evaluations;
       found.push_back(std::move(result.candidate));
@@ -239,7 +239,7 @@ class ImprovementRun {
     if (search.progress)
       search.progress = [this, report = search.progress](ImprovementProgress now) { report(counted(now)); };
     BestFirstResult found =
-        state ? best_first_resumed(checker_, search, *state) : best_first(checker_, search);
+        state ? resume_best_first(checker_, search, *state) : best_first(checker_, search);
     budget_.charge(found.trials);
     if (found.end == SearchEnd::time_limit) budget_.note_deadline();
     result_.progress = counted(found.progress);
@@ -268,7 +268,7 @@ class ImprovementRun {
 
   void finish(const BestFirstResult& found) {
     for (const Candidate& solution : result_.solutions)
-      result_.assessments.push_back(checker_.checked(solution.design, Direction(solution.direction)));
+      result_.assessments.push_back(checker_.check(solution.design, Direction(solution.direction)));
     Eigen::Vector3d direction = options_.search.directions.front();
     if (!result_.solutions.empty()) {
       direction = result_.solutions.front().direction;
@@ -291,7 +291,7 @@ class ImprovementRun {
         static_cast<double>(directions_of_effort(1, checker_.space().rest().shape)) /
         designs_of_effort(1, checker_.space().rest());
     options.cancelled = [this] { return late(1); };
-    result_.diagnosis = diagnosed(checker_, found, options);
+    result_.diagnosis = stackabilization::diagnose(checker_, found, options);
   }
 
   const RequirementChecker& checker_;

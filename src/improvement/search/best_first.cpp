@@ -32,8 +32,8 @@ BestFirstResult best_first(const RequirementChecker& checker, const BestFirstOpt
   return detail::BestFirstSearch(checker, options, at_start(checker, options)).run();
 }
 
-BestFirstResult best_first_resumed(const RequirementChecker& checker, const BestFirstOptions& options,
-                                   const SavedSearch& state) {
+BestFirstResult resume_best_first(const RequirementChecker& checker, const BestFirstOptions& options,
+                                  const SavedSearch& state) {
   validate(checker, options);
   return detail::BestFirstSearch(checker, options,
                                  detail::read_state(state, detail::search_task(checker, options)))

@@ -10,7 +10,7 @@ namespace stackabilization::detail {
 namespace {
 
 /// Largest number of candidates reported when the target was not reached.
-constexpr std::size_t most_nearest = 8;
+constexpr std::size_t max_nearest = 8;
 
 /// Cost of a search of the cone, in edits.
 constexpr std::int64_t cone_trials = 8;
@@ -46,7 +46,7 @@ void BestFirstSearch::add_roots() {
     SearchNode root;
     root.queue = static_cast<int>(queue);
     root.direction = options().directions[queue];
-    root.measured = checker().measured(rest.shape, Direction(root.direction));
+    root.measured = checker().measure(rest.shape, Direction(root.direction));
     root.energy = tools_.energy(rest, root.measured);
     root.key = tools_.keys.key(rest);
     state_.tree.add(root);
@@ -85,13 +85,13 @@ std::optional<SearchEnd> BestFirstSearch::step(int id) {
   const SearchNode node = state_.tree.node(id);
   const std::shared_ptr<const Design> design = designs_.of(id);
   Stackability measured = node.measured;
-  if (!checker().reaches(measured))
+  if (!checker().meets_target(measured))
     if (const auto better = cone_.better(design->shape, measured)) measured = *better;
 
   const Verdict verdict = this->verdict(*design, measured);
-  std::vector<Successor> made;
+  std::vector<SuccessorNode> made;
   if (!verdict.state) {
-    const Standpoint from{*design, measured.direction, node.queue};
+    const ExpandedNode from{*design, measured.direction, node.queue};
     std::vector<ContactEdit> edits = suggested_edits(tools_, from);
     const auto trials = static_cast<std::int64_t>(edits.size()) + turning_trials();
     if (trials > options().trials - state_.trials) return SearchEnd::trial_limit;
@@ -114,10 +114,10 @@ std::int64_t BestFirstSearch::turning_trials() const {
 }
 
 BestFirstSearch::Verdict BestFirstSearch::verdict(const Design& design, const Stackability& measured) const {
-  if (!checker().reaches(measured)) return {};
+  if (!checker().meets_target(measured)) return {};
   for (const auto& solution : solutions_)
     if (!distinct_.differ(design, *solution.second)) return {NodeState::repeated, {}};
-  const Assessment assessment = checker().checked(design, Direction(measured.direction));
+  const Assessment assessment = checker().check(design, Direction(measured.direction));
   if (assessment.passed()) return {NodeState::solution, {}};
   Verdict verdict;
   for (const Check& check : assessment.checks)
@@ -126,10 +126,10 @@ BestFirstSearch::Verdict BestFirstSearch::verdict(const Design& design, const St
   return verdict;
 }
 
-void BestFirstSearch::add_successors(int parent, const std::vector<Successor>& made) {
+void BestFirstSearch::add_successors(int parent, const std::vector<SuccessorNode>& made) {
   const SearchNode from = state_.tree.node(parent);
-  std::vector<std::pair<int, const Successor*>> added;
-  for (const Successor& successor : made) {
+  std::vector<std::pair<int, const SuccessorNode*>> added;
+  for (const SuccessorNode& successor : made) {
     if (successor.refusal) {
       ++state_.refusals[without_amounts(*successor.refusal)];
       continue;
@@ -196,14 +196,14 @@ std::vector<Candidate> BestFirstSearch::nearest() {
     return state_.tree.node(a).measured.value > state_.tree.node(b).measured.value;
   });
   std::vector<Candidate> nearest;
-  std::vector<std::vector<Gesture>> shown;
+  std::vector<std::vector<EditSignature>> shown;
   for (const int id : order) {
-    if (nearest.size() == most_nearest) break;
+    if (nearest.size() == max_nearest) break;
     std::vector<Edit> edits;
     for (const int step : state_.tree.path(id)) edits.push_back(state_.tree.node(step).edit);
-    std::vector<Gesture> gestures = distinct_.gestures(edits);
-    if (std::find(shown.begin(), shown.end(), gestures) != shown.end()) continue;
-    shown.push_back(std::move(gestures));
+    std::vector<EditSignature> signatures = distinct_.signatures(edits);
+    if (std::find(shown.begin(), shown.end(), signatures) != shown.end()) continue;
+    shown.push_back(std::move(signatures));
     nearest.push_back(candidate(id));
   }
   return nearest;

@@ -46,7 +46,7 @@ class BestFirstSearch {
   /// Returns the trials that a search of the cone counts as.
   std::int64_t turning_trials() const;
   Verdict verdict(const Design& design, const Stackability& measured) const;
-  void add_successors(int parent, const std::vector<Successor>& made);
+  void add_successors(int parent, const std::vector<SuccessorNode>& made);
   /// Updates the best S and E with those of a node.
   void notice(const SearchNode& node);
   ImprovementProgress progress() const;
@@ -61,7 +61,7 @@ class BestFirstSearch {
   Interruption interruption_;
   DesignStore designs_;
   ConeSearch cone_;
-  Distinctness distinct_;
+  SolutionDiversity distinct_;
   std::vector<std::pair<int, std::shared_ptr<const Design>>> solutions_;
   double best_stackability_ = -std::numeric_limits<double>::infinity();
   double best_energy_ = std::numeric_limits<double>::infinity();

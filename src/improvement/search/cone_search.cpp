@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "stackabilization/core/tolerances.h"
-#include "stackabilization/stacking/climb.h"
+#include "stackabilization/stacking/bundle_ascent.h"
 #include "stackabilization/stacking/direction_region.h"
 
 namespace stackabilization::detail {
@@ -78,10 +78,10 @@ std::optional<Stackability> ConeSearch::better(const Shape& shape, const Stackab
   const auto start = best_of(samples);
   if (!start) return std::nullopt;
   const double step = half_angle / samples_per_half_angle;
-  const Climb top = climb(solver, region, *start, {step, last_step * step, {}});
+  const LocalOptimum top = bundle_ascent(solver, region, *start, {step, last_step * step, {}});
   for (const Stackability& found : {top.at, *start}) {
     if (!keeps_height(shape, found.direction)) continue;
-    const Stackability measured = checker_.measured(shape, Direction(found.direction));
+    const Stackability measured = checker_.measure(shape, Direction(found.direction));
     if (measured.value > now.value + tolerance::stackability) return measured;
   }
   return std::nullopt;

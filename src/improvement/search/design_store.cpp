@@ -10,7 +10,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr std::size_t most_bytes = std::size_t{256} << 20;
+constexpr std::size_t max_bytes = std::size_t{256} << 20;
 
 /// Returns the approximate memory of a design, bytes.
 std::size_t bytes_of(const Design& design) {
@@ -61,7 +61,7 @@ std::shared_ptr<const Design> DesignStore::keep(int node, std::shared_ptr<const 
   kept_.push_front({node, design, bytes_of(*design)});
   rows_[node] = kept_.begin();
   bytes_ += kept_.front().bytes;
-  while (bytes_ > most_bytes && kept_.size() > 1) {
+  while (bytes_ > max_bytes && kept_.size() > 1) {
     bytes_ -= kept_.back().bytes;
     rows_.erase(kept_.back().node);
     kept_.pop_back();

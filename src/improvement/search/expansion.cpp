@@ -27,7 +27,8 @@ bool takes_back(const Edit& edit, const Edit& earlier) {
          scale->along->cross(*before->along).norm() < tolerance::same_symmetry * before->along->norm();
 }
 
-void make(Successor& successor, const SearchTools& tools, const Standpoint& from, const SearchTree& tree) {
+void make(SuccessorNode& successor, const SearchTools& tools, const ExpandedNode& from,
+          const SearchTree& tree) {
   const DesignSpace& space = tools.checker.space();
   const Direction direction(from.direction);
   const auto constraints = deformation_constraints(tools.checker.requirements(), space.rest(), direction);
@@ -36,14 +37,14 @@ void make(Successor& successor, const SearchTools& tools, const Standpoint& from
     successor.refusal = outcome.refusal->reason;
     return;
   }
-  if (auto reason = tools.checker.out_of_proportion(outcome.design)) {
+  if (auto reason = tools.checker.size_ratio_violation(outcome.design)) {
     successor.refusal = std::move(reason);
     return;
   }
   successor.key = tools.keys.key(outcome.design);
   successor.known = tree.knows(from.queue, successor.key);
   if (successor.known) return;
-  successor.measured = tools.checker.measured(outcome.design.shape, direction);
+  successor.measured = tools.checker.measure(outcome.design.shape, direction);
   successor.energy = tools.energy(outcome.design, successor.measured);
   if (!std::isfinite(successor.energy.value)) successor.refusal = "stackability or distortion is undefined";
   successor.design = std::move(outcome.design);
@@ -57,11 +58,10 @@ SearchTools::SearchTools(const RequirementChecker& the_checker, const BestFirstO
       meter(the_checker.space().rest(), the_checker.requirements().measure.boxes, the_options.alpha),
       keys(the_checker.space()),
       handles(the_checker.space().handles()),
-      at_rest(
-          the_checker.measured(the_checker.space().rest().shape, Direction(the_options.directions.front()))
-              .value) {}
+      at_rest(the_checker.measure(the_checker.space().rest().shape, Direction(the_options.directions.front()))
+                  .value) {}
 
-std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const Standpoint& from) {
+std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const ExpandedNode& from) {
   const DesignSpace& space = tools.checker.space();
   const Direction direction(from.direction);
   const std::vector<ContactRegion> regions =
@@ -77,10 +77,10 @@ std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const Standpo
   return edits;
 }
 
-std::vector<Successor> successors(const SearchTools& tools, const Standpoint& from,
-                                  std::vector<ContactEdit> edits, const SearchTree& tree,
-                                  Interruption& interruption) {
-  std::vector<Successor> made(edits.size());
+std::vector<SuccessorNode> successors(const SearchTools& tools, const ExpandedNode& from,
+                                      std::vector<ContactEdit> edits, const SearchTree& tree,
+                                      Interruption& interruption) {
+  std::vector<SuccessorNode> made(edits.size());
   for (std::size_t k = 0; k < made.size(); ++k) made[k].suggestion = std::move(edits[k]);
   tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t k) {
     if (!interruption.now()) make(made[k], tools, from, tree);

@@ -12,7 +12,7 @@
 namespace stackabilization::detail {
 
 /// Result of one suggested edit.
-struct Successor {
+struct SuccessorNode {
   ContactEdit suggestion;
   std::optional<std::string> refusal;  ///< reason; if set, the fields below are meaningless
   bool known = false;  ///< whether its configuration is in the visited set; if so, only `key` is set
@@ -39,7 +39,7 @@ struct SearchTools {
 };
 
 /// Expanded node: its design, its direction and its queue.
-struct Standpoint {
+struct ExpandedNode {
   const Design& design;
   Eigen::Vector3d direction;
   int queue = 0;
@@ -47,13 +47,13 @@ struct Standpoint {
 
 /// Returns the edits that the contacts of the node suggest, without those that undo an earlier edit of the
 /// node.
-std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const Standpoint& from);
+std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const ExpandedNode& from);
 
 /// Makes and measures the successors of the node, one per edit, in order. Successors whose configuration is
 /// in the visited set of the queue are not measured. Runs in parallel, each in its own slot. After an
 /// interruption some are missing: ask `interruption`.
-std::vector<Successor> successors(const SearchTools& tools, const Standpoint& from,
-                                  std::vector<ContactEdit> edits, const SearchTree& tree,
-                                  Interruption& interruption);
+std::vector<SuccessorNode> successors(const SearchTools& tools, const ExpandedNode& from,
+                                      std::vector<ContactEdit> edits, const SearchTree& tree,
+                                      Interruption& interruption);
 
 }  // namespace stackabilization::detail

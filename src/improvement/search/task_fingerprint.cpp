@@ -61,21 +61,21 @@ void add(Fingerprint& print, const StructuredShape& rest) {
 
 void add(Fingerprint& print, const Requirements& requirements) {
   print.add(requirements.target);
-  add_integer(print, requirements.room ? requirements.room->copies : 0);
-  if (requirements.room) print.add(requirements.room->length);
+  add_integer(print, requirements.length_limit ? requirements.length_limit->copies : 0);
+  if (requirements.length_limit) print.add(requirements.length_limit->length);
   add_integer(print, static_cast<int>(requirements.measure.semantics));
   add_integer(print, static_cast<int>(requirements.measure.boxes));
   add_integer(print, requirements.keep_height ? 1 : 0);
   add_integers(print, requirements.kept_parts);
   add_integers(print, requirements.editable_parts);
-  print.add(requirements.least_proportion);
+  print.add(requirements.min_size_ratio);
   add_optional(print, requirements.box_tolerance);
-  add_optional(print, requirements.least_thickness);
+  add_optional(print, requirements.min_thickness);
   print.add(requirements.clearance);
   print.add(requirements.play);
-  add_optional(print, requirements.least_draft_degrees);
+  add_optional(print, requirements.min_draft_degrees);
   add_integer(print, requirements.standing_copies.value_or(0));
-  print.add(requirements.least_tilt_degrees);
+  print.add(requirements.min_tipping_degrees);
 }
 
 void add(Fingerprint& print, const ContactEditOptions& options) {
@@ -85,10 +85,10 @@ void add(Fingerprint& print, const ContactEditOptions& options) {
   print.add(options.scale_step);
   add_count(print, options.multiples.size());
   for (const double multiple : options.multiples) print.add(multiple);
-  add_integer(print, options.most_regions);
+  add_integer(print, options.max_regions);
   print.add(options.contacts.band);
   print.add(options.contacts.line_aspect);
-  print.add(options.contacts.least_hole);
+  print.add(options.contacts.min_hole);
   add_count(print, static_cast<std::size_t>(options.contacts.max_pairs));
 }
 

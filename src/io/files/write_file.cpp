@@ -86,10 +86,10 @@ std::optional<std::string> target_of_temporary(std::string_view name) {
 }
 
 std::vector<std::filesystem::path> steps_of_links(const std::filesystem::path& path) {
-  constexpr std::size_t most_links = 40;  // as the system
+  constexpr std::size_t max_links = 40;  // as the system
   std::vector<std::filesystem::path> steps = {path};
   std::error_code error;
-  while (steps.size() <= most_links) {
+  while (steps.size() <= max_links) {
     const std::filesystem::path last = steps.back();
     if (!std::filesystem::is_symlink(std::filesystem::symlink_status(last, error))) break;
     const std::filesystem::path next = std::filesystem::read_symlink(last, error);

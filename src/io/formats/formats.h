@@ -55,10 +55,10 @@ struct PartMesh {
 std::vector<PartMesh> split_by_part(const Shape& shape);
 
 /// Instances of formats with instancing may not blow a file up beyond this, unless it stores as many itself.
-inline constexpr std::int64_t most_instanced_triangles = 20000000;
+inline constexpr std::int64_t max_instanced_triangles = 20000000;
 
 /// A few nested components can multiply without bounds; no real assembly comes near this.
-inline constexpr std::int64_t most_placed_objects = 100000;
+inline constexpr std::int64_t max_placed_objects = 100000;
 
 /// `name` on one line: control characters become '_'.
 std::string printable_name(const std::string& name);

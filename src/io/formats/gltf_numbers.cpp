@@ -92,7 +92,7 @@ class Checker {
     if (!value.is_array() || value.size() != rule.list_size)
       fail(place, std::to_string(rule.list_size) + " numbers", value);
     for (std::size_t row = 0; row < value.size(); ++row)
-      if (!value[row].is_number() || !(std::abs(value[row].get<double>()) <= tolerance::largest_coordinate))
+      if (!value[row].is_number() || !(std::abs(value[row].get<double>()) <= tolerance::max_coordinate))
         fail(place + "/" + std::to_string(row), "a number of magnitude at most 1e60", value[row]);
   }
 

@@ -231,8 +231,8 @@ class GltfAssembler {
       if (mirrored != every_other) std::swap(triangle[1], triangle[2]);
       builder_.add_face(triangle);
     }
-    if (builder_.face_count() > std::max(most_instanced_triangles, stored_limit()))
-      fail("its nodes make more than " + std::to_string(most_instanced_triangles) + " triangles");
+    if (builder_.face_count() > std::max(max_instanced_triangles, stored_limit()))
+      fail("its nodes make more than " + std::to_string(max_instanced_triangles) + " triangles");
   }
 
   /// Triangles that the buffers could hold without instancing: an index takes a byte or more.

@@ -94,7 +94,7 @@ double JsonNode::finite() const {
 
 double JsonNode::number() const {
   if (!value_->is_number()) fail_expected("a number");
-  if (!(std::abs(value_->get<double>()) <= tolerance::largest_coordinate))
+  if (!(std::abs(value_->get<double>()) <= tolerance::max_coordinate))
     fail_expected("a number of magnitude at most 1e60");
   return value_->get<double>();
 }
@@ -122,9 +122,9 @@ std::size_t JsonNode::one_of(const std::vector<std::string>& names) const {
   const std::string found = text();
   const auto place = std::find(names.begin(), names.end(), found);
   if (place != names.end()) return static_cast<std::size_t>(place - names.begin());
-  constexpr std::size_t most_listed = 8;
+  constexpr std::size_t max_listed = 8;
   std::string all;
-  for (std::size_t k = 0; k < names.size() && names.size() <= most_listed; ++k)
+  for (std::size_t k = 0; k < names.size() && names.size() <= max_listed; ++k)
     all += (k == 0 ? "" : k + 1 < names.size() ? ", " : " or ") + in_quotes(names[k]);
   fail("expected " + (all.empty() ? "the name of a part" : all) + ", found " + in_quotes(found) +
        nearest_hint(found, names));

@@ -33,7 +33,7 @@ class JsonNode {
   void expect_size(std::size_t size) const;
 
   double finite() const;  ///< demands a finite number
-  double number() const;  ///< of magnitude at most tolerance::largest_coordinate
+  double number() const;  ///< of magnitude at most tolerance::max_coordinate
   std::int64_t integer(std::int64_t low, std::int64_t high) const;
   bool boolean() const;
   std::string text() const;

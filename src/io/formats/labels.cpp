@@ -68,8 +68,8 @@ class LabelReader {
     const std::optional<std::int64_t> part_count = parse_integer(lines_[0].text);
     // Each part has a triangle, or else a name or a bare number that nobody uses; more parts than text is a
     // lie.
-    const auto most_parts = static_cast<std::int64_t>(shape_.triangle_part.size() + lines_[1].text.size());
-    if (*part_count < 1 || *part_count > most_parts)
+    const auto max_parts = static_cast<std::int64_t>(shape_.triangle_part.size() + lines_[1].text.size());
+    if (*part_count < 1 || *part_count > max_parts)
       fail(lines_[0], "expected the number of parts, found " + in_quotes(lines_[0].text));
     shape_.part_names.clear();
     std::size_t next = 1;

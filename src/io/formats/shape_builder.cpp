@@ -11,10 +11,10 @@ namespace stackabilization {
 
 namespace {
 
-constexpr std::size_t most_indices = std::numeric_limits<std::int32_t>::max();
+constexpr std::size_t max_indices = std::numeric_limits<std::int32_t>::max();
 
 /// Cutting a polygon by ears is quadratic; this keeps the worst file within seconds.
-constexpr std::size_t most_corners = 100000;
+constexpr std::size_t max_corners = 100000;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ void ShapeBuilder::reserve(std::size_t vertices, std::size_t faces) {
 
 std::int32_t ShapeBuilder::add_vertex(double x, double y, double z) {
   const std::size_t index = coordinates_.size() / 3;
-  if (index >= most_indices) throw InputError(name_ + " has more vertices than can be indexed");
+  if (index >= max_indices) throw InputError(name_ + " has more vertices than can be indexed");
   coordinates_.insert(coordinates_.end(), {x, y, z});
   return static_cast<std::int32_t>(index);
 }
@@ -56,11 +56,11 @@ std::int32_t ShapeBuilder::current_part() {
 }
 
 void ShapeBuilder::add_face(std::span<const std::int32_t> corners) {
-  if (corners.size() > most_corners)
+  if (corners.size() > max_corners)
     throw InputError(name_ + ": face " + std::to_string(face_count()) + " has " +
                      std::to_string(corners.size()) + " corners, expected at most " +
-                     std::to_string(most_corners));
-  if (corners_.size() + corners.size() > most_indices)
+                     std::to_string(max_corners));
+  if (corners_.size() + corners.size() > max_indices)
     throw InputError(name_ + " has more faces than can be indexed");
   corners_.insert(corners_.end(), corners.begin(), corners.end());
   face_sizes_.push_back(static_cast<std::int32_t>(corners.size()));

@@ -91,12 +91,12 @@ class ThreeMfAssembler {
                        " are nested without end");
     const Object& object = find(placement);
     const Transform transform = compose(outer, placement.transform);
-    if (++placed_objects_ > most_placed_objects)
-      throw InputError(name_ + ": the components make more than " + std::to_string(most_placed_objects) +
+    if (++placed_objects_ > max_placed_objects)
+      throw InputError(name_ + ": the components make more than " + std::to_string(max_placed_objects) +
                        " objects");
     placed_triangles_ += static_cast<std::int64_t>(object.triangles.size());
-    if (placed_triangles_ > std::max(2 * stored_triangles_, most_instanced_triangles))
-      throw InputError(name_ + ": the components make more than " + std::to_string(most_instanced_triangles) +
+    if (placed_triangles_ > std::max(2 * stored_triangles_, max_instanced_triangles))
+      throw InputError(name_ + ": the components make more than " + std::to_string(max_instanced_triangles) +
                        " triangles");
     if (!object.triangles.empty()) add_mesh(object, transform, item);
     for (const Placement& component : object.components) place(component, transform, item, depth + 1);

@@ -100,8 +100,8 @@ namespace {
 /// Can they be read back from placements?
 bool can_be_instanced(const Copies& copies) {
   const auto count = static_cast<std::int64_t>(copies.placed.size());
-  return count * (copies.shape.part_count() + 1) <= most_placed_objects &&
-         count * copies.shape.triangle_count() <= most_instanced_triangles;
+  return count * (copies.shape.part_count() + 1) <= max_placed_objects &&
+         count * copies.shape.triangle_count() <= max_instanced_triangles;
 }
 
 Format format_of_output(const std::filesystem::path& path, const WriteOptions& options) {

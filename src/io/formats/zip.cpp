@@ -108,9 +108,9 @@ std::optional<std::string> ZipReader::entry(const std::string& name) const {
 
   // Mesh text deflates by a factor of ten or so; what exceeds this by far is a bomb, whatever its header
   // states.
-  constexpr std::size_t least_limit = std::size_t{64} << 20;
-  constexpr std::size_t largest_ratio = 200;
-  const std::size_t limit = std::max(least_limit, largest_ratio * archive_->file.size());
+  constexpr std::size_t min_limit = std::size_t{64} << 20;
+  constexpr std::size_t max_ratio = 200;
+  const std::size_t limit = std::max(min_limit, max_ratio * archive_->file.size());
   std::string content;
   std::vector<char> block(1 << 16);
   int count = 0;

@@ -49,9 +49,9 @@ Image gap_image(const Eigen::MatrixXd& values, double maximum) {
 }  // namespace
 
 std::string number_text(double value, int digits) {
-  constexpr double largest_plain = 10000000;
+  constexpr double max_plain_number = 10000000;
   const std::string text = significant_text(value, digits);
-  if (text.find("e+") == std::string::npos || std::abs(value) >= largest_plain) return text;
+  if (text.find("e+") == std::string::npos || std::abs(value) >= max_plain_number) return text;
   double rounded = 0;
   std::from_chars(text.data(), text.data() + text.size(), rounded);
   return significant_text(rounded, 8);

@@ -19,7 +19,7 @@ using detail::Elements;
 
 constexpr double caption_lead = 1.35;  ///< em from line to line
 constexpr double highest = 10;
-constexpr double legend_row = 1.7, most_legend_rows = 4;  ///< em
+constexpr double legend_row = 1.7, max_legend_rows = 4;  ///< em
 
 /// Where the parts of a row are, pixels.
 struct RowLayout {
@@ -136,7 +136,7 @@ Drawing panel_sheet(const std::vector<PanelRow>& rows, const PanelSheetOptions& 
     }
     top += height + layout.captions + 0.5 * size;
   }
-  const Rectangle foot{size, top, options.width - 2 * size, most_legend_rows * legend_row * size};
+  const Rectangle foot{size, top, options.width - 2 * size, max_legend_rows * legend_row * size};
   const Elements legend = detail::legend(options.legend, foot, size);
   drawing.add(legend);
   drawing.height = static_cast<int>(std::ceil(std::max(top, lowest_text(legend) + 0.8 * size)));

@@ -11,7 +11,7 @@
 namespace stackabilization {
 namespace {
 
-constexpr int most_copies = 200;
+constexpr int max_copies = 200;
 
 /// One of the two stacks: its lowest copy on its foot at the origin, moved by `shift`.
 struct Stack {
@@ -82,7 +82,7 @@ detail::Elements labels_of(const Stack& stack, const std::string& name, int copi
 Drawing stacks_picture(const ImprovedShape& shapes, const StacksPictureOptions& options) {
   if (shapes.before.measured.direction != shapes.after.measured.direction)
     throw UsageError("a picture of two stacks needs both measured along the same direction");
-  if (options.copies < 1 || options.copies > most_copies)
+  if (options.copies < 1 || options.copies > max_copies)
     throw UsageError("a picture of stacks draws 1 to 200 copies, found " + std::to_string(options.copies));
   const Direction direction(shapes.after.measured.direction);
   const Eigen::Vector3d up = direction.unit();

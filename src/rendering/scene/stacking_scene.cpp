@@ -36,9 +36,9 @@ Range heights(const HeightField& field) {
 
 /// From where the lower copy is touched to where the upper one touches it.
 SceneLines links_of(const std::vector<ContactRegion>& contacts, const Eigen::Vector3d& lift) {
-  constexpr std::size_t most_links = 8;
+  constexpr std::size_t max_links = 8;
   SceneLines links{{}, palette::faint, 1};
-  for (std::size_t k = 0; k < std::min(most_links, contacts.size()); ++k) {
+  for (std::size_t k = 0; k < std::min(max_links, contacts.size()); ++k) {
     if (contacts[k].type == ContactType::ring) continue;  // the centre of a ring is not on the surface
     Points link(2, 3);
     link.row(0) = contacts[k].upper_centre.transpose();

@@ -8,7 +8,7 @@
 namespace stackabilization {
 namespace {
 
-constexpr std::size_t most_symmetries = 4;  ///< frames drawn: more of them would hide the shape
+constexpr std::size_t max_symmetries = 4;  ///< frames drawn: more of them would hide the shape
 
 /// Frames of the planes and axes of the global symmetries, a little larger than the shape.
 SceneLines symmetry_frames(const StructuredShape& structured) {
@@ -16,7 +16,7 @@ SceneLines symmetry_frames(const StructuredShape& structured) {
   box.half_extents += Eigen::Vector3d::Constant(0.03 * structured.structure.diagonal);
   SceneLines frames{{}, structure_colour::symmetry, 2};
   const std::vector<Symmetry>& symmetries = structured.structure.symmetries;
-  for (std::size_t k = 0; k < std::min(most_symmetries, symmetries.size()); ++k) {
+  for (std::size_t k = 0; k < std::min(max_symmetries, symmetries.size()); ++k) {
     const Symmetry& symmetry = symmetries[k];
     if (symmetry.kind == SymmetryKind::reflection) {
       Points border = detail::plane_in_box(symmetry.point, symmetry.axis, box);

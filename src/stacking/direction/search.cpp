@@ -16,7 +16,7 @@
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
-#include "stackabilization/stacking/climb.h"
+#include "stackabilization/stacking/bundle_ascent.h"
 #include "stacking/direction/candidates.h"
 
 namespace stackabilization {
@@ -33,14 +33,14 @@ constexpr double promising_range = 0.2;
 /// Times the spacing of samples is halved around the promising ones, and how many of these at most: no
 /// halving costs more than the even samples did.
 constexpr int halvings = 3;
-constexpr std::size_t most_promising = 400;
+constexpr std::size_t max_promising = 400;
 constexpr std::size_t trials_per_promising = 6;
 
 /// After that, climbs start from peaks of the samples at most this much below the best.
 constexpr double climbing_range = 0.05;
 
 /// Looking around the winner: new climbs at most, and directions of each circle.
-constexpr int most_new_climbs = 20;
+constexpr int max_new_climbs = 20;
 constexpr int circle_points = 24;
 constexpr int circle_halvings = 10;
 constexpr std::int64_t max_circle_trials = circle_points + 4 * circle_halvings;  ///< two peaks, two sides
@@ -211,7 +211,7 @@ std::vector<Trial> DirectionSearch::promising(std::size_t begin, double spacing,
   std::vector<Sample> candidates(samples_.begin() + static_cast<std::ptrdiff_t>(begin), samples_.end());
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Sample& a, const Sample& b) { return a.at.value > b.at.value; });
-  candidates.resize(std::min({candidates.size(), most_promising, first_trials_ / trials_per_promising}));
+  candidates.resize(std::min({candidates.size(), max_promising, first_trials_ / trials_per_promising}));
   std::vector<Trial> trials;
   for (const Sample& sample : candidates) {
     if (sample.at.value < best_ - range) break;
@@ -288,15 +288,15 @@ std::vector<Sample> DirectionSearch::climb_from(std::vector<Sample> starts, doub
   std::atomic<bool> end_climbs = ended();
   // Of what is left every climb gets the same, so that none depends on the others.
   const std::int64_t each = left() / static_cast<std::int64_t>(std::max<std::size_t>(1, starts.size()));
-  const ClimbOptions climbing{first_step, last_step,
-                              [&, caller = std::this_thread::get_id()] {
-                                if (std::this_thread::get_id() == caller && ended()) end_climbs = true;
-                                return end_climbs.load();
-                              },
-                              each};
+  const AscentOptions climbing{first_step, last_step,
+                               [&, caller = std::this_thread::get_id()] {
+                                 if (std::this_thread::get_id() == caller && ended()) end_climbs = true;
+                                 return end_climbs.load();
+                               },
+                               each};
   std::vector<std::int64_t> evaluated(starts.size(), 0);
   tbb::parallel_for(std::size_t{0}, starts.size(), [&](std::size_t i) {
-    const Climb end = climb(solver_, region_, starts[i].at, climbing);
+    const LocalOptimum end = bundle_ascent(solver_, region_, starts[i].at, climbing);
     starts[i].at = end.at;
     evaluated[i] = end.evaluated;
   });
@@ -308,7 +308,7 @@ std::vector<Sample> DirectionSearch::climb_from(std::vector<Sample> starts, doub
 /// What is better nearby, at any distance down to the last step, is climbed from anew.
 void DirectionSearch::look_around(Sample& top) {
   const double widest = spacing_ / (1 << halvings);
-  int climbs_left = most_new_climbs;
+  int climbs_left = max_new_climbs;
   for (double radius = widest;
        radius > tolerance::direction_step && !ended() && left() >= max_circle_trials;) {
     const Sample best = best_on_circle(top, radius);

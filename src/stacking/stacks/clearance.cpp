@@ -211,7 +211,7 @@ class Dilation {
 
 }  // namespace
 
-DilatedShape dilated_sideways(const Shape& shape, const Direction& direction,
+DilatedShape dilate_laterally(const Shape& shape, const Direction& direction,
                               const DilationOptions& options) {
   if (!std::isfinite(options.play) || options.play < 0)
     throw UsageError("the lateral play must be a finite length of at least 0");
@@ -234,7 +234,7 @@ Separation separation_with_play(const Shape& below, const Shape& above, const Di
                                 const PlayOptions& options) {
   // Shifting one copy by s or the other by -s is the same, and P is symmetric about its centre.
   const DilatedShape dilated =
-      dilated_sideways(below, direction, {options.play, options.corners, DilatedSide::upper});
+      dilate_laterally(below, direction, {options.play, options.corners, DilatedSide::upper});
   if (dilated.shape.triangle_count() == 0) return {};
   Separation result = separation(SeparationTree(dilated.shape), SeparationTree(above), direction,
                                  {.semantics = options.semantics, .abandon_above = std::nullopt});

@@ -13,7 +13,7 @@ namespace stackabilization {
 
 NestResult nest(const Shape& container, const Shape& content, const Direction& direction,
                 const NestOptions& options) {
-  if (!(options.clearance >= 0 && options.clearance <= tolerance::largest_coordinate))
+  if (!(options.clearance >= 0 && options.clearance <= tolerance::max_coordinate))
     throw UsageError("the clearance must be a length from 0 to 10^60");
   validate(container);
   validate(content);

@@ -13,7 +13,7 @@ double stackability_within(const Stackability& measured, int copies, double leng
   return 1 - translation * measured.stack_box_volume / (measured.extent * measured.box_volume);
 }
 
-StackPlan plan_within(const Stackability& measured, const StackWish& wish) {
+StackPlan plan_stack(const Stackability& measured, const StackRequest& wish) {
   if (wish.copies < 1) throw UsageError("a plan needs at least one copy");
   if (!std::isfinite(wish.length) || wish.length <= 0)
     throw UsageError("the room for a stack must be a finite positive length");

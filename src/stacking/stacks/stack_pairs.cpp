@@ -15,12 +15,12 @@ namespace stackabilization {
 namespace {
 
 constexpr int largest_stack = 10000;
-constexpr std::size_t most_poses = 1000;
+constexpr std::size_t max_poses = 1000;
 
 void check(const StackOptions& options) {
   if (options.copies < 1 || options.copies > largest_stack)
     throw UsageError("a stack needs from 1 to " + std::to_string(largest_stack) + " copies");
-  if (!(options.clearance >= 0 && options.clearance <= tolerance::largest_coordinate))
+  if (!(options.clearance >= 0 && options.clearance <= tolerance::max_coordinate))
     throw UsageError("the clearance must be a length from 0 to 10^60");
   if (options.axis_point && !options.axis_point->allFinite())
     throw UsageError("the point of the twist axis needs three finite coordinates");
@@ -29,7 +29,7 @@ void check(const StackOptions& options) {
 std::optional<SeparationTree> dilated_tree(const Shape& shape, const Direction& direction,
                                            const StackOptions& options) {
   const DilationOptions dilation{options.play, options.play_corners, DilatedSide::upper};
-  const DilatedShape dilated = dilated_sideways(shape, direction, dilation);
+  const DilatedShape dilated = dilate_laterally(shape, direction, dilation);
   if (options.play == 0) return std::nullopt;
   return SeparationTree(dilated.shape);
 }
@@ -55,8 +55,8 @@ StackPairs::StackPairs(const Shape& shape, const Direction& direction, const Sta
     std::copy_n(transform.rotation.data(), 9, key.begin());
     std::copy_n(transform.translation.data(), 3, key.begin() + 9);
     const auto [entry, added] = known.try_emplace(key, static_cast<int>(known.size()));
-    if (known.size() > most_poses)
-      throw UsageError("a stack can use at most " + std::to_string(most_poses) + " different poses");
+    if (known.size() > max_poses)
+      throw UsageError("a stack can use at most " + std::to_string(max_poses) + " different poses");
     sequence_.push_back(entry->second);
     if (!added) continue;
     Shape posed = transformed(shape, transform);

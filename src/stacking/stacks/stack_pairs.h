@@ -56,7 +56,7 @@ class StackPairs {
   };
 
   Direction direction_;
-  Semantics semantics_;
+  ContactSemantics semantics_;
   double twist_degrees_;
   double clearance_;
   Line axis_;

@@ -12,7 +12,7 @@ namespace stackabilization {
 
 namespace {
 
-constexpr std::size_t most_poses_for_chains = 64;
+constexpr std::size_t max_poses_for_chains = 64;
 
 int pose_of(const std::vector<int>& sequence, int copy) {
   return sequence[static_cast<std::size_t>(copy) % sequence.size()];
@@ -27,9 +27,9 @@ struct Stop {
 
 /// Finds what stops a copy. Doubles only rule out what is clearly not the highest demand; rationals decide
 /// the rest.
-class Descent {
+class StackDescent {
  public:
-  Descent(StackPairs& pairs, const std::vector<int>& sequence) : pairs_(pairs), sequence_(sequence) {}
+  StackDescent(StackPairs& pairs, const std::vector<int>& sequence) : pairs_(pairs), sequence_(sequence) {}
 
   /// The highest demand on copy `k` by the placed copies first, first - 1, ..., last, or `stop` where none is
   /// higher.
@@ -72,7 +72,7 @@ class Descent {
 
 Placement place(StackPairs& pairs, const std::vector<int>& sequence, int copies, Reach reach) {
   Placement placed;
-  Descent descent(pairs, sequence);
+  StackDescent descent(pairs, sequence);
   const Rational& floor = pairs.span(sequence.front()).bottom;
   for (int k = 0; k < copies; ++k) {
     Stop start;
@@ -100,7 +100,7 @@ double placed_height(const StackPairs& pairs, const std::vector<int>& sequence, 
 std::vector<StackConflict> find_conflicts(StackPairs& pairs, const std::vector<int>& sequence,
                                           const Placement& neighbours) {
   std::vector<StackConflict> conflicts;
-  Descent descent(pairs, sequence);
+  StackDescent descent(pairs, sequence);
   for (int k = 0; k < static_cast<int>(neighbours.lifts.size()); ++k) {
     const auto copy = static_cast<std::size_t>(k);
     const Stop by_neighbour{neighbours.lifts[copy], neighbours.approximate[copy], k - 1};
@@ -167,9 +167,9 @@ double repeating_increment(StackPairs& pairs, const std::vector<int>& sequence) 
 /// One pose with twist: lifts depend on the lag alone, and their growth is the largest of sep(lag) / lag.
 double twisted_increment(StackPairs& pairs, int pose, int copies) {
   const Span& span = pairs.span(pose);
-  const double most_lift = span.approximate_top - span.approximate_bottom + pairs.clearance();
+  const double max_lift = span.approximate_top - span.approximate_bottom + pairs.clearance();
   double most = 0;
-  for (int lag = 1; lag == 1 || (lag < copies && most_lift / lag >= most); ++lag) {
+  for (int lag = 1; lag == 1 || (lag < copies && max_lift / lag >= most); ++lag) {
     const Demand& demand = pairs.demand(pose, pose, lag);
     if (demand.blocked) most = std::max(most, demand.approximate / lag);
   }
@@ -180,7 +180,7 @@ double twisted_increment(StackPairs& pairs, int pose, int copies) {
 
 double long_run_increment(StackPairs& pairs, const std::vector<int>& sequence, const Placement& placement) {
   const std::size_t copies = placement.approximate.size(), period = sequence.size();
-  if (!pairs.twisted() && period <= most_poses_for_chains) return repeating_increment(pairs, sequence);
+  if (!pairs.twisted() && period <= max_poses_for_chains) return repeating_increment(pairs, sequence);
   if (period == 1) return twisted_increment(pairs, sequence.front(), static_cast<int>(copies));
   const std::size_t span = copies > period ? period : copies - 1;
   if (span == 0) return 0;

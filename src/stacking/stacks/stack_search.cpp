@@ -16,9 +16,9 @@ namespace stackabilization {
 
 namespace {
 
-constexpr int most_symmetric_fraction = 12;
+constexpr int max_symmetric_fraction = 12;
 constexpr std::size_t finalists = 4;
-constexpr int longest_period = 5;
+constexpr int max_period = 5;
 constexpr int box_poses = 8;
 
 /// Indices of the best values, best (smallest cost) first, ties in the order given.
@@ -60,7 +60,7 @@ class TwistSearch {
       if (std::find(twists.begin(), twists.end(), twist) == twists.end())
         twists.insert(twists.end(), {twist, -twist});
     };
-    for (int k = 3; k <= most_symmetric_fraction; ++k) add_both_ways(360.0 / k);
+    for (int k = 3; k <= max_symmetric_fraction; ++k) add_both_ways(360.0 / k);
     for (int i = 1; i * options_.step_degrees < 180; ++i) add_both_ways(i * options_.step_degrees);
     return twists;
   }
@@ -144,9 +144,8 @@ TwistResult best_twist(const Shape& shape, const Direction& direction, const Twi
 }
 
 PeriodResult best_period_stack(const Shape& shape, const Direction& direction, const PeriodOptions& options) {
-  if (options.period < 1 || options.period > longest_period)
-    throw UsageError("the period of a searched stack must lie between 1 and " +
-                     std::to_string(longest_period));
+  if (options.period < 1 || options.period > max_period)
+    throw UsageError("the period of a searched stack must lie between 1 and " + std::to_string(max_period));
   if (!options.stack.poses.empty()) throw UsageError("the poses of a searched stack cannot be given");
   validate(shape);
   const StackBoxes boxes(shape, direction, options.stack.boxes);

@@ -31,8 +31,9 @@ std::optional<CollisionBracket> translation_by_bisection(const CollisionTester& 
   CollisionBracket bracket;
   const auto collides = [&](double lift) {
     ++bracket.tests;
-    return options.semantics == Semantics::closed ? tester.closed_contact(direction, Rational(lift))
-                                                  : tester.interiors_overlap(direction, Rational(lift));
+    return options.semantics == ContactSemantics::closed
+               ? tester.closed_contact(direction, Rational(lift))
+               : tester.interiors_overlap(direction, Rational(lift));
   };
   // Steps fall between the multiples of the way, where regular models touch; the first one is free in any
   // semantics.

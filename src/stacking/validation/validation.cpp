@@ -94,13 +94,13 @@ class Validator {
 
   void exact() {
     const SeparationTree tree(shape_);
-    const auto answer = [&](Semantics semantics) {
+    const auto answer = [&](ContactSemantics semantics) {
       SeparationOptions options;
       options.semantics = semantics;
       return separation(tree, tree, direction_, options);
     };
     timed("exact, solid", [&](ValidationRow& row) {
-      report_.solid = answer(Semantics::solid);
+      report_.solid = answer(ContactSemantics::solid);
       row.verdict = report_.solid.blocked ? Verdict::agrees : Verdict::skipped;
       if (report_.solid.blocked)
         row.value = report_.solid.length;
@@ -108,7 +108,7 @@ class Validator {
         row.note = "the projection along the direction has no area";
     });
     timed("exact, closed", [&](ValidationRow& row) {
-      report_.closed = answer(Semantics::closed);
+      report_.closed = answer(ContactSemantics::closed);
       row.value = report_.closed.length;
       const bool ordered = !report_.solid.blocked || report_.solid.value <= report_.closed.value;
       row.verdict = ordered ? Verdict::agrees : Verdict::disagrees;
@@ -258,7 +258,7 @@ class Validator {
       expect("no overlap above solid f_max", lift_at(report_.solid, 1), overlap, Expected::free);
       expect("overlap below solid f_max", lift_at(report_.solid, -1), overlap, Expected::colliding);
     }
-    bisection(tester, !defect && report_.solid.blocked ? Semantics::solid : Semantics::closed);
+    bisection(tester, !defect && report_.solid.blocked ? ContactSemantics::solid : ContactSemantics::closed);
   }
 
   static std::string reason_of(InteriorDefect defect) {
@@ -278,12 +278,12 @@ class Validator {
            "interior to test";
   }
 
-  void bisection(const CollisionTester& tester, Semantics semantics) {
+  void bisection(const CollisionTester& tester, ContactSemantics semantics) {
     BisectionOptions options;
     options.steps = options_.bisection_steps;
     options.semantics = semantics;
-    const Separation& answer = options.semantics == Semantics::solid ? report_.solid : report_.closed;
-    const std::string name = options.semantics == Semantics::solid ? "solid" : "closed";
+    const Separation& answer = options.semantics == ContactSemantics::solid ? report_.solid : report_.closed;
+    const std::string name = options.semantics == ContactSemantics::solid ? "solid" : "closed";
     timed("collision search from the top, " + name, [&](ValidationRow& row) {
       const std::optional<CollisionBracket> bracket = translation_by_bisection(tester, direction_, options);
       if (!bracket) {

@@ -14,8 +14,8 @@
 #include "core/extract_parts.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/part_names.h"
-#include "structure/analysis/idealise.h"
 #include "structure/analysis/joint_symmetry.h"
+#include "structure/analysis/symmetrize.h"
 #include "structure/model/bounding_diagonal.h"
 #include "structure/model/symmetry_orbit.h"
 
@@ -36,7 +36,7 @@ class Analysis {
  public:
   Analysis(const Shape& shape, const AnalysisOptions& options) : options_(options) {
     report(AnalysisStep::parts, 0);
-    result_.shape = segmented(shape, options.segmentation);
+    result_.shape = segment(shape, options.segmentation);
     if (names().size() > options.max_parts)
       throw InputError("it has " + std::to_string(names().size()) + " parts, and the structure of at most " +
                        std::to_string(options.max_parts) + " is analysed");
@@ -134,7 +134,7 @@ class Analysis {
     constexpr std::size_t max_relations_looked_at = 20'000;
     for (std::size_t looked_at = 0;;) {
       Structure ideal = structure();
-      const std::optional<detail::Contradiction> contradiction = detail::try_idealise(ideal);
+      const std::optional<detail::Contradiction> contradiction = detail::try_symmetrize(ideal);
       if (!contradiction) {
         structure() = std::move(ideal);
         return;

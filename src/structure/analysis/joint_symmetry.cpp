@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "core/transformed_points.h"
-#include "structure/analysis/idealise.h"
+#include "structure/analysis/symmetrize.h"
 #include "structure/model/symmetry_orbit.h"
 
 namespace stackabilization::detail {
@@ -71,7 +71,7 @@ class JointSymmetry {
 
   std::vector<Relation> run() {
     // Images of images are found as the list grows; a finite group keeps it short.
-    const std::size_t most = joints_.size() * largest_growth;
+    const std::size_t most = joints_.size() * max_growth;
     for (std::size_t k = 0; k < joints_.size() && joints_.size() <= most; ++k)
       for (const std::size_t a : actions_on_[static_cast<std::size_t>(joints_[k].parts[0])])
         follow(k, actions_[a]);
@@ -80,7 +80,7 @@ class JointSymmetry {
   }
 
  private:
-  static constexpr std::size_t largest_growth = 16;
+  static constexpr std::size_t max_growth = 16;
 
   void follow(std::size_t row, const Action& action) {
     const Relation joint = joints_[row];

@@ -10,7 +10,7 @@ namespace stackabilization::detail {
 /// others), its image is a joint as well, found nearby or added. Joints that are images of each other get the
 /// mean of their points; one that is its own image lies on the plane or axis.
 ///
-/// Precondition: the relations of `structure` are its symmetries, made consistent (`try_idealise`).
+/// Precondition: the relations of `structure` are its symmetries, made consistent (`try_symmetrize`).
 std::vector<Relation> symmetric_joints(const std::vector<Relation>& joints, const Structure& structure);
 
 }  // namespace stackabilization::detail

@@ -16,7 +16,7 @@
 #include <exception>
 #include <vector>
 
-#include "mesh/hull_spread.h"
+#include "mesh/principal_extents.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/core/tolerances.h"
 
@@ -31,7 +31,7 @@ using PartMesh = CGAL::Surface_mesh<Epick::Point_3>;
 /// Triangles that a skeleton is made from: enough for a dozen around a slender bar.
 constexpr double wanted_triangles = 2000;
 /// Above this a part is clustered and wrapped.
-constexpr std::size_t most_triangles = 20000;
+constexpr std::size_t max_triangles = 20000;
 /// Cells along the diagonal of a clustered part.
 constexpr double clusters = 150;
 /// Wrapping: diagonal over the size of what is closed, and over the distance kept.
@@ -103,11 +103,11 @@ std::optional<ClosedPart> closed_part(const Shape& part) {
                                 .norm();
     // Remeshing collapses such a plate through itself, wrapped or not, and CGAL 5.5 may crash on what is
     // left.
-    if (hull_spread(part.vertices, tolerance::relative * diagonal).length(2) < diagonal / wrap_offset)
+    if (principal_extents(part.vertices, tolerance::relative * diagonal).length(2) < diagonal / wrap_offset)
       return std::nullopt;
-    const Soup soup = soup_of(part, count > most_triangles ? diagonal / clusters : 0);
+    const Soup soup = soup_of(part, count > max_triangles ? diagonal / clusters : 0);
     PartMesh mesh;
-    if (count <= most_triangles) mesh = as_closed(soup);
+    if (count <= max_triangles) mesh = as_closed(soup);
     const bool wrapped = mesh.is_empty();
     if (wrapped)
       CGAL::alpha_wrap_3(soup.points, soup.polygons, diagonal / wrap_alpha, diagonal / wrap_offset, mesh);

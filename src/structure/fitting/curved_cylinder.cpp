@@ -6,7 +6,7 @@
 
 #include "stackabilization/core/direction.h"
 #include "structure/fitting/cylinder_sections.h"
-#include "structure/model/file_axes.h"
+#include "structure/model/canonical_axes.h"
 
 namespace stackabilization::detail {
 
@@ -15,7 +15,7 @@ namespace {
 constexpr int samples_of_surface = 2048;  ///< of the surface, to find middle and radii by
 constexpr int rounds = 6;                 ///< of moving the curve to the middle
 constexpr int smoothing = 2;              ///< passes over the skeleton, and over how far the curve moves
-constexpr int fewest_samples = 8;         ///< that tell where the middle of a section is
+constexpr int min_samples = 8;            ///< that tell where the middle of a section is
 constexpr double end_wall =
     0.7;  ///< |cosine| of curve and normal from which on a sample lies on an end, not around
 
@@ -56,8 +56,8 @@ Curve ordered(const Curve& curve) {
   for (Eigen::Index i = 0; i < n; ++i)
     normal += (curve.points.row(i) - centre).cross(curve.points.row((i + 1) % n) - centre).transpose();
   if (!(normal.norm() > 0)) return curve;
-  const bool clockwise = upward(normal) != normal;
-  const Eigen::RowVector3d start = across(normal.normalized()).transpose();
+  const bool clockwise = canonical_sense(normal) != normal;
+  const Eigen::RowVector3d start = orthogonal_axis(normal.normalized()).transpose();
   Eigen::Index first = 0;
   ((curve.points.rowwise() - centre).rowwise().normalized() * start.transpose()).maxCoeff(&first);
   Curve turned = curve;
@@ -186,7 +186,7 @@ class Fit {
   Eigen::RowVector3d offset(Eigen::Index i) const {
     const Ring& ring = rings_[static_cast<std::size_t>(i)];
     const auto count = static_cast<Eigen::Index>(ring.points.size());
-    if (count < fewest_samples) return Eigen::RowVector3d::Zero();
+    if (count < min_samples) return Eigen::RowVector3d::Zero();
     const Frame frame = frame_of(Direction(tangent(i).transpose()));
     Eigen::MatrixX3d rows(count, 3);
     Eigen::VectorXd right(count);

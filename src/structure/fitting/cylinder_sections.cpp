@@ -9,7 +9,7 @@
 
 #include "stackabilization/core/direction.h"
 #include "stackabilization/core/tolerances.h"
-#include "structure/model/file_axes.h"
+#include "structure/model/canonical_axes.h"
 
 namespace stackabilization::detail {
 
@@ -140,7 +140,7 @@ struct Heights {
 }  // namespace
 
 std::optional<AxisLine> middle_line(const Shape& part, const AxisLine& line, int sections) {
-  const AxisLine axis{line.point, upward(line.direction)};
+  const AxisLine axis{line.point, canonical_sense(line.direction)};
   const Heights heights(part, axis, sections);
   const Sections cuts(part, axis, heights.planes);
   std::vector<Eigen::Vector3d> middles;
@@ -164,7 +164,7 @@ std::optional<AxisLine> middle_line(const Shape& part, const AxisLine& line, int
 
 std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const AxisLine& line, int sections,
                                                      SectionRadius radius) {
-  const AxisLine axis{line.point, upward(line.direction)};
+  const AxisLine axis{line.point, canonical_sense(line.direction)};
   const Heights heights(part, axis, sections);
   const Sections cuts(part, axis, heights.planes);
   GeneralizedCylinder cylinder{.centres = Points(sections, 3), .radii = Eigen::VectorXd(sections)};
@@ -183,7 +183,7 @@ std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const Ax
 }
 
 std::optional<GeneralizedCylinder> ring_cylinder(const FitSurface& part, const AxisLine& line, int sections) {
-  const AxisLine axis{line.point, upward(line.direction)};
+  const AxisLine axis{line.point, canonical_sense(line.direction)};
   const Frame frame = frame_of(Direction(axis.direction));
   const auto profile = [&](const auto& row) -> Eigen::Vector2d {
     const Eigen::Vector3d local = frame.to_local(row.transpose() - axis.point);
@@ -209,7 +209,7 @@ std::optional<GeneralizedCylinder> ring_cylinder(const FitSurface& part, const A
   GeneralizedCylinder ring{.centres = Points(sections, 3),
                            .radii = Eigen::VectorXd::Constant(sections, radius)};
   ring.closed = true;
-  const Eigen::Vector3d u = across(axis.direction), v = axis.direction.cross(u);
+  const Eigen::Vector3d u = orthogonal_axis(axis.direction), v = axis.direction.cross(u);
   const Eigen::Vector3d centre = axis.point + middle.y() * axis.direction;
   for (int i = 0; i < sections; ++i) {
     const double angle = i * 2 * std::numbers::pi / sections;

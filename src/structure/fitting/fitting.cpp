@@ -18,7 +18,7 @@ namespace stackabilization {
 
 namespace {
 
-constexpr int fewest_sections = 4;
+constexpr int min_sections = 4;
 
 /// Error, as a fraction of the diagonal, up to which a part counts as held by a box or along a straight axis,
 /// so that its skeleton has nothing to add.
@@ -33,7 +33,7 @@ constexpr double other_kind = 0.85;    // between a panel and a flat curved tube
 
 /// Least length of a cylinder along another axis of the box than the longest, as a fraction of its largest
 /// radius: flatter ones are plates, which a box holds as well.
-constexpr double least_length = 0.5;
+constexpr double min_length = 0.5;
 
 struct FittedCylinder {
   GeneralizedCylinder cylinder;
@@ -73,7 +73,7 @@ class CylinderFit {
   void offer_straight(int k) {
     auto cylinder = detail::straight_cylinder(part_.shape, {box_.centre, box_.axes.col(k)}, sections_,
                                               detail::SectionRadius::mean);
-    if (cylinder && best_ && 2 * box_.half_extents(k) < least_length * cylinder->radii.maxCoeff()) return;
+    if (cylinder && best_ && 2 * box_.half_extents(k) < min_length * cylinder->radii.maxCoeff()) return;
     offer(std::move(cylinder), other_axis, "along an axis of its box");
     if (const std::optional<detail::AxisLine> line =
             detail::middle_line(part_.shape, {box_.centre, box_.axes.col(k)}, sections_))
@@ -106,7 +106,7 @@ class CylinderFit {
 }  // namespace
 
 FittedPrimitive fit_primitive(const Shape& part, const FitOptions& options) {
-  if (options.sections < fewest_sections)
+  if (options.sections < min_sections)
     throw UsageError("a generalized cylinder needs at least 4 cross-sections, not " +
                      std::to_string(options.sections));
   const detail::FitSurface surface(part);

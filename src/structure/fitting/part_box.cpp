@@ -9,7 +9,7 @@
 
 #include "stackabilization/core/direction.h"
 #include "stackabilization/core/tolerances.h"
-#include "structure/model/file_axes.h"
+#include "structure/model/canonical_axes.h"
 
 namespace stackabilization::detail {
 
@@ -48,7 +48,7 @@ OrientedBox box_with_axes(const Points& points, const Eigen::Matrix3d& axes) {
 Eigen::Matrix3d turned_to_file(const Eigen::Vector3d& pole) {
   Eigen::Matrix3d axes;
   axes.col(2) = pole;
-  axes.col(0) = across(pole);
+  axes.col(0) = orthogonal_axis(pole);
   axes.col(1) = axes.col(2).cross(axes.col(0));
   return axes;
 }
@@ -101,7 +101,7 @@ PartBox part_box(const FitSurface& part) {
   const auto thickened = [&](const Eigen::Matrix3d& axes) {
     OrientedBox box = box_with_axes(hull.points(), canonical(axes));
     const double diagonal = 2 * box.half_extents.norm();
-    box.half_extents = box.half_extents.cwiseMax(tolerance::least_thickness * diagonal / 2);
+    box.half_extents = box.half_extents.cwiseMax(tolerance::min_thickness * diagonal / 2);
     return box;
   };
   OrientedBox box = thickened(candidates.back());

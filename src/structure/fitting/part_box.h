@@ -20,8 +20,8 @@ SurfaceMoments surface_moments(const Shape& part);
 
 /// The cuboid's box of a part.
 struct PartBox {
-  OrientedBox box;    ///< every half extent at least `tolerance::least_thickness` of the diagonal, halved
-  bool flat = false;  ///< without extent across some direction: no cylinder holds it
+  OrientedBox box;         ///< every half extent at least `tolerance::min_thickness` of the diagonal, halved
+  bool flat = false;       ///< without extent across some direction: no cylinder holds it
   bool thickened = false;  ///< some half extent was raised to the least one
 };
 

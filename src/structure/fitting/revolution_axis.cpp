@@ -62,7 +62,7 @@ Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& matrix) {
 }
 
 /// The direction of least residual; of several, the one nearest to a file axis, z before y before x.
-Eigen::Vector3d least_direction(const Eigen::Matrix3d& residual, double area) {
+Eigen::Vector3d direction_of_least_residual(const Eigen::Matrix3d& residual, double area) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(residual);
   if (solver.eigenvalues()(1) > any_axis * area) return solver.eigenvectors().col(0);
   const Eigen::Index dimension = solver.eigenvalues()(2) > any_axis * area ? 2 : 3;
@@ -101,7 +101,8 @@ std::optional<AxisLine> revolution_axis(const FitSurface& part) {
   const Eigen::Matrix3d residual = complex.directions + complex.mixed * elimination;
 
   AxisLine axis;
-  axis.direction = least_direction((residual + residual.transpose()) / 2, complex.moments.trace());
+  axis.direction =
+      direction_of_least_residual((residual + residual.transpose()) / 2, complex.moments.trace());
   axis.point = moments.centre + scale * axis.direction.cross(elimination * axis.direction);
   if (!axis.point.allFinite() || !axis.direction.allFinite()) return std::nullopt;
 

@@ -14,8 +14,8 @@
 #include "core/extract_parts.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
-#include "structure/joints/contact_spots.h"
-#include "structure/model/file_axes.h"
+#include "structure/joints/part_interfaces.h"
+#include "structure/model/canonical_axes.h"
 #include "structure/model/part_surface.h"
 
 namespace stackabilization {
@@ -37,7 +37,7 @@ void check(const JointOptions& options) {
   if (!(options.reach > 0) || !std::isfinite(options.reach))
     throw UsageError("the reach of joints must be positive");
   if (!(options.line_aspect >= 1)) throw UsageError("the aspect of line joints must be at least 1");
-  if (!(options.least_line >= 0)) throw UsageError("the shortest line joint must not be negative");
+  if (!(options.min_line >= 0)) throw UsageError("the shortest line joint must not be negative");
   if (!(options.separate >= 0)) throw UsageError("the distance of separate joints must not be negative");
 }
 
@@ -89,7 +89,7 @@ class JointFinder {
  private:
   struct Joint {
     Relation relation;
-    detail::HullSpread region;
+    detail::PrincipalExtents region;
   };
 
   std::vector<Joint> joints_between(int a, int b) const {
@@ -97,11 +97,11 @@ class JointFinder {
     const double smaller = std::min(first.size(), second.size());
     // Parts far smaller than the reach would meet everything around them.
     const double reach = std::min(options_.reach * size_, options_.separate * smaller);
-    std::vector<detail::ContactSpot> spots =
-        contact_spots(first, second, {reach, options_.separate * smaller});
+    std::vector<detail::PartInterface> spots =
+        part_interfaces(first, second, {reach, options_.separate * smaller});
     if (const auto line = seam(spots, {a, b}, reach)) spots = {*line};
     std::vector<Joint> joints;
-    for (const detail::ContactSpot& spot : spots)
+    for (const detail::PartInterface& spot : spots)
       for (Relation& joint : joints_at(spot, {a, b}, smaller))
         joints.push_back({std::move(joint), spot.region});
     std::sort(joints.begin(), joints.end(), [](const Joint& one, const Joint& other) {
@@ -114,12 +114,12 @@ class JointFinder {
   /// Several spots in a row along the side of a cuboid are the seam that the cuboid has with the other part:
   /// a rail that hangs on two pegs. The other part must be there between them; a bar between two arms has
   /// none.
-  std::optional<detail::ContactSpot> seam(const std::vector<detail::ContactSpot>& spots,
-                                          const std::array<int, 2>& parts, double reach) const {
+  std::optional<detail::PartInterface> seam(const std::vector<detail::PartInterface>& spots,
+                                            const std::array<int, 2>& parts, double reach) const {
     const int bar = surface(parts[0]).size() < surface(parts[1]).size() ? 0 : 1;
     if (spots.size() < 2 || !is_cuboid_[static_cast<std::size_t>(parts[static_cast<std::size_t>(bar)])])
       return std::nullopt;
-    detail::ContactSpot all = spots[0];
+    detail::PartInterface all = spots[0];
     Points corners = spots[0].region.hull;
     for (std::size_t k = 1; k < spots.size(); ++k) {
       const Eigen::Index old = corners.rows();
@@ -127,7 +127,7 @@ class JointFinder {
       corners.bottomRows(spots[k].region.hull.rows()) = spots[k].region.hull;
       all.gap = std::min(all.gap, spots[k].gap);
     }
-    all.region = detail::hull_spread(corners, tolerance::relative * size_);
+    all.region = detail::principal_extents(corners, tolerance::relative * size_);
     if (!is_line(all.region, surface(parts[static_cast<std::size_t>(bar)]).size())) return std::nullopt;
     const PartSurface& other = surface(parts[static_cast<std::size_t>(1 - bar)]);
     constexpr int steps = 16;
@@ -139,9 +139,9 @@ class JointFinder {
     return all;
   }
 
-  bool is_line(const detail::HullSpread& region, double smaller) const {
+  bool is_line(const detail::PrincipalExtents& region, double smaller) const {
     return region.length(0) >= options_.line_aspect * region.length(1) && region.length(0) > 0 &&
-           region.length(0) >= options_.least_line * smaller;
+           region.length(0) >= options_.min_line * smaller;
   }
 
   const PartSurface& surface(int part) const { return *surfaces_[static_cast<std::size_t>(part)]; }
@@ -159,7 +159,7 @@ class JointFinder {
     std::vector<char> hidden(joints.size(), 0);
     tbb::parallel_for(std::size_t{0}, joints.size(), [&](std::size_t k) {
       const Relation& relation = joints[k].relation;
-      const detail::HullSpread& region = joints[k].region;
+      const detail::PrincipalExtents& region = joints[k].region;
       const std::map<int, double>*few = &shares[static_cast<std::size_t>(relation.parts[0])],
                           *many = &shares[static_cast<std::size_t>(relation.parts[1])];
       if (many->size() < few->size()) std::swap(few, many);
@@ -176,15 +176,15 @@ class JointFinder {
     return kept;
   }
 
-  static bool holds(const PartSurface& surface, const detail::HullSpread& region) {
+  static bool holds(const PartSurface& surface, const detail::PrincipalExtents& region) {
     for (const auto& row : region.hull.rowwise())
       if (!surface.contains(region.centre + hidden_share * (row.transpose() - region.centre))) return false;
     return surface.contains(region.centre);
   }
 
-  std::vector<Relation> joints_at(const detail::ContactSpot& spot, const std::array<int, 2>& parts,
+  std::vector<Relation> joints_at(const detail::PartInterface& spot, const std::array<int, 2>& parts,
                                   double smaller) const {
-    const detail::HullSpread& region = spot.region;
+    const detail::PrincipalExtents& region = spot.region;
     const Eigen::Vector3d along = region.axes.col(0);
     if (is_line(region, smaller)) {
       Points ends(2, 3);
@@ -219,7 +219,7 @@ class JointFinder {
 
   /// How far a region reaches to four sides of its centre: along its two longest axes, or, where it is as
   /// long as wide, so that every choice is as good, along the axes of the shape.
-  std::vector<Eigen::RowVector3d> extremes(const detail::HullSpread& region) const {
+  std::vector<Eigen::RowVector3d> extremes(const detail::PrincipalExtents& region) const {
     const Eigen::Vector3d normal = region.axes.col(2);
     const bool is_round = region.deviations(1) > round_share * region.deviations(0);
     const Eigen::Vector3d u = is_round ? axis_across(normal) : Eigen::Vector3d(region.axes.col(0));
@@ -236,7 +236,7 @@ class JointFinder {
   /// Direction across `normal` in which the shape is longest; for a round shape the nearest axis of the file.
   Eigen::Vector3d axis_across(const Eigen::Vector3d& normal) const {
     Eigen::Matrix<double, 3, 2> plane;
-    plane.col(0) = detail::across(normal);
+    plane.col(0) = detail::orthogonal_axis(normal);
     plane.col(1) = normal.cross(plane.col(0));
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(plane.transpose() * moment_ * plane);
     if (solver.eigenvalues()(0) > round_moment * solver.eigenvalues()(1)) return plane.col(0);

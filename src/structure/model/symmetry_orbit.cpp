@@ -12,7 +12,7 @@ namespace {
 
 /// The symmetry group of the icosahedron, the largest that is no symmetry of a body of revolution, has 120
 /// members.
-constexpr std::size_t largest_group = 120;
+constexpr std::size_t max_group_size = 120;
 
 class OrbitFinder {
  public:
@@ -131,7 +131,7 @@ class OrbitFinder {
       for (const Eigen::Isometry3d& generator : generators) {
         const Eigen::Isometry3d product = generator * orbit.group[k];
         if (!contains(orbit, product)) orbit.group.push_back(product);
-        if (orbit.group.size() > largest_group) return false;
+        if (orbit.group.size() > max_group_size) return false;
       }
     return true;
   }

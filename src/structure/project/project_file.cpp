@@ -11,7 +11,7 @@
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/io/read_file.h"
 #include "stackabilization/structure/analysis.h"
-#include "structure/analysis/idealise.h"
+#include "structure/analysis/symmetrize.h"
 #include "structure/model/bounding_diagonal.h"
 
 namespace stackabilization {
@@ -198,13 +198,13 @@ class ProjectReader {
   StructuredShape result_;
 };
 
-bool is_ideal(const Structure& structure) {
+bool is_symmetric_enough(const Structure& structure) {
   double largest = structure.diagonal;
   for (const Part& part : structure.parts)
     largest = std::max(largest, control_points(part.primitive).cwiseAbs().maxCoeff());
   return std::all_of(structure.relations.begin(), structure.relations.end(), [&](const Relation& relation) {
     return relation.type == RelationType::point_joint || relation.type == RelationType::line_joint ||
-           detail::symmetry_miss(structure, relation) <= tolerance::idealised * largest;
+           detail::symmetry_residual(structure, relation) <= tolerance::symmetrized * largest;
   });
 }
 
@@ -215,7 +215,7 @@ ProjectContents project_contents(std::string_view text, const std::string& name)
   ProjectContents result{ProjectReader(JsonNode(document, name)).read(), {}};
   try {
     validate(result.structured);
-    if (!is_ideal(result.structured.structure)) idealise(result.structured.structure);
+    if (!is_symmetric_enough(result.structured.structure)) symmetrize(result.structured.structure);
   } catch (const InputError& error) {
     throw InputError(name + ": " + error.what());
   }

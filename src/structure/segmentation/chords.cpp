@@ -48,19 +48,19 @@ class ChordCaster {
   void measure(Chord& chord) const {
     chord.end = chord.start;
     chord.end_triangle = -1;
-    chord.solid = std::numeric_limits<double>::infinity();
+    chord.inner_length = std::numeric_limits<double>::infinity();
     if (const auto hit = tree_.first_hit(chord.start - lift_ * chord.normal, -chord.normal)) {
       chord.end = hit->point;
       chord.end_triangle = hit->triangle;
-      chord.solid = (hit->point - chord.start).norm();
+      chord.inner_length = (hit->point - chord.start).norm();
     }
     const Eigen::Quaterniond turn =
         Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), chord.normal);
     int seen = 0;
     for (const Eigen::Vector3d& direction : directions_)
       seen += tree_.is_hit(chord.start + lift_ * chord.normal, turn * direction);
-    chord.free = 1 - static_cast<double>(seen) / static_cast<double>(directions_.size());
-    chord.openness = std::clamp((chord.free - hollow) / (open_air - hollow), 0.0, 1.0);
+    chord.ambient_visibility = 1 - static_cast<double>(seen) / static_cast<double>(directions_.size());
+    chord.exposure = std::clamp((chord.ambient_visibility - hollow) / (open_air - hollow), 0.0, 1.0);
   }
 
  private:
@@ -84,11 +84,11 @@ void measure_ends(std::vector<Chord>& chords, const std::vector<std::int32_t>& p
   };
   for (const Chord& c : chords) {
     area[patch_of(c.triangle)] += c.area;
-    open_area[patch_of(c.triangle)] += c.area * c.openness;
+    open_area[patch_of(c.triangle)] += c.area * c.exposure;
   }
   for (Chord& c : chords)
     if (c.end_triangle >= 0)
-      c.end_openness = open_area[patch_of(c.end_triangle)] / area[patch_of(c.end_triangle)];
+      c.end_exposure = open_area[patch_of(c.end_triangle)] / area[patch_of(c.end_triangle)];
 }
 
 }  // namespace

@@ -17,12 +17,13 @@ struct Chord {
   double area;                ///< of the surface it stands for
   Eigen::Vector3d start;      ///< on the surface
   Eigen::Vector3d normal;     ///< outward
-  double solid;               ///< length of the solid behind `start`; infinite when the surface is open there
+  double inner_length;        ///< length of the solid behind `start`; infinite when the surface is open there
   Eigen::Vector3d end;        ///< where the solid ends; `start` when it does not
   std::int32_t end_triangle;  ///< -1 when it does not end
-  double free = 1;      ///< share of the half space in front of `start` in which nothing of the shape is seen
-  double openness = 1;  ///< 1 where `start` looks into the open, 0 where into a hollow of the shape itself
-  double end_openness = 1;  ///< the same around `end`
+  double ambient_visibility =
+      1;                ///< share of the half space in front of `start` in which nothing of the shape is seen
+  double exposure = 1;  ///< 1 where `start` looks into the open, 0 where into a hollow of the shape itself
+  double end_exposure = 1;  ///< the same around `end`
 };
 
 /// `count` chords, spread over the triangles by area, and one more in each patch without. `patch` is a number

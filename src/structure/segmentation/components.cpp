@@ -61,9 +61,9 @@ bool inside(const HullSupport& hull, const Eigen::Vector3d& point, double reach)
   return hull.face_normals().rows() > 0;
 }
 
-class ContactMerger {
+class ComponentMerger {
  public:
-  ContactMerger(std::vector<Component>& components, const ContactRule& rule, double reach)
+  ComponentMerger(std::vector<Component>& components, const ContactRule& rule, double reach)
       : components_(components), rule_(rule), reach_(reach) {}
 
   DisjointSets run() {
@@ -97,7 +97,7 @@ class ContactMerger {
   double reach_;
 };
 
-std::vector<ContactMerger::Pair> ContactMerger::candidates() const {
+std::vector<ComponentMerger::Pair> ComponentMerger::candidates() const {
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const Component& component : components_)
     boxes.push_back(component.area > 0 ? component.box : Eigen::AlignedBox3d());
@@ -123,7 +123,7 @@ std::vector<ContactMerger::Pair> ContactMerger::candidates() const {
   return pairs;
 }
 
-void ContactMerger::prepare(const std::vector<Pair>& pairs) {
+void ComponentMerger::prepare(const std::vector<Pair>& pairs) {
   for (const Pair& pair : pairs) {
     Component& large = components_[pair.large];
     if (!large.index) large.index = std::make_unique<SurfaceIndex>(large.shape);
@@ -132,7 +132,7 @@ void ContactMerger::prepare(const std::vector<Pair>& pairs) {
   }
 }
 
-bool ContactMerger::are_one_part(const Pair& pair) const {
+bool ComponentMerger::are_one_part(const Pair& pair) const {
   const Component &small = components_[pair.small], &large = components_[pair.large];
   const bool tiny = small.area <= rule_.tiny * large.area;
   constexpr double parallel = 0.95;  // cosine
@@ -183,7 +183,7 @@ std::vector<std::int32_t> merged_components(const Shape& shape, const ContactRul
     components.push_back(component_of(shape, members));
     box.extend(components.back().box);
   }
-  DisjointSets sets = ContactMerger(components, rule, rule.reach * box.diagonal().norm()).run();
+  DisjointSets sets = ComponentMerger(components, rule, rule.reach * box.diagonal().norm()).run();
   attach_flat(sets, components, shape, component);
 
   std::vector<std::int32_t> part(component.size()), number(count, -1);

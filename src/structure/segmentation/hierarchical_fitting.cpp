@@ -19,10 +19,10 @@ namespace stackabilization::detail {
 namespace {
 
 /// Patches to build volumes from, one for so many triangles, and chords to measure them with.
-constexpr int fewest_patches = 24, most_patches = 240, triangles_per_patch = 4, chords_per_patch = 10;
+constexpr int min_patches = 24, max_patches = 240, triangles_per_patch = 4, chords_per_patch = 10;
 
 int patch_count(const SurfaceGraph& graph) {
-  return std::clamp(graph.size() / triangles_per_patch, fewest_patches, most_patches);
+  return std::clamp(graph.size() / triangles_per_patch, min_patches, max_patches);
 }
 
 /// Emptiness that one union may add, root mean square over the whole surface, fraction of the bounding-box
@@ -67,7 +67,7 @@ class Patches {
       const std::size_t patch = patch_of(chords_[c].triangle);
       chords_of_[patch].push_back(static_cast<std::int32_t>(c));
       chord_area[patch] += chords_[c].area;
-      free_area[patch] += chords_[c].area * chords_[c].free;
+      free_area[patch] += chords_[c].area * chords_[c].ambient_visibility;
     }
     for (std::size_t p = 0; p < count; ++p)
       free_.push_back(chord_area[p] > 0 ? free_area[p] / chord_area[p] : 1);
@@ -127,7 +127,7 @@ class VolumeClustering {
   VolumeClustering(const Patches& patches, double smallest)
       : patches_(patches),
         clusters_(static_cast<std::size_t>(patches.count())),
-        smallest_area_(smallest * patches.total_area()) {
+        min_area_(smallest * patches.total_area()) {
     for (std::int32_t p = 0; p < patches.count(); ++p) {
       at(p) = {patches.chords_of(p), patches.borders(p), patches.area(p),
                patches.emptiness(patches.chords_of(p)), patches.moment(p)};
@@ -145,8 +145,8 @@ class VolumeClustering {
       const Union next = queue_.top();
       queue_.pop();
       if (next.stamp_a != at(next.a).stamp || next.stamp_b != at(next.b).stamp) continue;
-      const bool crumb = !is_grown(at(next.a)) || !is_grown(at(next.b));
-      if (!crumb && (next.cost > limit || grown_ <= least)) continue;
+      const bool small = !is_grown(at(next.a)) || !is_grown(at(next.b));
+      if (!small && (next.cost > limit || grown_ <= least)) continue;
       merge(next.a, next.b);
       sets.join(static_cast<std::size_t>(next.a), static_cast<std::size_t>(next.b));
     }
@@ -172,14 +172,14 @@ class VolumeClustering {
   };
 
   Cluster& at(std::int32_t c) { return clusters_[static_cast<std::size_t>(c)]; }
-  bool is_grown(const Cluster& cluster) const { return cluster.area > 0 && cluster.area >= smallest_area_; }
+  bool is_grown(const Cluster& cluster) const { return cluster.area > 0 && cluster.area >= min_area_; }
   void push(std::int32_t first, std::int32_t second);
   void merge(std::int32_t a, std::int32_t b);
 
   const Patches& patches_;
   std::vector<Cluster> clusters_;
   std::priority_queue<Union> queue_;
-  double smallest_area_;
+  double min_area_;
   int grown_ = 0;
 };
 

@@ -104,7 +104,7 @@ void adopt_the_rest(const Shape& shape, const detail::SurfaceGraph& graph, std::
 
 }  // namespace
 
-Shape segmented(const Shape& shape, const std::vector<PartSeeds>& seeds) {
+Shape segment(const Shape& shape, const std::vector<PartSeeds>& seeds) {
   validate(shape);
   std::vector<std::int32_t> part = seeded_parts(shape, seeds);
   std::vector<char> is_seed(part.size());

@@ -168,10 +168,10 @@ void BoundarySmoother::recut(std::int32_t a, std::int32_t b) {
 }
 
 /// Pieces are the connected sets of one part; each goes by its least triangle.
-class CrumbCollector {
+class SmallSegmentMerger {
  public:
-  CrumbCollector(const SurfaceGraph& graph, const std::vector<std::int32_t>& part, double smallest_area)
-      : pieces_(part.size()), count_(part.size()), smallest_area_(smallest_area) {
+  SmallSegmentMerger(const SurfaceGraph& graph, const std::vector<std::int32_t>& part, double min_area)
+      : pieces_(part.size()), count_(part.size()), min_area_(min_area) {
     for (const SurfaceLink& link : graph.links)
       if (part[static_cast<std::size_t>(link.a)] == part[static_cast<std::size_t>(link.b)])
         pieces_.join(static_cast<std::size_t>(link.a), static_cast<std::size_t>(link.b));
@@ -216,7 +216,7 @@ class CrumbCollector {
 
  private:
   bool is_lesser(std::size_t piece) {
-    return !main_.count(piece) || !(area_[piece] > 0) || area_[piece] < smallest_area_;
+    return !main_.count(piece) || !(area_[piece] > 0) || area_[piece] < min_area_;
   }
   void join(std::size_t piece, std::size_t host) {
     lesser_.erase({area_[host], host});
@@ -239,7 +239,7 @@ class CrumbCollector {
 
   DisjointSets pieces_;
   std::size_t count_;
-  double smallest_area_;
+  double min_area_;
   std::map<std::size_t, double> area_;                         ///< per piece
   std::map<std::size_t, std::map<std::size_t, double>> ties_;  ///< per pair of neighbouring pieces, both ways
   std::set<std::size_t> main_;                                 ///< the largest piece of each part
@@ -261,9 +261,9 @@ std::vector<std::int32_t> with_smooth_boundaries(const SurfaceGraph& graph, std:
   return BoundarySmoother(graph, std::move(part), fixed).run();
 }
 
-std::vector<std::int32_t> without_crumbs(const SurfaceGraph& graph, const std::vector<std::int32_t>& part,
-                                         double smallest_area) {
-  return CrumbCollector(graph, part, smallest_area).run();
+std::vector<std::int32_t> merge_small_segments(const SurfaceGraph& graph,
+                                               const std::vector<std::int32_t>& part, double min_area) {
+  return SmallSegmentMerger(graph, part, min_area).run();
 }
 
 }  // namespace stackabilization::detail

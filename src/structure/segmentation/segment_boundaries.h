@@ -20,9 +20,9 @@ double cutting_cost(const SurfaceLink& link);
 std::vector<std::int32_t> with_smooth_boundaries(const SurfaceGraph& graph, std::vector<std::int32_t> part,
                                                  const std::vector<char>& fixed);
 
-/// Makes every part connected and at least `smallest_area` large: lesser pieces join the neighbour they are
+/// Makes every part connected and at least `min_area` large: lesser pieces join the neighbour they are
 /// tied to most, the smallest first. Parts are renumbered in order of their first triangles.
-std::vector<std::int32_t> without_crumbs(const SurfaceGraph& graph, const std::vector<std::int32_t>& part,
-                                         double smallest_area);
+std::vector<std::int32_t> merge_small_segments(const SurfaceGraph& graph,
+                                               const std::vector<std::int32_t>& part, double min_area);
 
 }  // namespace stackabilization::detail

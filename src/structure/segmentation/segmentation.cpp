@@ -10,10 +10,10 @@
 #include "structure/model/fit_error.h"
 #include "structure/segmentation/components.h"
 #include "structure/segmentation/hierarchical_fitting.h"
+#include "structure/segmentation/rod_lattice.h"
 #include "structure/segmentation/segment_boundaries.h"
 #include "structure/segmentation/shape_diameter.h"
 #include "structure/segmentation/surface_graph.h"
-#include "structure/segmentation/wire_net.h"
 
 namespace stackabilization {
 
@@ -21,7 +21,7 @@ namespace {
 
 void check(const SegmentationOptions& options) {
   if (options.parts < 0) throw UsageError("the number of parts per component must not be negative");
-  if (!(options.smallest_part >= 0 && options.smallest_part < 1))
+  if (!(options.min_part_area >= 0 && options.min_part_area < 1))
     throw UsageError("the share of the smallest part must be at least 0 and below 1");
 }
 
@@ -68,9 +68,9 @@ std::vector<std::int32_t> cut(const Shape& component, const SegmentationOptions&
   std::vector<std::int32_t> part =
       options.method == SegmentationMethod::shape_diameter
           ? detail::shape_diameter_parts(component, graph, options.parts)
-          : detail::fitted_parts(component, graph, options.parts, options.smallest_part);
+          : detail::fitted_parts(component, graph, options.parts, options.min_part_area);
   part = detail::with_smooth_boundaries(graph, std::move(part), {});
-  return detail::without_crumbs(graph, part, options.smallest_part * graph.areas.sum());
+  return detail::merge_small_segments(graph, part, options.min_part_area * graph.areas.sum());
 }
 
 Shape cut_components(const Shape& shape, const std::vector<std::int32_t>& component,
@@ -98,7 +98,7 @@ bool is_body_of_revolution(const Shape& shape) {
 
 }  // namespace
 
-Shape segmented(const Shape& shape, const SegmentationOptions& options) {
+Shape segment(const Shape& shape, const SegmentationOptions& options) {
   check(options);
   validate(shape);
   if (options.method == SegmentationMethod::given) return shape;
@@ -107,7 +107,7 @@ Shape segmented(const Shape& shape, const SegmentationOptions& options) {
   if (options.method == SegmentationMethod::whole) return with_parts_by_area(shape, one_part);
   const std::vector<std::int32_t> component = detail::merged_components(shape);
   if (options.method == SegmentationMethod::automatic && options.parts == 0 &&
-      detail::is_wire_net(shape, component))
+      detail::is_rod_lattice(shape, component))
     return with_parts_by_area(shape, one_part);
   const bool components_do =
       options.method == SegmentationMethod::automatic &&

@@ -77,7 +77,7 @@ std::vector<std::int32_t> reduced(const SurfaceGraph& graph, std::vector<std::in
     const auto smallest = std::min_element(area.begin(), area.end(),
                                            [](const auto& a, const auto& b) { return a.second < b.second; });
     const std::size_t before = area.size();
-    part = without_crumbs(graph, part, std::nextafter(smallest->second, smallest->second * 2));
+    part = merge_small_segments(graph, part, std::nextafter(smallest->second, smallest->second * 2));
     if (different(part) >= before) break;
   }
   return part;
@@ -98,18 +98,18 @@ std::vector<std::int32_t> shape_diameter_parts(const Shape& shape, const Surface
         !std::all_of(diameters.begin(), diameters.end(), [](double d) { return d >= 0 && d <= 1; }))
       return whole;
     // CGAL looks for ever for more clusters than there are different diameters.
-    const std::size_t most_clusters =
+    const std::size_t max_clusters =
         std::min(cluster_limit, std::set<double>(diameters.begin(), diameters.end()).size());
     std::vector<std::int32_t> found;
-    std::size_t clusters = std::min(most_clusters, parts > 0 ? std::size_t{2} : default_clusters);
+    std::size_t clusters = std::min(max_clusters, parts > 0 ? std::size_t{2} : default_clusters);
     do {
       found = segments(outward.mesh, diameters, clusters);
-    } while (parts > 0 && different(found) < static_cast<std::size_t>(parts) && ++clusters <= most_clusters);
+    } while (parts > 0 && different(found) < static_cast<std::size_t>(parts) && ++clusters <= max_clusters);
     // Triangles without area have no face: a part of their own, which is no part but a crumb.
     std::vector<std::int32_t> part(whole.size(), -1);
     for (std::size_t f = 0; f < found.size(); ++f)
       part[static_cast<std::size_t>(outward.triangle_of_face[f])] = found[f];
-    part = without_crumbs(graph, part, 0);
+    part = merge_small_segments(graph, part, 0);
     return parts > 0 ? reduced(graph, std::move(part), static_cast<std::size_t>(parts)) : part;
   } catch (const std::exception&) {  // CGAL's own checks
     return whole;

@@ -138,7 +138,7 @@ double VolumeFit::cuboid(const Eigen::Matrix3d& frame) const {
       before = std::min(before, n(k) > 0 ? up : down);
       behind = std::min(behind, n(k) > 0 ? down : up);
     }
-    const double empty = c->openness * before + c->end_openness * std::max(0.0, behind - c->solid);
+    const double empty = c->exposure * before + c->end_exposure * std::max(0.0, behind - c->inner_length);
     sum += c->area * empty * empty;
   }
   return sum;
@@ -196,7 +196,7 @@ struct Revolution {
 
 /// Of a chord through the wall of a vessel the end on its outside.
 const Eigen::Vector3d& outer_end(const Chord& chord) {
-  return chord.openness >= 0.5 ? chord.start : chord.end;
+  return chord.exposure >= 0.5 ? chord.start : chord.end;
 }
 
 double VolumeFit::revolution(const Eigen::Matrix3d& frame) const {
@@ -231,7 +231,7 @@ double VolumeFit::revolution(const Eigen::Matrix3d& frame) const {
   for (const Chord* c : chords_) {
     const Eigen::Vector3d p = local(c->start), n = frame.transpose() * c->normal;
     const double before = solid.exit(p, n), behind = solid.excess(p) < 0 ? solid.exit(p, -n) : 0;
-    const double empty = c->openness * before + c->end_openness * std::max(0.0, behind - c->solid);
+    const double empty = c->exposure * before + c->end_exposure * std::max(0.0, behind - c->inner_length);
     sum += c->area * empty * empty;
   }
   return sum;
@@ -262,7 +262,7 @@ double VolumeFit::ring(const Eigen::Matrix3d& frame) const {
   double sum = 0;
   for (const Chord* c : chords_) {
     const double d = off(c->start) - tube;
-    const double empty = std::abs(d) + c->end_openness * std::max(0.0, 2 * tube - c->solid);
+    const double empty = std::abs(d) + c->end_exposure * std::max(0.0, 2 * tube - c->inner_length);
     sum += c->area * empty * empty;
   }
   return sum;

@@ -15,7 +15,7 @@ namespace {
 constexpr double min_aligned = 0.999;     // cosine
 constexpr double weight_of_whole = 0.5;   // against the share of the area of each part
 constexpr double max_angle_error = 0.05;  // radians
-constexpr int highest_order_of_boxes = 12;
+constexpr int max_order_of_boxes = 12;
 
 bool along_box(const OrientedBox& box, const Eigen::Vector3d& axis) {
   return (box.axes.transpose() * axis).cwiseAbs().maxCoeff() > min_aligned;
@@ -33,7 +33,7 @@ void orthogonalize(std::vector<Symmetry>& planes) {
 /// The multiple of pi / n, n as small as possible, that is nearest to `angle`; `angle` itself when none is
 /// near.
 double rational_angle(double angle) {
-  for (int order = 2; order <= highest_order_of_boxes; ++order) {
+  for (int order = 2; order <= max_order_of_boxes; ++order) {
     const double step = std::numbers::pi / order, multiple = std::round(angle / step) * step;
     if (std::abs(multiple - angle) < max_angle_error) return multiple;
   }

@@ -20,8 +20,8 @@ namespace {
 
 using detail::SymmetrySurface;
 
-constexpr double nearly_parallel = 0.99;                         // cosine
-constexpr double least_diagonal = 0.697, most_diagonal = 0.717;  // cosine
+constexpr double nearly_parallel = 0.99;                      // cosine
+constexpr double min_diagonal = 0.697, max_diagonal = 0.717;  // cosine
 
 class PartSymmetry {
  public:
@@ -103,7 +103,7 @@ class PartSymmetry {
       if (meets_any_at(nearly_parallel, 1, candidate)) continue;
       const Symmetry plane = detail::fitted_to(planes_, candidate);
       const std::vector<Relation> relations = relations_under(plane);
-      const bool is_diagonal = meets_any_at(least_diagonal, most_diagonal, candidate);
+      const bool is_diagonal = meets_any_at(min_diagonal, max_diagonal, candidate);
       DisjointSets orbits(static_cast<std::size_t>(parts_.count()));
       for (const Relation& relation : relations_) join(orbits, relation);
       const bool joins = std::any_of(relations.begin(), relations.end(), [&](const Relation& relation) {
@@ -191,7 +191,8 @@ class PartSymmetry {
     std::vector<Symmetry> planes;
     for (int k = 0; k < 3; ++k) {
       const Symmetry start{SymmetryKind::reflection, Eigen::Vector3d::Zero(), surface.box.axes.col(k), 2};
-      const Symmetry plane = detail::refined(surface, start, detail::counterpart_reach(surface, options_));
+      const Symmetry plane =
+          detail::refine_symmetry(surface, start, detail::counterpart_reach(surface, options_));
       if (detail::verify(surface, plane, options_, detail::Effort::dense).holds)
         planes.push_back(detail::to_model(surface, plane));
     }

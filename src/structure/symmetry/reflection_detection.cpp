@@ -16,7 +16,7 @@ constexpr double same_normal = 0.999;  // cosine
 constexpr double same_offset = 0.02;
 constexpr double off_principal = 0.05;  // of the trace of the second moments
 constexpr double shadow_cosine = 0.85, shadow_factor = 10;
-constexpr std::size_t most_reflections = 64;
+constexpr std::size_t max_reflections = 64;
 
 bool same_plane(const Symmetry& a, const Symmetry& b) {
   const double cosine = a.axis.dot(b.axis);
@@ -25,16 +25,16 @@ bool same_plane(const Symmetry& a, const Symmetry& b) {
 }
 
 Symmetry roughly(const SymmetrySurface& surface, const Symmetry& candidate) {
-  return approached(surface, candidate, rough_reach, Effort::sparse);
+  return step_symmetry(surface, candidate, rough_reach, Effort::sparse);
 }
 
 std::optional<FoundSymmetry> finely(const SymmetrySurface& surface, const Symmetry& rough,
                                     const SymmetryOptions& options) {
-  if (!verify(surface, rough, loosened(options), Effort::sparse).holds) return {};
+  if (!verify(surface, rough, loosen(options), Effort::sparse).holds) return {};
   const double reach = counterpart_reach(surface, options);
-  const Symmetry near = approached(surface, rough, reach, Effort::dense);
+  const Symmetry near = step_symmetry(surface, rough, reach, Effort::dense);
   if (!verify(surface, near, options, Effort::dense).holds) return {};
-  const Symmetry fine = refined(surface, near, reach);
+  const Symmetry fine = refine_symmetry(surface, near, reach);
   const Agreement found = verify(surface, fine, options, Effort::dense);
   if (!found.holds) return {};
   return FoundSymmetry{fine, found.residual, found.support};
@@ -59,7 +59,7 @@ class ReflectionSearch {
 
  private:
   void consider(const Symmetry& candidate) {
-    if (found_.size() >= most_reflections || !is_principal(surface_, candidate.axis) || known(candidate))
+    if (found_.size() >= max_reflections || !is_principal(surface_, candidate.axis) || known(candidate))
       return;
     const Symmetry rough = roughly(surface_, candidate);
     if (known(rough)) return;

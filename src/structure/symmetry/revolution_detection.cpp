@@ -69,8 +69,8 @@ std::optional<Symmetry> revolution_about(const SymmetrySurface& surface, const E
                                          const SymmetryOptions& options, Roundness roundness) {
   const Symmetry start{SymmetryKind::revolution, Eigen::Vector3d::Zero(), direction.normalized(), 2};
   if (!balanced(surface.spread, start.axis)) return {};
-  if (!verify(surface, start, loosened(options), Effort::sparse).holds) return {};
-  const Symmetry better = refined(surface, start, counterpart_reach(surface, options));
+  if (!verify(surface, start, loosen(options), Effort::sparse).holds) return {};
+  const Symmetry better = refine_symmetry(surface, start, counterpart_reach(surface, options));
   // The moments know the axis exactly when nothing is missing, also of prisms with an odd number of sides.
   const Agreement before = verify(surface, start, options, Effort::dense);
   const Agreement after = verify(surface, better, options, Effort::dense);

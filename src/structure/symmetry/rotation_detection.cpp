@@ -15,7 +15,7 @@ namespace stackabilization::detail {
 namespace {
 
 constexpr double same_axis = 0.99;  // cosine
-constexpr int highest_order = 12;   // of rotations without reflections through their axis
+constexpr int max_order = 12;       // of rotations without reflections through their axis
 
 class RotationSearch {
  public:
@@ -96,9 +96,9 @@ class RotationSearch {
 
   std::optional<Symmetry> plausible(Symmetry axis, int order) const {
     axis.order = order;
-    axis = approached(surface_, axis, rough_reach, Effort::sparse);
-    return verify(surface_, axis, loosened(options_), Effort::sparse).holds ? std::optional(axis)
-                                                                            : std::nullopt;
+    axis = step_symmetry(surface_, axis, rough_reach, Effort::sparse);
+    return verify(surface_, axis, loosen(options_), Effort::sparse).holds ? std::optional(axis)
+                                                                          : std::nullopt;
   }
 
   std::optional<Symmetry> highest_rotation(const Symmetry& axis) const {
@@ -107,10 +107,10 @@ class RotationSearch {
     if (std::none_of(primes.begin(), primes.end(),
                      [&](int order) { return plausible(axis, order).has_value(); }))
       return {};
-    for (int order = highest_order; order >= 2; --order) {
+    for (int order = max_order; order >= 2; --order) {
       const std::optional<Symmetry> rough = plausible(axis, order);
       if (!rough) continue;
-      const Symmetry fine = refined(surface_, *rough, counterpart_reach(surface_, options_));
+      const Symmetry fine = refine_symmetry(surface_, *rough, counterpart_reach(surface_, options_));
       if (verify(surface_, fine, options_, Effort::dense).holds && stands_out(fine) &&
           !on_reflection(fine.axis))
         return fine;
@@ -127,7 +127,7 @@ class RotationSearch {
       return agreement(image_distances(surface_.index, surface_.medium.points, map), 1, options_).residual;
     };
     const double here = misfit(1);
-    return here < misfit(1 - 1.0 / highest_order) && here < misfit(1 + 1.0 / highest_order);
+    return here < misfit(1 - 1.0 / max_order) && here < misfit(1 + 1.0 / max_order);
   }
 
   const SymmetrySurface& surface_;

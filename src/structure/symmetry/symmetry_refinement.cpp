@@ -15,7 +15,7 @@ namespace stackabilization::detail {
 namespace {
 
 constexpr int freedoms = 4;  // two turns and at most two shifts of the plane or axis
-constexpr double least_information = 0.5;
+constexpr double min_information_share = 0.5;
 constexpr double shrink = 0.25;
 constexpr double settled = 0.001;  // step, fraction of the scale
 constexpr int steps_per_scale = 6;
@@ -148,19 +148,19 @@ struct RobustFit {
 
 }  // namespace
 
-Symmetry approached(const SymmetrySurface& surface, const Symmetry& start, double reach, Effort effort) {
+Symmetry step_symmetry(const SymmetrySurface& surface, const Symmetry& start, double reach, Effort effort) {
   RobustFit approach(surface, start, effort);
   approach.settle(reach, reach);
   return approach.symmetry;
 }
 
-Symmetry refined(const SymmetrySurface& surface, const Symmetry& start, double reach) {
+Symmetry refine_symmetry(const SymmetrySurface& surface, const Symmetry& start, double reach) {
   RobustFit approach(surface, start, Effort::dense);
   for (double scale = reach; approach.settle(scale, reach); scale *= shrink) {
     const Linearization& at = approach.at;
     const bool exact = at.distances.cwiseProduct(at.weights(scale)).maxCoeff() < tolerance::relative;
     if (exact || scale * shrink < tolerance::relative ||
-        share(at.information(scale * shrink), at.information(reach)) < least_information)
+        share(at.information(scale * shrink), at.information(reach)) < min_information_share)
       break;
   }
   return approach.symmetry;

@@ -10,7 +10,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr int sparse_samples = 150, medium_samples = 500, most_corners = 300;
+constexpr int sparse_samples = 150, medium_samples = 500, max_corners = 300;
 constexpr double slender_extents = 3;
 
 /// Area, its first and second moments.
@@ -67,7 +67,7 @@ Points used_corners(const Shape& shape) {
   std::vector<Eigen::Index> rows;
   for (std::size_t v = 0; v < used.size(); ++v)
     if (used[v]) rows.push_back(static_cast<Eigen::Index>(v));
-  const std::size_t count = std::min<std::size_t>(rows.size(), most_corners);
+  const std::size_t count = std::min<std::size_t>(rows.size(), max_corners);
   Points corners(static_cast<Eigen::Index>(count), 3);
   for (std::size_t k = 0; k < count; ++k)
     corners.row(static_cast<Eigen::Index>(k)) = shape.vertices.row(rows[k * rows.size() / count]);

@@ -81,7 +81,7 @@ Agreement verify(const SymmetrySurface& surface, const Symmetry& symmetry, const
   return result;
 }
 
-SymmetryOptions loosened(const SymmetryOptions& options) {
+SymmetryOptions loosen(const SymmetryOptions& options) {
   return {rough_allowance * options.tolerance, std::max(0.0, 1 - rough_allowance * (1 - options.support))};
 }
 

@@ -32,7 +32,7 @@ Agreement verify(const SymmetrySurface& surface, const Symmetry& symmetry, const
                  Effort effort);
 
 /// What a symmetry that is not refined yet must satisfy.
-SymmetryOptions loosened(const SymmetryOptions& options);
+SymmetryOptions loosen(const SymmetryOptions& options);
 
 /// Up to this distance (own frame) two points count as counterparts.
 double counterpart_reach(const SymmetrySurface& surface, const SymmetryOptions& options);

@@ -13,14 +13,14 @@ namespace {
 
 constexpr int distance_bins = 16;
 constexpr Eigen::Index voter_stride = 5;         // every fifth sample votes, with all others
-constexpr double most_different = 0.03;          // share of the area within any of the distances
-constexpr double most_nearer = 0.05;             // difference of the distances from the centroid, own frame
-constexpr double least_turn = 0.4;               // radians
-constexpr double least_pair = 0.1;               // pairs nearer than this say little, own frame
+constexpr double max_difference = 0.03;          // share of the area within any of the distances
+constexpr double max_radius_difference = 0.05;   // difference of the distances from the centroid, own frame
+constexpr double min_turn = 0.4;                 // radians
+constexpr double min_pair_distance = 0.1;        // pairs nearer than this say little, own frame
 constexpr double facing = 0.9;                   // cosine from which on normals count as agreeing
 constexpr double weight_of_disagreeing = 0.2;    // noise spoils normals, so they do not veto
 constexpr double cell = 0.12, bandwidth = 0.12;  // of unit normals and of offsets, own frame
-constexpr std::size_t most_seeds = 60, most_peaks = 24;
+constexpr std::size_t max_seeds = 60, max_peaks = 24;
 
 /// Per sample the share of the surface within growing distances: a shape distribution (Osada et al. 2002)
 /// seen from it.
@@ -75,7 +75,7 @@ std::vector<Peak> fullest_cells(const std::vector<Vote>& votes) {
   for (const auto& [key, peak] : cells) peaks.push_back({peak.place / peak.weight, peak.weight});
   std::stable_sort(peaks.begin(), peaks.end(),
                    [](const Peak& a, const Peak& b) { return a.weight > b.weight; });
-  if (peaks.size() > most_seeds) peaks.resize(most_seeds);
+  if (peaks.size() > max_seeds) peaks.resize(max_seeds);
   return peaks;
 }
 
@@ -108,7 +108,7 @@ std::vector<Peak> peaks_of(const std::vector<Vote>& votes) {
   }
   std::stable_sort(peaks.begin(), peaks.end(),
                    [](const Peak& a, const Peak& b) { return a.weight > b.weight; });
-  if (peaks.size() > most_peaks) peaks.resize(most_peaks);
+  if (peaks.size() > max_peaks) peaks.resize(max_peaks);
   return peaks;
 }
 
@@ -119,15 +119,15 @@ void for_each_pair(const Points& points, const Visit& visit) {
   const Eigen::VectorXd radii = points.rowwise().norm();
   for (Eigen::Index i = 0; i < points.rows(); i += voter_stride)
     for (Eigen::Index j = 0; j < points.rows(); ++j)
-      if (i != j && std::abs(radii(i) - radii(j)) <= most_nearer &&
-          (signatures.row(i) - signatures.row(j)).cwiseAbs().maxCoeff() <= most_different)
+      if (i != j && std::abs(radii(i) - radii(j)) <= max_radius_difference &&
+          (signatures.row(i) - signatures.row(j)).cwiseAbs().maxCoeff() <= max_difference)
         visit(i, j);
 }
 
 /// Columns: towards the point, the normal across that, and their cross product; nothing where they hardly
 /// differ.
 std::optional<Eigen::Matrix3d> frame_of(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
-  if (point.norm() < least_pair) return {};
+  if (point.norm() < min_pair_distance) return {};
   Eigen::Matrix3d frame;
   frame.col(0) = point.normalized();
   const Eigen::Vector3d across = normal - frame.col(0) * frame.col(0).dot(normal);
@@ -145,7 +145,7 @@ std::vector<Symmetry> voted_reflections(const SymmetrySurface& surface, const Sy
   std::vector<Vote> votes;
   for_each_pair(samples.points, [&](Eigen::Index i, Eigen::Index j) {
     const Eigen::Vector3d a = samples.points.row(i), b = samples.points.row(j);
-    if ((b - a).norm() < least_pair) return;
+    if ((b - a).norm() < min_pair_distance) return;
     const Symmetry plane = bisector(a, b);
     const double offset = plane.axis.dot(plane.point);
     if (std::abs(offset) > reach) return;
@@ -173,7 +173,7 @@ std::vector<Symmetry> voted_axes(const SymmetrySurface& surface) {
         1 - facing)
       return;
     const Eigen::AngleAxisd turn(Eigen::Matrix3d(*to * from->transpose()));
-    if (turn.angle() < least_turn) return;
+    if (turn.angle() < min_turn) return;
     votes.push_back({{turn.axis().x(), turn.axis().y(), turn.axis().z(), 0}, 1});
   });
   std::vector<Symmetry> axes;

@@ -1,7 +1,7 @@
 #include <map>
 
-#include "deformation/controllers/correction_basis.h"
 #include "deformation/controllers/joint_copies.h"
+#include "deformation/controllers/reduced_basis.h"
 #include "deformation/controllers/relation_solver.h"
 #include "deformation/controllers/rig.h"
 #include "support/catch.h"
@@ -48,7 +48,7 @@ TEST_CASE("bases hold what self-symmetries leave, in as few columns as that take
       const Eigen::MatrixXd& basis = rig.bases[static_cast<std::size_t>(c)];
       const Primitive& first = rig.space.rest(rig.space.members(c).front());
       const double strain = rig.strains[static_cast<std::size_t>(c)];
-      const Eigen::MatrixXd all = rig.space.invariant_columns(c, correction_basis(first, strain));
+      const Eigen::MatrixXd all = rig.space.invariant_columns(c, reduced_basis(first, strain));
       const Eigen::MatrixXd wanted = all * all.transpose(), found = basis * basis.transpose();
       CHECK((found - wanted).norm() < 1e-9 * wanted.norm());
       CHECK((rig.space.invariant_columns(c, basis) - basis).norm() < 1e-12 * basis.norm());

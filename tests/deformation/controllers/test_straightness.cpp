@@ -90,13 +90,13 @@ TEST_CASE("a settled step leaves a cone a straight cone, however long it is") {
   now.radii += step.tail(n);
   REQUIRE(bend(now.centres) > 1e-3);
   REQUIRE(profile_bend(now) > 1e-3);
-  const GeneralizedCylinder settled = corrections.settled(now);
+  const GeneralizedCylinder settled = corrections.retract(now);
   CHECK(bend(settled.centres) < 1e-13);
   CHECK(profile_bend(settled) < 1e-13);
   CHECK((settled.centres.row(0) - now.centres.row(0)).norm() < 1e-14);
   CHECK((settled.centres.row(n - 1) - now.centres.row(n - 1)).norm() < 1e-14);
   // Nothing is left to settle.
-  const GeneralizedCylinder again = corrections.settled(settled);
+  const GeneralizedCylinder again = corrections.retract(settled);
   CHECK((again.centres - settled.centres).cwiseAbs().maxCoeff() < 1e-13);
   CHECK((again.radii - settled.radii).cwiseAbs().maxCoeff() < 1e-13);
 }
@@ -108,7 +108,7 @@ TEST_CASE("what an edit prescribes of a straight cylinder is not settled away") 
   GeneralizedCylinder now = cylinder;
   now.centres.row(4) += Eigen::RowVector3d(0.3, -0.2, 0.1);
   now.centres.row(9) += Eigen::RowVector3d(-0.1, 0.4, 0.2);
-  const GeneralizedCylinder settled = corrections.settled(now);
+  const GeneralizedCylinder settled = corrections.retract(now);
   CHECK(settled.centres.row(4) == now.centres.row(4));
   CHECK(settled.radii(7) == Approx(cylinder.radii(7)).epsilon(1e-14));
   CHECK(bend(settled.centres) < 1e-13);
@@ -127,9 +127,9 @@ TEST_CASE("what is slightly bent is carried as it is") {
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, -1).normalized()).matrix();
   GeneralizedCylinder now = bow;
   now.centres = bow.centres * turn.transpose();
-  CHECK(bend(corrections.settled(now).centres) == Approx(bend(bow.centres)).epsilon(1e-12));
+  CHECK(bend(corrections.retract(now).centres) == Approx(bend(bow.centres)).epsilon(1e-12));
   now.centres = bow.centres + 0.3 * Eigen::VectorXd::LinSpaced(12, 0, 1) * across.transpose();
-  CHECK(bend(corrections.settled(now).centres) == Approx(bend(bow.centres)).epsilon(1e-12));
+  CHECK(bend(corrections.retract(now).centres) == Approx(bend(bow.centres)).epsilon(1e-12));
 }
 
 TEST_CASE("the least slide to a place is linear on either side, and stiff at the ends") {

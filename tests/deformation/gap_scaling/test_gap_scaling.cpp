@@ -2,7 +2,7 @@
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/gap_scaling.h"
-#include "stackabilization/deformation/refined.h"
+#include "stackabilization/deformation/refine.h"
 #include "stackabilization/envelope/separation.h"
 #include "stackabilization/io/read.h"
 #include "support/catch.h"
@@ -111,11 +111,11 @@ TEST_CASE("gap scaling: every vertex of a table goes where its column says") {
 
 TEST_CASE("gap scaling: refined triangles follow the envelope below slopes, not below steps") {
   RefineOptions fine;
-  fine.longest_edge = 0.02;
+  fine.max_edge_length = 0.02;
   // The outer wall of a cup is one triangle high, the inner bottom above it has a corner half way.
   solids::FrustumShell options;
   options.segments = 16;
-  const Shape cup = solids::frustum_shell(options), fine_cup = refined(cup, fine);
+  const Shape cup = solids::frustum_shell(options), fine_cup = refine(cup, fine);
   const double wanted = 0.5 * solids::frustum_shell_f_max(options);
   CHECK(f_max(fine_cup) == Approx(2 * wanted).epsilon(1e-12));
   CHECK(f_max(squashed(cup, 0.5)) > 1.2 * wanted);
@@ -124,7 +124,7 @@ TEST_CASE("gap scaling: refined triangles follow the envelope below slopes, not 
 
   // Beyond x = 1.3 no roof covers the plate, and no vertex of the plate is right there.
   const Shape roof = concatenate(solids::box({0, 0, 0}, {4, 1, 1}), solids::box({0, 0, 3}, {1.3, 1, 4}));
-  CHECK(f_max(squashed(refined(roof, fine), 0.5)) > 1.2 * 0.5 * f_max(roof));
+  CHECK(f_max(squashed(refine(roof, fine), 0.5)) > 1.2 * 0.5 * f_max(roof));
 }
 
 TEST_CASE("gap scaling: no edit, no change, and factors multiply") {
@@ -209,8 +209,8 @@ TEST_CASE("gap scaling: 1000 random edits keep the extent and give finite vertic
 TEST_CASE("refined: short edges, the same surface") {
   const Shape shape = read_shape(STACKABILIZATION_SOURCE_DIR "/data/models/table.obj");
   RefineOptions options;
-  options.longest_edge = 0.05;
-  const Shape fine = refined(shape, options);
+  options.max_edge_length = 0.05;
+  const Shape fine = refine(shape, options);
   const double diagonal = (shape.vertices.colwise().maxCoeff() - shape.vertices.colwise().minCoeff()).norm();
   double longest = 0;
   for (Eigen::Index t = 0; t < fine.triangle_count(); ++t)
@@ -225,12 +225,12 @@ TEST_CASE("refined: short edges, the same surface") {
     CHECK(solids::surface_area(b) == Approx(solids::surface_area(a)).epsilon(1e-12));
     CHECK(solids::signed_volume(b) == Approx(solids::signed_volume(a)).epsilon(1e-12));
   }
-  CHECK(solids::is_closed(refined(solids::torus({}), {0.01, 1'000'000})));
-  options.longest_edge = 1;
-  CHECK(refined(shape, options).triangles == shape.triangles);
+  CHECK(solids::is_closed(refine(solids::torus({}), {0.01, 1'000'000})));
+  options.max_edge_length = 1;
+  CHECK(refine(shape, options).triangles == shape.triangles);
 
-  options.longest_edge = 0;
-  CHECK_THROWS_AS(refined(shape, options), UsageError);
+  options.max_edge_length = 0;
+  CHECK_THROWS_AS(refine(shape, options), UsageError);
   options = {1e-300, 100'000};
-  CHECK_THROWS_AS(refined(shape, options), UsageError);
+  CHECK_THROWS_AS(refine(shape, options), UsageError);
 }

@@ -156,8 +156,8 @@ TEST_CASE("points ride on a cuboid affinely, however thin it is") {
       for (int a = 0; a < 3; ++a)
         point += random.uniform(-1, 1) * (rest.corners.row(1 << a) - rest.corners.row(0)).transpose();
       if (thickness > 0) point += 0.01 * random.in_cube();
-      CHECK(carried(rest, rest, point) == point);
-      CHECK((carried(rest, moved_primitive(rest, linear, by, 1), point) - (linear * point + by)).norm() <
+      CHECK(deform_point(rest, rest, point) == point);
+      CHECK((deform_point(rest, moved_primitive(rest, linear, by, 1), point) - (linear * point + by)).norm() <
             1e-12 * 40);
     }
   }
@@ -170,12 +170,11 @@ TEST_CASE("points ride on generalized cylinders exactly through rest, rigid moti
     const Eigen::Vector3d by = 3 * random.in_cube();
     for (int trial = 0; trial < 200; ++trial) {
       const Eigen::Vector3d point = 4 * random.in_cube();
-      CHECK((carried(rest, rest, point) - point).norm() < 1e-13);
+      CHECK((deform_point(rest, rest, point) - point).norm() < 1e-13);
       for (const double factor : {1.0, 0.8, 1.7}) {
         const Eigen::Matrix3d linear = factor * rotation.toRotationMatrix();
-        CHECK(
-            (carried(rest, moved_primitive(rest, linear, by, factor), point) - (linear * point + by)).norm() <
-            1e-12 * 20);
+        CHECK((deform_point(rest, moved_primitive(rest, linear, by, factor), point) - (linear * point + by))
+                  .norm() < 1e-12 * 20);
       }
     }
   }
@@ -187,16 +186,17 @@ TEST_CASE("far from the origin points ride as exactly as their coordinates allow
   GeneralizedCylinder now = rest;
   now.centres.rowwise() += Eigen::RowVector3d(0.5, 0, 0);
   const Eigen::Vector3d point(1e4 + 1, -2e4 + 0.1, 3e4);
-  CHECK((carried(rest, now, point) - point - Eigen::Vector3d(0.5, 0, 0)).norm() < 1e-11);
+  CHECK((deform_point(rest, now, point) - point - Eigen::Vector3d(0.5, 0, 0)).norm() < 1e-11);
 }
 
 TEST_CASE("a scaled cross-section scales what lies across the curve and leaves the ends where they are") {
   const GeneralizedCylinder rest = structures::straight_cylinder({0, 0, 0}, {0, 0, 4}, 1, 5);
   GeneralizedCylinder now = rest;
   now.radii << 1, 2, 3, 2, 0.5;
-  CHECK((carried(rest, now, {0.5, 0, 2}) - Eigen::Vector3d(1.5, 0, 2)).norm() < 1e-14);
-  CHECK((carried(rest, now, {0, 1, 1.5}) - Eigen::Vector3d(0, 2.5, 1.5)).norm() < 1e-14);
-  CHECK((carried(rest, now, {1, 0, 4.25}) - Eigen::Vector3d(0.5, 0, 4.25)).norm() < 1e-14);  // beyond the end
+  CHECK((deform_point(rest, now, {0.5, 0, 2}) - Eigen::Vector3d(1.5, 0, 2)).norm() < 1e-14);
+  CHECK((deform_point(rest, now, {0, 1, 1.5}) - Eigen::Vector3d(0, 2.5, 1.5)).norm() < 1e-14);
+  CHECK((deform_point(rest, now, {1, 0, 4.25}) - Eigen::Vector3d(0.5, 0, 4.25)).norm() <
+        1e-14);  // beyond the end
 }
 
 TEST_CASE("a bent curve carries the plane of each section rigidly and what lies between without a step") {
@@ -207,12 +207,12 @@ TEST_CASE("a bent curve carries the plane of each section rigidly and what lies 
   for (int i = 0; i < 7; ++i) {
     const Eigen::Vector3d point(0.3, 0.8, i), c = now.centres.row(i).transpose(),
                                               t = tangents.row(i).transpose();
-    const Eigen::Vector3d image = carried(rest, now, point);
+    const Eigen::Vector3d image = deform_point(rest, now, point);
     CHECK(std::abs((image - c).norm() - std::hypot(0.3, 0.8)) < 1e-13);
     CHECK(std::abs((image - c).dot(t)) < 1e-13);
     CHECK(std::abs(image.y() - 0.8) < 1e-13);
-    CHECK((carried(rest, now, {0.3, 0.8, i - 1e-9}) - carried(rest, now, {0.3, 0.8, i + 1e-9})).norm() <
-          1e-8);
+    CHECK((deform_point(rest, now, {0.3, 0.8, i - 1e-9}) - deform_point(rest, now, {0.3, 0.8, i + 1e-9}))
+              .norm() < 1e-8);
   }
 }
 
@@ -225,7 +225,7 @@ TEST_CASE("around a bend of a curve at rest, places vary without a jump from sec
   // corner.
   for (double angle = 0.05; angle < 2.95; angle += 0.001) {
     const auto at = [](double a) { return Eigen::Vector3d(2.2 * std::cos(a), 0.2, 2.2 * std::sin(a)); };
-    CHECK((carried(rest, now, at(angle + 0.001)) - carried(rest, now, at(angle))).norm() < 0.01);
+    CHECK((deform_point(rest, now, at(angle + 0.001)) - deform_point(rest, now, at(angle))).norm() < 0.01);
   }
 }
 
@@ -250,7 +250,7 @@ TEST_CASE("dual quaternions blend along the shorter way") {
 TEST_CASE("the jacobian of a carried point is that of central differences") {
   solids::Random random(9);
   for (const GeneralizedCylinder& rest : cylinders()) {
-    const detail::Carrier carrier(rest);
+    const detail::PrimitiveBinding carrier(rest);
     GeneralizedCylinder now = rest;
     for (double& x : now.centres.reshaped()) x += random.uniform(-0.05, 0.05);
     for (double& r : now.radii) r *= random.uniform(0.9, 1.1);
@@ -266,7 +266,7 @@ TEST_CASE("the jacobian of a carried point is that of central differences") {
         GeneralizedCylinder varied = now;
         (k < 3 * rest.centres.rows() ? varied.centres(k / 3, k % 3)
                                      : varied.radii(k - 3 * rest.centres.rows())) += step;
-        return carrier.carried(binding, varied);
+        return carrier.position_of(binding, varied);
       };
       CHECK((dense.col(k) - (at(1e-5) - at(-1e-5)) / 2e-5).norm() < 1e-5);
     }

@@ -34,34 +34,34 @@ TEST_CASE("without an edit or a constraint, vertices stay to the bit") {
   constraints.box_tolerance = 0;
   constraints.fixed_parts = {1};
   const Rows fixed = fixed_vertices(table(), constraints);
-  const ConstrainedVertices same = constrained(table(), table().vertices, constraints, fixed);
+  const ConstrainedVertices same = constrain(table(), table().vertices, constraints, fixed);
   CHECK_FALSE(same.refusal);
   CHECK(same.vertices == table().vertices);
   const Points moved = stretched(table().vertices, 1.5, 3);
-  CHECK(constrained(table(), moved, {}, {}).vertices == moved);
+  CHECK(constrain(table(), moved, {}, {}).vertices == moved);
 }
 
 TEST_CASE("a moved shape has kept its extent") {
   DeformationConstraints constraints;
   constraints.keep_extent = Direction(0, 0, 1);
   const Points moved = stretched(table().vertices, 1, 0.7);
-  CHECK(largest_difference(constrained(table(), moved, constraints, {}).vertices, moved) < 1e-14);
+  CHECK(largest_difference(constrain(table(), moved, constraints, {}).vertices, moved) < 1e-14);
 }
 
 TEST_CASE("the extent is restored from the end that did not move") {
   DeformationConstraints constraints;
   constraints.keep_extent = Direction(0, 0, 1);
   const Points& rest = table().vertices;  // from 0 to 6
-  CHECK(largest_difference(constrained(table(), stretched(rest, 1.5, 0), constraints, {}).vertices, rest) <
+  CHECK(largest_difference(constrain(table(), stretched(rest, 1.5, 0), constraints, {}).vertices, rest) <
         1e-14);
-  CHECK(largest_difference(constrained(table(), stretched(rest, 0.5, 3), constraints, {}).vertices, rest) <
+  CHECK(largest_difference(constrain(table(), stretched(rest, 0.5, 3), constraints, {}).vertices, rest) <
         1e-14);
   // Grown by one at both ends: rest lies between them.
-  CHECK(largest_difference(constrained(table(), stretched(rest, 8.0 / 6, -1), constraints, {}).vertices,
-                           rest) < 1e-14);
+  CHECK(largest_difference(constrain(table(), stretched(rest, 8.0 / 6, -1), constraints, {}).vertices, rest) <
+        1e-14);
   // Moved by two, then one more at the top: it keeps the bottom where it is now, which is nearest.
   const Points both = stretched(rest, 7.0 / 6, 2);
-  CHECK(largest_difference(constrained(table(), both, constraints, {}).vertices, stretched(rest, 1, 2)) <
+  CHECK(largest_difference(constrain(table(), both, constraints, {}).vertices, stretched(rest, 1, 2)) <
         1e-14);
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("the extent is restored along any direction, after any deformation") {
     Shape moved = shape;
     for (Eigen::Index v = 0; v < moved.vertex_count(); ++v)
       moved.vertices.row(v) += random.in_cube().transpose();
-    const ConstrainedVertices result = constrained(shape, moved.vertices, constraints, {});
+    const ConstrainedVertices result = constrain(shape, moved.vertices, constraints, {});
     REQUIRE_FALSE(result.refusal);
     // Nothing goes across r.
     const Points by = result.vertices - moved.vertices;
@@ -94,7 +94,7 @@ TEST_CASE("fixed vertices keep their place while the extent is restored around t
   Points vertices = table().vertices;
   for (Eigen::Index v = 0; v < vertices.rows(); ++v)
     if (vertices(v, 2) > 0) vertices(v, 2) += 2;
-  const ConstrainedVertices result = constrained(table(), vertices, constraints, fixed);
+  const ConstrainedVertices result = constrain(table(), vertices, constraints, fixed);
   REQUIRE_FALSE(result.refusal);
   CHECK(result.vertices(Eigen::all, 2).maxCoeff() == Approx(6).epsilon(1e-14));
   for (const std::int32_t v : fixed) CHECK(result.vertices.row(v) == table().vertices.row(v));
@@ -103,7 +103,7 @@ TEST_CASE("fixed vertices keep their place while the extent is restored around t
   for (Eigen::Index v = 0; v < vertices.rows(); ++v)
     vertices(v, 2) = table().vertices(v, 2) == 0 ? -1 : table().vertices(v, 2);
   for (const std::int32_t v : fixed) vertices.row(v) = table().vertices.row(v);
-  const ConstrainedVertices below = constrained(table(), vertices, constraints, fixed);
+  const ConstrainedVertices below = constrain(table(), vertices, constraints, fixed);
   REQUIRE(below.refusal);
   CHECK(below.vertices == table().vertices);
   CHECK(below.refusal->amount == Approx(1 / std::sqrt(64 + 64 + 36)));
@@ -116,7 +116,7 @@ TEST_CASE("what moves a fixed vertex is refused") {
   CHECK(fixed.size() == 9);  // eight corners, one of them repeated in the top
   Points vertices = table().vertices;
   vertices(fixed[3], 0) += 1e-6;
-  const ConstrainedVertices result = constrained(table(), vertices, constraints, fixed);
+  const ConstrainedVertices result = constrain(table(), vertices, constraints, fixed);
   REQUIRE(result.refusal);
   CHECK(result.refusal->reason.find("fixed") != std::string::npos);
 }
@@ -124,14 +124,14 @@ TEST_CASE("what moves a fixed vertex is refused") {
 TEST_CASE("the box may change by its tolerance and no more") {
   DeformationConstraints constraints;
   constraints.box_tolerance = 0.1;
-  CHECK_FALSE(constrained(table(), stretched(table().vertices, 1.1, 5), constraints, {}).refusal);
-  CHECK_FALSE(constrained(table(), stretched(table().vertices, 0.9, 5), constraints, {}).refusal);
+  CHECK_FALSE(constrain(table(), stretched(table().vertices, 1.1, 5), constraints, {}).refusal);
+  CHECK_FALSE(constrain(table(), stretched(table().vertices, 0.9, 5), constraints, {}).refusal);
   const ConstrainedVertices result =
-      constrained(table(), stretched(table().vertices, 1.11, 0), constraints, {});
+      constrain(table(), stretched(table().vertices, 1.11, 0), constraints, {});
   REQUIRE(result.refusal);
   CHECK(result.refusal->reason.find("along z") != std::string::npos);
   constraints.box_tolerance = -1;
-  CHECK_THROWS_AS(constrained(table(), table().vertices, constraints, {}), UsageError);
+  CHECK_THROWS_AS(constrain(table(), table().vertices, constraints, {}), UsageError);
 }
 
 TEST_CASE("a fixed point fixes what carries it, and its twins") {
@@ -159,8 +159,8 @@ TEST_CASE("a fixed point fixes what carries it, and its twins") {
 TEST_CASE("numbers that are not finite and shapes that were flattened are refused") {
   Points vertices = table().vertices;
   vertices(4, 1) = std::numeric_limits<double>::infinity();
-  CHECK(constrained(table(), vertices, {}, {}).refusal);
+  CHECK(constrain(table(), vertices, {}, {}).refusal);
   DeformationConstraints constraints;
   constraints.keep_extent = Direction(0, 0, 1);
-  CHECK(constrained(table(), stretched(table().vertices, 0, 0), constraints, {}).refusal);
+  CHECK(constrain(table(), stretched(table().vertices, 0, 0), constraints, {}).refusal);
 }

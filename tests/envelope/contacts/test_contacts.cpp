@@ -138,7 +138,7 @@ TEST_CASE("the area of a union does not count overlaps twice") {
 TEST_CASE("regions are seen along r, not along an axis of the file") {
   // Along (1, 0, 1) an L rests on its inner corner and along both inner walls.
   const std::vector<ContactRegion> regions =
-      contacts(l_shape(4, 1), Direction(1, 0, 1), {Semantics::solid, 0});
+      contacts(l_shape(4, 1), Direction(1, 0, 1), {ContactSemantics::solid, 0});
   double expected = 0;
   // Inner side of the standing arm (3 x 1) and top of the lying arm (3 x 1), both seen at 45 degrees.
   expected = 2 * 3 * std::numbers::sqrt2 / 2;
@@ -206,7 +206,7 @@ TEST_CASE("regions do not depend on where the shape lies, how it is turned or ho
       {box({1, 8, 1}), {0, 0, 1}, 0},       {l_shape(4, 1), {1, 0, 1}, 0.01},
       {hook({}), {1, 2, 3}, 0.02},          {soup_on_grid(), {0.25, -0.5, 1}, 0.1}};
   for (const Example& example : examples) {
-    const ContactOptions options{Semantics::solid, example.band};
+    const ContactOptions options{ContactSemantics::solid, example.band};
     const std::vector<Summary> expected = summaries(contacts(example.shape, example.direction, options));
     REQUIRE(!expected.empty());
     check_same(summaries(contacts(subdivided(example.shape), example.direction, options)), expected);

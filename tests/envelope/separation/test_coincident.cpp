@@ -34,7 +34,7 @@ Shape instances(const Shape& one, int count, double shift) {
   return all;
 }
 
-SeparationOptions with_queue(Semantics semantics, std::int64_t max_queue) {
+SeparationOptions with_queue(ContactSemantics semantics, std::int64_t max_queue) {
   SeparationOptions options;
   options.semantics = semantics;
   options.max_queue = max_queue;
@@ -78,7 +78,7 @@ TEST_CASE("triangles with the same three points are one, named by the first") {
   CHECK(tree.data().copies.size() == 299 * 12);
   for (const TreeTriangle& triangle : tree.data().triangles) CHECK(triangle.index < 12);
   for (const TriangleCopy& copy : tree.data().copies) CHECK(copy.first == copy.copy % 12);
-  for (const Semantics semantics : {Semantics::solid, Semantics::closed})
+  for (const ContactSemantics semantics : {ContactSemantics::solid, ContactSemantics::closed})
     for (const Direction& r : few_directions()) {
       const Separation a = separation(tree, tree, r, {semantics, {}}),
                        b = separation(one, one, r, {semantics, {}});
@@ -113,7 +113,7 @@ TEST_CASE("a shape and some of its triangles twice are measured alike") {
     const Shape shape = triangle_soup(soup);
     const Shape twice = concatenate(shape, permuted(flipped(shape), seed));
     const SeparationTree a(shape), b(twice);
-    for (const Semantics semantics : {Semantics::solid, Semantics::closed})
+    for (const ContactSemantics semantics : {ContactSemantics::solid, ContactSemantics::closed})
       for (const Direction& r : few_directions()) {
         const Separation once = separation(a, a, r, {semantics, {}}),
                          doubled = separation(b, b, r, {semantics, {}});
@@ -145,7 +145,7 @@ TEST_CASE("a bounded queue finds the same value, and keeps to its bound") {
     soup.grid_bits = seed % 2 == 0 ? 3 : 0;
     const Shape shape = triangle_soup(soup);
     const SeparationTree tree(shape);
-    for (const Semantics semantics : {Semantics::solid, Semantics::closed})
+    for (const ContactSemantics semantics : {ContactSemantics::solid, ContactSemantics::closed})
       for (const Direction& r : few_directions()) {
         const Separation free = separation(tree, tree, r, with_queue(semantics, std::int64_t{1} << 40));
         const Enclosure wide = separation_enclosure(tree, tree, r, with_queue(semantics, 2));
@@ -153,7 +153,7 @@ TEST_CASE("a bounded queue finds the same value, and keeps to its bound") {
           const Separation bounded = separation(tree, tree, r, with_queue(semantics, bound));
           check_same_answer(free, bounded);
           if (bounded.blocked) check_witness(shape, bounded, r);
-          CHECK(bounded.work.largest_queue <= bound + 64);
+          CHECK(bounded.work.longest_queue <= bound + 64);
         }
         if (!free.blocked) continue;
         CHECK(Rational(wide.lower) <= free.value);
@@ -168,13 +168,13 @@ TEST_CASE("a bounded queue finds the same value on the shipped models") {
   for (const char* const name : {"chair.obj", "basket.obj", "mug_with_handle.obj"}) {
     INFO(name);
     const SeparationTree tree(read_shape(folder / name));
-    for (const Semantics semantics : {Semantics::solid, Semantics::closed})
+    for (const ContactSemantics semantics : {ContactSemantics::solid, ContactSemantics::closed})
       for (const Direction& r : few_directions()) {
         const Separation free = separation(tree, tree, r, {semantics, {}});
         for (const std::int64_t bound : {0, 5}) {
           const Separation bounded = separation(tree, tree, r, with_queue(semantics, bound));
           check_same_answer(free, bounded);
-          CHECK(bounded.work.largest_queue <= bound + 100);
+          CHECK(bounded.work.longest_queue <= bound + 100);
         }
       }
   }
@@ -182,14 +182,14 @@ TEST_CASE("a bounded queue finds the same value on the shipped models") {
 
 TEST_CASE("abandoning works with a full queue") {
   const SeparationTree tree(box({1, 2, 3}));
-  SeparationOptions options = with_queue(Semantics::solid, 0);
+  SeparationOptions options = with_queue(ContactSemantics::solid, 0);
   options.abandon_above = 2.0;
   CHECK(separation_enclosure(tree, tree, upwards, options).abandoned);
 }
 
 TEST_CASE("the work for parts in nearly the same place grows with their number, not its square") {
   for (const double shift : {1e-3, 1e-12})
-    for (const Semantics semantics : {Semantics::solid, Semantics::closed})
+    for (const ContactSemantics semantics : {ContactSemantics::solid, ContactSemantics::closed})
       for (const Direction& r : {Direction(0, 0, 1), Direction(0.3, 0.2, 1)}) {
         const Shape many = instances(box({1, 1, 1}), 500, shift);
         const SeparationTree tree(many);
@@ -198,7 +198,7 @@ TEST_CASE("the work for parts in nearly the same place grows with their number, 
         CHECK(work.node_pairs < 20 * many.triangle_count());
         CHECK(work.triangle_pairs < 20 * many.triangle_count());
         CHECK(work.exact_pairs < 1000);
-        CHECK(work.largest_queue < 20 * many.triangle_count());
+        CHECK(work.longest_queue < 20 * many.triangle_count());
       }
 }
 

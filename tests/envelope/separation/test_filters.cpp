@@ -100,7 +100,7 @@ TEST_CASE("bounds of a pair of triangles hold the exact height difference") {
   int certain = 0, narrow = 0;
   for (const Shape& shape : hostile_shapes())
     for (const Direction& r : hostile_directions())
-      for (const Semantics semantics : {Semantics::solid, Semantics::closed}) {
+      for (const ContactSemantics semantics : {ContactSemantics::solid, ContactSemantics::closed}) {
         const Projection projection(r, magnitude(shape), semantics);
         const std::vector<TreeTriangle> triangles = triangles_of(shape);
         for (const TreeTriangle& a : triangles)
@@ -133,7 +133,7 @@ TEST_CASE("the bound of a pair of nodes holds every pair below it") {
         leaves[static_cast<std::size_t>(tree.data().triangles[static_cast<std::size_t>(t)].index)].push_back(
             n);
     for (const Direction& r : {hostile_directions()[0], hostile_directions()[3], hostile_directions()[6]}) {
-      const Projection projection(r, tree.data().magnitude, Semantics::closed);
+      const Projection projection(r, tree.data().magnitude, ContactSemantics::closed);
       const NodePairBound node_bound(tree.data().magnitude);
       const auto bound = [&](std::size_t a, std::size_t b) {
         return node_bound(ProjectedNode(nodes[a], projection), ProjectedNode(nodes[b], projection), no_floor);

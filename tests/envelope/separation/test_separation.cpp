@@ -75,9 +75,9 @@ TEST_CASE("f_max of analytic solids is the closed form, exactly") {
 }
 
 TEST_CASE("walls in one plane block in closed semantics only") {
-  CHECK(exact_f_max(boxes_sharing_wall(), upwards, Semantics::solid) == Rational(1.0));
-  CHECK(exact_f_max(boxes_sharing_wall(), upwards, Semantics::closed) == Rational(3.0));
-  CHECK(exact_f_max(boxes_sharing_wall(), Direction(0, 0, -1), Semantics::closed) == Rational(3.0));
+  CHECK(exact_f_max(boxes_sharing_wall(), upwards, ContactSemantics::solid) == Rational(1.0));
+  CHECK(exact_f_max(boxes_sharing_wall(), upwards, ContactSemantics::closed) == Rational(3.0));
+  CHECK(exact_f_max(boxes_sharing_wall(), Direction(0, 0, -1), ContactSemantics::closed) == Rational(3.0));
 }
 
 TEST_CASE("every answer equals pairwise clipping in rational arithmetic") {
@@ -179,8 +179,10 @@ TEST_CASE("shapes that pass each other are not blocked") {
   const Shape a = box({1, 1, 1}), apart = box({3, 0, 0}, {4, 1, 1}), touching = box({1, 0, 0}, {2, 1, 1});
   CHECK_FALSE(separation(SeparationTree(a), SeparationTree(apart), upwards).blocked);
   CHECK_FALSE(separation(SeparationTree(a), SeparationTree(touching), upwards).blocked);
-  CHECK(separation(SeparationTree(a), SeparationTree(touching), upwards, {Semantics::closed, {}}).blocked);
-  CHECK_FALSE(separation(SeparationTree(a), SeparationTree(apart), upwards, {Semantics::closed, {}}).blocked);
+  CHECK(separation(SeparationTree(a), SeparationTree(touching), upwards, {ContactSemantics::closed, {}})
+            .blocked);
+  CHECK_FALSE(
+      separation(SeparationTree(a), SeparationTree(apart), upwards, {ContactSemantics::closed, {}}).blocked);
 }
 
 TEST_CASE("a sheet parallel to r has no area to collide with") {
@@ -190,7 +192,7 @@ TEST_CASE("a sheet parallel to r has no area to collide with") {
   triangles << 0, 1, 2;
   const Shape wall = make_shape(vertices, triangles);
   CHECK_FALSE(minimal_stacking_translation(wall, upwards).blocked);
-  CHECK(exact_f_max(wall, upwards, Semantics::closed) == Rational(1.0));
+  CHECK(exact_f_max(wall, upwards, ContactSemantics::closed) == Rational(1.0));
   CHECK(exact_f_max(wall, Direction(0, 1, 0)) == Rational(0.0));
 }
 
@@ -200,8 +202,8 @@ TEST_CASE("points and segments block in closed semantics") {
   Triangles triangles(2, 3);
   triangles << 0, 1, 2, 3, 4, 5;
   const Shape shape = make_shape(vertices, triangles);
-  CHECK(exact_f_max(shape, upwards, Semantics::closed) == Rational(3.0));
-  CHECK(exact_f_max(shape, upwards, Semantics::solid) == Rational(0.0));
+  CHECK(exact_f_max(shape, upwards, ContactSemantics::closed) == Rational(3.0));
+  CHECK(exact_f_max(shape, upwards, ContactSemantics::solid) == Rational(0.0));
 }
 
 TEST_CASE("the enclosure holds the exact value and is narrow") {

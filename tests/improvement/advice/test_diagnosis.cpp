@@ -15,7 +15,7 @@ BestFirstResult stuck_at_rest(const RequirementChecker& checker) {
   BestFirstResult result;
   Candidate candidate;
   candidate.design = checker.space().at_rest();
-  candidate.measured = checker.measured(candidate.design.shape, Direction(0, 0, 1));
+  candidate.measured = checker.measure(candidate.design.shape, Direction(0, 0, 1));
   result.nearest = {candidate};
   return result;
 }
@@ -40,7 +40,7 @@ TEST_CASE("parts that must stay are what is in the way, and freeing the legs is 
   const RequirementChecker checker(*space, requirements);
   BestFirstResult result = stuck_at_rest(checker);
   result.refusals = {{"'leg_1' is fixed", 12}, {"the box would grow", 1}};
-  const Diagnosis diagnosis = diagnosed(checker, result);
+  const Diagnosis diagnosis = diagnose(checker, result);
 
   CHECK(diagnosis.target == 0.8);
   CHECK(diagnosis.reached == Approx(0).margin(1e-9));
@@ -77,7 +77,7 @@ TEST_CASE("freeing the legs is what lets a table sink deeper") {
   for (const char* leg : {"leg_1", "leg_2", "leg_3", "leg_4"})
     requirements.kept_parts.push_back(structures::part_named(table, leg));
   const RequirementChecker checker(*space, requirements);
-  const Diagnosis diagnosis = diagnosed(checker, stuck_at_rest(checker));
+  const Diagnosis diagnosis = diagnose(checker, stuck_at_rest(checker));
   const Remedy* freed = remedy_of(diagnosis, Remedy::Kind::free_part);
   REQUIRE(freed != nullptr);
   CHECK(freed->parts == requirements.kept_parts);
@@ -90,7 +90,7 @@ TEST_CASE("freeing the legs is what lets a table sink deeper") {
     if (std::count(requirements.kept_parts.begin(), requirements.kept_parts.end(), part) == 0)
       others.editable_parts.push_back(part);
   const RequirementChecker same(*space, others);
-  const Diagnosis again = diagnosed(same, stuck_at_rest(same));
+  const Diagnosis again = diagnose(same, stuck_at_rest(same));
   REQUIRE(remedy_of(again, Remedy::Kind::free_part) != nullptr);
   CHECK(remedy_of(again, Remedy::Kind::free_part)->stackability == freed->stackability);
 }
@@ -99,7 +99,7 @@ TEST_CASE("nothing that must stay is offered to be left out or freed without nee
   const StructuredShape table = structures::table();
   const auto space = design_space(table);
   const RequirementChecker checker(*space, designs::frame_requirements(0.8));
-  const Diagnosis diagnosis = diagnosed(checker, stuck_at_rest(checker));
+  const Diagnosis diagnosis = diagnose(checker, stuck_at_rest(checker));
   CHECK(remedy_of(diagnosis, Remedy::Kind::free_part) == nullptr);
   for (std::size_t k = 0; k < diagnosis.remedies.size(); ++k) {
     CHECK(diagnosis.remedies[k].stackability > diagnosis.reached);
@@ -116,11 +116,11 @@ TEST_CASE("a box that lies on its side is better stacked another way") {
   l.shape.part_names = {"box"};
   const auto space = design_space(l);
   const RequirementChecker checker(*space, designs::frame_requirements(0.9));
-  const Diagnosis diagnosis = diagnosed(checker, stuck_at_rest(checker));
+  const Diagnosis diagnosis = diagnose(checker, stuck_at_rest(checker));
   const Remedy* other = remedy_of(diagnosis, Remedy::Kind::other_direction);
   REQUIRE(other != nullptr);
   CHECK(other->stackability > 0.3);
-  CHECK(checker.measured(l.shape, Direction(other->direction)).value == Approx(other->stackability));
+  CHECK(checker.measure(l.shape, Direction(other->direction)).value == Approx(other->stackability));
   CHECK(mentions(stackabilization::text(diagnosis, l), "stack along ("));
 }
 

@@ -17,8 +17,8 @@ TEST_CASE("the swivel chair is kept apart by its base under the back") {
   BestFirstResult result;
   result.nearest.resize(1);
   result.nearest[0].design = space->at_rest();
-  result.nearest[0].measured = checker.measured(chair.shape, Direction(0, 0, 1));
-  const Diagnosis diagnosis = diagnosed(checker, result);
+  result.nearest[0].measured = checker.measure(chair.shape, Direction(0, 0, 1));
+  const Diagnosis diagnosis = diagnose(checker, result);
   REQUIRE_FALSE(diagnosis.blockers.empty());
   const Blocker& blocker = diagnosis.blockers.front();
   const auto name = [&](int part) { return chair.shape.part_names[static_cast<std::size_t>(part)]; };

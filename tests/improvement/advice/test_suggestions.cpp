@@ -51,7 +51,7 @@ TEST_CASE("a table has suggestions: possible ones by energy, then refused ones w
 
 TEST_CASE("what a suggestion promises is what its edit does") {
   const Task task(structures::mug());
-  const double at_rest = task.checker.checked(task.space->at_rest(), upwards).measured.value;
+  const double at_rest = task.checker.check(task.space->at_rest(), upwards).measured.value;
   const EnergyMeter meter(task.space->rest(), BoxModel::frame);
   const std::vector<Suggestion> list = task.all();
   REQUIRE(possible(list) > 0);

@@ -280,7 +280,7 @@ TEST_CASE("symmetric regions count once") {
   // diagonals, and to both sides of both axes.
   CHECK(each.size() == 4 * 12 + 8);
   ContactEditOptions few = paper();
-  few.most_regions = 2;
+  few.max_regions = 2;
   CHECK(edits_of(table, regions, upwards, few).back().region == 1);
 }
 
@@ -443,7 +443,7 @@ TEST_CASE("nothing touches: nothing to suggest, and options out of range are ref
   refused([](auto& o) { o.scale_step = -0.1; });
   refused([](auto& o) { o.multiples = {}; });
   refused([](auto& o) { o.multiples = {1, 10}; });
-  refused([](auto& o) { o.most_regions = 0; });
+  refused([](auto& o) { o.max_regions = 0; });
 }
 
 }  // namespace

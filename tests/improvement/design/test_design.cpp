@@ -252,12 +252,12 @@ TEST_CASE("carried primitives fit in the least-squares sense, and stay where not
   const Eigen::RowVector3d centre = moved.colwise().mean(), d(0.1, 0.2, 0.3);
   const Points offsets = moved.rowwise() - centre;
   const Eigen::Matrix3d moments = offsets.transpose() * offsets;
-  const Eigen::Vector3d pull = moments.inverse() * offsets.row(3).transpose();
+  const Eigen::Vector3d reduced_costs = moments.inverse() * offsets.row(3).transpose();
   moved.row(3) += d;
   const auto& before = std::get<Cuboid>(rest.structure.parts[0].primitive).corners;
   const auto after = std::get<Cuboid>(carried.at(moved)[0]).corners;
   for (int k = 0; k < 8; ++k) {
-    const double share = 1 / static_cast<double>(moved.rows()) + (before.row(k) - centre).dot(pull);
+    const double share = 1 / static_cast<double>(moved.rows()) + (before.row(k) - centre).dot(reduced_costs);
     CHECK((after.row(k) - before.row(k) - share * d).norm() < 1e-14);
   }
   const StructuredShape table = structures::table();

@@ -96,7 +96,7 @@ TEST_CASE("removing nothing changes nothing") {
 
 TEST_CASE("pieces hold all triangles and every relation that is not cut") {
   const StructuredShape table = structures::table();
-  const std::vector<StructuredShape> pieces = partitioned(table, {{8, 7, 6, 5, 4, 3, 2, 1}, {0}});
+  const std::vector<StructuredShape> pieces = split_into_groups(table, {{8, 7, 6, 5, 4, 3, 2, 1}, {0}});
   REQUIRE(pieces.size() == 2);
   CHECK(names_of(pieces[0])[0] == "leg_1");
   CHECK(names_of(pieces[1]) == std::vector<std::string>{"top"});
@@ -111,11 +111,11 @@ TEST_CASE("removals and partitions refuse parts that do not exist or are not sha
   CHECK_THROWS_AS(without_parts(table, {0, 1, 2, 3, 4, 5, 6, 7, 8}), UsageError);
   CHECK_THROWS_AS(without_parts(table, {9}), UsageError);
   CHECK_THROWS_AS(without_parts(table, {-1}), UsageError);
-  CHECK_THROWS_AS(partitioned(table, {}), UsageError);
-  CHECK_THROWS_AS(partitioned(table, {{0, 1, 2, 3, 4, 5, 6, 7, 8}, {}}), UsageError);
-  CHECK_THROWS_AS(partitioned(table, {{0, 1, 2, 3, 4, 5, 6, 7}}), UsageError);
-  CHECK_THROWS_AS(partitioned(table, {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 0}}), UsageError);
-  CHECK_THROWS_AS(partitioned(table, {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}), UsageError);
+  CHECK_THROWS_AS(split_into_groups(table, {}), UsageError);
+  CHECK_THROWS_AS(split_into_groups(table, {{0, 1, 2, 3, 4, 5, 6, 7, 8}, {}}), UsageError);
+  CHECK_THROWS_AS(split_into_groups(table, {{0, 1, 2, 3, 4, 5, 6, 7}}), UsageError);
+  CHECK_THROWS_AS(split_into_groups(table, {{0, 1, 2, 3, 4, 5, 6, 7}, {8, 0}}), UsageError);
+  CHECK_THROWS_AS(split_into_groups(table, {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}), UsageError);
   RemovalOptions nowhere;
   nowhere.directions.clear();
   CHECK_THROWS_AS(removals(table, nowhere), UsageError);

@@ -25,12 +25,12 @@ constexpr double limit = 0.7;  // of the scale of the bottom, in spaces that ref
 /// Cups of eight segments whose bottoms may have a least radius.
 class BoundedCups : public Cups {
  public:
-  explicit BoundedCups(double least_bottom = 0) : Cups(8), least_bottom_(least_bottom) {}
+  explicit BoundedCups(double min_bottom = 0) : Cups(8), min_bottom_(min_bottom) {}
 
   DesignOutcome edited(const Design& now, const Edit& edit,
                        const DeformationConstraints& constraints) const override {
     const DesignOutcome outcome = Cups::edited(now, edit, constraints);
-    if (!outcome.refusal && cups::radii(outcome.design)[0] < least_bottom_)
+    if (!outcome.refusal && cups::radii(outcome.design)[0] < min_bottom_)
       return {Refusal{"the bottom would be too small", {}, 0}, now};
     return outcome;
   }
@@ -38,18 +38,18 @@ class BoundedCups : public Cups {
   Candidate candidate(const RequirementChecker& checker, const std::vector<Edit>& edits) const {
     Candidate result;
     result.design = replayed(edits, {}).design;
-    result.measured = checker.measured(result.design.shape, Direction(0, 0, 1));
+    result.measured = checker.measure(result.design.shape, Direction(0, 0, 1));
     for (std::size_t k = 0; k < edits.size(); ++k) result.reasons.push_back("edit " + std::to_string(k));
     return result;
   }
 
  private:
-  double least_bottom_;
+  double min_bottom_;
 };
 
 Requirements stacks(double target) {
   Requirements requirements = designs::frame_requirements(target);
-  requirements.least_proportion = 0;
+  requirements.min_size_ratio = 0;
   return requirements;
 }
 
@@ -63,13 +63,13 @@ double volume_change(double bottom, double top) {
 
 RefinementOptions of_distortion() {
   RefinementOptions options;
-  options.least = ChangeMeasure::distortion;
+  options.objective = ChangeMeasure::distortion;
   return options;
 }
 
 RefinementOptions without_joining() {
   RefinementOptions options = of_distortion();
-  options.joining = 0;
+  options.max_added_edits = 0;
   return options;
 }
 
@@ -110,7 +110,7 @@ TEST_CASE("edits that do the same thing become one, those that change nothing va
                                    {part, Rotate{{0, 0, 1}, 0.25}},
                                    {part, Rotate{{0, 0, -2}, 1}},
                                    {part, Scale{1, {}}}};
-  const std::vector<Edit> result = merged(edits);
+  const std::vector<Edit> result = merge_edits(edits);
   REQUIRE(result.size() == 5);
   CHECK(std::get<Move>(result[0].operation).by == Eigen::Vector3d(3, 0, 0));
   CHECK(std::get<Scale>(result[1].operation).factor == 1.5);
@@ -123,14 +123,14 @@ TEST_CASE("edits that do the same thing become one, those that change nothing va
 
   Edit linear = scale(0, 0.5), gaussian = linear;
   gaussian.falloff = Falloff::gaussian;
-  CHECK(merged({linear, gaussian}).size() == 2);
-  CHECK(merged({linear, scale(1, 0.5)}).size() == 2);
-  CHECK(merged({scale(0, 0.5), scale(0, 2)}).empty());
+  CHECK(merge_edits({linear, gaussian}).size() == 2);
+  CHECK(merge_edits({linear, scale(1, 0.5)}).size() == 2);
+  CHECK(merge_edits({scale(0, 0.5), scale(0, 2)}).empty());
 }
 
 TEST_CASE("f_max is the maximum over pairs of blocks") {
   const Direction direction(0.1, -0.2, 1);
-  for (const Semantics semantics : {Semantics::solid, Semantics::closed})
+  for (const ContactSemantics semantics : {ContactSemantics::solid, ContactSemantics::closed})
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
       const Shape rest = solids::triangle_soup({seed, 120, 0.3, 3});
       const detail::BlockSeparations blocks(rest, direction, semantics);
@@ -151,7 +151,7 @@ TEST_CASE("blocks that pass each other are told from those that meet") {
   const Shape apart = concatenate(solids::box({0, 0, 0}, {1, 1, 1}), solids::box({5, 0, 2}, {6, 1, 4}));
   Shape met = apart;
   for (Eigen::Index v = 8; v < met.vertex_count(); ++v) met.vertices(v, 0) -= 4.5;
-  const detail::BlockSeparations blocks(apart, Direction(0, 0, 2), Semantics::solid);
+  const detail::BlockSeparations blocks(apart, Direction(0, 0, 2), ContactSemantics::solid);
   CHECK(blocks.separations(apart, blocks.pairs_above(apart, 1.5)).front().f == Approx(2));
   const std::vector<detail::BlockPair> pairs = blocks.pairs_above(met, 3.5);
   REQUIRE(pairs.size() == 1);
@@ -215,7 +215,7 @@ TEST_CASE("the least taper of a cup has a closed form") {
     // Too much, just so, too little.
     for (const double start : {bottom - 0.1, bottom, std::sqrt(bottom)}) {
       const RefinementResult result =
-          refined_candidate(checker, cups.candidate(checker, {scale(0, start)}), without_joining());
+          refine_candidate(checker, cups.candidate(checker, {scale(0, start)}), without_joining());
       check_met(result, target);
       CHECK(radius(result, 0) == Approx(bottom).epsilon(1e-6));
       CHECK(radius(result, 1) == 1);
@@ -235,7 +235,7 @@ TEST_CASE("of two edits those magnitudes are found that keep the volume, where D
   const double top = std::sqrt(12.0 / 7);
   for (const auto& [b, t] : {std::pair(0.4, 1.1), std::pair(0.5, 1.2), std::pair(0.8, 1.25)}) {
     const RefinementResult result =
-        refined_candidate(checker, cups.candidate(checker, {scale(0, b), scale(1, t)}), of_distortion());
+        refine_candidate(checker, cups.candidate(checker, {scale(0, b), scale(1, t)}), of_distortion());
     check_met(result, 0.8);
     CHECK(result.candidate.energy.distortion.total() == Approx((top - 1) / 8).epsilon(1e-3));
     CHECK(radius(result, 1) == Approx(top).epsilon(1e-3));
@@ -247,7 +247,7 @@ TEST_CASE("what one end takes away the other may give back") {
   const BoundedCups cups;
   const RequirementChecker checker(cups, stacks(0.8));
   const Candidate start = cups.candidate(checker, {scale(0, 0.5)});
-  const RefinementResult result = refined_candidate(checker, start, of_distortion());
+  const RefinementResult result = refine_candidate(checker, start, of_distortion());
   check_met(result, 0.8);
   CHECK(radius(result, 1) == Approx(std::sqrt(12.0 / 7)).epsilon(1e-3));
   REQUIRE(result.candidate.design.edits.size() == 2);
@@ -264,8 +264,8 @@ TEST_CASE("the displacement is least where no other cup that stacks as well is n
   const Candidate start = cups.candidate(checker, {scale(0, 0.4), scale(1, 1.1)});
   for (const ChangeMeasure least : {ChangeMeasure::displacement, ChangeMeasure::both}) {
     RefinementOptions options;
-    options.least = least;
-    const RefinementResult result = refined_candidate(checker, start, options);
+    options.objective = least;
+    const RefinementResult result = refine_candidate(checker, start, options);
     check_met(result, 0.8);
     double nearest = 1;
     for (int step = 0; step <= 400; ++step) {
@@ -287,17 +287,17 @@ TEST_CASE("a room is filled to the end, though boxes change with the design") {
   Requirements asked = stacks(0);
   asked.keep_height = false;
   const Stackability rest = stackability(space.rest().shape, aslant, asked.measure);
-  asked.room = StackRoom{6, rest.extent + 5 * 0.6 * rest.f_max};
+  asked.length_limit = StackLengthLimit{6, rest.extent + 5 * 0.6 * rest.f_max};
   const RequirementChecker checker(space, asked);
   Candidate start = space.candidate(checker, {scale(1, 1.5)});
   start.direction = aslant.vector();
-  start.measured = checker.measured(start.design.shape, aslant);
-  const RefinementResult result = refined_candidate(checker, start, without_joining());
+  start.measured = checker.measure(start.design.shape, aslant);
+  const RefinementResult result = refine_candidate(checker, start, without_joining());
   REQUIRE(result.reached);
-  const Stackability measured = checker.checked(result.candidate.design, aslant).measured;
+  const Stackability measured = checker.check(result.candidate.design, aslant).measured;
   const double length = measured.extent + 5 * measured.f_max;
-  CHECK(length <= asked.room->length);
-  CHECK(length == Approx(asked.room->length).epsilon(1e-5));
+  CHECK(length <= asked.length_limit->length);
+  CHECK(length == Approx(asked.length_limit->length).epsilon(1e-5));
   // S alone would have said something else.
   const double share = measured.stack_box_volume / measured.box_volume;
   CHECK(std::abs(share - rest.stack_box_volume / rest.box_volume) > 0.01);
@@ -308,7 +308,7 @@ TEST_CASE("an edit that is of no use is left out, its counterpart merged") {
   const RequirementChecker checker(cups, stacks(0.8));
   const Candidate start =
       cups.candidate(checker, {scale(0, 0.5), scale(1, 1.25), scale(0, 0.8), scale(1, 0.8)});
-  const RefinementResult result = refined_candidate(checker, start, without_joining());
+  const RefinementResult result = refine_candidate(checker, start, without_joining());
   check_met(result, 0.8);
   REQUIRE(result.candidate.design.edits.size() == 1);
   CHECK(radius(result, 0) == Approx(0.5).epsilon(1e-6));
@@ -321,7 +321,7 @@ TEST_CASE("edits that hardly matter leave together, even when the time is up") {
   options.cancelled = [] { return true; };
   std::vector<Edit> edits{scale(0, 0.4), scale(1, 0.99999), scale(1, 0.99998)};
   edits.back().falloff = Falloff::gaussian;
-  const RefinementResult result = refined_candidate(checker, cups.candidate(checker, edits), options);
+  const RefinementResult result = refine_candidate(checker, cups.candidate(checker, edits), options);
   CHECK(result.reached);
   REQUIRE(result.candidate.design.edits.size() == 1);
   CHECK(result.candidate.design.edits.front().handle.index == 0);
@@ -331,10 +331,10 @@ TEST_CASE("proportions are kept") {
   // The kink lies at b = 0.65: b stays at what it may, and t = 2 b.
   const BoundedCups cups;
   Requirements requirements = stacks(0.8);
-  requirements.least_proportion = limit;
+  requirements.min_size_ratio = limit;
   const RequirementChecker checker(cups, requirements);
   const RefinementResult result =
-      refined_candidate(checker, cups.candidate(checker, {scale(0, 0.65), scale(1, 1.35)}), of_distortion());
+      refine_candidate(checker, cups.candidate(checker, {scale(0, 0.65), scale(1, 1.35)}), of_distortion());
   check_met(result, 0.8);
   CHECK(radius(result, 0) == Approx(limit).epsilon(1e-4));
   CHECK(radius(result, 0) >= limit);
@@ -346,7 +346,7 @@ TEST_CASE("where edits are refused the best of the others is found") {
   const BoundedCups cups(limit);
   const RequirementChecker checker(cups, stacks(0.8));
   const RefinementResult result =
-      refined_candidate(checker, cups.candidate(checker, {scale(0, 0.75), scale(1, 1.6)}), of_distortion());
+      refine_candidate(checker, cups.candidate(checker, {scale(0, 0.75), scale(1, 1.6)}), of_distortion());
   check_met(result, 0.8);
   CHECK(radius(result, 0) >= limit);
   const double least = (std::abs(volume_change(limit, 2 * limit)) + (2 * limit - 1) / 2) / 4;
@@ -357,7 +357,7 @@ TEST_CASE("a target out of reach gives the largest S, and says so") {
   const BoundedCups cups(limit);
   const RequirementChecker checker(cups, stacks(0.8));
   const RefinementResult result =
-      refined_candidate(checker, cups.candidate(checker, {scale(0, 0.8)}), without_joining());
+      refine_candidate(checker, cups.candidate(checker, {scale(0, 0.8)}), without_joining());
   CHECK_FALSE(result.reached);
   CHECK(radius(result, 0) >= limit);
   CHECK(result.candidate.measured.value == Approx(1 - Cups::wall / (1 - limit)).epsilon(0.01));
@@ -370,7 +370,7 @@ TEST_CASE("the result is never worse than what was given") {
     const Candidate start = cups.candidate(checker, {scale(0, b), scale(1, t)});
     RefinementOptions few;
     few.evaluations = 10;
-    const RefinementResult result = refined_candidate(checker, start, few);
+    const RefinementResult result = refine_candidate(checker, start, few);
     const EnergyMeter meter(cups.rest(), BoxModel::frame);
     CHECK(result.evaluations <= 20);
     if (start.measured.value >= 0.6) {
@@ -386,10 +386,10 @@ TEST_CASE("a refinement that is cancelled at once gives back what it was given, 
   RefinementOptions options;
   options.cancelled = [] { return true; };
   const Candidate start = cups.candidate(checker, {scale(0, 0.4), scale(1, 1.1)});
-  const RefinementResult result = refined_candidate(checker, start, options);
+  const RefinementResult result = refine_candidate(checker, start, options);
   CHECK(result.reached);
   CHECK(result.evaluations <= 10);
-  const RefinementResult nothing = refined_candidate(checker, cups.candidate(checker, {}), of_distortion());
+  const RefinementResult nothing = refine_candidate(checker, cups.candidate(checker, {}), of_distortion());
   CHECK_FALSE(nothing.reached);
   CHECK(nothing.evaluations == 0);
 }
@@ -401,7 +401,7 @@ TEST_CASE("the same bytes for any number of threads") {
   std::vector<RefinementResult> results;
   for (const std::size_t threads : {1, 4}) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    results.push_back(refined_candidate(checker, start, of_distortion()));
+    results.push_back(refine_candidate(checker, start, of_distortion()));
   }
   CHECK(results[0].evaluations == results[1].evaluations);
   CHECK(results[0].candidate.design.shape.vertices == results[1].candidate.design.shape.vertices);
@@ -414,11 +414,11 @@ TEST_CASE("options out of range are refused") {
   const Candidate start = cups.candidate(checker, {scale(0, 0.8)});
   RefinementOptions options;
   options.evaluations = 9;
-  CHECK_THROWS_AS(refined_candidate(checker, start, options), UsageError);
+  CHECK_THROWS_AS(refine_candidate(checker, start, options), UsageError);
   options = {};
-  options.reach = 0;
-  CHECK_THROWS_AS(refined_candidate(checker, start, options), UsageError);
+  options.magnitude_bound = 0;
+  CHECK_THROWS_AS(refine_candidate(checker, start, options), UsageError);
   options = {};
   options.alpha = 2;
-  CHECK_THROWS_AS(refined_candidate(checker, start, options), UsageError);
+  CHECK_THROWS_AS(refine_candidate(checker, start, options), UsageError);
 }

@@ -31,7 +31,7 @@ StructuredShape bar_of_two() {
 
 Check check_of(const DesignSpace& space, const Requirements& requirements, const Design& design,
                const std::string& name) {
-  for (const Check& check : RequirementChecker(space, requirements).checked(design, upwards).checks)
+  for (const Check& check : RequirementChecker(space, requirements).check(design, upwards).checks)
     if (check.name == name) return check;
   FAIL("there is no check of the " + name);
   return {};
@@ -42,14 +42,14 @@ Check check_of(const DesignSpace& space, const Requirements& requirements, const
 TEST_CASE("The target is compared without slack", "[requirements]") {
   const Still space(cup());
   const double reached =
-      RequirementChecker(space, frame_requirements()).checked(space.at_rest(), upwards).measured.value;
+      RequirementChecker(space, frame_requirements()).check(space.at_rest(), upwards).measured.value;
   const Check passes = check_of(space, frame_requirements(reached), space.at_rest(), "target");
   CHECK(passes.passed);
   CHECK(passes.value == reached);
   CHECK(passes.demanded == reached);
   const Requirements above = frame_requirements(std::nextafter(reached, 1.0));
   CHECK_FALSE(check_of(space, above, space.at_rest(), "target").passed);
-  CHECK_FALSE(RequirementChecker(space, above).checked(space.at_rest(), upwards).passed());
+  CHECK_FALSE(RequirementChecker(space, above).check(space.at_rest(), upwards).passed());
 }
 
 TEST_CASE("A room is compared by the length of the stack, whatever the boxes are", "[requirements]") {
@@ -57,13 +57,13 @@ TEST_CASE("A room is compared by the length of the stack, whatever the boxes are
   Requirements requirements = frame_requirements(0.9);  // not what is asked for
   requirements.keep_height = false;
   const double length = 8 + 4 * 4;
-  requirements.room = StackRoom{5, length * (1 + 1e-12)};
+  requirements.length_limit = StackLengthLimit{5, length * (1 + 1e-12)};
   const Check fits = check_of(space, requirements, space.at_rest(), "room");
   CHECK(fits.passed);
   CHECK(fits.value == Approx(length));
-  CHECK(fits.demanded == requirements.room->length);
-  CHECK(RequirementChecker(space, requirements).checked(space.at_rest(), upwards).passed());
-  requirements.room->length = length * (1 - 1e-12);
+  CHECK(fits.demanded == requirements.length_limit->length);
+  CHECK(RequirementChecker(space, requirements).check(space.at_rest(), upwards).passed());
+  requirements.length_limit->length = length * (1 - 1e-12);
   CHECK_FALSE(check_of(space, requirements, space.at_rest(), "room").passed);
   // As wide as it may be, and S with it; a fifth higher, and the stack is too.
   CHECK(check_of(space, requirements, scaled(space.at_rest(), {3, 3, 0.99}), "room").passed);
@@ -73,18 +73,19 @@ TEST_CASE("A room is compared by the length of the stack, whatever the boxes are
 TEST_CASE("What S a design needs for a room follows from its extent and its boxes", "[requirements]") {
   const Still space(cup());
   Requirements requirements = frame_requirements(0.6);
-  CHECK(RequirementChecker(space, requirements).needed({}) == 0.6);
+  CHECK(RequirementChecker(space, requirements).required_stackability({}) == 0.6);
   for (const double length : {9.0, 12.0, 30.0})
     for (const double extent : {5.0, 8.0})
       for (const double slenderness : {0.5, 1.0, 1.7})
         for (const double f_max : {0.0, 0.4, 1.5, 8.0}) {
-          requirements.room = StackRoom{6, length};
+          requirements.length_limit = StackLengthLimit{6, length};
           const RequirementChecker checker(space, requirements);
           Stackability measured{{0, 0, 1}, f_max, extent, 10, 10 * slenderness, 0};
           measured.value = 1 - f_max / extent * slenderness;
           INFO(length << ' ' << extent << ' ' << slenderness << ' ' << f_max);
-          CHECK(checker.reaches(measured) == (extent + 5 * f_max <= length));
-          CHECK(checker.reaches(measured) == (measured.value >= checker.needed(measured)));
+          CHECK(checker.meets_target(measured) == (extent + 5 * f_max <= length));
+          CHECK(checker.meets_target(measured) ==
+                (measured.value >= checker.required_stackability(measured)));
         }
 }
 
@@ -98,11 +99,11 @@ TEST_CASE("The height is kept to a billionth, unless it need not be", "[requirem
   // Other directions have other heights.
   const Design wider = scaled(space.at_rest(), {1.5, 1, 1});
   const RequirementChecker checker(space, frame_requirements());
-  CHECK(checker.checked(wider, upwards).checks[1].passed);
-  CHECK(checker.checked(wider, Direction(1, 0, 0)).checks[1].value == Approx(0.5));
+  CHECK(checker.check(wider, upwards).checks[1].passed);
+  CHECK(checker.check(wider, Direction(1, 0, 0)).checks[1].value == Approx(0.5));
   Requirements free = frame_requirements();
   free.keep_height = false;
-  CHECK(RequirementChecker(space, free).checked(higher, upwards).passed());
+  CHECK(RequirementChecker(space, free).check(higher, upwards).passed());
 }
 
 TEST_CASE("Relations are held against the primitives of controllers", "[requirements]") {
@@ -118,9 +119,8 @@ TEST_CASE("Relations are held against the primitives of controllers", "[requirem
   CHECK(broken.value == Approx(1.01e-6));
   CHECK(broken.note == "symmetry of 'left' and 'right'");
   const Still surface(two_cubes(), DeformationKind::surface);
-  CHECK(
-      RequirementChecker(surface, frame_requirements()).checked(moved(surface, 0.1), upwards).checks.size() ==
-      3);
+  CHECK(RequirementChecker(surface, frame_requirements()).check(moved(surface, 0.1), upwards).checks.size() ==
+        3);
 }
 
 TEST_CASE("Parts keep their proportions", "[requirements]") {
@@ -134,15 +134,15 @@ TEST_CASE("Parts keep their proportions", "[requirements]") {
   const RequirementChecker checker(space, requirements);
   for (const double factor : {0.401, 1.0, 2.49}) {
     CHECK(check_of(space, requirements, stretched(factor), "proportions").passed);
-    CHECK_FALSE(checker.out_of_proportion(stretched(factor)));
+    CHECK_FALSE(checker.size_ratio_violation(stretched(factor)));
   }
   for (const double factor : {0.399, 2.51}) {
     CHECK_FALSE(check_of(space, requirements, stretched(factor), "proportions").passed);
-    CHECK(checker.out_of_proportion(stretched(factor)) == "'right' would lose its proportions");
+    CHECK(checker.size_ratio_violation(stretched(factor)) == "'right' would lose its proportions");
   }
-  requirements.least_proportion = 0;
-  CHECK_FALSE(RequirementChecker(space, requirements).out_of_proportion(stretched(0.1)));
-  for (const Check& check : RequirementChecker(space, requirements).checked(stretched(0.1), upwards).checks)
+  requirements.min_size_ratio = 0;
+  CHECK_FALSE(RequirementChecker(space, requirements).size_ratio_violation(stretched(0.1)));
+  for (const Check& check : RequirementChecker(space, requirements).check(stretched(0.1), upwards).checks)
     CHECK(check.name != "proportions");
 }
 
@@ -201,7 +201,7 @@ TEST_CASE("Walls become no thinner than asked for, or than they are", "[requirem
   const Still space(structures::box_alone({4, 4, 1}));
   Requirements requirements = frame_requirements();
   requirements.keep_height = false;
-  requirements.least_thickness = 0.5;
+  requirements.min_thickness = 0.5;
   const auto thinned = [&](double factor) {
     return check_of(space, requirements, scaled(space.at_rest(), {1, 1, factor}), "thickness");
   };
@@ -211,7 +211,7 @@ TEST_CASE("Walls become no thinner than asked for, or than they are", "[requirem
   CHECK_FALSE(thinned(0.4999).passed);
   CHECK(thinned(0.4999).note == "'box'");
   // What is thinner at rest may stay so, but become no thinner.
-  requirements.least_thickness = 2;
+  requirements.min_thickness = 2;
   CHECK(thinned(1).passed);
   CHECK(thinned(1).value == Approx(1));
   CHECK_FALSE(thinned(0.999).passed);
@@ -222,11 +222,11 @@ TEST_CASE("Contacts are as steep as the walls of a cup", "[requirements]") {
   // A facet's middle is nearer to the axis than its ends.
   const double angle = std::atan(std::cos(std::numbers::pi / 64) / 8) * 180 / std::numbers::pi;
   Requirements requirements = frame_requirements();
-  requirements.least_draft_degrees = 0.999 * angle;
+  requirements.min_draft_degrees = 0.999 * angle;
   const Check draft = check_of(space, requirements, space.at_rest(), "draft");
   CHECK(draft.value == Approx(angle));
   CHECK(draft.passed);
-  requirements.least_draft_degrees = 1.001 * angle;
+  requirements.min_draft_degrees = 1.001 * angle;
   CHECK_FALSE(check_of(space, requirements, space.at_rest(), "draft").passed);
 }
 
@@ -235,11 +235,11 @@ TEST_CASE("A stack stands up to the tilt at which it topples", "[requirements]")
   const double tilt = std::atan(0.25) * 180 / std::numbers::pi;
   Requirements requirements = frame_requirements();
   requirements.standing_copies = 2;
-  requirements.least_tilt_degrees = tilt - 1e-6;
+  requirements.min_tipping_degrees = tilt - 1e-6;
   const Check stands = check_of(space, requirements, space.at_rest(), "standing");
   CHECK(stands.value == Approx(tilt));
   CHECK(stands.passed);
-  requirements.least_tilt_degrees = tilt + 1e-6;
+  requirements.min_tipping_degrees = tilt + 1e-6;
   CHECK_FALSE(check_of(space, requirements, space.at_rest(), "standing").passed);
   requirements.standing_copies = 1;
   CHECK(check_of(space, requirements, space.at_rest(), "standing").passed);
@@ -250,11 +250,11 @@ TEST_CASE("Checks come in order, and only those that were asked for", "[requirem
   Requirements all = frame_requirements();
   all.box_tolerance = 0.1;
   all.kept_parts = {0};
-  all.least_thickness = 0.1;
-  all.least_draft_degrees = 10;
+  all.min_thickness = 0.1;
+  all.min_draft_degrees = 10;
   all.standing_copies = 2;
   std::vector<std::string> names;
-  for (const Check& check : RequirementChecker(space, all).checked(space.at_rest(), upwards).checks) {
+  for (const Check& check : RequirementChecker(space, all).check(space.at_rest(), upwards).checks) {
     names.push_back(check.name);
     CHECK(check.passed);
     CHECK(std::isfinite(check.value));
@@ -262,7 +262,7 @@ TEST_CASE("Checks come in order, and only those that were asked for", "[requirem
   CHECK(names == std::vector<std::string>{"target", "height", "relations", "proportions", "box", "parts",
                                           "thickness", "draft", "standing"});
   const RequirementChecker few(space, frame_requirements());
-  CHECK(few.checked(space.at_rest(), upwards).checks.size() == 4);
+  CHECK(few.check(space.at_rest(), upwards).checks.size() == 4);
   CHECK(few.requirements().target == -1);
   CHECK(&few.space() == &space);
 }

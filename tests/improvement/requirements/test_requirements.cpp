@@ -19,14 +19,14 @@ TEST_CASE("A cup is measured as its closed form, in both box models", "[requirem
     Requirements requirements = frame_requirements();
     requirements.measure.boxes = boxes;
     const RequirementChecker checker(space, requirements);
-    const Stackability measured = checker.measured(space.rest().shape, upwards);
+    const Stackability measured = checker.measure(space.rest().shape, upwards);
     CHECK(measured.f_max == Approx(4));
     CHECK(measured.value == Approx(0.5));
     CHECK(measured.extent == Approx(8));
-    CHECK(checker.measured_above(space.rest().shape, upwards, 0.499)->value == measured.value);
-    CHECK_FALSE(checker.measured_above(space.rest().shape, upwards, 0.501));
-    CHECK(checker.measured_above(space.rest().shape, upwards, measured.value)->value == measured.value);
-    const Assessment assessment = checker.checked(space.at_rest(), upwards);
+    CHECK(checker.measure_if_above(space.rest().shape, upwards, 0.499)->value == measured.value);
+    CHECK_FALSE(checker.measure_if_above(space.rest().shape, upwards, 0.501));
+    CHECK(checker.measure_if_above(space.rest().shape, upwards, measured.value)->value == measured.value);
+    const Assessment assessment = checker.check(space.at_rest(), upwards);
     CHECK(assessment.measured.value == Approx(measured.value).margin(1e-12));
     CHECK(assessment.separation.length == Approx(4));
     CHECK(assessment.passed());
@@ -61,12 +61,12 @@ TEST_CASE("Air between copies lowers S by what it takes", "[requirements]") {
   requirements.clearance = 0.4;
   {
     const RequirementChecker checker(space, requirements);
-    CHECK(checker.measured(shape, upwards).f_max == Approx(4.4));
-    CHECK(checker.measured(shape, upwards).value == Approx(1 - 4.4 / 8));
-    CHECK(checker.checked(space.at_rest(), upwards).measured.value == Approx(1 - 4.4 / 8));
-    CHECK(checker.checked(space.at_rest(), upwards).separation.length == Approx(4));
-    CHECK_FALSE(checker.measured_above(shape, upwards, 0.46));
-    CHECK(checker.measured_above(shape, upwards, 0.44)->value == Approx(0.45));
+    CHECK(checker.measure(shape, upwards).f_max == Approx(4.4));
+    CHECK(checker.measure(shape, upwards).value == Approx(1 - 4.4 / 8));
+    CHECK(checker.check(space.at_rest(), upwards).measured.value == Approx(1 - 4.4 / 8));
+    CHECK(checker.check(space.at_rest(), upwards).separation.length == Approx(4));
+    CHECK_FALSE(checker.measure_if_above(shape, upwards, 0.46));
+    CHECK(checker.measure_if_above(shape, upwards, 0.44)->value == Approx(0.45));
   }
   // Sideways by p, walls of slope 1/8 meet 8 p higher; the polygon around the disc and the facets of the cup
   // add a little.
@@ -75,7 +75,7 @@ TEST_CASE("Air between copies lowers S by what it takes", "[requirements]") {
   const double most = 0.4 / std::cos(std::numbers::pi / 16) / std::cos(std::numbers::pi / 64);
   const RequirementChecker checker(space, requirements);
   for (const Stackability& measured :
-       {checker.measured(shape, upwards), checker.checked(space.at_rest(), upwards).measured}) {
+       {checker.measure(shape, upwards), checker.check(space.at_rest(), upwards).measured}) {
     CHECK(measured.f_max >= 4 + 0.1 + 0.4 - 1e-9);
     CHECK(measured.f_max <= 4 + 0.1 + most + 1e-9);
     CHECK(measured.value == Approx(1 - measured.f_max / 8));
@@ -120,22 +120,22 @@ TEST_CASE("Requirements that make no sense are refused", "[requirements]") {
     refused([&](Requirements& r) { r.clearance = bad; });
     refused([&](Requirements& r) { r.play = bad; });
     refused([&](Requirements& r) { r.box_tolerance = bad; });
-    refused([&](Requirements& r) { r.least_thickness = bad; });
-    refused([&](Requirements& r) { r.least_draft_degrees = bad; });
+    refused([&](Requirements& r) { r.min_thickness = bad; });
+    refused([&](Requirements& r) { r.min_draft_degrees = bad; });
     refused([&](Requirements& r) {
       r.standing_copies = 2;
-      r.least_tilt_degrees = bad;
+      r.min_tipping_degrees = bad;
     });
   }
-  for (const double bad : {-0.1, 1.1, nan}) refused([&](Requirements& r) { r.least_proportion = bad; });
+  for (const double bad : {-0.1, 1.1, nan}) refused([&](Requirements& r) { r.min_size_ratio = bad; });
   refused([](Requirements& r) { r.clearance = 1e8; });
   refused([](Requirements& r) { r.play = 1e8; });
   for (const double bad : {0.0, -1.0, nan, infinity})
-    refused([&](Requirements& r) { r.room = StackRoom{2, bad}; });
-  refused([](Requirements& r) { r.room = StackRoom{1, 10}; });
-  refused([](Requirements& r) { r.least_draft_degrees = 90.5; });
+    refused([&](Requirements& r) { r.room = StackLengthLimit{2, bad}; });
+  refused([](Requirements& r) { r.room = StackLengthLimit{1, 10}; });
+  refused([](Requirements& r) { r.min_draft_degrees = 90.5; });
   refused([](Requirements& r) { r.standing_copies = 0; });
-  refused([](Requirements& r) { r.least_tilt_degrees = 5; });
+  refused([](Requirements& r) { r.min_tipping_degrees = 5; });
   refused([](Requirements& r) { r.measure.flat_shapes = FlatShapes::measure; });
   CHECK_NOTHROW(RequirementChecker(space, Requirements()));
 }
@@ -145,9 +145,9 @@ TEST_CASE("Designs of something else, and flat ones, are refused", "[requirement
   const RequirementChecker checker(space, frame_requirements());
   Design fewer = space.at_rest();
   fewer.primitives.pop_back();
-  CHECK_THROWS_AS(checker.checked(fewer, upwards), UsageError);
-  CHECK_THROWS_AS(checker.checked(Still(cup()).at_rest(), upwards), UsageError);
+  CHECK_THROWS_AS(checker.check(fewer, upwards), UsageError);
+  CHECK_THROWS_AS(checker.check(Still(cup()).at_rest(), upwards), UsageError);
   const Design flat = scaled(space.at_rest(), {1, 1, 0});
-  CHECK_THROWS_AS(checker.checked(flat, upwards), InputError);
-  CHECK_THROWS_AS(checker.measured(flat.shape, upwards), InputError);
+  CHECK_THROWS_AS(checker.check(flat, upwards), InputError);
+  CHECK_THROWS_AS(checker.measure(flat.shape, upwards), InputError);
 }

@@ -50,7 +50,7 @@ std::vector<ContactEdit> suggested(const Design& design, const ContactEditOption
 /// The first solution of Algorithm 1 for cups, without any of the library's search.
 std::optional<Listed> listed_solution(double target, const BestFirstOptions& how) {
   const EnergyMeter meter(cups::space.rest(), BoxModel::frame, how.alpha);
-  const StackabilityOptions frame{Semantics::solid, BoxModel::frame};
+  const StackabilityOptions frame{ContactSemantics::solid, BoxModel::frame};
   const double at_rest = stackability(cups::space.rest().shape, upwards, frame).value;
   std::vector<Listed> list = {{cups::space.at_rest(), 0, at_rest}};
   for (int round = 0; round < 1000; ++round) {
@@ -221,7 +221,7 @@ TEST_CASE("a search that is cancelled anywhere goes on to the same result") {
     interrupted.cancelled = [&] { return ++asked >= moment; };
     interrupted.save = [&](const std::string& text) { state = text; };
     if (best_first(task, interrupted).end == SearchEnd::cancelled) ++stopped;
-    check_same_search(best_first_resumed(task, how, {state}), whole);
+    check_same_search(resume_best_first(task, how, {state}), whole);
   }
   CHECK(stopped >= 3);
 }
@@ -233,7 +233,7 @@ TEST_CASE("a search that ended at a limit goes on when the limit is raised") {
   how.save = [&](const std::string& text) { state = text; };
   CHECK(best_first(checker(0.6), how).end == SearchEnd::expansion_limit);
   how.expansions = 50;
-  const BestFirstResult resumed = best_first_resumed(checker(0.6), how, {state});
+  const BestFirstResult resumed = resume_best_first(checker(0.6), how, {state});
   CHECK(resumed.end == SearchEnd::solved);
   check_same_search(resumed, best_first(checker(0.6), how));
 }
@@ -247,9 +247,9 @@ TEST_CASE("a search that ran out of time goes on with time of its own, and saves
   how.seconds = 1e-9;
   CHECK(best_first(checker(0.6), how).end == SearchEnd::time_limit);
   CHECK(state != whole);
-  CHECK(best_first_resumed(checker(0.6), how, {state}).end == SearchEnd::time_limit);
+  CHECK(resume_best_first(checker(0.6), how, {state}).end == SearchEnd::time_limit);
   how.seconds = std::numeric_limits<double>::infinity();
-  CHECK(best_first_resumed(checker(0.6), how, {state}).end == SearchEnd::solved);
+  CHECK(resume_best_first(checker(0.6), how, {state}).end == SearchEnd::solved);
   CHECK(state == whole);
 }
 
@@ -259,14 +259,14 @@ TEST_CASE("a state that belongs to another task, or is none, is refused") {
   std::string state;
   how.save = [&](const std::string& text) { state = text; };
   best_first(checker(0.6), how);
-  CHECK_NOTHROW(best_first_resumed(checker(0.6), how, {state}));
-  CHECK_THROWS_AS(best_first_resumed(checker(0.61), how, {state}), InputError);
+  CHECK_NOTHROW(resume_best_first(checker(0.6), how, {state}));
+  CHECK_THROWS_AS(resume_best_first(checker(0.61), how, {state}), InputError);
   BestFirstOptions other = how;
   other.alpha = 0.3;
-  CHECK_THROWS_AS(best_first_resumed(checker(0.6), other, {state}), InputError);
+  CHECK_THROWS_AS(resume_best_first(checker(0.6), other, {state}), InputError);
   for (const std::string& text : {std::string(), std::string("{}"), std::string("[1, 2]"),
                                   state.substr(0, state.size() / 2), state.substr(1)})
-    CHECK_THROWS_AS(best_first_resumed(checker(0.6), how, {text}), InputError);
+    CHECK_THROWS_AS(resume_best_first(checker(0.6), how, {text}), InputError);
 }
 
 TEST_CASE("a damaged state is named with the place and what was expected there") {
@@ -300,7 +300,7 @@ TEST_CASE("a damaged state is named with the place and what was expected there")
     damaged.replace(at, damage.from.size(), damage.to);
     std::string words;
     try {
-      best_first_resumed(checker(0.6), how, {damaged, "folder/state.json"});
+      resume_best_first(checker(0.6), how, {damaged, "folder/state.json"});
     } catch (const SavedSearchError& error) {
       words = error.what();
     }
@@ -321,7 +321,7 @@ TEST_CASE("a saved search knows its directions, before its first step too") {
   REQUIRE(states.size() >= 2);
   CHECK(states.front() == search_at_start(checker(0.6), how));
   for (const std::string& state : states) CHECK(directions_of({state}) == how.directions);
-  check_same_search(best_first_resumed(checker(0.6), how, {states.front()}), whole);
+  check_same_search(resume_best_first(checker(0.6), how, {states.front()}), whole);
   CHECK_THROWS_AS(directions_of({"{}"}), SavedSearchError);
 }
 
@@ -341,7 +341,7 @@ TEST_CASE("a limit of trials bounds the edits tried, and leaves no trace of what
     before = part.trials;
     BestFirstOptions more = how;
     more.trials = whole.trials;
-    check_same_search(best_first_resumed(checker(0.6), more, {state}), whole);
+    check_same_search(resume_best_first(checker(0.6), more, {state}), whole);
   }
   how.trials = whole.trials;
   check_same_search(best_first(checker(0.6), how), whole);

@@ -145,7 +145,7 @@ TEST_CASE("designs are made again from their edits, the same to the bit") {
 
 TEST_CASE("designs differ when they are far apart, or near but moved otherwise") {
   const cups::Cups space;
-  const Distinctness distinct(space.rest());
+  const SolutionDiversity distinct(space.rest());
   const Design narrow = after(space, {cups::scale(0, 0.7)});
   CHECK(!distinct.differ(narrow, narrow));
   Design rest = space.at_rest(), rounded = rest;
@@ -161,13 +161,13 @@ TEST_CASE("designs differ when they are far apart, or near but moved otherwise")
 
 TEST_CASE("gestures know parts that are symmetric, and no amounts") {
   const StructuredShape table = structures::table();
-  const Distinctness distinct(table);
+  const SolutionDiversity distinct(table);
   const auto move = [](int part, const Vector3d& by) { return Edit{{HandleKind::face, part, 0}, Move{by}}; };
-  CHECK(distinct.gestures({move(1, {1, 0, 0})}) == distinct.gestures({move(2, {0.5, 0, 0})}));
-  CHECK(distinct.gestures({move(1, {1, 0, 0})}) != distinct.gestures({move(1, {-1, 0, 0})}));
-  CHECK(distinct.gestures({move(1, {1, 0, 0})}) != distinct.gestures({move(0, {1, 0, 0})}));
-  CHECK(distinct.gestures({move(1, {1, 0, 0}), move(0, {0, 0, 1})}) ==
-        distinct.gestures({move(0, {0, 0, 1}), move(1, {1, 0, 0}), move(1, {3, 0, 0})}));
+  CHECK(distinct.signatures({move(1, {1, 0, 0})}) == distinct.signatures({move(2, {0.5, 0, 0})}));
+  CHECK(distinct.signatures({move(1, {1, 0, 0})}) != distinct.signatures({move(1, {-1, 0, 0})}));
+  CHECK(distinct.signatures({move(1, {1, 0, 0})}) != distinct.signatures({move(0, {1, 0, 0})}));
+  CHECK(distinct.signatures({move(1, {1, 0, 0}), move(0, {0, 0, 1})}) ==
+        distinct.signatures({move(0, {0, 0, 1}), move(1, {1, 0, 0}), move(1, {3, 0, 0})}));
 }
 
 TEST_CASE("reasons are counted without their amounts") {
@@ -198,9 +198,9 @@ TEST_CASE("symmetries fix a direction, or leave it a plane") {
 TEST_CASE("a direction near the best one is turned into it, within its symmetry plane") {
   const Fixed space(solids::l_shape(4, 0.5), {mirror({0, 1, 0})});
   const RequirementChecker checker(space, {});
-  const double best = checker.measured(space.rest().shape, Direction(1, 0, 1)).value;
+  const double best = checker.measure(space.rest().shape, Direction(1, 0, 1)).value;
   for (const double degrees : {38.0, 43.0, 49.0}) {
-    const Stackability now = checker.measured(space.rest().shape, Direction(tilted(degrees)));
+    const Stackability now = checker.measure(space.rest().shape, Direction(tilted(degrees)));
     REQUIRE(now.value < best);
     const auto better = ConeSearch(checker, 10).better(space.rest().shape, now);
     REQUIRE(better);
@@ -209,9 +209,9 @@ TEST_CASE("a direction near the best one is turned into it, within its symmetry 
     CHECK(std::abs(better->direction.y()) < 1e-12);
     CHECK(better->direction.normalized().dot(tilted(degrees)) >= std::cos(10.001 * std::numbers::pi / 180));
   }
-  const Stackability top = checker.measured(space.rest().shape, Direction(1, 0, 1));
+  const Stackability top = checker.measure(space.rest().shape, Direction(1, 0, 1));
   CHECK(!ConeSearch(checker, 10).better(space.rest().shape, top));
-  const Stackability off = checker.measured(space.rest().shape, Direction(tilted(40)));
+  const Stackability off = checker.measure(space.rest().shape, Direction(tilted(40)));
   CHECK(!ConeSearch(checker, 0).better(space.rest().shape, off));
 }
 
@@ -222,7 +222,7 @@ TEST_CASE("a direction is turned only where the height stays what it was") {
   const auto better = [&] {
     const RequirementChecker checker(space, requirements);
     const Direction off(tilted(40));
-    return ConeSearch(checker, 10).better(larger, checker.measured(larger, off));
+    return ConeSearch(checker, 10).better(larger, checker.measure(larger, off));
   };
   CHECK(!better());
   requirements.keep_height = false;

@@ -58,10 +58,10 @@ TEST_CASE("a sheet comes for shapes whose envelopes are flat or cannot be seen, 
   bin.triangle_part.resize(low.size());
   for (const Shape& shape : {walls, bin}) {
     StackabilityOptions stackability;
-    stackability.semantics = Semantics::closed;
+    stackability.semantics = ContactSemantics::closed;
     const StackabilitySolver solver(shape, stackability);
     ContactOptions band;
-    band.semantics = Semantics::closed;
+    band.semantics = ContactSemantics::closed;
     const Drawing sheet = measure_picture(
         shape, solver.measure(up),
         contact_regions({shape, solver.tree(), up, solver.separation(up)}, band).regions, {800, 590, {}});

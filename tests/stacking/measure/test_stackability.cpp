@@ -49,7 +49,7 @@ Shape slanted_tube() {
 
 TEST_CASE("a box does not stack: S is 0 along its axes in every model and semantics") {
   const Shape box = solids::box({1, 2, 3});
-  for (const Semantics semantics : {Semantics::solid, Semantics::closed})
+  for (const ContactSemantics semantics : {ContactSemantics::solid, ContactSemantics::closed})
     for (const BoxModel boxes : {BoxModel::oriented, BoxModel::frame})
       for (int axis = 0; axis < 3; ++axis) {
         const Stackability result =
@@ -70,8 +70,8 @@ TEST_CASE("a cube along its diagonal has S = -3") {
 TEST_CASE("a cup along its axis in closed form") {
   const solids::FrustumShell cup;
   const double f_max = solids::frustum_shell_f_max(cup);
-  const Stackability framed =
-      stackability(solids::frustum_shell(cup), Direction(0, 0, 1), {Semantics::solid, BoxModel::frame});
+  const Stackability framed = stackability(solids::frustum_shell(cup), Direction(0, 0, 1),
+                                           {ContactSemantics::solid, BoxModel::frame});
   CHECK(framed.value == Approx(1 - f_max / cup.height).epsilon(1e-12));
   CHECK(framed.box_volume == Approx(8 * 8 * 8).epsilon(1e-14));
 
@@ -102,7 +102,7 @@ TEST_CASE("S does not depend on how the surface is cut and listed") {
     for (const auto& [name, shape] : shapes())
       for (const Eigen::Vector3d& r : directions) {
         INFO(name);
-        const StackabilityOptions options{Semantics::solid, boxes};
+        const StackabilityOptions options{ContactSemantics::solid, boxes};
         const double value = s(shape, r, options);
         CHECK(s(solids::permuted(shape, 5), r, options) == Approx(value).margin(1e-12));
         CHECK(s(solids::flipped(shape), r, options) == Approx(value).margin(1e-12));
@@ -129,7 +129,7 @@ TEST_CASE("a measurement is given up only below its threshold") {
   for (const BoxModel boxes : {BoxModel::oriented, BoxModel::frame})
     for (const auto& [name, shape] : shapes()) {
       INFO(name);
-      const StackabilitySolver solver(shape, {Semantics::solid, boxes});
+      const StackabilitySolver solver(shape, {ContactSemantics::solid, boxes});
       for (const Eigen::Vector3d& r : directions) {
         const double value = solver.measure(Direction(r)).value;
         for (const double below : {1e-10, 1e-3, 1.0, 100.0}) {
@@ -147,7 +147,7 @@ TEST_CASE("a tube of sheets slides into itself along its walls, unless touching 
   const Stackability open = stackability(tube, Direction(1, 2, 3));
   CHECK(open.f_max == 0);
   CHECK(open.value == 1);
-  CHECK(stackability(tube, Direction(1, 2, 3), {Semantics::closed, BoxModel::oriented}).f_max ==
+  CHECK(stackability(tube, Direction(1, 2, 3), {ContactSemantics::closed, BoxModel::oriented}).f_max ==
         Approx(std::sqrt(14)).epsilon(1e-12));
 }
 

@@ -107,14 +107,14 @@ TEST_CASE("leaving out pieces of the Minkowski sum changes nothing") {
     const Shape above = seed % 4 == 1 ? solids::subdivided(solids::torus({1, 0.4, 8, 8})) : below;
     const Shape lower = seed % 4 == 2 ? solids::subdivided(solids::torus({1, 0.4, 8, 8})) : below;
     const Direction r = seed % 3 == 0 ? upwards : Direction(0.3, -0.2, seed % 2 == 0 ? 1 : -1);
-    for (const Semantics semantics : {Semantics::solid, Semantics::closed}) {
+    for (const ContactSemantics semantics : {ContactSemantics::solid, ContactSemantics::closed}) {
       const DilationOptions dilation{0.3, 8, DilatedSide::both};
       const Separation expected =
           separation(SeparationTree(every_piece(lower, r, dilation)), SeparationTree(above), r,
                      {.semantics = semantics, .abandon_above = std::nullopt});
       CAPTURE(seed);
       CHECK(play_length(lower, above, r, {0.3, 8, semantics}) == Approx(expected.length).epsilon(1e-9));
-      const DilatedShape raised = dilated_sideways(above, r, {0.3, 8, DilatedSide::lower});
+      const DilatedShape raised = dilate_laterally(above, r, {0.3, 8, DilatedSide::lower});
       const Separation other = separation(SeparationTree(lower), SeparationTree(raised.shape), r,
                                           {.semantics = semantics, .abandon_above = std::nullopt});
       CHECK(other.length == Approx(expected.length).epsilon(1e-9));
@@ -149,7 +149,7 @@ TEST_CASE("no shift within the play asks for more, and play is monotone") {
 
 TEST_CASE("a dilated shape keeps its parts, knows its sources and stays small") {
   Shape shape = concatenate(solids::sphere(1, 3), solids::box({2, 0, 0}, {3, 1, 1}));
-  const DilatedShape dilated = dilated_sideways(shape, upwards, {0.1});
+  const DilatedShape dilated = dilate_laterally(shape, upwards, {0.1});
   CHECK_NOTHROW(validate(dilated.shape));
   CHECK(dilated.shape.part_names == shape.part_names);
   REQUIRE(dilated.source_triangle.size() == static_cast<std::size_t>(dilated.shape.triangle_count()));
@@ -171,8 +171,8 @@ TEST_CASE("repeated vertices do not matter") {
       loose.vertices.row(3 * t + c) = torus.corner(t, c).transpose();
       loose.triangles(t, c) = static_cast<std::int32_t>(3 * t + c);
     }
-  CHECK(dilated_sideways(loose, upwards, {0.1}).shape.triangle_count() ==
-        dilated_sideways(torus, upwards, {0.1}).shape.triangle_count());
+  CHECK(dilate_laterally(loose, upwards, {0.1}).shape.triangle_count() ==
+        dilate_laterally(torus, upwards, {0.1}).shape.triangle_count());
 }
 
 TEST_CASE("the witness of a separation with play names the given triangles") {
@@ -186,10 +186,10 @@ TEST_CASE("the witness of a separation with play names the given triangles") {
 
 TEST_CASE("play out of range is refused") {
   const Shape box = solids::box({1, 2, 3});
-  CHECK_THROWS_AS(dilated_sideways(box, upwards, {-0.1}), UsageError);
-  CHECK_THROWS_AS(dilated_sideways(box, upwards, {std::numeric_limits<double>::quiet_NaN()}), UsageError);
-  CHECK_THROWS_AS(dilated_sideways(box, upwards, {0.1, 7}), UsageError);
-  CHECK_THROWS_AS(dilated_sideways(box, upwards, {0.1, 2}), UsageError);
-  CHECK_THROWS_AS(dilated_sideways(box, upwards, {0.1, 1000}), UsageError);
+  CHECK_THROWS_AS(dilate_laterally(box, upwards, {-0.1}), UsageError);
+  CHECK_THROWS_AS(dilate_laterally(box, upwards, {std::numeric_limits<double>::quiet_NaN()}), UsageError);
+  CHECK_THROWS_AS(dilate_laterally(box, upwards, {0.1, 7}), UsageError);
+  CHECK_THROWS_AS(dilate_laterally(box, upwards, {0.1, 2}), UsageError);
+  CHECK_THROWS_AS(dilate_laterally(box, upwards, {0.1, 1000}), UsageError);
   CHECK_THROWS_AS(separation_with_play(box, Shape{}, upwards, {0.1}), InputError);
 }

@@ -16,7 +16,7 @@ Stackability chair() {
 }  // namespace
 
 TEST_CASE("ten chairs within two metres") {
-  const StackPlan plan = plan_within(chair(), {10, 2, 0});
+  const StackPlan plan = plan_stack(chair(), {10, 2, 0});
   CHECK(plan.possible);
   CHECK(*plan.translation == Approx(1.2 / 9));
   CHECK(*plan.f_max == Approx(1.2 / 9));
@@ -27,9 +27,9 @@ TEST_CASE("ten chairs within two metres") {
 }
 
 TEST_CASE("the stackability of a plan counts air as part of every copy") {
-  const StackPlan plan = plan_within(chair(), {10, 2, 0.01});
+  const StackPlan plan = plan_stack(chair(), {10, 2, 0.01});
   CHECK(*plan.f_max == Approx(1.2 / 9 - 0.01));
-  CHECK(*plan.stackability == *plan_within(chair(), {10, 2, 0}).stackability);
+  CHECK(*plan.stackability == *plan_stack(chair(), {10, 2, 0}).stackability);
   CHECK(*plan.stackability == stackability_within(chair(), 10, 2));
   // Boxes count as in Eq. 3.
   const Stackability leaning{{0, 0, 1}, 0.2, 0.8, 0.4, 0.6, 0.625};
@@ -38,40 +38,40 @@ TEST_CASE("the stackability of a plan counts air as part of every copy") {
 
 TEST_CASE("what a plan demands is just enough") {
   Stackability better = chair();
-  const StackWish wish{10, 2, 0.01};
-  better.f_max = *plan_within(chair(), wish).f_max;
-  const StackPlan plan = plan_within(better, wish);
+  const StackRequest wish{10, 2, 0.01};
+  better.f_max = *plan_stack(chair(), wish).f_max;
+  const StackPlan plan = plan_stack(better, wish);
   CHECK(plan.met);
   CHECK(plan.length_now == Approx(2));
   CHECK(*plan.copies_now == 10);
   better.f_max *= 1.001;
-  CHECK_FALSE(plan_within(better, wish).met);
-  CHECK(*plan_within(better, wish).copies_now == 9);
+  CHECK_FALSE(plan_stack(better, wish).met);
+  CHECK(*plan_stack(better, wish).copies_now == 9);
 }
 
 TEST_CASE("crates of pitch 0.1 fill 1 m in spite of rounding") {
   const Stackability crate{{0, 0, 1}, 0.1, 0.3, 1, 1, 2. / 3};
-  CHECK(plan_within(crate, {8, 1, 0}).met);
-  CHECK(*plan_within(crate, {8, 1, 0}).copies_now == 8);
+  CHECK(plan_stack(crate, {8, 1, 0}).met);
+  CHECK(*plan_stack(crate, {8, 1, 0}).copies_now == 8);
 }
 
 TEST_CASE("the borders of a plan") {
-  CHECK_FALSE(plan_within(chair(), {2, 0.5, 0}).possible);
-  CHECK(*plan_within(chair(), {2, 0.5, 0}).copies_now == 0);
-  CHECK_FALSE(plan_within(chair(), {3, 1, 0.2}).possible);
-  const StackPlan one = plan_within(chair(), {1, 0.8, 0.5});
+  CHECK_FALSE(plan_stack(chair(), {2, 0.5, 0}).possible);
+  CHECK(*plan_stack(chair(), {2, 0.5, 0}).copies_now == 0);
+  CHECK_FALSE(plan_stack(chair(), {3, 1, 0.2}).possible);
+  const StackPlan one = plan_stack(chair(), {1, 0.8, 0.5});
   CHECK(one.met);
   CHECK_FALSE(one.translation.has_value());
   CHECK_FALSE(one.stackability.has_value());
   Stackability sheet = chair();
   sheet.f_max = 0;
-  CHECK_FALSE(plan_within(sheet, {5, 1, 0}).copies_now.has_value());
-  CHECK(plan_within(sheet, {1000000, 0.8, 0}).met);
+  CHECK_FALSE(plan_stack(sheet, {5, 1, 0}).copies_now.has_value());
+  CHECK(plan_stack(sheet, {1000000, 0.8, 0}).met);
 }
 
 TEST_CASE("a plan refuses what is not a wish") {
-  CHECK_THROWS_AS(plan_within(chair(), {0, 1, 0}), UsageError);
-  CHECK_THROWS_AS(plan_within(chair(), {2, 0, 0}), UsageError);
-  CHECK_THROWS_AS(plan_within(chair(), {2, std::numeric_limits<double>::infinity(), 0}), UsageError);
-  CHECK_THROWS_AS(plan_within(chair(), {2, 1, -0.1}), UsageError);
+  CHECK_THROWS_AS(plan_stack(chair(), {0, 1, 0}), UsageError);
+  CHECK_THROWS_AS(plan_stack(chair(), {2, 0, 0}), UsageError);
+  CHECK_THROWS_AS(plan_stack(chair(), {2, std::numeric_limits<double>::infinity(), 0}), UsageError);
+  CHECK_THROWS_AS(plan_stack(chair(), {2, 1, -0.1}), UsageError);
 }

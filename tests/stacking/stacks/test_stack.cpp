@@ -199,7 +199,7 @@ TEST_CASE("sliding contact is free for solids and blocks in closed semantics") {
   StackOptions options = stack_of(3);
   options.poses = powers({Eigen::Matrix3d::Identity(), {1, 0, 0}}, 3);
   CHECK(stack_copies(cube, upwards, options).height == 1);
-  options.semantics = Semantics::closed;
+  options.semantics = ContactSemantics::closed;
   CHECK(stack_copies(cube, upwards, options).height == 3);
 }
 

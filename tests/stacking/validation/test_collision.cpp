@@ -162,10 +162,10 @@ TEST_CASE("exact f_max is where collisions end, in both semantics", "[collision]
     const CollisionTester tester(shapes[s], shapes[s]);
     for (const Direction& direction : directions) {
       CAPTURE(s, direction.vector().transpose());
-      const Rational solid = exact_f_max(shapes[s], direction, Semantics::solid);
+      const Rational solid = exact_f_max(shapes[s], direction, ContactSemantics::solid);
       CHECK_FALSE(tester.interiors_overlap(direction, solid));
       CHECK(tester.interiors_overlap(direction, solid - delta));
-      const Rational closed = exact_f_max(shapes[s], direction, Semantics::closed);
+      const Rational closed = exact_f_max(shapes[s], direction, ContactSemantics::closed);
       CHECK(tester.closed_contact(direction, closed));
       CHECK_FALSE(tester.closed_contact(direction, closed + delta));
     }
@@ -213,7 +213,7 @@ TEST_CASE("open sheets can touch but have no interior", "[collision]") {
   CHECK_FALSE(tester.closed_contact(upwards, Rational(-5.001)));
   CHECK_THROWS_AS(tester.interiors_overlap(upwards, Rational(-2)), InputError);
   BisectionOptions options;
-  options.semantics = Semantics::closed;
+  options.semantics = ContactSemantics::closed;
   const auto bracket = translation_by_bisection(tester, upwards, options);
   REQUIRE(bracket);
   CHECK(bracket->free == Approx(-1).epsilon(1e-8));

@@ -6,7 +6,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/structure/analysis.h"
 #include "stackabilization/structure/project_file.h"
-#include "structure/analysis/idealise.h"
+#include "structure/analysis/symmetrize.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/symmetric_solids.h"
@@ -24,7 +24,7 @@ int count_of_type(const Structure& structure, RelationType type) {
 double worst_miss(const Structure& structure) {
   double most = 0;
   for (const Relation& relation : structure.relations)
-    if (relation.points.rows() == 0) most = std::max(most, detail::symmetry_miss(structure, relation));
+    if (relation.points.rows() == 0) most = std::max(most, detail::symmetry_residual(structure, relation));
   return most;
 }
 

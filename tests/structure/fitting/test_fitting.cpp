@@ -290,8 +290,8 @@ TEST_CASE("a sheet is a thickened cuboid, and never a cylinder") {
   const Shape sheet = make_shape(points, triangles);
   const FittedPrimitive fitted = fit_primitive(sheet);
   const Cuboid& cuboid = cuboid_in(fitted);
-  CHECK(cuboid.corners(4, 2) - cuboid.corners(0, 2) == Approx(5 * tolerance::least_thickness));
-  CHECK(volume(fitted.primitive) == Approx(12 * 5 * tolerance::least_thickness));
+  CHECK(cuboid.corners(4, 2) - cuboid.corners(0, 2) == Approx(5 * tolerance::min_thickness));
+  CHECK(volume(fitted.primitive) == Approx(12 * 5 * tolerance::min_thickness));
   CHECK_FALSE(fitted.fit.cylinder_error);
   CHECK(fitted.fit.note == "thickened to a thousandth of its diagonal");
   CHECK_THROWS_AS(fit_primitive(sheet, {.kind = PrimitiveKind::cylinder}), UsageError);

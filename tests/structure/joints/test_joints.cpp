@@ -259,6 +259,6 @@ TEST_CASE("options out of range are refused") {
   CHECK_THROWS_AS(joints_of(shape, {.reach = 0}), UsageError);
   CHECK_THROWS_AS(joints_of(shape, {.separate = -1}), UsageError);
   CHECK_THROWS_AS(joints_of(shape, {.line_aspect = 0.5}), UsageError);
-  CHECK_THROWS_AS(joints_of(shape, {.least_line = -1}), UsageError);
+  CHECK_THROWS_AS(joints_of(shape, {.min_line = -1}), UsageError);
   CHECK_THROWS_AS(find_joints(shape, {}), UsageError);
 }

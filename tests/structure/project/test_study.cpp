@@ -9,7 +9,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/io/read.h"
 #include "stackabilization/structure/analysis.h"
-#include "stackabilization/structure/authors_files.h"
+#include "stackabilization/structure/ctrl_grp_files.h"
 #include "support/catch.h"
 
 using namespace stackabilization;
@@ -91,7 +91,7 @@ TEST_CASE("the relations listed by hand for the study are found") {
         std::string("Tasks/stool-01"), std::string("Tasks/table-midbar"), std::string("table"),
         std::string("tableGC")}) {
     const Shape shape = read_shape(root + name + ".obj");
-    const Structure hand = read_authors_structure(shape, {root + name + ".ctrl", root + name + ".grp"});
+    const Structure hand = read_ctrl_grp(shape, {root + name + ".ctrl", root + name + ".grp"});
     AnalysisOptions options;
     options.segmentation.method = SegmentationMethod::given;
     const Structure ours = analyse_structure(shape, options).structure;
@@ -143,9 +143,9 @@ TEST_CASE("every file of the authors' program is read") {
     INFO(model.mesh << " " << model.groups);
     ReadOptions options;
     if (model.labels) options.labels = root + model.labels;
-    AuthorsFiles files{{}, root + model.groups};
+    CtrlGrpFiles files{{}, root + model.groups};
     if (model.controls) files.controls = root + model.controls;
-    const Structure structure = read_authors_structure(read_shape(root + model.mesh, options), files);
+    const Structure structure = read_ctrl_grp(read_shape(root + model.mesh, options), files);
     CHECK(!structure.relations.empty());
   }
 }

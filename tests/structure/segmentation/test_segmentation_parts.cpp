@@ -24,7 +24,7 @@ Shape cut(const Shape& shape, int parts = 0, SegmentationMethod method = Segment
   SegmentationOptions options;
   options.method = method;
   options.parts = parts;
-  return segmented(shape, options);
+  return segment(shape, options);
 }
 
 double area_of(const Shape& shape, Eigen::Index t) {
@@ -190,7 +190,7 @@ TEST_CASE("seeds on the boxes of a table give back its parts") {
       if (truth.triangle_part[static_cast<std::size_t>(t)] == p) members.push_back(t);
     seeds.push_back({"mine_" + std::to_string(p), {members[members.size() / 2]}});
   }
-  const Shape found = segmented(truth, seeds);
+  const Shape found = segment(truth, seeds);
   CHECK(agreement(truth, found) > 0.98);
   CHECK(found.part_names.front() == "mine_0");
   for (std::size_t p = 0; p < seeds.size(); ++p)
@@ -201,7 +201,7 @@ TEST_CASE("seeds on the boxes of a table give back its parts") {
 TEST_CASE("a component without a seed goes to the part nearest in space") {
   const Shape near = solids::box({0, 0, 0}, {1, 1, 1}), far = solids::box({9, 0, 0}, {10, 1, 1});
   const Shape lone = solids::box({2, 0, 0}, {3, 1, 1});
-  const Shape found = segmented(concatenate(concatenate(near, far), lone), {{"far", {12}}, {"near", {0}}});
+  const Shape found = segment(concatenate(concatenate(near, far), lone), {{"far", {12}}, {"near", {0}}});
   for (std::size_t t = 0; t < 36; ++t) CHECK(found.triangle_part[t] == (t >= 12 && t < 24 ? 0 : 1));
 }
 

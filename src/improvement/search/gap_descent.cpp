@@ -1,0 +1,138 @@
+#include "improvement/search/gap_descent.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "improvement/contacts/block_separations.h"
+#include "improvement/contacts/design_contacts.h"
+#include "stackabilization/improvement/energy.h"
+
+namespace stackabilization {
+
+namespace {
+
+/// Least decrease of the merit that makes an edit worthwhile.
+constexpr double min_merit_gain = 0.01;
+
+/// The number of triangle pairs in a contact band grows with the width of the band and with the square of the
+/// number of triangles. Beyond this number of triangles the band is narrower.
+constexpr double many_triangles = 20000;
+
+/// The greedy descent of `descend_gaps`.
+class Pursuit {
+ public:
+  Pursuit(const RequirementChecker& checker, const Candidate& start, const GapDescentOptions& options)
+      : checker_(checker),
+        options_(options),
+        direction_(start.direction),
+        constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction_)),
+        meter_(checker.space().rest(), checker.requirements().measure.boxes, options.alpha),
+        handles_(checker.space().handles()),
+        blocks_(checker.space().rest().shape, direction_, checker.requirements().measure.semantics, 1),
+        at_rest_(start.measured.value - start.energy.gain) {
+    now_.candidate = start;
+    now_.excess = excess(now_.candidate);
+  }
+
+  GapDescentResult run() {
+    for (int step = 0; step < options_.steps && now_.excess > 0; ++step)
+      if (stopped_here() || !advance()) break;
+    return {std::move(now_.candidate), evaluations_};
+  }
+
+ private:
+  struct State {
+    Candidate candidate;
+    double excess = 0;  ///< summed excess of all pairs of blocks, fraction of the extent
+  };
+
+  double allowed(const Stackability& measured) const {
+    const double per_length = measured.stack_box_volume / (measured.extent * measured.box_volume);
+    return (1 - checker_.required_stackability(measured)) / per_length - checker_.requirements().clearance;
+  }
+
+  double excess(const Candidate& candidate) const {
+    const double most = allowed(candidate.measured);
+    double sum = 0;
+    for (const detail::BlockPair& pair : blocks_.pairs_above(candidate.design.shape, most))
+      sum += pair.f - most;
+    return sum / candidate.measured.extent;
+  }
+
+  /// Returns D + F / F_now, see `descend_gaps`.
+  double merit(const State& state) const {
+    return state.candidate.energy.distortion.total() + state.excess / now_.excess;
+  }
+
+  /// Returns the edits that regions with f above the allowed separation suggest.
+  std::vector<ContactEdit> suggestions() const {
+    const Candidate& from = now_.candidate;
+    ContactOptions contacts = options_.edits.contacts;
+    const double lack = (from.measured.f_max - allowed(from.measured)) / from.measured.extent;
+    const double density = static_cast<double>(from.design.shape.triangle_count()) / many_triangles;
+    contacts.band = std::max(contacts.band, std::min({lack, 1.0, 1 / (density * density)}));
+    const std::vector<ContactRegion> regions =
+        detail::contacts_of(checker_, from.design.shape, direction_, contacts);
+    return contact_edits({checker_.space().rest(), checker_.space().kind(), handles_, from.design, regions,
+                          direction_, checker_.space().centres()},
+                         options_.edits);
+  }
+
+  std::optional<State> after(const ContactEdit& suggestion) const {
+    DesignOutcome outcome = checker_.space().edited(now_.candidate.design, suggestion.edit, constraints_);
+    if (outcome.refusal || checker_.size_ratio_violation(outcome.design)) return std::nullopt;
+    State state;
+    state.candidate.measured = checker_.measure(outcome.design.shape, direction_);
+    state.candidate.energy = meter_.energy(outcome.design, state.candidate.measured.value - at_rest_);
+    state.candidate.design = std::move(outcome.design);
+    state.excess = excess(state.candidate);
+    return state;
+  }
+
+  bool advance() {
+    const std::vector<ContactEdit> edits = suggestions();
+    if (static_cast<std::int64_t>(edits.size()) > options_.evaluations - evaluations_) return false;
+    evaluations_ += static_cast<std::int64_t>(edits.size());
+    std::vector<std::optional<State>> made(edits.size());
+    tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
+      if (!stopped_here()) made[k] = after(edits[k]);
+    });
+    if (stopped_here()) return false;
+    const double before = merit(now_) - min_merit_gain;
+    std::optional<std::size_t> best;
+    for (std::size_t k = 0; k < made.size(); ++k)
+      if (made[k] && merit(*made[k]) < (best ? merit(*made[*best]) : before)) best = k;
+    if (!best) return false;
+    Candidate& next = made[*best]->candidate;
+    next.direction = now_.candidate.direction;
+    next.reasons = now_.candidate.reasons;
+    next.reasons.push_back(edits[*best].why);
+    now_ = std::move(*made[*best]);
+    return true;
+  }
+
+  bool stopped_here() const { return options_.cancelled && options_.cancelled(); }
+
+  const RequirementChecker& checker_;
+  const GapDescentOptions& options_;
+  Direction direction_;
+  DeformationConstraints constraints_;
+  EnergyMeter meter_;
+  std::vector<Handle> handles_;
+  detail::BlockSeparations blocks_;
+  double at_rest_;
+  State now_;
+  std::int64_t evaluations_ = 0;
+};
+
+}  // namespace
+
+GapDescentResult descend_gaps(const RequirementChecker& checker, const Candidate& start,
+                              const GapDescentOptions& options) {
+  return Pursuit(checker, start, options).run();
+}
+
+}  // namespace stackabilization
