@@ -135,10 +135,9 @@ void write_solutions(ImproveReport& report, Writer& writer) {
     report.solutions.push_back(
         reported(result.solutions[i], result.assessments.at(i), "solution_" + std::to_string(i + 1)));
   if (report.solutions.empty() && result.nearest)
-    report.nearest =
-        reported(*result.nearest,
-                 report.task.checker->checked(result.nearest->design, Direction(result.nearest->direction)),
-                 "nearest");
+    report.nearest = reported(
+        *result.nearest,
+        report.task.checker().check(result.nearest->design, Direction(result.nearest->direction)), "nearest");
   const auto write = [&](SolutionReport& solution) {
     writer.write_meshes(solution);
     writer.write_pictures(solution);

@@ -86,7 +86,7 @@ Json stackability_json(const Stackability& measured) {
           {"f_max", measured.f_max},
           {"height", measured.extent},
           {"box_volume", measured.box_volume},
-          {"stack_box_volume", measured.stack_box_volume}};
+          {"stack_box_volume", measured.stack_box_volume()}};
 }
 
 Json requirements_json(const Assessment& assessment) {
@@ -163,15 +163,15 @@ Json diagnosis_json(const Diagnosis& diagnosis, const StructuredShape& rest) {
 Json target_json(const ImproveReport& report) {
   const ImproveTask& task = report.task;
   Json directions = Json::array();
-  for (const Eigen::Vector3d& direction : task.directions) directions.push_back(to_json(direction));
-  const StackabilityOptions& measure = task.checker->requirements().measure;
+  for (const Eigen::Vector3d& direction : task.task->directions()) directions.push_back(to_json(direction));
+  const StackabilityOptions& measure = task.checker().requirements().measure;
   return {{"stackability", task.target()},
           {"copies", to_json(report.options.copies)},
-          {"within", to_json(task.room)},
+          {"within", to_json(task.length_limit())},
           {"directions", directions},
           {"semantics", name_of(measure.semantics)},
           {"boxes", name_of(measure.boxes)},
-          {"deformation", name_of(task.space->kind())},
+          {"deformation", name_of(task.task->space().kind())},
           {"preset", report.options.preset == ImprovementPreset::paper ? "paper" : "refined"},
           {"least", change_measure_name(report.options.objective)},
           {"words", wish_lines(report)}};

@@ -12,8 +12,8 @@ HistoryNode root(const ImproveReport& report) {
   const ImproveTask& task = report.task;
   HistoryNode node;
   node.name = "at rest";
-  node.direction = task.directions.front();
-  node.stackability = task.checker->measured(task.rest().shape, Direction(node.direction)).value;
+  node.direction = task.task->directions().front();
+  node.stackability = task.checker().measure(task.rest().shape, Direction(node.direction)).value;
   return node;
 }
 
@@ -21,7 +21,8 @@ HistoryNode node_of(const ImproveTask& task, const SolutionReport& solution) {
   HistoryNode node;
   node.parent = 0;
   node.edits = solution.candidate.design.edits;
-  node.constraints = deformation_constraints(task.checker->requirements(), task.rest(), solution.direction());
+  node.constraints =
+      deformation_constraints(task.checker().requirements(), task.rest(), solution.direction());
   node.name = solution.name;
   node.direction = solution.candidate.direction;
   node.stackability = solution.assessment.measured.value;
@@ -30,7 +31,7 @@ HistoryNode node_of(const ImproveTask& task, const SolutionReport& solution) {
 }
 
 bool makes_again(const ImproveTask& task, const HistoryNode& node, const Design& design) {
-  const DesignOutcome outcome = task.space->replayed(node.edits, node.constraints);
+  const DesignOutcome outcome = task.task->space().replayed(node.edits, node.constraints);
   if (outcome.refusal) return false;
   const double most = tolerance::relative * task.rest().structure.diagonal;
   return (outcome.design.shape.vertices - design.shape.vertices).cwiseAbs().maxCoeff() <= most;
@@ -40,7 +41,7 @@ bool makes_again(const ImproveTask& task, const HistoryNode& node, const Design&
 
 Project improvement_project(const ImproveReport& report) {
   const ImproveTask& task = report.task;
-  Project project{task.rest(), {}, {task.space->kind(), Direction(task.directions.front())}};
+  Project project{task.rest(), {}, {task.task->space().kind(), Direction(task.task->directions().front())}};
   project.history.nodes.push_back(root(report));
   for (const SolutionReport* solution : report.shown()) {
     HistoryNode node = node_of(task, *solution);

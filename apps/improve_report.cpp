@@ -19,7 +19,7 @@ std::string part_list(const std::vector<int>& parts, const StructuredShape& rest
 
 /// What every part and the air between copies have to respect.
 void add_requirement_lines(std::vector<std::string>& lines, const ImproveReport& report) {
-  const Requirements& asked = report.task.checker->requirements();
+  const Requirements& asked = report.task.checker().requirements();
   const StructuredShape& rest = report.task.rest();
   const Unit unit = rest.shape.unit;
   if (asked.keep_height) lines.emplace_back("the height along the direction stays what it is");
@@ -31,8 +31,9 @@ void add_requirement_lines(std::vector<std::string>& lines, const ImproveReport&
     lines.push_back("sides of the box change by at most " + percent(*asked.box_tolerance));
   if (asked.min_thickness)
     lines.push_back("walls no thinner than " + quantity(*asked.min_thickness, unit) + ", or than they are");
-  if (asked.clearance > 0) lines.push_back("air between copies: " + quantity(asked.clearance, unit));
-  if (asked.play > 0) lines.push_back("sideways play: " + quantity(asked.play, unit));
+  if (asked.measure.clearance > 0)
+    lines.push_back("air between copies: " + quantity(asked.measure.clearance, unit));
+  if (asked.measure.play > 0) lines.push_back("sideways play: " + quantity(asked.measure.play, unit));
   if (asked.min_draft_degrees)
     lines.push_back("draft at the contacts: at least " + rounded(*asked.min_draft_degrees) + " degrees");
   if (asked.standing_copies)
@@ -93,13 +94,13 @@ std::string title_of(const SolutionReport& solution) {
 std::vector<std::string> wish_lines(const ImproveReport& report) {
   const ImproveTask& task = report.task;
   std::string directions;
-  for (const Eigen::Vector3d& direction : task.directions)
+  for (const Eigen::Vector3d& direction : task.task->directions())
     directions += (directions.empty() ? "" : " or ") + direction_text(direction);
   std::vector<std::string> lines;
-  if (task.room)
+  if (task.length_limit())
     lines.push_back(std::to_string(*report.options.copies) + " copies within " +
-                    quantity(*task.room, task.rest().shape.unit));
-  const BoxModel boxes = task.checker->requirements().measure.boxes;
+                    quantity(*task.length_limit(), task.rest().shape.unit));
+  const BoxModel boxes = task.checker().requirements().measure.boxes;
   lines.push_back("S of at least " + rounded(task.target()) + " " + directions + " (" +
                   (boxes == BoxModel::frame ? "frame" : "oriented") + " boxes)");
   add_requirement_lines(lines, report);

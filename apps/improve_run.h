@@ -7,29 +7,28 @@
 #include <vector>
 
 #include "apps/improve_options.h"
-#include "stackabilization/improvement/improve.h"
+#include "stackabilization/improvement/task.h"
 
 namespace stackabilization::apps {
 
-/// A task for `improve`: a design space and what is asked of its designs.
+/// A task for `improve`, and the model and options that it was made of.
 struct ImproveTask {
   Model model;  ///< as read, parts that were taken out included
-  std::unique_ptr<const DesignSpace> space;
-  std::unique_ptr<const RequirementChecker> checker;
-  std::vector<Eigen::Vector3d> directions;
-  std::optional<double> room;        ///< --within, model units
+  std::unique_ptr<const ImprovementTask> task;
   std::optional<SavedSearch> saved;  ///< what --resume goes on with
-  bool late = false;                 ///< --time ended the look for directions
 
-  const StructuredShape& rest() const { return space->rest(); }
-  double target() const { return checker->requirements().target; }
+  const StructuredShape& rest() const { return task->rest(); }
+  const RequirementChecker& checker() const { return task->checker(); }
+  double target() const { return checker().requirements().target; }
+  /// --within, model units.
+  std::optional<double> length_limit() const {
+    const std::optional<StackLengthLimit>& limit = checker().requirements().length_limit;
+    return limit ? std::optional(limit->length) : std::nullopt;
+  }
 };
 
-/// Reads and analyses the model, takes out parts, looks for directions, unless they are given or those of the
-/// search to go on with, and turns the wish into a target: the stackability_within that the copies take, for
-/// the height and the boxes at rest. What becomes of the height of the stack is checked on the solutions.
-///
-/// `watch`: what --time counts. Throws as these do, and UsageError when not even the bare heights fit.
+/// Reads and analyses the model, takes out parts and makes the task. `watch`: what --time counts. Throws as
+/// these do.
 ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& options,
                          const Stopwatch& watch);
 

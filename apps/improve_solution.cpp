@@ -24,17 +24,17 @@ StackHeights stack_heights(const ImproveCommandOptions& options, const ImproveTa
   const auto height = [copies](const Stackability& measured) {
     return measured.extent + (copies - 1) * measured.f_max;
   };
-  return {copies, height(report.before), height(report.assessment.measured), task.room};
+  return {copies, height(report.before), height(report.assessment.measured), task.length_limit()};
 }
 
 TwistResult twisted(const ImproveTask& task, const SolutionReport& report) {
-  const Requirements& asked = task.checker->requirements();
+  const Requirements& asked = task.checker().requirements();
   TwistOptions search;
   search.stack.copies = report.stack.copies;
   search.stack.semantics = asked.measure.semantics;
   search.stack.boxes = asked.measure.boxes;
-  search.stack.clearance = asked.clearance;
-  search.stack.play = asked.play;
+  search.stack.clearance = asked.measure.clearance;
+  search.stack.play = asked.measure.play;
   return best_twist(report.candidate.design.shape, report.direction(), search);
 }
 
@@ -129,7 +129,7 @@ SolutionReport solution_report(const ImproveCommandOptions& options, const Impro
   report.assessment = assessment;
   const Direction direction = report.direction();
   const StructuredShape& rest = task.rest();
-  report.before = task.checker->measured(rest.shape, direction);
+  report.before = task.checker().measure(rest.shape, direction);
   report.change = shape_change(rest.shape, candidate.design.shape);
   report.residuals = relation_residuals(rest.structure, candidate.design.primitives);
   report.stack = stack_heights(options, task, report);
@@ -140,9 +140,9 @@ SolutionReport solution_report(const ImproveCommandOptions& options, const Impro
 std::vector<WrittenCheck> check_written(const std::filesystem::path& mesh, const ImproveTask& task,
                                         const SolutionReport& report) {
   const Direction direction = report.direction();
-  const Requirements& asked = task.checker->requirements();
+  const Requirements& asked = task.checker().requirements();
   const Shape shape = read_shape(mesh);
-  const Stackability measured = task.checker->measured(shape, direction);
+  const Stackability measured = task.checker().measure(shape, direction);
   SeparationOptions options;
   options.semantics = asked.measure.semantics;
   std::vector<WrittenCheck> checks = {

@@ -9,13 +9,6 @@ namespace stackabilization::apps {
 
 namespace {
 
-/// Eq. 3 with a given f_max.
-void set_f_max(Stackability& values, double f_max) {
-  values.f_max = f_max;
-  if (values.box_volume > 0)
-    values.value = 1 - f_max / values.extent * (values.stack_box_volume / values.box_volume);
-}
-
 HeightField sampled_field(const Shape& shape, const Direction& direction, Method method,
                           const Window& window) {
   switch (method) {
@@ -33,14 +26,14 @@ HeightField sampled_field(const Shape& shape, const Direction& direction, Method
 Measurement measure_exactly(const StackabilitySolver& solver, const Direction& direction) {
   Measurement measurement;
   measurement.options = solver.options();
-  measurement.values = solver.measure(direction);
-  measurement.separation = solver.separation(direction);
-  if (!measurement.separation->blocked) return measurement;
-  set_f_max(measurement.values, measurement.separation->length);
+  const ExactStackability exact = solver.measure_exact(direction);
+  measurement.values = exact.stackability;
+  measurement.separation = exact.separation;
+  if (!exact.separation.blocked) return measurement;
   ContactOptions options;
   options.semantics = solver.options().semantics;
   measurement.contacts =
-      contact_regions({solver.shape(), solver.tree(), direction, *measurement.separation}, options);
+      contact_regions({solver.shape(), solver.tree(), direction, exact.separation}, options);
   return measurement;
 }
 
@@ -53,9 +46,8 @@ Measurement measure_by_sampling(const StackabilitySolver& solver, const Directio
   Measurement measurement;
   measurement.method = method;
   measurement.options = solver.options();
-  measurement.values = solver.measure(direction);
-  const Separation separation = solver.separation(direction);
-  const double exact = separation.blocked ? separation.length : 0;
+  const Stackability measured = solver.measure_exact(direction).stackability;
+  const double exact = measured.f_max;
   Sampling sampling{resolution, window.pixel_size, window.columns, window.rows, exact, f_max - exact, {}};
   if (resolution >= 2) {
     const Window coarse = window_around(shape, direction, resolution / 2);
@@ -63,7 +55,7 @@ Measurement measure_by_sampling(const StackabilitySolver& solver, const Directio
         maximum_gap(sampled_field(shape, direction, method, coarse)).value - exact;
   }
   measurement.sampling = sampling;
-  set_f_max(measurement.values, f_max);
+  measurement.values = measured.with_f_max(f_max);
   return measurement;
 }
 

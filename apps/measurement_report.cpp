@@ -41,7 +41,7 @@ std::optional<double> share_of_height(const Stackability& values) {
 void add_box_lines(TextTable& table, const Measurement& measurement, Unit unit) {
   const Stackability& values = measurement.values;
   table.add("Boxes", quantity(values.box_volume, unit, 3),
-            "of one copy, and " + quantity(values.stack_box_volume, unit, 3) +
+            "of one copy, and " + quantity(values.stack_box_volume(), unit, 3) +
                 " with a side along the direction (" + name_of(measurement.options.boxes) + ")");
   if (values.box_volume > 0)
     table.add("Stackability", stackability_text(values.value) + " " + direction_text(values.direction),
@@ -147,7 +147,7 @@ void add_measurement(Json& document, const Measurement& measurement, const Model
   document["stackability"] = values.box_volume > 0 ? Json(values.value) : Json(nullptr);
   document["nesting_increment"] = values.f_max;
   document["box_volume"] = values.box_volume;
-  document["stack_box_volume"] = values.stack_box_volume;
+  document["stack_box_volume"] = values.stack_box_volume();
   const std::optional<Separation>& separation = measurement.separation;
   document["exact"] = separation ? exact_f_max_json(*separation) : Json(nullptr);
   document["witness"] = separation && separation->blocked ? to_json(separation->witness) : Json(nullptr);

@@ -51,16 +51,18 @@ void check(const RequirementArguments& arguments) {
       throw UsageError("--keep and --only contradict each other: both name '" + name + "'");
 }
 
-Requirements requirements_of(const RequirementArguments& arguments, const Shape& rest) {
+Requirements requirements_of(const RequirementArguments& arguments, const Shape& rest,
+                             const StackabilityOptions& measure) {
   const Unit unit = rest.unit;
   Requirements requirements;
+  requirements.measure = measure;
   requirements.keep_height = !arguments.change_height;
   requirements.kept_parts = parts_named("--keep", arguments.kept, rest);
   requirements.editable_parts = parts_named("--only", arguments.editable, rest);
   requirements.box_tolerance = arguments.box_tolerance;
   if (arguments.thickness) requirements.min_thickness = length_in(arguments.thickness, unit);
-  requirements.clearance = length_in(arguments.clearance, unit);
-  requirements.play = length_in(arguments.lateral_clearance, unit);
+  requirements.measure.clearance = length_in(arguments.clearance, unit);
+  requirements.measure.play = length_in(arguments.lateral_clearance, unit);
   requirements.min_draft_degrees = arguments.draft_degrees;
   requirements.standing_copies = arguments.standing;
   requirements.min_tipping_degrees = arguments.tipping_degrees.value_or(0);

@@ -33,6 +33,7 @@ void check(const RequirementArguments& arguments);
 
 /// As the library has them, without target. Throws UsageError for parts that do not exist and lengths in
 /// a unit that `rest` cannot be told in.
-Requirements requirements_of(const RequirementArguments& arguments, const Shape& rest);
+Requirements requirements_of(const RequirementArguments& arguments, const Shape& rest,
+                             const StackabilityOptions& measure);
 
 }  // namespace stackabilization::apps

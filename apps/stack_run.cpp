@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "stackabilization/core/tolerances.h"
-#include "stackabilization/stacking/clearance.h"
 #include "stackabilization/stacking/stack_search.h"
 
 namespace stackabilization::apps {
@@ -28,20 +27,6 @@ void fill_searched_period(StackRun& run, const Model& model, const Direction& di
   run.result = std::move(found.stack);
 }
 
-/// Terms of Eq. 2 and 3 with the lateral play taken into account.
-Stackability measured_with_play(const StackCommandOptions& options, const StackRun& run, const Model& model) {
-  const Direction direction = options.stacking_direction();
-  Stackability measured = stackability(model.shape, direction, options.stackability);
-  if (run.options.play > 0) {
-    PlayOptions play;
-    play.play = run.options.play;
-    play.semantics = run.options.semantics;
-    measured.f_max = separation_with_play(model.shape, model.shape, direction, play).length;
-    measured.value = 1 - measured.f_max / measured.extent * (measured.stack_box_volume / measured.box_volume);
-  }
-  return measured;
-}
-
 }  // namespace
 
 StackRun run_stack(const StackCommandOptions& options, const Model& model) {
@@ -53,7 +38,10 @@ StackRun run_stack(const StackCommandOptions& options, const Model& model) {
   if (options.within) {
     Wish wish;
     wish.length = options.within->in(model.shape.unit);
-    wish.plan = plan_stack(measured_with_play(options, run, model),
+    StackabilityOptions measure = options.stackability;
+    measure.clearance = run.options.clearance;
+    measure.play = run.options.play;
+    wish.plan = plan_stack(stackability(model.shape, direction, measure),
                            {run.options.copies, wish.length, run.options.clearance});
     run.wish = wish;
   }

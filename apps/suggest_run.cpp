@@ -80,9 +80,8 @@ SuggestRun run_suggest(const SuggestCommandOptions& options, const StructuredMod
   choose_model(options, run);
   const StructuredShape& rest = run.project.rest;
   run.space = named(input.model, [&] { return design_space(rest, run.project.space); });
-  Requirements requirements = requirements_of(options.requirements, rest.shape);
+  Requirements requirements = requirements_of(options.requirements, rest.shape, options.measure);
   requirements.target = options.target.value_or(0);
-  requirements.measure = options.measure;
   const RequirementChecker checker(*run.space, requirements);
   const auto measured = [&](const Design& design, const SuggestionOptions& how) {
     return named(input.model, [&] { return situation(checker, design, run.direction, how); });

@@ -36,5 +36,5 @@ foreach(page ${pages})
   get_filename_component(folder ${page} DIRECTORY)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})
 endforeach()
-install(FILES docs/examples/CMakeLists.txt docs/examples/main.cpp data/models/cup.obj data/models/table.obj
+install(FILES docs/examples/CMakeLists.txt docs/examples/measure.cpp docs/examples/improve.cpp data/models/cup.obj data/models/table.obj
   DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples)

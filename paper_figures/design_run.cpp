@@ -65,7 +65,6 @@ DesignTask read_design_task(const Fields& fields) {
   task.options.search.edits.bends = task.options.preset == ImprovementPreset::paper;
   task.options.search.expansions = fields.whole("expansions", 1, max_expansions);
   task.options.effort = std::numeric_limits<double>::infinity();  // what ends it are the expansions
-  task.options.search.directions = {direction};
   return task;
 }
 
@@ -84,12 +83,14 @@ DesignRun design_run(const DesignTask& task, const ModelFolder& models) {
 }
 
 DesignRun design_run(StructuredShape rest, const DesignTask& task) {
-  DesignRun run;
-  run.space = design_space(std::move(rest), task.space);
   Requirements requirements = task.requirements;
-  requirements.kept_parts = parts_named(run.rest().shape, task.kept);
-  run.checker = std::make_unique<RequirementChecker>(*run.space, requirements);
-  run.result = improve(*run.checker, task.options);
+  requirements.kept_parts = parts_named(rest.shape, task.kept);
+  ImprovementTaskOptions options;
+  options.kind = task.space.kind;
+  options.directions = {task.space.direction.vector()};
+  DesignRun run;
+  run.task = std::make_unique<const ImprovementTask>(std::move(rest), std::move(requirements), options);
+  run.result = improve(*run.task, task.options);
   return run;
 }
 
@@ -111,7 +112,7 @@ const Candidate& DesignRun::best() const {
 
 ImprovedShape improved_shape(const DesignRun& run) {
   const Direction direction(run.best().direction);
-  const StackabilityOptions& measure = run.checker->requirements().measure;
+  const StackabilityOptions& measure = run.task->checker().requirements().measure;
   return {measured_shape(run.rest().shape, direction, measure),
           measured_shape(run.best().design.shape, direction, measure)};
 }

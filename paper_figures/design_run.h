@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "paper_figures/input.h"
-#include "stackabilization/improvement/improve.h"
+#include "stackabilization/improvement/task.h"
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/structure/analysis.h"
 
@@ -34,11 +34,10 @@ DesignTask read_design_task(const Fields& fields);
 
 /// What became of a task.
 struct DesignRun {
-  std::unique_ptr<const DesignSpace> space;
-  std::unique_ptr<const RequirementChecker> checker;
+  std::unique_ptr<const ImprovementTask> task;
   Improvement result;
 
-  const StructuredShape& rest() const { return space->rest(); }
+  const StructuredShape& rest() const { return task->rest(); }
   bool reached() const { return !result.solutions.empty(); }
   /// The best solution, or what came nearest to one.
   const Candidate& best() const;

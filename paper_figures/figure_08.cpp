@@ -48,14 +48,14 @@ std::vector<int> steps(int edits, int states) {
 std::vector<State> path(const DesignRun& run, int count) {
   const std::vector<Edit>& edits = run.best().design.edits;
   const Direction direction(run.best().direction);
-  const Requirements& requirements = run.checker->requirements();
+  const Requirements& requirements = run.task->checker().requirements();
   const DeformationConstraints constraints = deformation_constraints(requirements, run.rest(), direction);
   const std::vector<int> shown = steps(static_cast<int>(edits.size()), count);
   std::vector<State> states;
   for (std::size_t k = 0; k < shown.size(); ++k) {
     State state;
     state.edits = shown[k];
-    state.design = run.space->replayed({edits.begin(), edits.begin() + shown[k]}, constraints).design;
+    state.design = run.task->space().replayed({edits.begin(), edits.begin() + shown[k]}, constraints).design;
     state.measured = measured_shape(state.design.shape, direction, requirements.measure);
     if (k + 1 < shown.size()) state.next.assign(edits.begin() + shown[k], edits.begin() + shown[k + 1]);
     states.push_back(std::move(state));

@@ -44,7 +44,7 @@ std::string sentence_about_the_first_blocker(const Diagnosis& diagnosis, const S
 /// The class of symmetric parts without which the object at rest stacks best.
 Removal best_removal(const DesignRun& run) {
   RemovalOptions options;
-  options.measure = run.checker->requirements().measure;
+  options.measure = run.task->checker().requirements().measure;
   options.directions = {run.best().direction};
   const std::vector<Removal> all = removals(run.rest(), options);
   if (all.empty()) throw InputError("the model has no part that could be left out");
@@ -73,7 +73,7 @@ Story story_of(const StackedTask& options, const ModelFolder& models) {
   if (!run.result.diagnosis || run.result.diagnosis->blockers.empty())
     throw InputError("the target " + ratio_text(options.task.requirements.target) +
                      " was reached: nothing to explain");
-  const StackabilityOptions measure = run.checker->requirements().measure;
+  const StackabilityOptions measure = run.task->checker().requirements().measure;
   Removal removal = best_removal(run);
   MeasuredShape rest =
       measured_shape(without_parts(run.rest(), removal.parts).shape, Direction(removal.direction), measure);

@@ -109,10 +109,12 @@ FigureResult make_figure_13(const Figure13Options& options, const ModelFolder& m
   search.spacing = 0.08;
   search.climbs = 6;
   const Stackability nested = best_direction(StackabilitySolver(open.shape), search).best;
-  const auto per_copy = [](const Stackability& one) { return one.f_max / one.extent * one.stack_box_volume; };
+  const auto per_copy = [](const Stackability& one) {
+    return one.f_max / one.extent * one.stack_box_volume();
+  };
   const auto volume = [&](const MeasuredShape& one) {
     return (1 + (options.copies - 1) * one.measured.f_max / one.measured.extent) *
-           one.measured.stack_box_volume;
+           one.measured.stack_box_volume();
   };
   const double saving = 1 - volume(flat) / volume(open);
   const std::string stack = "box of a stack of " + std::to_string(options.copies);

@@ -9,15 +9,21 @@ set_tests_properties("install: into a prefix" PROPERTIES LABELS unit FIXTURES_SE
 if(STACKABILIZATION_SANITIZE)  # A program must carry the sanitizers of the libraries in it.
   set(foreign_flags -DCMAKE_CXX_FLAGS=-fsanitize=${STACKABILIZATION_SANITIZE})
 endif()
-add_test(NAME "install: the installed example builds and runs"
+add_test(NAME "install: the installed examples build, and measure a shape"
   COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test ${installed_docs}/examples
     ${PROJECT_BINARY_DIR}/tests/install/example
     --build-generator ${CMAKE_GENERATOR} --build-makeprogram ${CMAKE_MAKE_PROGRAM} --build-project Example
     --build-options -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
       -DCMAKE_BUILD_TYPE=${CMAKE_BUILD_TYPE} ${foreign_flags}
-    --test-command example ${installed_docs}/examples/cup.obj)
-set_tests_properties("install: the installed example builds and runs" PROPERTIES LABELS unit FIXTURES_REQUIRED installed
+    --test-command measure ${installed_docs}/examples/cup.obj)
+set_tests_properties("install: the installed examples build, and measure a shape" PROPERTIES LABELS unit
+  FIXTURES_REQUIRED installed FIXTURES_SETUP installed_examples
   PASS_REGULAR_EXPRESSION "f_max = [0-9.]+ of 0[.][0-9]+, S = 0[.][0-9]+\n" TIMEOUT 600)
+add_test(NAME "install: an installed example improves a shape"
+  COMMAND ${PROJECT_BINARY_DIR}/tests/install/example/improve ${installed_docs}/examples/cup.obj 0.6
+    ${PROJECT_BINARY_DIR}/tests/install/stackable.obj)
+set_tests_properties("install: an installed example improves a shape" PROPERTIES LABELS unit
+  FIXTURES_REQUIRED "installed;installed_examples" PASS_REGULAR_EXPRESSION "S = 0[.]6" TIMEOUT 600)
 
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)

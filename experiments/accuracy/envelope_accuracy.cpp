@@ -52,7 +52,7 @@ std::vector<Accuracy> along(const StackabilitySolver& solver, const std::vector<
   for (Sampling& sampling : sample_all(solver.shape(), samplers, direction, one_of_few)) {
     Accuracy row{direction.vector(), std::move(sampling), exact.extent, solid.length, 0, exact.value, 0, {}};
     row.error = (row.sampling.f_max - solid.length) / exact.extent;
-    row.S_error = -row.error * exact.stack_box_volume / exact.box_volume;
+    row.S_error = -row.error * exact.stack_box_volume() / exact.box_volume;
     row.shortfall = shortfall(solver.shape(), direction, row.sampling, solid, closed);
     rows.push_back(std::move(row));
   }

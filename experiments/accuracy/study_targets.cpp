@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 double stackability_in_frame(const Shape& shape, double translation) {
   StackabilityOptions options;
   options.boxes = BoxModel::frame;
-  return stackability_of_translation(shape, Direction(0, 0, 1), translation, options).value;
+  return stackability(shape, Direction(0, 0, 1), options).value_at(translation);
 }
 
 /// The targets in (exact, read], each once, ascending.

@@ -76,7 +76,7 @@ TEST_CASE("a vertex that two parts use is a point of each when vertices are weld
   Triangles triangles(2, 3);
   triangles << 0, 1, 2, 1, 3, 2;
   Shape two = make_shape(points, triangles);
-  two.parts = {{"near"}, {"far"}};
+  two.part_names = {"near", "far"};
   two.triangle_part = {0, 1};
   CHECK(weld(two).points.rows() == 4);
   const WeldedMesh apart = weld(two, Weld::within_parts);

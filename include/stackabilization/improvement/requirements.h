@@ -22,7 +22,8 @@ struct Requirements {
   /// Replaces the target, which is then used in reports only. The S that a length needs depends on the boxes,
   /// and they change with the design.
   std::optional<StackLengthLimit> length_limit;
-  StackabilityOptions measure;  ///< meaning of S: boxes and semantics of all measurements
+  /// Meaning of S in all measurements, with the air that copies keep between them.
+  StackabilityOptions measure;
   bool keep_height = true;      ///< h(M, r) = h(M0, r), within tolerance::relative of it
   std::vector<int> kept_parts;  ///< parts that must not change
   /// Only these parts and parts symmetric to them may change. Empty: all parts may.
@@ -33,8 +34,6 @@ struct Requirements {
   std::optional<double> box_tolerance;  ///< largest relative change of each side of the file's box
   /// Least thickness, model units. Places that are thinner at rest may stay as thin as they are.
   std::optional<double> min_thickness;
-  /// Air between copies. It counts in f_max of the target: separation_with_play plus clearance.
-  double clearance = 0, play = 0;  ///< along r, and sideways; model units, >= 0
   /// Least draft angle: between r and every surface on which copies touch, degrees, in [0, 90].
   std::optional<double> min_draft_degrees;
   std::optional<int> standing_copies;  ///< number of copies whose stack must stand

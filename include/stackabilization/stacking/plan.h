@@ -11,7 +11,7 @@ namespace stackabilization {
 struct StackRequest {
   int copies = 2;        ///< N, >= 1
   double length = 0;     ///< L, room along r, model units, > 0
-  double clearance = 0;  ///< air between copies along r, model units, >= 0
+  double clearance = 0;  ///< share of f_max that is air along r, model units, >= 0
 };
 
 /// What a wish takes, and how far the shape is from it. All for pure translation along r (Eq. 2 and 3).
@@ -30,8 +30,7 @@ struct StackPlan {
   bool met = false;
   /// Length that N copies of the shape as it is take, model units.
   double length_now = 0;
-  /// How many copies of the shape as it is fit within L; nothing when there is no end to it (f_max +
-  /// clearance = 0).
+  /// How many copies of the shape as it is fit within L; nothing when there is no end to it (f_max = 0).
   std::optional<std::int64_t> copies_now;
 };
 
@@ -40,9 +39,9 @@ struct StackPlan {
 /// that. Preconditions: copies >= 2, V(M) > 0.
 double stackability_within(const Stackability& measured, int copies, double length);
 
-/// From a wish to numbers, for a shape measured along r (StackabilitySolver::measure or stackability()).
-/// Lengths are compared within tolerance::relative of L, in favour of the shape. Throws UsageError on wishes
-/// outside their ranges.
+/// From a wish to numbers, for a shape measured along r (StackabilitySolver::measure or stackability()) with
+/// the clearance and play that the copies keep. Lengths are compared within tolerance::relative of L, in
+/// favour of the shape. Throws UsageError on wishes outside their ranges.
 StackPlan plan_stack(const Stackability& measured, const StackRequest& wish);
 
 }  // namespace stackabilization

@@ -26,22 +26,40 @@ enum class FlatShapes {
   measure,  ///< all but S, which is undefined
 };
 
-/// What a stackability means: every number depends on these.
+/// Meaning of a stackability: every number depends on these options.
 struct StackabilityOptions {
-  ContactSemantics semantics = ContactSemantics::solid;  ///< of f_max
-  BoxModel boxes = BoxModel::oriented;                   ///< of V(M) and V(M, r)
+  ContactSemantics semantics = ContactSemantics::solid;  ///< meaning of f_max
+  BoxModel boxes = BoxModel::oriented;                   ///< meaning of V(M) and V(M, r)
   FlatShapes flat_shapes = FlatShapes::refuse;           ///< what to do where V(M) = 0
+  double clearance = 0;  ///< air along r that counts as part of f_max, model units, finite, >= 0
+  /// Lateral play that counts as part of f_max (see separation_with_play), model units, finite, >= 0.
+  double play = 0;
 };
 
-/// Everything that Eq. 2 and 3 need, for one direction.
+/// Stackability along one direction, with the terms of Eq. 2 and 3.
 struct Stackability {
-  Eigen::Vector3d direction;    ///< r as given
-  double f_max = 0;             ///< minimal stacking translation, model units
-  double extent = 0;            ///< h(M, r), model units; > 0 unless V(M) = 0
-  double box_volume = 0;        ///< V(M)
-  double stack_box_volume = 0;  ///< V(M, r)
-  double value = 0;             ///< S(M, r) = 1 - (f_max / h) V(M, r) / V(M), Eq. 3; may be negative; NaN
-                                ///< if V(M) = 0
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< r as given
+  double f_max = 0;       ///< minimal stacking translation, with clearance and play, model units
+  double extent = 0;      ///< h(M, r), model units; > 0 unless V(M) = 0
+  double box_volume = 0;  ///< V(M)
+  double base = 0;        ///< V(M, r) / h(M, r): area of the box across r, model units squared
+  double value = 0;       ///< S(M, r), see `value_at`; may be negative; NaN if V(M) = 0
+
+  double stack_box_volume() const { return extent * base; }  ///< V(M, r)
+  /// Returns S for the translation f, model units: 1 - (f / h) V(M, r) / V(M), Eq. 3; NaN if V(M) = 0.
+  double value_at(double f) const;
+  /// Returns the decrease of S per unit of f; the derivative of `value_at` without its sign.
+  double loss_per_length() const { return stack_box_volume() / (extent * box_volume); }
+  /// Returns the translation f for which S is `stackability`: the inverse of `value_at`.
+  double translation_for(double stackability) const { return (1 - stackability) * box_volume / base; }
+  /// Returns the same terms with the translation f and its S.
+  Stackability with_f_max(double f) const;
+};
+
+/// Stackability and the exact separation that it follows from.
+struct ExactStackability {
+  Stackability stackability;  ///< with clearance and play
+  Separation separation;      ///< exact, with witness, without clearance and play
 };
 
 /// A shape prepared for measurements in many directions: separation tree, hull and V(M), built once. Queries
@@ -50,6 +68,7 @@ class StackabilitySolver {
  public:
   /// Throws InputError when the shape has no volume to speak of (V(M) = 0: flat, straight or a point), since
   /// S is then undefined, unless the options ask to measure the rest, or when `validate(shape)` fails.
+  /// Throws UsageError for a clearance or play out of range.
   explicit StackabilitySolver(const Shape& shape, const StackabilityOptions& options = {});
   StackabilitySolver(StackabilitySolver&&) noexcept;
   StackabilitySolver& operator=(StackabilitySolver&&) noexcept;
@@ -61,10 +80,12 @@ class StackabilitySolver {
   const StackabilityOptions& options() const;  ///< as given
   double box_volume() const;                   ///< V(M); 0 only if the options allow it
 
-  /// Exact f_max with witness.
+  /// Returns the exact f_max with its witness, without clearance and play.
   Separation separation(const Direction& direction) const;
-  /// S and its terms, f_max within 1e-12 of the extent.
+  /// Returns S and its terms; f_max within 1e-12 of the extent.
   Stackability measure(const Direction& direction) const;
+  /// Returns S and its terms from the exact separation, with that separation.
+  ExactStackability measure_exact(const Direction& direction) const;
   /// As `measure`, but gives up and returns nothing as soon as S is certainly below `threshold`.
   std::optional<Stackability> measure_if_above(const Direction& direction, double threshold) const;
 
@@ -82,9 +103,8 @@ Stackability stackability(const Shape& shape, const Direction& direction,
 std::optional<Stackability> stackability_if_above(const Shape& shape, const Direction& direction,
                                                   double threshold, const StackabilityOptions& options = {});
 
-/// Eq. 3 with `translation` (model units) for f_max, such as one with air between the copies. Throws as the
-/// constructor of StackabilitySolver.
-Stackability stackability_of_translation(const Shape& shape, const Direction& direction, double translation,
-                                         const StackabilityOptions& options = {});
+/// Returns what StackabilitySolver::measure_exact does, for one use. `tree`: the separation tree of `shape`.
+ExactStackability measure_exact(const Shape& shape, const SeparationTree& tree, const Direction& direction,
+                                const StackabilityOptions& options = {});
 
 }  // namespace stackabilization

@@ -135,8 +135,7 @@ class DiagnosisBuilder {
     const Stackability& measured = best_.measured;
     const Separation apart = separation(below, above, direction_, options);
     blocker.f = apart.blocked ? apart.length : measured.f_max;
-    blocker.stackability =
-        1 - blocker.f / measured.extent * (measured.stack_box_volume / measured.box_volume);
+    blocker.stackability = measured.value_at(blocker.f);
     if (const auto trial = tried({region}, constraints(checker_.requirements())))
       blocker.reason = reason_of(*trial);
     return blocker;
@@ -198,12 +197,15 @@ class DiagnosisBuilder {
   }
 
   void look_elsewhere() {
-    const StackabilitySolver rest(rest_.shape, checker_.requirements().measure);
+    StackabilityOptions measure = checker_.requirements().measure;
+    measure.play = 0;  // it is slow to measure, and added for the best direction below
+    const StackabilitySolver rest(rest_.shape, measure);
     SearchOptions options;
     options.cancelled = options_.cancelled;
     options.max_directions = whole_directions(designs_left() * options_.directions_per_design);
     for (const Symmetry& symmetry : rest_.structure.symmetries) options.candidates.push_back(symmetry.axis);
-    const Stackability best = best_direction(rest, options).best;
+    const Eigen::Vector3d direction = best_direction(rest, options).best.direction;
+    const Stackability best = checker_.measure(rest_.shape, Direction(direction));
     if (!helps(best.value)) return;
     add({Remedy::Kind::other_direction,
          "stack " + direction_text(best.direction) + ", without any edit",

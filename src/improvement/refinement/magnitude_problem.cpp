@@ -59,11 +59,6 @@ Points some_rows(const Points& all) {
   return some;
 }
 
-/// Returns the loss of S per unit of f_max.
-double loss_per_length(const Stackability& measured) {
-  return measured.stack_box_volume / (measured.extent * measured.box_volume);
-}
-
 }  // namespace
 
 MagnitudeProblem::MagnitudeProblem(const RequirementChecker& checker, std::vector<Edit> edits,
@@ -105,11 +100,11 @@ DesignOutcome MagnitudeProblem::design(const Magnitudes& x) const {
 void MagnitudeProblem::constrain_pairs(const Magnitudes& x) {
   samples_.clear();
   pairs_.clear();
-  if (checker_.requirements().play > 0) return;
+  if (checker_.requirements().measure.play > 0) return;
   const Design design = this->design(x).design;
   const Stackability whole = checker_.measure(design.shape, direction_);
-  const double allowed = (1 - target() - target_offset(whole)) / loss_per_length(whole);
-  const double clearance = checker_.requirements().clearance;
+  const double allowed = (1 - target() - target_offset(whole)) / whole.loss_per_length();
+  const double clearance = checker_.requirements().measure.clearance;
   pairs_ = blocks_.pairs_above(design.shape,
                                std::min(whole.f_max, allowed) - clearance - near_band * whole.extent);
   if (pairs_.size() > max_pairs) pairs_.resize(max_pairs);
@@ -117,7 +112,7 @@ void MagnitudeProblem::constrain_pairs(const Magnitudes& x) {
 
 void MagnitudeProblem::measure_blocks(const Design& design, const Stackability& whole,
                                       MagnitudeSample& sample) const {
-  const double loss = loss_per_length(whole), clearance = checker_.requirements().clearance;
+  const double loss = whole.loss_per_length(), clearance = checker_.requirements().measure.clearance;
   const std::vector<BlockSeparation> separations = blocks_.separations(design.shape, pairs_);
   double largest = 0;
   for (std::size_t p = 0; p < pairs_.size(); ++p) {

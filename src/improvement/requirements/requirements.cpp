@@ -10,7 +10,6 @@
 #include "improvement/requirements/size_ratios.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/removal.h"
-#include "stackabilization/stacking/clearance.h"
 #include "stackabilization/stacking/plan.h"
 
 namespace stackabilization {
@@ -78,8 +77,8 @@ void validate(const Requirements& requirements, const StructuredShape& rest) {
   require_parts(requirements.editable_parts, rest.structure);
   if (!(requirements.min_size_ratio >= 0 && requirements.min_size_ratio <= 1))
     throw UsageError("the least proportion that is required must be from 0 to 1");
-  require_air(requirements.clearance, "clearance", rest.structure.diagonal);
-  require_air(requirements.play, "play", rest.structure.diagonal);
+  require_air(requirements.measure.clearance, "clearance", rest.structure.diagonal);
+  require_air(requirements.measure.play, "play", rest.structure.diagonal);
   require_at_least_zero(requirements.box_tolerance.value_or(0), "tolerance of the box");
   require_at_least_zero(requirements.min_thickness.value_or(0), "thickness");
   require_angle(requirements.min_draft_degrees.value_or(0), "draft angle");
@@ -113,27 +112,6 @@ struct RequirementChecker::Data {
         primitives(detail::primitives_of(designs.rest().structure)),
         checks(designs, requirements, parts_that_stay(requirements, designs.rest().structure)) {}
 
-  /// Returns the translation from copy to copy with clearance and play. `touching`: the one without.
-  double translation(const Shape& shape, const Direction& direction, double touching) const {
-    if (requirements.play > 0) {
-      PlayOptions options;
-      options.play = requirements.play;
-      options.semantics = requirements.measure.semantics;
-      const Separation apart = separation_with_play(shape, shape, direction, options);
-      touching = apart.blocked ? apart.length : 0;
-    }
-    return touching + requirements.clearance;
-  }
-
-  Stackability with_air(const Shape& shape, const Direction& direction, Stackability measured) const {
-    if (requirements.play > 0 || requirements.clearance > 0) {
-      measured.f_max = translation(shape, direction, measured.f_max);
-      const double base = measured.stack_box_volume / measured.extent;
-      measured.value = 1 - measured.f_max * base / measured.box_volume;
-    }
-    return measured;
-  }
-
   const DesignSpace& space;
   Requirements requirements;
   std::vector<Primitive> primitives;  ///< at rest
@@ -152,19 +130,13 @@ const DesignSpace& RequirementChecker::space() const {
 }
 
 Stackability RequirementChecker::measure(const Shape& shape, const Direction& direction) const {
-  return data_->with_air(shape, direction, stackability(shape, direction, data_->requirements.measure));
+  return stackability(shape, direction, data_->requirements.measure);
 }
 
 std::optional<Stackability> RequirementChecker::measure_if_above(const Shape& shape,
                                                                  const Direction& direction,
                                                                  double threshold) const {
-  // Clearance and play never raise S. A shape whose S is too low without them is not measured further.
-  const std::optional<Stackability> touching =
-      stackability_if_above(shape, direction, threshold, data_->requirements.measure);
-  if (!touching) return std::nullopt;
-  const Stackability measured = data_->with_air(shape, direction, *touching);
-  if (measured.value < threshold) return std::nullopt;
-  return measured;
+  return stackability_if_above(shape, direction, threshold, data_->requirements.measure);
 }
 
 bool RequirementChecker::meets_target(const Stackability& measured) const {
@@ -191,13 +163,11 @@ std::optional<std::string> RequirementChecker::size_ratio_violation(const Design
 Assessment RequirementChecker::check(const Design& design, const Direction& direction) const {
   detail::require_match(design, data_->primitives, data_->space.rest().shape.vertex_count());
   validate(design.shape);
-  const StackabilityOptions& measure = data_->requirements.measure;
   const SeparationTree tree(design.shape);
+  const ExactStackability exact = measure_exact(design.shape, tree, direction, data_->requirements.measure);
   Assessment assessment;
-  assessment.separation = separation(tree, tree, direction, {measure.semantics, std::nullopt});
-  const double touching = assessment.separation.blocked ? assessment.separation.length : 0;
-  assessment.measured = stackability_of_translation(
-      design.shape, direction, data_->translation(design.shape, direction, touching), measure);
+  assessment.measured = exact.stackability;
+  assessment.separation = exact.separation;
   assessment.checks = data_->checks.of({design, tree, direction, assessment});
   return assessment;
 }

@@ -69,8 +69,10 @@ std::optional<Stackability> ConeSearch::better(const Shape& shape, const Stackab
   std::erase_if(trials, [&](const Eigen::Vector3d& trial) { return !keeps_height(shape, trial); });
   if (trials.empty()) return std::nullopt;
 
-  // Clearance and play only raise f_max. So the solver, which measures without them, may rule out directions.
-  const StackabilitySolver solver(shape, checker_.requirements().measure);
+  // Play only raises f_max and is slow to measure. So a solver without play may rule out directions.
+  StackabilityOptions measure = checker_.requirements().measure;
+  measure.play = 0;
+  const StackabilitySolver solver(shape, measure);
   std::vector<std::optional<Stackability>> samples(trials.size());
   tbb::parallel_for(std::size_t{0}, trials.size(), [&](std::size_t k) {
     samples[k] = solver.measure_if_above(Direction(trials[k]), now.value + tolerance::stackability);

@@ -50,8 +50,8 @@ class Pursuit {
   };
 
   double allowed(const Stackability& measured) const {
-    const double per_length = measured.stack_box_volume / (measured.extent * measured.box_volume);
-    return (1 - checker_.required_stackability(measured)) / per_length - checker_.requirements().clearance;
+    return (1 - checker_.required_stackability(measured)) / measured.loss_per_length() -
+           checker_.requirements().measure.clearance;
   }
 
   double excess(const Candidate& candidate) const {

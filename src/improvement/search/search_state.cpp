@@ -108,7 +108,7 @@ json json_of(const SearchNode& node) {
                {"queue", node.queue},
                {"state", state_names[static_cast<std::size_t>(node.state)]},
                {"direction", json_of(node.direction)},
-               {"measured", {at.f_max, at.extent, at.box_volume, at.stack_box_volume, at.value}},
+               {"measured", {at.f_max, at.extent, at.box_volume, at.base, at.value}},
                {"distortion", {change.volume, change.proximity, change.box, change.symmetry}},
                {"energy", {node.energy.gain, node.energy.value}},
                {"key", std::to_string(node.key)}};

@@ -71,8 +71,8 @@ void add(Fingerprint& print, const Requirements& requirements) {
   print.add(requirements.min_size_ratio);
   add_optional(print, requirements.box_tolerance);
   add_optional(print, requirements.min_thickness);
-  print.add(requirements.clearance);
-  print.add(requirements.play);
+  print.add(requirements.measure.clearance);
+  print.add(requirements.measure.play);
   add_optional(print, requirements.min_draft_degrees);
   add_integer(print, requirements.standing_copies.value_or(0));
   print.add(requirements.min_tipping_degrees);

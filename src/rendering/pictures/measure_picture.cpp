@@ -106,7 +106,7 @@ Elements number_table(const Subject& s, const Rectangle& place) {
       {"minimal lift f_max between two copies",
        length_text(m.f_max, unit) + "  =  " + number_text(100 * m.f_max / m.extent, 3) + " % of h"},
       {"box volume V(M)", volume_text(m.box_volume, unit)},
-      {"box volume along r, V(M,r)", volume_text(m.stack_box_volume, unit)},
+      {"box volume along r, V(M,r)", volume_text(m.stack_box_volume(), unit)},
       {"contact regions", contact_summary(s.contacts)}};
   const double line = 1.75 * s.text_size;
   double y = place.y + 1.5 * s.text_size;

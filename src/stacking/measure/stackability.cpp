@@ -6,11 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "mesh/used_vertices.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/stacking/clearance.h"
 
 namespace stackabilization {
 
@@ -24,35 +26,55 @@ double checked_volume(double volume, FlatShapes flat_shapes) {
   throw InputError("the shape is flat: its box has no volume, so its stackability is undefined");
 }
 
-/// What Eq. 3 needs of the boxes.
-struct BoxTerms {
-  double volume = 0;  ///< V(M)
-  double base = 0;    ///< V(M, r) / h(M, r)
-  double extent = 0;  ///< h(M, r)
-};
+void require_air(double value, const std::string& what) {
+  if (!std::isfinite(value) || value < 0)
+    throw UsageError("the " + what + " must be a finite length of at least 0");
+}
 
-/// Where nothing blocks, the copies slide into each other and f_max is 0.
+void validate(const StackabilityOptions& options) {
+  require_air(options.clearance, "clearance");
+  require_air(options.play, "play");
+}
+
+/// Returns f_max without clearance and play: 0 where nothing blocks, since the copies then slide into each
+/// other.
 double translation(const Enclosure& enclosure, const Direction& direction) {
   if (enclosure.upper == -std::numeric_limits<double>::infinity()) return 0;
   return (enclosure.lower + enclosure.upper) / 2 * direction.length();
 }
 
-/// f_max in units of r beyond which S is below `threshold`.
-std::optional<double> translation_limit(const BoxTerms& boxes, const Direction& direction, double threshold) {
-  if (!std::isfinite(threshold)) return std::nullopt;
-  return (1 - threshold) * boxes.volume / (boxes.base * direction.length()) * (1 + tolerance::rounding);
+double translation(const Separation& separation) {
+  return separation.blocked ? separation.length : 0;
 }
 
-/// Eq. 3
-Stackability stackability_from(const BoxTerms& boxes, const Direction& direction, double f_max) {
-  Stackability result;
-  result.direction = direction.vector();
-  result.f_max = f_max;
-  result.extent = boxes.extent;
-  result.box_volume = boxes.volume;
-  result.stack_box_volume = boxes.extent * boxes.base;
-  result.value =
-      boxes.volume > 0 ? 1 - f_max * boxes.base / boxes.volume : std::numeric_limits<double>::quiet_NaN();
+/// Returns f_max with the clearance and play of the options. `touching`: f_max without them.
+double with_air(const Shape& shape, const Direction& direction, double touching,
+                const StackabilityOptions& options) {
+  if (options.play > 0) {
+    PlayOptions play;
+    play.play = options.play;
+    play.semantics = options.semantics;
+    touching = translation(separation_with_play(shape, shape, direction, play));
+  }
+  return touching + options.clearance;
+}
+
+/// Returns the f_max in units of r beyond which S is below `threshold`. Air never raises S, so the limit
+/// holds without it.
+std::optional<double> translation_limit(const Stackability& boxes, const Direction& direction,
+                                        double threshold) {
+  if (!std::isfinite(threshold)) return std::nullopt;
+  return boxes.translation_for(threshold) / direction.length() * (1 + tolerance::rounding);
+}
+
+/// Returns the measures for f_max = `touching` without air, unless S is below `threshold`.
+std::optional<Stackability> measured_above(const Stackability& boxes, const Shape& shape,
+                                           const Direction& direction, double touching,
+                                           const StackabilityOptions& options, double threshold) {
+  Stackability result = boxes.with_f_max(touching);
+  if (result.value < threshold) return std::nullopt;
+  result = boxes.with_f_max(with_air(shape, direction, touching, options));
+  if (result.value < threshold) return std::nullopt;
   return result;
 }
 
@@ -65,6 +87,17 @@ double frame_volume(const Points& points) {
 
 }  // namespace
 
+double Stackability::value_at(double f) const {
+  return box_volume > 0 ? 1 - f * base / box_volume : std::numeric_limits<double>::quiet_NaN();
+}
+
+Stackability Stackability::with_f_max(double f) const {
+  Stackability result = *this;
+  result.f_max = f;
+  result.value = value_at(f);
+  return result;
+}
+
 double box_volume(const HullSupport& hull, BoxModel model) {
   if (model == BoxModel::frame) return frame_volume(hull.points());
   return hull.dimension() == 3 ? minimal_oriented_box(hull).volume() : 0;
@@ -72,13 +105,16 @@ double box_volume(const HullSupport& hull, BoxModel model) {
 
 struct StackabilitySolver::Data {
   Data(const Shape& given, const StackabilityOptions& chosen) : shape(given), options(chosen) {
+    validate(options);
     tbb::parallel_invoke([this] { tree.emplace(shape); }, [this] { hull.emplace(shape); });
     box_volume = checked_volume(stackabilization::box_volume(*hull, options.boxes), options.flat_shapes);
   }
 
-  BoxTerms boxes(const Direction& direction) const {
-    BoxTerms terms;
-    terms.volume = box_volume;
+  /// Returns the terms of the boxes; f_max and S are not set.
+  Stackability boxes(const Direction& direction) const {
+    Stackability terms;
+    terms.direction = direction.vector();
+    terms.box_volume = box_volume;
     terms.extent = hull->extent(direction);
     if (options.boxes == BoxModel::oriented) {
       terms.base = hull->minimal_rectangle_area(direction);
@@ -133,52 +169,58 @@ Stackability StackabilitySolver::measure(const Direction& direction) const {
 std::optional<Stackability> StackabilitySolver::measure_if_above(const Direction& direction,
                                                                  double threshold) const {
   if (threshold > 1) return std::nullopt;
-  const BoxTerms boxes = data_->boxes(direction);
+  const Stackability boxes = data_->boxes(direction);
   const Enclosure enclosure =
       separation_enclosure(*data_->tree, *data_->tree, direction,
                            {data_->options.semantics, translation_limit(boxes, direction, threshold)});
   if (enclosure.abandoned) return std::nullopt;
-  const Stackability result = stackability_from(boxes, direction, translation(enclosure, direction));
-  if (result.value < threshold) return std::nullopt;
-  return result;
+  return measured_above(boxes, data_->shape, direction, translation(enclosure, direction), data_->options,
+                        threshold);
+}
+
+ExactStackability StackabilitySolver::measure_exact(const Direction& direction) const {
+  const Separation exact = separation(direction);
+  const double f_max = with_air(data_->shape, direction, translation(exact), data_->options);
+  return {data_->boxes(direction).with_f_max(f_max), exact};
 }
 
 namespace {
 
-/// The boxes of a shape along one direction. The file's needs no hull; the minimal one, by far the most
-/// expensive of all, is looked for last.
+/// Boxes of a shape along one direction. The box of the file needs no hull. The minimal box, by far the most
+/// expensive one, is computed last.
 class BoxesAlong {
  public:
   BoxesAlong(const Shape& shape, const Direction& direction, const StackabilityOptions& options)
       : options_(options) {
+    terms_.direction = direction.vector();
     if (options.boxes == BoxModel::oriented) {
       hull_.emplace(shape);
       terms_.extent = hull_->extent(direction);
       terms_.base = hull_->minimal_rectangle_area(direction);
       const double aligned = axis_aligned_box(hull_->points()).volume();
-      terms_.volume = std::min(aligned, terms_.extent * terms_.base) * (1 + tolerance::relative);
+      terms_.box_volume = std::min(aligned, terms_.extent * terms_.base) * (1 + tolerance::relative);
     } else {
       const Points points = used_vertices(shape);
       const OrientedBox along = frame_box(points, direction);
       terms_.extent = 2 * along.half_extents.z();
       terms_.base = 4 * along.half_extents.x() * along.half_extents.y();
-      terms_.volume = checked_volume(frame_volume(points), options.flat_shapes);
+      terms_.box_volume = checked_volume(frame_volume(points), options.flat_shapes);
     }
   }
 
-  /// With an upper bound for V(M).
-  const BoxTerms& bound() const { return terms_; }
+  /// Returns the terms with an upper bound for V(M); f_max and S are not set.
+  const Stackability& bound() const { return terms_; }
 
-  BoxTerms exact() const {
-    BoxTerms terms = terms_;
-    if (hull_) terms.volume = checked_volume(box_volume(*hull_, options_.boxes), options_.flat_shapes);
+  Stackability exact() const {
+    Stackability terms = terms_;
+    if (hull_) terms.box_volume = checked_volume(box_volume(*hull_, options_.boxes), options_.flat_shapes);
     return terms;
   }
 
  private:
   StackabilityOptions options_;
   std::optional<HullSupport> hull_;
-  BoxTerms terms_;
+  Stackability terms_;
 };
 
 }  // namespace
@@ -192,21 +234,24 @@ std::optional<Stackability> stackability_if_above(const Shape& shape, const Dire
                                                   double threshold, const StackabilityOptions& options) {
   if (threshold > 1) return std::nullopt;
   validate(shape);
+  validate(options);
   std::optional<SeparationTree> tree;
   std::optional<BoxesAlong> boxes;
   tbb::parallel_invoke([&] { tree.emplace(shape); }, [&] { boxes.emplace(shape, direction, options); });
   const Enclosure enclosure = separation_enclosure(
       *tree, *tree, direction, {options.semantics, translation_limit(boxes->bound(), direction, threshold)});
   if (enclosure.abandoned) return std::nullopt;
-  const Stackability result = stackability_from(boxes->exact(), direction, translation(enclosure, direction));
-  if (result.value < threshold) return std::nullopt;
-  return result;
+  return measured_above(boxes->exact(), shape, direction, translation(enclosure, direction), options,
+                        threshold);
 }
 
-Stackability stackability_of_translation(const Shape& shape, const Direction& direction, double translation,
-                                         const StackabilityOptions& options) {
+ExactStackability measure_exact(const Shape& shape, const SeparationTree& tree, const Direction& direction,
+                                const StackabilityOptions& options) {
   validate(shape);
-  return stackability_from(BoxesAlong(shape, direction, options).exact(), direction, translation);
+  validate(options);
+  const Separation exact = separation(tree, tree, direction, {options.semantics, std::nullopt});
+  const double f_max = with_air(shape, direction, translation(exact), options);
+  return {BoxesAlong(shape, direction, options).exact().with_f_max(f_max), exact};
 }
 
 }  // namespace stackabilization

@@ -9,8 +9,7 @@
 namespace stackabilization {
 
 double stackability_within(const Stackability& measured, int copies, double length) {
-  const double translation = (length - measured.extent) / (copies - 1);
-  return 1 - translation * measured.stack_box_volume / (measured.extent * measured.box_volume);
+  return measured.value_at((length - measured.extent) / (copies - 1));
 }
 
 StackPlan plan_stack(const Stackability& measured, const StackRequest& wish) {
@@ -21,7 +20,7 @@ StackPlan plan_stack(const Stackability& measured, const StackRequest& wish) {
     throw UsageError("the clearance must be a finite length of at least 0");
 
   const double room = wish.length - measured.extent, slack = tolerance::relative * wish.length;
-  const double pitch = measured.f_max + wish.clearance;
+  const double pitch = measured.f_max;
   const int gaps = wish.copies - 1;
   StackPlan plan;
   plan.length_now = measured.extent + gaps * pitch;

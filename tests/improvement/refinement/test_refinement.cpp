@@ -299,8 +299,8 @@ TEST_CASE("a room is filled to the end, though boxes change with the design") {
   CHECK(length <= asked.length_limit->length);
   CHECK(length == Approx(asked.length_limit->length).epsilon(1e-5));
   // S alone would have said something else.
-  const double share = measured.stack_box_volume / measured.box_volume;
-  CHECK(std::abs(share - rest.stack_box_volume / rest.box_volume) > 0.01);
+  const double share = measured.stack_box_volume() / measured.box_volume;
+  CHECK(std::abs(share - rest.stack_box_volume() / rest.box_volume) > 0.01);
 }
 
 TEST_CASE("an edit that is of no use is left out, its counterpart merged") {

@@ -80,7 +80,7 @@ TEST_CASE("What S a design needs for a room follows from its extent and its boxe
         for (const double f_max : {0.0, 0.4, 1.5, 8.0}) {
           requirements.length_limit = StackLengthLimit{6, length};
           const RequirementChecker checker(space, requirements);
-          Stackability measured{{0, 0, 1}, f_max, extent, 10, 10 * slenderness, 0};
+          Stackability measured{{0, 0, 1}, f_max, extent, 10, 10 * slenderness / extent, 0};
           measured.value = 1 - f_max / extent * slenderness;
           INFO(length << ' ' << extent << ' ' << slenderness << ' ' << f_max);
           CHECK(checker.meets_target(measured) == (extent + 5 * f_max <= length));

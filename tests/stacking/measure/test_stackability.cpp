@@ -1,8 +1,10 @@
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/stacking/clearance.h"
 #include "stackabilization/stacking/map.h"
 #include "stackabilization/stacking/search.h"
 #include "stackabilization/stacking/stackability.h"
@@ -58,7 +60,7 @@ TEST_CASE("a box does not stack: S is 0 along its axes in every model and semant
         CHECK(result.f_max == Approx(axis + 1).epsilon(1e-12));
         CHECK(result.extent == Approx(axis + 1).epsilon(1e-14));
         CHECK(result.box_volume == Approx(6).epsilon(1e-12));
-        CHECK(result.stack_box_volume == Approx(6).epsilon(1e-12));
+        CHECK(result.stack_box_volume() == Approx(6).epsilon(1e-12));
       }
 }
 
@@ -77,8 +79,8 @@ TEST_CASE("a cup along its axis in closed form") {
 
   const Stackability oriented = stackability(solids::frustum_shell(cup), Direction(0, 0, 1));
   const double side = 2 * cup.outer_top * std::cos(std::numbers::pi / cup.segments);
-  CHECK(oriented.stack_box_volume == Approx(side * side * cup.height).epsilon(1e-12));
-  CHECK(oriented.box_volume <= oriented.stack_box_volume * (1 + 1e-12));
+  CHECK(oriented.stack_box_volume() == Approx(side * side * cup.height).epsilon(1e-12));
+  CHECK(oriented.box_volume <= oriented.stack_box_volume() * (1 + 1e-12));
   CHECK(oriented.value == Approx(1 - f_max * side * side / oriented.box_volume).epsilon(1e-12));
 }
 
@@ -119,7 +121,7 @@ TEST_CASE("f_max of a measurement is the exact one") {
       CHECK(result.f_max == Approx(solver.separation(Direction(r)).length).margin(1e-12 * result.extent));
       CHECK(result.direction == r);
       CHECK(result.value ==
-            Approx(1 - result.f_max / result.extent * result.stack_box_volume / result.box_volume)
+            Approx(1 - result.f_max / result.extent * result.stack_box_volume() / result.box_volume)
                 .margin(1e-12));
     }
   }
@@ -172,4 +174,54 @@ TEST_CASE("a flat shape has no stackability") {
   CHECK(std::isnan(measured.value));
   CHECK_THROWS_AS(best_direction(solver), UsageError);
   CHECK_THROWS_AS(stackability_map(solver), UsageError);
+}
+
+TEST_CASE("Eq. 3 and its inverse agree with what is measured, for any translation") {
+  for (const BoxModel boxes : {BoxModel::frame, BoxModel::oriented})
+    for (const Direction& r : {Direction(0, 0, 1), Direction(0.3, -0.2, 1), Direction(-2, 0.1, 0.4)}) {
+      StackabilityOptions options;
+      options.boxes = boxes;
+      const Stackability measured = stackability(solids::frustum_shell({}), r, options);
+      CHECK(measured.value_at(measured.f_max) == measured.value);
+      CHECK(measured.value_at(0) == 1);
+      CHECK(measured.value_at(measured.extent) ==
+            Approx(1 - measured.stack_box_volume() / measured.box_volume).epsilon(1e-14));
+      for (const double value : {-0.5, 0.0, 0.3, 0.99}) {
+        const double f = measured.translation_for(value);
+        CHECK(measured.value_at(f) == Approx(value).margin(1e-14));
+        CHECK(measured.with_f_max(f).value == measured.value_at(f));
+        CHECK(1 - f * measured.loss_per_length() == Approx(value).margin(1e-14));
+      }
+    }
+}
+
+TEST_CASE("clearance adds to f_max, play is that of separation_with_play, in every way of measuring") {
+  const Shape cup = solids::frustum_shell({});
+  const Direction r(0.1, 0, 1);
+  PlayOptions play;
+  play.play = 0.05;
+  const double apart = separation_with_play(cup, cup, r, play).length;
+  StackabilityOptions options;
+  options.clearance = 0.25;
+  options.play = 0.05;
+  const StackabilitySolver solver(cup, options);
+  const ExactStackability exact = solver.measure_exact(r);
+  CHECK(exact.separation.length == Approx(separation(solver.tree(), solver.tree(), r).length));
+  CHECK(exact.stackability.f_max == apart + 0.25);
+  CHECK(exact.stackability.value == exact.stackability.value_at(apart + 0.25));
+  CHECK(solver.measure(r).f_max == apart + 0.25);
+  CHECK(stackability(cup, r, options).f_max == apart + 0.25);
+  CHECK(measure_exact(cup, solver.tree(), r, options).stackability.f_max == apart + 0.25);
+  const double value = solver.measure(r).value;
+  CHECK(solver.measure_if_above(r, value));
+  CHECK_FALSE(solver.measure_if_above(r, value + 1e-9));
+  CHECK_FALSE(stackability_if_above(cup, r, value + 1e-9, options));
+  for (const double bad : {-1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
+    StackabilityOptions wrong;
+    wrong.clearance = bad;
+    CHECK_THROWS_AS(StackabilitySolver(cup, wrong), UsageError);
+    wrong = {};
+    wrong.play = bad;
+    CHECK_THROWS_AS(stackability(cup, r, wrong), UsageError);
+  }
 }

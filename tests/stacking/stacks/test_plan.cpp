@@ -10,7 +10,7 @@ namespace {
 
 /// A chair of 0.8 m that stacks every 0.2 m; its box along r is the box itself.
 Stackability chair() {
-  return {{0, 0, 1}, 0.2, 0.8, 0.4, 0.4, 0.75};
+  return {{0, 0, 1}, 0.2, 0.8, 0.4, 0.5, 0.75};
 }
 
 }  // namespace
@@ -32,14 +32,14 @@ TEST_CASE("the stackability of a plan counts air as part of every copy") {
   CHECK(*plan.stackability == *plan_stack(chair(), {10, 2, 0}).stackability);
   CHECK(*plan.stackability == stackability_within(chair(), 10, 2));
   // Boxes count as in Eq. 3.
-  const Stackability leaning{{0, 0, 1}, 0.2, 0.8, 0.4, 0.6, 0.625};
+  const Stackability leaning{{0, 0, 1}, 0.2, 0.8, 0.4, 0.75, 0.625};
   CHECK(stackability_within(leaning, 10, 2) == Approx(1 - 1.2 / 9 / 0.8 * 1.5));
 }
 
 TEST_CASE("what a plan demands is just enough") {
   Stackability better = chair();
   const StackRequest wish{10, 2, 0.01};
-  better.f_max = *plan_stack(chair(), wish).f_max;
+  better.f_max = *plan_stack(chair(), wish).f_max + wish.clearance;
   const StackPlan plan = plan_stack(better, wish);
   CHECK(plan.met);
   CHECK(plan.length_now == Approx(2));
@@ -50,7 +50,7 @@ TEST_CASE("what a plan demands is just enough") {
 }
 
 TEST_CASE("crates of pitch 0.1 fill 1 m in spite of rounding") {
-  const Stackability crate{{0, 0, 1}, 0.1, 0.3, 1, 1, 2. / 3};
+  const Stackability crate{{0, 0, 1}, 0.1, 0.3, 1, 1 / 0.3, 2. / 3};
   CHECK(plan_stack(crate, {8, 1, 0}).met);
   CHECK(*plan_stack(crate, {8, 1, 0}).copies_now == 8);
 }

@@ -1,0 +1,108 @@
+#include "stackabilization/improvement/task.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "stackabilization/core/errors.h"
+#include "stackabilization/core/number_text.h"
+#include "stackabilization/core/tolerances.h"
+#include "stackabilization/improvement/effort.h"
+#include "stackabilization/stacking/plan.h"
+#include "stackabilization/stacking/search.h"
+
+namespace stackabilization {
+
+namespace {
+
+/// Share of the effort for the search for directions.
+constexpr double directions_share = 0.15;
+/// Another direction than up is worth the work of a search if it raises S by more than this.
+constexpr double clearly_better = 0.1;
+/// Cosine of one degree. An axis of the shape may differ by this angle from the z axis and still be up: a hat
+/// that stands slightly aslant stacks along its own axis.
+constexpr double nearly_up = 0.99985;
+
+bool is_same_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.cross(b).norm() <= tolerance::direction_step * a.norm() * b.norm();
+}
+
+/// Returns an axis of symmetry, or the line that two mirror planes share, near the z axis.
+std::optional<Eigen::Vector3d> upright_axis(const Structure& structure) {
+  std::vector<Eigen::Vector3d> axes;
+  const std::vector<Symmetry>& symmetries = structure.symmetries;
+  for (std::size_t i = 0; i < symmetries.size(); ++i) {
+    if (symmetries[i].kind != SymmetryKind::reflection) axes.push_back(symmetries[i].axis);
+    for (std::size_t j = 0; j < i; ++j)
+      if (symmetries[i].kind == SymmetryKind::reflection && symmetries[j].kind == SymmetryKind::reflection)
+        axes.push_back(symmetries[i].axis.cross(symmetries[j].axis));
+  }
+  for (const Eigen::Vector3d& axis : axes)
+    if (std::abs(axis.z()) > nearly_up * axis.norm()) return axis.z() < 0 ? Eigen::Vector3d(-axis) : axis;
+  return std::nullopt;
+}
+
+/// Measures S along the z axis, or along the upright axis of the shape where S is larger. An axis that is
+/// off by a hair jams what fits straight down.
+Stackability measure_up(const StackabilitySolver& solver, const Structure& structure) {
+  const Stackability of_file = solver.measure(Direction(0, 0, 1));
+  const std::optional<Eigen::Vector3d> axis = upright_axis(structure);
+  if (!axis) return of_file;
+  const Stackability of_shape = solver.measure(Direction(*axis));
+  return of_shape.value > of_file.value + tolerance::stackability ? of_shape : of_file;
+}
+
+/// Returns the target that a length limit amounts to, with the height and the boxes at rest.
+double target_of(const StackLengthLimit& limit, const StructuredShape& rest, const Direction& direction,
+                 const StackabilityOptions& measure) {
+  const Stackability measured = stackability(rest.shape, direction, measure);
+  const StackPlan plan = plan_stack(measured, {limit.copies, limit.length, measure.clearance});
+  if (!plan.possible || *plan.stackability >= 1)
+    throw UsageError("the length " + shortest_text(limit.length) + " has no room for " +
+                     std::to_string(limit.copies) + " copies of height " + shortest_text(measured.extent) +
+                     (measure.clearance > 0
+                          ? " with " + shortest_text(measure.clearance) + " of air between them"
+                          : "") +
+                     ", however well they stack");
+  return *plan.stackability;
+}
+
+}  // namespace
+
+ImprovementTask::ImprovementTask(StructuredShape rest, Requirements requirements,
+                                 const ImprovementTaskOptions& options)
+    : directions_(options.directions) {
+  validate(requirements, rest);
+  if (directions_.empty()) {
+    StackabilityOptions measure = requirements.measure;
+    measure.play = 0;  // it is slow to measure, and rarely decides between directions
+    const StackabilitySolver solver(rest.shape, measure);
+    const Stackability up = measure_up(solver, rest.structure);
+    directions_ = {up.direction};
+    if (!requirements.length_limit && options.kind != DeformationKind::gap_scaling) {
+      SearchOptions search;
+      search.max_directions = directions_of_effort(directions_share * options.effort, rest.shape);
+      search.progress = options.progress;
+      search.cancelled = options.cancelled;
+      const SearchResult found = best_direction(solver, search);
+      cancelled_ = found.cancelled;
+      if (!cancelled_ && found.best.value > up.value + clearly_better &&
+          !is_same_line(found.best.direction, up.direction))
+        directions_.push_back(found.best.direction);
+    }
+  }
+  const Direction first(directions_.front());
+  if (requirements.length_limit)
+    requirements.target = target_of(*requirements.length_limit, rest, first, requirements.measure);
+  space_ = design_space(std::move(rest), {options.kind, first});
+  checker_ = std::make_unique<RequirementChecker>(*space_, std::move(requirements));
+}
+
+Improvement improve(const ImprovementTask& task, ImprovementOptions options,
+                    const std::optional<SavedSearch>& state) {
+  options.search.directions = task.directions();
+  return improve(task.checker(), options, state);
+}
+
+}  // namespace stackabilization
