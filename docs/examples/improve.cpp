@@ -26,8 +26,8 @@ int main(int count, char** arguments) {
     }
     const Candidate& best = found.solutions.front();
     write_shape(best.design.shape, arguments[3]);
-    std::cout << "S = " << best.measured.value << " with " << best.design.edits.size() << " edits, D = "
-              << best.energy.distortion.total() << '\n';
+    std::cout << "S = " << best.measured.value << " with " << best.design.edits.size()
+              << " edits, D = " << best.energy.distortion.total() << '\n';
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 3;

@@ -6,7 +6,7 @@
 
 namespace stackabilization {
 
-/// Every part of a shape as `extract_part` gives it, in order, in one pass over the triangles.
+/// Returns every part of a shape as `extract_part` does, in order, in one pass over the triangles.
 std::vector<Shape> extract_parts(const Shape& shape);
 
 }  // namespace stackabilization

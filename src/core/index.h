@@ -5,7 +5,7 @@
 
 namespace stackabilization::detail {
 
-/// Gives the place in a standard container of a row or part, which Eigen counts with signed numbers.
+/// Converts a signed row or part index to the index of a standard container.
 constexpr std::size_t at(std::int32_t row) {
   return static_cast<std::size_t>(row);
 }

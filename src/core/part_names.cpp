@@ -14,16 +14,16 @@ namespace stackabilization {
 namespace {
 
 constexpr std::size_t max_listed = 12;
-/// Names are compared by so many characters: a file may have names of any length.
+/// Number of characters that are compared: a file may have names of any length.
 constexpr std::size_t max_compared = 48;
 
-/// Whatever the case of letters.
+/// Compares without regard to case.
 std::size_t distance(const std::string& a, const std::string& b) {
   return edit_distance(lower_case(std::string_view(a).substr(0, max_compared)),
                        lower_case(std::string_view(b).substr(0, max_compared)));
 }
 
-/// To be typed again as it stands, but for what would garble a terminal.
+/// Returns a name as the user can type it, without characters that would garble a terminal.
 std::string quoted(const std::string& name) {
   std::string text = "'";
   for (const char c : name) text += static_cast<unsigned char>(c) < ' ' || c == '\x7f' ? '?' : c;

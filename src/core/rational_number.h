@@ -6,7 +6,7 @@
 
 namespace stackabilization {
 
-/// What a Rational holds. Only source files that compute with GMP include this header.
+/// The GMP number of a Rational. Only source files that compute with GMP include this header.
 struct Rational::Number {
   mpq_class value;  ///< canonical
 };

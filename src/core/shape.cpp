@@ -71,8 +71,8 @@ void validate(const Shape& shape) {
 
 namespace {
 
-/// The listed triangles with the vertices they use, renumbered in their old order, as one part; takes no more
-/// time than the list is long.
+/// Returns the listed triangles with the vertices that they use, renumbered in their old order, as one part.
+/// The cost is linear in the length of the list.
 Shape subset(const Shape& shape, const std::vector<Eigen::Index>& triangles, const std::string& name) {
   std::vector<std::int32_t> used;
   used.reserve(3 * triangles.size());

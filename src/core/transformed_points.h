@@ -6,7 +6,7 @@
 
 namespace stackabilization::detail {
 
-/// Moves every row by `map`: one product, then one sum per coordinate.
+/// Applies `map` to every row: one product, then one sum per coordinate.
 template <int Mode>
 Points transformed(const Points& points, const Eigen::Transform<double, 3, Mode>& map) {
   return (points * map.linear().transpose()).rowwise() + map.translation().transpose();

@@ -19,7 +19,7 @@ Kernel::Point_3 point_at(const Points& points, Eigen::Index row) {
   return {points(row, 0), points(row, 1), points(row, 2)};
 }
 
-/// At most four points, none in the flat that those before it span, by exact predicates.
+/// Returns at most four points, none of them in the flat that its predecessors span, by exact predicates.
 class ExactSpan {
  public:
   explicit ExactSpan(const Points& points) : points_(points) {}
@@ -49,7 +49,7 @@ class ExactSpan {
   std::size_t size_ = 0;
 };
 
-/// Rows of points far from the span of those before: most often the first four decide.
+/// Rows of points, each far from the span of its predecessors. In most cases the first four decide.
 int exact_dimension(const Points& points, const std::array<Eigen::Index, 4>& far_rows) {
   ExactSpan span(points);
   for (const Eigen::Index row : far_rows) span.extend(row);
@@ -95,7 +95,7 @@ AffineSpan affine_span(const Points& points, double resolution) {
   if (across.rowwise().norm().maxCoeff(&far_rows[2]) <= negligible) return span;
   const Eigen::Vector3d normal = span.axis.cross(across.row(far_rows[2]).transpose()).normalized();
   const double thickness = (offsets * normal).cwiseAbs().maxCoeff(&far_rows[3]);
-  // What rounding lifts off a line or a plane is still on it.
+  // A point that rounding lifts off a line or a plane still belongs to it.
   span.dimension = std::min(thickness <= negligible ? 2 : 3, exact_dimension(points, far_rows));
   if (normal.isZero(0)) span.dimension = 1;
   if (span.dimension > 1) span.normal = normal;

@@ -6,29 +6,31 @@
 
 namespace stackabilization {
 
-/// The smallest flat that holds a set of points: a point, a line, a plane or all of space.
+/// Affine span of a set of points: a point, a line, a plane or all of space.
 struct AffineSpan {
   int dimension = 0;                                 ///< 0: one point, 1: straight, 2: flat, 3: solid
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< a point of the set
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();    ///< unit; along the line, or in the plane; else zero
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit; across the plane, from dimension 2 on
+  /// Unit vector along the line, or one in the plane; zero for dimensions 0 and 3.
+  Eigen::Vector3d axis = Eigen::Vector3d::Zero();
+  /// Unit normal of the plane, from dimension 2 on; else zero.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
 };
 
-/// Decides whether points are solid, flat, straight or one, up to a resolution: dimension d holds all points
-/// within `resolution` (model units, >= 0) of a flat of that dimension through the most distant of them.
-/// Never more than `affine_dimension`, so points that are solid here are solid to exact predicates; a
-/// resolution of 0 gives that dimension up to rounding. Precondition: at least one point, all finite.
+/// Computes the affine span up to a resolution. In dimension d, all points lie within `resolution` (model
+/// units, >= 0) of a flat of dimension d through the most distant of them. The dimension is at most
+/// `affine_dimension`: a set that is solid here is solid to exact predicates. A resolution of 0 gives that
+/// dimension up to rounding. Precondition: at least one point, all finite.
 AffineSpan affine_span(const Points& points, double resolution);
 
-/// The exact dimension of the smallest flat that holds the points, 0 to 3. Same precondition.
+/// Computes the exact dimension of the affine span, 0 to 3. Precondition: at least one point, all finite.
 int affine_dimension(const Points& points);
 
-/// The exponent e for which no square or cube of the points' coordinates times 2^e, and no product of a few
-/// of them, overflows, and none that matters underflows. 0 unless the largest coordinate is beyond 1e60 or
-/// below 1e-60; then 2^e brings it to between 1/2 and 1.
+/// Computes an exponent e for scaling. After multiplication of the coordinates by 2^e, their squares, cubes
+/// and products of a few of them do not overflow, and no relevant one underflows. The exponent is 0 unless
+/// the largest coordinate is above 1e60 or below 1e-60; then 2^e scales it to between 1/2 and 1.
 int working_exponent(const Points& points);
 
-/// The points with all coordinates times 2^exponent: exact, unless a coordinate underflows.
+/// Returns the points multiplied by 2^exponent. Exact, unless a coordinate underflows.
 Points scaled_by_power(const Points& points, int exponent);
 
 }  // namespace stackabilization

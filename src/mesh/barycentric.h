@@ -6,12 +6,12 @@
 
 namespace stackabilization::detail {
 
-/// Gives the weights, summing to one, of the corners of a triangle in the point of its plane that is nearest
-/// to `point`: least squares by QR. On the triangle they lie within [0, 1] up to rounding. Precondition: the
-/// triangle has area.
+/// Computes the barycentric weights of the point of the triangle's plane that is nearest to `point`, by least
+/// squares with QR. The weights sum to one. For points of the triangle they lie in [0, 1] up to rounding.
+/// Precondition: the triangle has a positive area.
 Eigen::Vector3d barycentric_weights(const Shape& shape, Eigen::Index triangle, const Eigen::Vector3d& point);
 
-/// The point with these weights.
+/// Returns the point with the given weights, model units.
 Eigen::Vector3d point_at(const Shape& shape, Eigen::Index triangle, const Eigen::Vector3d& weights);
 
 }  // namespace stackabilization::detail

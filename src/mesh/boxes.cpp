@@ -49,7 +49,8 @@ HullSupport::HullSupport(const Points& points) {
   centre_ = (points_.colwise().minCoeff() + points_.colwise().maxCoeff()).transpose() / 2;
   centred_points_ = points_.rowwise() - centre_.transpose();
   normal_columns_ = face_normals_;
-  // Normals of what is hardly thicker than rounding tell no silhouette: without them all corners count.
+  // The normals of a set hardly thicker than rounding do not define a silhouette: without them all corners
+  // count.
   if (affine_span(points_, tolerance::relative * points.cwiseAbs().maxCoeff()).dimension < dimension_)
     normal_columns_.setZero();
 }

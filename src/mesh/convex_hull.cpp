@@ -53,7 +53,7 @@ DisjointSets facets_of(const Mesh& mesh) {
   return facets;
 }
 
-/// The corner after each on the boundary of a facet, points between corners among them.
+/// Successor of each corner on the boundary of a facet, including points between corners.
 using Border = std::map<Vertex, Vertex>;
 
 std::vector<Border> borders_of(const Mesh& mesh) {
@@ -87,8 +87,8 @@ std::vector<Point> polygon(const Mesh& mesh, const Border& border) {
   return corners;
 }
 
-/// The facets of a body. Quickhull visits facets in the order of their addresses. How it cuts what is flat,
-/// and which points it leaves there that are no corners, is not the same in every run.
+/// Facets of a body. Quickhull visits facets in the order of their addresses. Its triangulation of flat
+/// regions, and the points on them that are not corners, differ from run to run.
 std::vector<std::vector<Point>> facets(const std::vector<Point>& points) {
   const Mesh mesh = quickhull(points);
   std::vector<std::vector<Point>> polygons;
@@ -103,8 +103,8 @@ std::vector<Point> polygon_seen(const std::vector<Point>& points) {
   return corners;
 }
 
-/// Corners of the hull of points in a plane that do not lie on a line. Along one of the axes at least they
-/// are not seen edge on.
+/// Corners of the hull of points in a plane that do not lie on a line. Their projection along at least one of
+/// the axes is not degenerate.
 std::vector<Point> flat_polygon(const std::vector<Point>& points) {
   std::vector<Point> corners = polygon_seen<CGAL::Projection_traits_xy_3<Kernel>>(points);
   if (corners.size() < 3) corners = polygon_seen<CGAL::Projection_traits_yz_3<Kernel>>(points);

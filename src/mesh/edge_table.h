@@ -9,39 +9,40 @@
 
 namespace stackabilization::detail {
 
-/// One side of a triangle, between two of its vertices.
+/// A directed side of a triangle.
 struct TriangleSide {
-  std::int32_t low, high;  ///< the edge's vertices, low < high
+  std::int32_t low, high;  ///< vertices of the edge, low < high
   std::int32_t triangle;   ///< row of the triangle matrix
-  std::int32_t corner;     ///< the side goes from this corner to the next one
-  bool forward;            ///< from `low` to `high`
+  std::int32_t corner;     ///< first corner of the side; the side ends at the next corner
+  bool forward;            ///< whether the side runs from `low` to `high`
 };
 
-/// The edges of a triangle mesh with the triangles beside each: any number of them, turned either way. Edges
-/// are ordered by their vertices, the sides of one edge by triangle and corner.
+/// Edges of a triangle mesh with their adjacent triangles. An edge may have any number of triangles, of
+/// either orientation. Edges are ordered by their vertices; the sides of one edge are ordered by triangle and
+/// corner.
 class EdgeTable {
  public:
-  /// What happens to triangles that have a vertex twice.
+  /// Treatment of triangles with two equal vertices.
   enum class Collapsed {
-    skip,  ///< they have no sides
-    keep   ///< they have those sides whose ends differ
+    skip,  ///< they contribute no sides
+    keep   ///< they contribute the sides with different ends
   };
 
-  /// Sorts the sides of all triangles; O(m log m). Rows hold non-negative numbers of vertices.
+  /// Sorts the sides of all triangles; O(m log m). Precondition: vertex indices are not negative.
   explicit EdgeTable(const Eigen::Ref<const Triangles>& triangles, Collapsed collapsed = Collapsed::skip);
 
-  /// Number of edges.
+  /// Returns the number of edges.
   std::size_t size() const { return first_.size() - 1; }
-  /// Gives the sides along one edge, at least one.
+  /// Returns the sides along one edge, at least one.
   std::span<const TriangleSide> operator[](std::size_t edge) const {
     return std::span(sides_).subspan(first_[edge], first_[edge + 1] - first_[edge]);
   }
-  /// Gives the sides of all edges in order.
+  /// Returns the sides of all edges, edge by edge.
   const std::vector<TriangleSide>& sides() const { return sides_; }
 
  private:
   std::vector<TriangleSide> sides_;
-  std::vector<std::size_t> first_;  ///< per edge its first side, then their number
+  std::vector<std::size_t> first_;  ///< per edge, the row of its first side; then the number of sides
 };
 
 }  // namespace stackabilization::detail

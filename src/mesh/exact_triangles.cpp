@@ -49,7 +49,8 @@ class PairTest {
     switch (shared) {
       case 0:
         return CGAL::do_intersect(triangle(a), triangle(b));
-      // Through the common corner they leave apart unless a side opposite to it meets the other triangle.
+      // Triangles with one common corner intersect elsewhere only when the side opposite to it meets the
+      // other triangle.
       case 1:
         return meets(a[1], a[2], b) || meets(b[1], b[2], a);
       case 2:

@@ -81,7 +81,7 @@ HullFaces flat_hull(const Points& points, const AffineSpan& span, double resolut
 }
 
 /// Joins coplanar triangles of a hull to faces, and their common borders to edges. The result does not depend
-/// on how flat faces were cut into triangles, not even by a rounding.
+/// on the triangulation of flat faces, not even by rounding.
 class FaceMerger {
  public:
   FaceMerger(const TriangulatedHull& hull, double resolution) : hull_(hull), resolution_(resolution) {
@@ -145,8 +145,8 @@ void FaceMerger::grow_faces() {
     if (face_of_[seed] < 0) grow_face(seed, face_count_++);
 }
 
-/// The plane is corrected with every triangle, so that a face of many small triangles is as flat as its whole
-/// extent.
+/// Updates the plane with every triangle, so that a face of many small triangles is as flat as its whole
+/// extent allows.
 void FaceMerger::grow_face(int seed, int face) {
   const Eigen::Vector3d origin = corner(seed, 0);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -260,8 +260,8 @@ void FaceMerger::list_edges(const std::vector<int>& rank, HullFaces& faces) cons
   faces.edges = faces.edges.unaryExpr([&](int i) { return row[i]; }).eval();
 }
 
-/// Faces of a body hardly thicker than the resolution may run together, and with them its corners into a
-/// plane: then it is as flat as they are.
+/// When faces of a body hardly thicker than the resolution merge, the remaining corners may lie in a plane.
+/// The body is then flat.
 HullFaces solid_hull(const Points& points, const AffineSpan& span, double resolution) {
   const TriangulatedHull hull = triangulated_hull(points);
   const FaceMerger merger(hull, resolution);

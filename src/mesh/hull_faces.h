@@ -6,7 +6,7 @@
 
 namespace stackabilization {
 
-/// Boundary of a convex hull as flat faces and straight edges; see HullSupport for the meaning of each field.
+/// Boundary of a convex hull as flat faces and straight edges. HullSupport defines the members.
 struct HullFaces {
   int dimension = 0;       ///< as HullSupport::dimension()
   Points points, normals;  ///< as HullSupport::points(), HullSupport::face_normals()
@@ -14,9 +14,9 @@ struct HullFaces {
   Eigen::Matrix<int, Eigen::Dynamic, 2> edges, edge_faces;  ///< as HullSupport::edges(), edge_faces()
 };
 
-/// Hull of any non-empty set of finite points. What counts as solid, flat, straight or a single point is
-/// decided by `affine_span` with this resolution (model units), of the points and again of the corners that
-/// are left; hull triangles within it of one plane are one face.
+/// Computes the hull faces of a non-empty set of finite points. `affine_span` with this resolution (model
+/// units) determines whether the set is solid, flat, straight or a single point, first for all points and
+/// then for the remaining corners. Hull triangles within the resolution of one plane form one face.
 HullFaces hull_faces(const Points& points, double resolution);
 
 }  // namespace stackabilization

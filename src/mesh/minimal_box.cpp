@@ -15,11 +15,11 @@ namespace stackabilization {
 
 namespace {
 
-/// Work for one search, in visits of hull elements: a fraction of a second.
+/// Limit of the work of one search, in visits of hull elements: a fraction of a second.
 constexpr double total_effort = 1.5e8;
 
-/// The same for one box. Corners of the silhouette, at most about those of the face with most sides, must be
-/// sorted.
+/// Limit of the work for one box. The corners of the silhouette must be sorted; their number is at most about
+/// that of the face with most sides.
 double effort_per_box(const HullSupport& hull) {
   Eigen::VectorXi sides = Eigen::VectorXi::Zero(hull.face_normals().rows());
   for (Eigen::Index e = 0; e < hull.edge_faces().rows(); ++e)
@@ -31,12 +31,12 @@ double effort_per_box(const HullSupport& hull) {
 /// Intervals of an arc narrower than this are searched by golden section, radians.
 constexpr double narrow = 0.01;
 
-/// So far from its end, in radians, such an interval is probed for the slope there: a kink that lies between
-/// hides little more than the accuracy of boxes, and a slope that rounding hides makes little over the
-/// interval.
+/// Distance from its end, in radians, at which the slope of such an interval is measured. A kink within this
+/// distance changes the result by little more than the accuracy of boxes. A slope below rounding changes it
+/// by little over the interval.
 constexpr double beside = 3 * tolerance::relative;
 
-/// The turn from one hull face normal to a neighbouring one.
+/// Arc from one hull face normal to a neighbouring one.
 struct Arc {
   Eigen::Vector3d start, side;
   double length;
@@ -44,9 +44,9 @@ struct Arc {
   Eigen::Vector3d normal(double angle) const { return start * std::cos(angle) + side * std::sin(angle); }
 };
 
-/// The smallest box at one place of an arc, its volume up to a factor that is the same for all. Turned by a
-/// small angle d it grows by a factor of at most 1 + d * rate, its other sides times d, to hold the shape
-/// again.
+/// The smallest box at one position of an arc, its volume up to a factor that is the same for all. A rotation
+/// by a small angle d increases the volume by a factor of at most 1 + d * rate, because each side must grow
+/// by d times another side to contain the shape.
 struct Sample {
   double angle = 0, volume = 0, rate = 0;
 };
@@ -126,7 +126,7 @@ class MinimalBoxSearch {
   std::priority_queue<Interval> intervals_;
 };
 
-/// Large hulls: the largest faces get half of the effort, the arcs between them the rest.
+/// For large hulls, the largest faces get half of the work, and the arcs between them the rest.
 void MinimalBoxSearch::visit_faces() {
   const Eigen::Index visited =
       std::min<Eigen::Index>(hull_.face_normals().rows(), std::max(1, boxes_left_ / 2));
@@ -157,7 +157,8 @@ void MinimalBoxSearch::split(const Interval& interval) {
   push(interval.arc, middle, interval.high);
 }
 
-/// Do boxes grow from the end with the smaller one on? Then it is the minimum of the interval.
+/// Returns whether boxes grow from the end with the smaller box on. This end is then the minimum of the
+/// interval.
 bool MinimalBoxSearch::is_minimal_at_an_end(const Interval& interval) {
   if (interval.width() < 2 * beside) return false;
   const bool at_low = interval.low.volume <= interval.high.volume;
@@ -193,7 +194,7 @@ void MinimalBoxSearch::minimise_inside(const Interval& interval) {
   }
 }
 
-/// Direction in which a straight set runs; z for a point.
+/// Returns the direction of a straight set; z for a point.
 Direction direction_of_straight_set(const Points& points) {
   const Eigen::Vector3d along = (points.row(points.rows() - 1) - points.row(0)).transpose();
   return Direction(along.isZero(0) ? Eigen::Vector3d(Eigen::Vector3d::UnitZ())

@@ -78,8 +78,8 @@ double quartic_along(const Moments& m, const Eigen::Vector3d& d) {
   return sum;
 }
 
-/// Circle (2 dimensions) or sphere (3) through a set, by the integrals of p p^T, p, p |p|^2, |p|^2 and |p|^4:
-/// the minimum of the integral of (|p|^2 + g . p + c)^2.
+/// Fits a circle (2 dimensions) or a sphere (3 dimensions) from the integrals of p p^T, p, p |p|^2, |p|^2 and
+/// |p|^4: the minimum of the integral of (|p|^2 + g . p + c)^2.
 template <int Dimension>
 struct RoundFit {
   Eigen::Matrix<double, Dimension, Dimension> second;

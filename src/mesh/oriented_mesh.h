@@ -8,17 +8,17 @@
 
 namespace stackabilization::detail {
 
-/// A mesh whose neighbouring triangles agree about the side that is outside, with at most two triangles to an
-/// edge.
+/// A consistently oriented mesh with at most two triangles per edge.
 struct OrientedMesh {
-  Points points;                     ///< model units; those of the welded mesh first, then repetitions
+  /// Model units; the points of the welded mesh, then repeated points.
+  Points points;
   Triangles triangles;               ///< rows of `points`
-  std::vector<std::int32_t> source;  ///< per triangle its row in the shape, ascending
+  std::vector<std::int32_t> source;  ///< row of each triangle in the shape, ascending
 };
 
-/// Turns triangles so that neighbours agree, and cuts the surface by repeating vertices where it is no
-/// manifold: at edges of three and more triangles, vertices of several fans, and Moebius bands. Triangles
-/// with two equal corners are left out. Deterministic.
+/// Orients the triangles consistently and makes the surface manifold. The function cuts the surface, by
+/// repeated vertices, at edges of three and more triangles, at vertices of several fans, and across Moebius
+/// bands. It omits triangles with two equal corners. Deterministic.
 OrientedMesh orient(const WeldedMesh& mesh);
 
 }  // namespace stackabilization::detail

@@ -9,7 +9,7 @@ namespace stackabilization {
 
 namespace {
 
-/// Appends `index` to a chain that turns left only; the first `fixed` entries stay.
+/// Appends `index` to a chain with left turns only; the first `fixed` entries stay.
 void extend_chain(const Eigen::Matrix2Xd& points, int index, std::size_t fixed, std::vector<int>& chain) {
   while (chain.size() > fixed) {
     const Eigen::Vector2d before = points.col(chain[chain.size() - 2]);
@@ -51,8 +51,8 @@ std::vector<int> convex_polygon(const Eigen::Matrix2Xd& points, double resolutio
 
 namespace {
 
-/// Walks a caliper on to the corner from which the next side no longer advances along `along`. Corners are
-/// counted on past the last one, so that the four calipers never overtake each other.
+/// Advances a caliper to the corner from which the next side no longer advances along `along`. Indices of
+/// corners continue beyond the last corner, so that the four calipers never overtake each other.
 class Caliper {
  public:
   explicit Caliper(const Eigen::Matrix2Xd& polygon) : polygon_(polygon) {}

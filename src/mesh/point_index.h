@@ -6,13 +6,13 @@
 
 namespace stackabilization {
 
-/// Numbers the different points it is shown 0, 1, 2 ... in order of first appearance. Points are equal when
-/// their coordinates are (-0 = 0); expected O(1) per point.
+/// Numbers different points 0, 1, 2, ... in the order of insertion. Points are equal when their coordinates
+/// are equal (-0 = 0). Expected O(1) per point.
 class PointIndex {
  public:
-  /// Number of `point`, new or not. Precondition: finite coordinates.
+  /// Returns the number of `point`, and adds the point when it is new. Precondition: finite coordinates.
   std::int32_t insert(const Eigen::Vector3d& point);
-  /// The different points, by their numbers.
+  /// Returns the different points by their numbers.
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
  private:
@@ -20,7 +20,8 @@ class PointIndex {
   std::size_t slot_of(const Eigen::Vector3d& point) const;
 
   std::vector<Eigen::Vector3d> points_;
-  std::vector<std::int32_t> slots_;  ///< Open addressing, a power of two long; -1 is free.
+  /// Hash table with open addressing; the size is a power of two, -1 is free.
+  std::vector<std::int32_t> slots_;
 };
 
 }  // namespace stackabilization

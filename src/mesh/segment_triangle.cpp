@@ -40,9 +40,9 @@ Eigen::Vector3d nearest_on_triangle(const Eigen::Vector3d& point, const Corners&
 
 Approach approach(const Segment& segment, const Corners& triangle, double resolution) {
   const Eigen::Vector3d d = segment[1] - segment[0];
-  // The distance is convex along the segment: where it is least, and the ends of a stretch of least distance,
-  // are among the ends, the feet of the corners, the points nearest to the sides, and where the segment
-  // crosses the plane.
+  // The distance is convex along the segment. Its minimum, and the ends of an interval of minimal distance,
+  // are among the ends of the segment, the projections of the corners, the points nearest to the sides, and
+  // the intersection with the plane.
   std::array<double, 9> places{};
   places[1] = 1;
   for (std::size_t k = 0; k < 3; ++k) {

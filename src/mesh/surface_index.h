@@ -9,14 +9,15 @@
 
 namespace stackabilization {
 
-/// A point of a surface, as SurfaceIndex::nearest finds it.
+/// Result of SurfaceIndex::nearest.
 struct SurfacePoint {
-  std::int32_t triangle = -1;                       ///< that holds it, row of Shape::triangles
+  std::int32_t triangle = -1;                       ///< triangle of the point, row of Shape::triangles
   Eigen::Vector3d point = Eigen::Vector3d::Zero();  ///< model units
-  double distance = 0;                              ///< from the point asked about, model units
+  double distance = 0;                              ///< distance from the query point, model units
 };
 
-/// Nearest points of a surface; double precision. Built once per shape, safe to share between threads.
+/// Nearest-point queries on a surface, in double precision. Built once per shape, safe to share between
+/// threads.
 class SurfaceIndex {
  public:
   /// Throws InputError when no triangle has a positive area.
@@ -25,7 +26,7 @@ class SurfaceIndex {
   SurfaceIndex& operator=(SurfaceIndex&&) noexcept;
   ~SurfaceIndex();
 
-  /// The point of the surface that is nearest to `point` (model units).
+  /// Returns the point of the surface that is nearest to `point` (model units).
   SurfacePoint nearest(const Eigen::Vector3d& point) const;
 
  private:
@@ -33,16 +34,16 @@ class SurfaceIndex {
   std::unique_ptr<const Data> data_;
 };
 
-/// Points spread over a surface.
+/// Samples of a surface.
 struct SurfaceSamples {
-  Points points;                        ///< n x 3
-  Points normals;                       ///< n x 3 unit normals of their triangles
-  std::vector<std::int32_t> triangles;  ///< n
+  Points points;                        ///< n x 3, model units
+  Points normals;                       ///< n x 3 unit normals of the triangles
+  std::vector<std::int32_t> triangles;  ///< n rows of Shape::triangles
 };
 
-/// `count` points, each standing for the same area: stratified along the triangles in their order,
-/// low-discrepancy within them. Deterministic, and moves with the shape. Throws InputError when no triangle
-/// has a positive area.
+/// Computes `count` samples of equal area: stratified along the triangles in their order, with low
+/// discrepancy within a triangle. Deterministic. The samples move with the shape. Throws InputError when no
+/// triangle has a positive area.
 SurfaceSamples surface_samples(const Shape& shape, int count);
 
 }  // namespace stackabilization

@@ -17,27 +17,27 @@
 
 namespace stackabilization::detail {
 
-/// The same point for CGAL.
+/// Converts a point to CGAL.
 template <class Kernel>
 typename Kernel::Point_3 to_cgal(const Eigen::Vector3d& p) {
   return {p.x(), p.y(), p.z()};
 }
 
-/// A point of a surface and the triangle that holds it.
+/// A point of a surface and the triangle that contains it.
 struct TreePoint {
-  Eigen::Vector3d point;
+  Eigen::Vector3d point;  ///< model units
   std::int32_t triangle;  ///< row of Shape::triangles
 };
 
-/// Triangles of a shape in CGAL's AABB tree: the one place where this library builds one. Answers are as
-/// exact as the kernel's predicates. Safe to share between threads once built.
+/// Triangles of a shape in CGAL's AABB tree. No other code of this library builds one. Results are as exact
+/// as the predicates of the kernel. Safe to share between threads once built.
 template <class Kernel>
 class TriangleTree {
  public:
   using Point = typename Kernel::Point_3;
   using Triangle = typename Kernel::Triangle_3;
 
-  /// Builds the tree of the triangles `rows` of `shape`, which should have area.
+  /// Builds the tree of the triangles `rows` of `shape`. Precondition: they have a positive area.
   TriangleTree(const Shape& shape, std::vector<std::int32_t> rows) : rows_(std::move(rows)) {
     triangles_.reserve(rows_.size());
     for (const std::int32_t t : rows_)
@@ -49,21 +49,22 @@ class TriangleTree {
   TriangleTree(const TriangleTree&) = delete;
   TriangleTree& operator=(const TriangleTree&) = delete;
 
-  /// The triangles in the tree, as they were given.
+  /// Returns the triangles in the tree, in the order of the constructor's `rows`.
   const std::vector<std::int32_t>& rows() const { return rows_; }
-  /// The box of all triangles. Precondition: there is one.
+  /// Returns the box of all triangles. Precondition: there is a triangle.
   CGAL::Bbox_3 box() const { return tree_.bbox(); }
 
-  /// Makes `nearest` fast for far points; to be called before threads share the tree.
+  /// Accelerates `nearest` for distant points. Call it before threads share the tree.
   void prepare_nearest() { tree_.accelerate_distance_queries(); }
 
-  /// The point of the surface that is nearest to `p`. Precondition: there is a triangle.
+  /// Returns the point of the surface that is nearest to `p`. Precondition: there is a triangle.
   TreePoint nearest(const Eigen::Vector3d& p) const {
     const auto [point, triangle] = tree_.closest_point_and_primitive(to_cgal<Kernel>(p));
     return {{point.x(), point.y(), point.z()}, rows_[entry(triangle)]};
   }
 
-  /// Where a ray first meets a triangle; nothing where it meets none, or the first one edge on.
+  /// Returns the first intersection of a ray with a triangle. Returns nothing when there is none, or when the
+  /// first triangle is parallel to the ray.
   std::optional<TreePoint> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
     const auto hit = tree_.first_intersection(ray(origin, direction));
     if (!hit) return std::nullopt;
@@ -72,23 +73,24 @@ class TriangleTree {
     return TreePoint{{point->x(), point->y(), point->z()}, rows_[entry(hit->second)]};
   }
 
-  /// Whether a ray meets a triangle.
+  /// Returns whether a ray meets a triangle.
   bool is_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
     return tree_.do_intersect(ray(origin, direction));
   }
 
-  /// How many triangles a ray meets: odd from inside of a closed surface where it passes between its edges.
+  /// Counts the triangles that a ray meets. The number is odd for an inner point of a closed surface, unless
+  /// the ray meets an edge.
   std::size_t count_hits(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
     return count_met(ray(origin, direction));
   }
 
-  /// How many triangles a segment, ray or box of CGAL meets.
+  /// Counts the triangles that a segment, ray or box of CGAL meets.
   template <class Query>
   std::size_t count_met(const Query& query) const {
     return tree_.number_of_intersected_primitives(query);
   }
 
-  /// Appends, in the tree's order, which entries of `rows()` a segment, ray or box of CGAL meets.
+  /// Appends the entries of `rows()` that a segment, ray or box of CGAL meets, in the order of the tree.
   template <class Query>
   void append_met(const Query& query, std::vector<std::size_t>& entries) const {
     tree_.all_intersected_primitives(query, boost::make_function_output_iterator(

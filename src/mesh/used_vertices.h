@@ -4,7 +4,7 @@
 
 namespace stackabilization {
 
-/// The vertices that triangles use, each once, in their order in the shape.
+/// Returns the vertices that triangles use, each once, in the order of the shape.
 Points used_vertices(const Shape& shape);
 
 }  // namespace stackabilization

@@ -7,30 +7,31 @@
 
 namespace stackabilization::detail {
 
-/// The triangles of a shape whose vertices of equal coordinates (-0 = 0) are one. Formats repeat vertices, so
-/// that neighbours are known by their coordinates only.
+/// The triangles of a shape after welding: vertices of equal coordinates (-0 = 0) are one vertex. Many
+/// formats repeat vertices, so only coordinates identify neighbours.
 struct WeldedMesh {
   Points points;        ///< k x 3, model units, in order of first use by the triangles
   Triangles triangles;  ///< m x 3 rows of `points`; row t is triangle t of the shape
-  /// Per vertex of the shape its row of `points`, of the last part that uses it where points of parts differ;
-  /// -1 where no triangle uses it.
+  /// Row of `points` for each vertex of the shape; -1 for a vertex that no triangle uses. When parts are
+  /// welded separately, a shared vertex has the row of the last part that uses it.
   std::vector<std::int32_t> of_vertex;
-  std::vector<std::int32_t> first_vertex;  ///< per row of `points` the first vertex that triangles use there
+  /// Per row of `points`, the first vertex of the shape at this point that a triangle uses.
+  std::vector<std::int32_t> first_vertex;
 
-  /// Whether two corners of the triangle are one vertex.
+  /// Returns whether two corners of the triangle are one vertex.
   bool has_equal_corners(Eigen::Index triangle) const;
-  /// Area of the triangle, model units squared.
+  /// Computes the area of the triangle, model units squared.
   double area(Eigen::Index triangle) const;
 };
 
-/// Which vertices of equal coordinates become one: all, or those of triangles of the same part.
+/// Scope of welding: all vertices of equal coordinates, or only those of triangles of the same part.
 enum class Weld { all, within_parts };
 
 /// Welds the vertices of a shape; expected O(m). Precondition: `validate(shape)`.
 WeldedMesh weld(const Shape& shape, Weld which = Weld::all);
 
-/// Numbers the components that hang together by common vertices 0, 1, ... in order of their first triangles,
-/// and gives the number of every triangle.
+/// Returns the component of every triangle. Components are connected through common vertices and numbered 0,
+/// 1, ... in the order of their first triangles.
 std::vector<std::int32_t> connected_components(const WeldedMesh& mesh);
 
 }  // namespace stackabilization::detail

@@ -8,7 +8,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Penalty of a demand against wishes of weight 1: large enough for a few steps, small enough for the digits.
+/// Penalty of a constraint relative to terms of weight 1: large enough for fast convergence, small enough for
+/// accuracy.
 constexpr double penalty = 1 << 20;
 constexpr int max_multiplier_steps = 60;
 

@@ -5,36 +5,41 @@
 #include <optional>
 #include <vector>
 
-/// Not installed.
 namespace stackabilization::detail {
 
-/// Sparse linear least squares under linear equations, which may repeat or contradict one another: the method
-/// of multipliers (Hestenes 1969), one factorization of the penalised normal equations for all
-/// its steps.
+/// Sparse linear least squares under linear equality constraints, by the method of multipliers (Hestenes
+/// 1969). All steps share one factorization of the penalised normal equations. Constraints may be redundant
+/// or contradictory.
 class ConstrainedLeastSquares {
  public:
+  /// A variable with its coefficient.
   struct Term {
     int variable;
     double factor;
   };
+  /// A linear form: the sum of its terms.
   using Row = std::vector<Term>;
 
+  /// Result of `solved`.
   struct Solution {
     Eigen::VectorXd values;  ///< one per variable
-    /// Row - right side, one per equation: rounding, unless they contradict one another; then the sum of
-    /// their squares is least.
+    /// Residuals (row - right side), one per constraint. They are rounding errors for compatible constraints;
+    /// for contradictory constraints the sum of their squares is minimal.
     Eigen::VectorXd residual;
   };
 
-  /// Weights of wishes should be near 1, or below.
+  /// Creates a problem without terms and constraints. `variables`: number of variables.
   explicit ConstrainedLeastSquares(int variables) : fixed_(static_cast<std::size_t>(variables)) {}
 
+  /// Adds the term `weight` * (row - right)^2 to the objective. Weights should be about 1 or smaller.
   void add_soft(const Row& row, double right, double weight);
+  /// Adds the constraint row = right.
   void add_equality(const Row& row, double right);
+  /// Sets a variable to a value and removes it from the problem.
   void fix(int variable, double value) { fixed_[static_cast<std::size_t>(variable)] = value; }
 
-  /// `resolution`: change of the variables below which steps end. Precondition: wishes and equations together
-  /// determine every variable.
+  /// Solves the problem. The steps end when the variables change by less than `resolution`. Precondition:
+  /// terms and constraints together determine every variable.
   Solution solve(double resolution) const;
 
  private:

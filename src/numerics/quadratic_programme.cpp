@@ -11,10 +11,10 @@ namespace {
 
 constexpr int max_steps = 60;
 
-/// Steps end this far before the first multiplier or slack would vanish, as a share of the way.
+/// Fraction of the way to the first vanishing multiplier or slack at which a step ends.
 constexpr double share_of_way = 0.995;
 
-/// Longest step, at most 1, that keeps `values` above 0.
+/// Returns the longest step, at most 1, that keeps `values` above 0.
 double step_length(const Eigen::VectorXd& values, const Eigen::VectorXd& by) {
   double longest = 1;
   for (Eigen::Index i = 0; i < values.size(); ++i)
@@ -51,7 +51,7 @@ class InteriorPoint {
     Eigen::VectorXd x, slacks, multipliers;
   };
 
-  /// Newton's step towards products of slacks and multipliers that are less by `products`.
+  /// Computes Newton's step that reduces the products of slacks and multipliers by `products`.
   Step step(const Eigen::LDLT<Eigen::MatrixXd>& factors, const Eigen::VectorXd& products) const {
     const Eigen::VectorXd weights = multipliers_.cwiseQuotient(slacks_);
     Step by;
@@ -62,7 +62,7 @@ class InteriorPoint {
     return by;
   }
 
-  /// False: there is no step, as where rows contradict each other.
+  /// Returns false when there is no step, as for contradictory rows.
   bool advance() {
     Eigen::MatrixXd normal = p_.q;
     normal.noalias() += p_.a.transpose() * multipliers_.cwiseQuotient(slacks_).asDiagonal() * p_.a;

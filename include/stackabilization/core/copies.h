@@ -8,21 +8,21 @@
 
 namespace stackabilization {
 
-/// A copy of a shape in its place: p -> rotation * p + translation, each coordinate rounded to double.
+/// A placed copy of a shape: p -> rotation * p + translation, each coordinate rounded to double.
 struct PlacedCopy {
-  std::string name;  ///< UTF-8; parts of the copy are called "NAME/PART"
+  std::string name;                                        ///< UTF-8; parts of the copy are named "NAME/PART"
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< orthogonal, determinant +1
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();   ///< model units
 };
 
 /// Copies of one shape.
 struct Copies {
-  Shape shape;                     ///< one of them, where it is by itself
-  std::vector<PlacedCopy> placed;  ///< names differ from each other
+  Shape shape;                     ///< the shape in its own coordinates
+  std::vector<PlacedCopy> placed;  ///< copies with different names
 };
 
-/// All copies as one shape, in their order. Throws InputError when `copies.shape` is invalid or names repeat,
-/// UsageError when it would have more vertices or triangles than can be indexed.
+/// Returns all copies as one shape, in their order. Throws InputError when `copies.shape` is invalid or names
+/// repeat. Throws UsageError when the result has more vertices or triangles than can be indexed.
 Shape as_one_shape(const Copies& copies);
 
 }  // namespace stackabilization

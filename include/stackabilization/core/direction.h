@@ -4,15 +4,14 @@
 
 namespace stackabilization {
 
-/// A stacking direction r: three finite doubles, not all zero, taken exactly as given. It needs no unit
-/// length: (0.3, -0.2, 1) means those three doubles, and exact results are expressed in units of this very
-/// vector.
+/// A stacking direction r: three finite doubles, not all zero, used exactly as given. It need not have unit
+/// length: (0.3, -0.2, 1) means exactly these doubles. Exact results are in units of this vector.
 class Direction {
  public:
   /// Throws UsageError when a component is not finite, all are zero, or the squared length overflows or
   /// underflows.
   explicit Direction(const Eigen::Vector3d& vector);
-  /// The same by components.
+  /// Creates a direction from its components. Throws as above.
   Direction(double x, double y, double z) : Direction(Eigen::Vector3d(x, y, z)) {}
 
   const Eigen::Vector3d& vector() const { return vector_; }  ///< r, as given
@@ -27,14 +26,14 @@ class Direction {
 struct Frame {
   Eigen::Vector3d u, v, w;  ///< w = r / |r|, u x v = w.
 
-  /// Coordinates of p in this frame: (u.p, v.p, w.p).
+  /// Returns the coordinates of p in this frame: (u.p, v.p, w.p).
   Eigen::Vector3d to_local(const Eigen::Vector3d& p) const { return {u.dot(p), v.dot(p), w.dot(p)}; }
-  /// The point with coordinates q in this frame: the inverse of `to_local`.
+  /// Returns the point with coordinates q in this frame: the inverse of `to_local`.
   Eigen::Vector3d to_world(const Eigen::Vector3d& q) const { return u * q.x() + v * q.y() + w * q.z(); }
 };
 
-/// The frame that the minimal rotation taking +z to r gives to the axes x, y, z. For r along -z it is the
-/// half turn about x. It varies continuously with r except there.
+/// Returns the frame of a direction: the axes x, y, z after the minimal rotation from +z to r. For r along -z
+/// it is the half turn about x. The frame is continuous in r except there.
 Frame frame_of(const Direction& direction);
 
 }  // namespace stackabilization

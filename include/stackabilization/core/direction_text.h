@@ -5,9 +5,9 @@
 
 namespace stackabilization {
 
-/// For people, whatever its length: "along z", "along -x", "along (0.123, 0, 0.992)". An axis is named where
-/// the direction is within a millionth of it; otherwise the unit vector has three digits after the point, and
-/// more where these would look like an axis.
+/// Returns a direction of any length as text for people: "along z", "along -x", "along (0.123, 0, 0.992)". A
+/// direction within a millionth of an axis has the name of the axis. Any other direction is written as a unit
+/// vector with three digits after the point, or with more digits when three would look like an axis.
 std::string direction_text(const Eigen::Vector3d& direction);
 
 }  // namespace stackabilization

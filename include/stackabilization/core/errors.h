@@ -5,13 +5,13 @@
 
 namespace stackabilization {
 
-/// Base of every error this library throws on purpose. `what()` is one sentence in the user's words.
+/// Base of all errors that this library throws. `what()` is one sentence in the user's words.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The input file or shape cannot be used. The message names the file, the place and what was expected.
+/// The input file or shape cannot be used. The message names the file, the place and the expected content.
 /// Programs exit with status 3.
 class InputError : public Error {
  public:
@@ -24,14 +24,14 @@ class UsageError : public Error {
   using Error::Error;
 };
 
-/// A result cannot be written where it was asked for. Programs exit with status 2.
+/// A result cannot be written to the requested place. Programs exit with status 2.
 class OutputError : public Error {
  public:
   using Error::Error;
 };
 
-/// Pictures and depth images cannot be made here: no OpenGL context, or the driver failed. Programs exit with
-/// status 3.
+/// Pictures and depth images cannot be rendered: there is no OpenGL context, or the driver failed. Programs
+/// exit with status 3.
 class RenderError : public Error {
  public:
   using Error::Error;

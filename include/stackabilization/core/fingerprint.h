@@ -7,21 +7,22 @@
 
 namespace stackabilization {
 
-/// A 64-bit hash of a sequence of values, the same on every machine: FNV-1a over their bytes, lowest first.
+/// A 64-bit hash of a sequence of values: FNV-1a over their bytes, lowest byte first. It is the same on every
+/// machine.
 class Fingerprint {
  public:
-  /// Its eight bytes.
+  /// Adds the eight bytes of an integer.
   void add(std::uint64_t value) {
     for (int byte = 0; byte < 8; ++byte) mix(static_cast<unsigned char>(value >> (8 * byte) & 0xff));
   }
-  /// 0 and -0 are one value.
+  /// Adds a double. 0 and -0 are equal.
   void add(double value) { add(std::bit_cast<std::uint64_t>(value + 0.0)); }
-  /// Its length, then its bytes.
+  /// Adds the length of a text, then its bytes.
   void add(std::string_view text) {
     add(static_cast<std::uint64_t>(text.size()));
     for (const char c : text) mix(static_cast<unsigned char>(c));
   }
-  /// How many there are, then all of them, row by row.
+  /// Adds the number of entries of a matrix, then all entries, row by row.
   template <class Derived>
   void add_numbers(const Eigen::MatrixBase<Derived>& numbers) {
     add(static_cast<std::uint64_t>(numbers.size()));
@@ -30,7 +31,7 @@ class Fingerprint {
         add(static_cast<double>(numbers(row, column)));
   }
 
-  /// The hash of all that was added.
+  /// Returns the hash of all added values.
   std::uint64_t value() const { return hash_; }
 
  private:

@@ -7,13 +7,13 @@
 
 namespace stackabilization {
 
-/// Rows of the parts with these names, ascending, each once. Throws InputError with the words of
-/// `unknown_part` for the first name that no part has.
+/// Returns the rows of the parts with these names, ascending, each once. Throws InputError with the text of
+/// `unknown_part` for the first name that does not exist.
 std::vector<int> parts_named(const Shape& shape, const std::vector<std::string>& names);
 
-/// A clause that says that there is no part `name`, and which parts there are: those with the nearest names
-/// first, 12 at most, and how many more. Where parts were only numbered (part_1, part_2, ...) it says how to
-/// see which is which.
+/// Returns a clause that says that there is no part `name` and lists the existing parts: at most 12, nearest
+/// names first, and the number of the others. For parts with generated names (part_1, part_2, ...) it also
+/// tells how to identify them.
 std::string unknown_part(const std::vector<std::string>& part_names, const std::string& name);
 
 }  // namespace stackabilization

@@ -6,14 +6,14 @@
 
 namespace stackabilization {
 
-/// An exact rational number with value semantics, in lowest terms. Thread-safe like an int.
+/// An exact rational number with value semantics, in lowest terms. As thread-safe as an int.
 class Rational {
  public:
   Rational();  ///< zero
-  /// Exactly this double. Throws UsageError unless finite.
+  /// Represents the double exactly. Throws UsageError unless finite.
   explicit Rational(double value);
-  /// numerator / denominator, decimal integers. Throws UsageError on a malformed number or a zero
-  /// denominator.
+  /// Creates numerator / denominator from decimal integers. Throws UsageError for a malformed number or a
+  /// zero denominator.
   Rational(const std::string& numerator, const std::string& denominator);
   Rational(const Rational& other);
   Rational(Rational&& other) noexcept;
@@ -23,27 +23,27 @@ class Rational {
 
   std::string numerator() const;    ///< decimal, with sign
   std::string denominator() const;  ///< decimal, positive
-  /// Nearest double, ties to even.
+  /// Returns the nearest double, ties to even.
   double to_double() const;
 
-  /// The number behind it, for code that computes with GMP: see core/rational_number.h.
+  /// The GMP number, for code that computes with GMP: see core/rational_number.h.
   struct Number;
   /// Takes over a GMP rational.
   explicit Rational(Number number);
-  /// For sources that include core/rational_number.h.
+  /// Returns the GMP number, for sources that include core/rational_number.h.
   const Number& number() const { return *number_; }
 
-  /// Exact, as all arithmetic and comparisons here.
+  /// Adds exactly. All arithmetic and all comparisons of this class are exact.
   friend Rational operator+(const Rational& a, const Rational& b);
-  /// Exact.
+  /// Subtracts exactly.
   friend Rational operator-(const Rational& a, const Rational& b);
-  /// Exact.
+  /// Multiplies exactly.
   friend Rational operator*(const Rational& a, const Rational& b);
-  /// Throws UsageError when b is zero.
+  /// Divides exactly. Throws UsageError when b is zero.
   friend Rational operator/(const Rational& a, const Rational& b);
-  /// By value; exact.
+  /// Compares values exactly.
   friend std::strong_ordering operator<=>(const Rational& a, const Rational& b);
-  /// Equal values; exact.
+  /// Returns whether the values are equal, exactly.
   friend bool operator==(const Rational& a, const Rational& b);
 
  private:

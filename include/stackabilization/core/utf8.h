@@ -4,7 +4,8 @@
 
 namespace stackabilization {
 
-/// Is it UTF-8, as RFC 3629 has it: no stray or missing bytes, no overlong forms, no surrogates?
+/// Returns whether a text is UTF-8 according to RFC 3629: no stray or missing bytes, no overlong forms, no
+/// surrogates.
 bool is_utf8(std::string_view text);
 
 }  // namespace stackabilization

@@ -9,8 +9,8 @@
 
 namespace stackabilization {
 
-/// Shape of a contact region (section 4.2 of the paper): `ring` has an interior hole, `line` is elongated,
-/// else `dot`.
+/// Type of a contact region (section 4.2 of the paper). `ring` has an interior hole, `line` is elongated, and
+/// `dot` is neither.
 enum class ContactType { dot, line, ring };
 
 /// One convex piece of a contact region: the points over which f >= f_max - eps for one pair of triangles.
@@ -21,52 +21,57 @@ struct ContactPolygon {
   Points lower_points;          ///< k x 3, the same columns on the lower envelope
 };
 
-/// A connected set of contact polygons with one part on each side.
+/// A connected set of contact polygons between one part of the copy below and one part of the copy above.
 struct ContactRegion {
-  ContactType type = ContactType::dot;  ///< its shape seen along r
-  std::int32_t upper_part = -1;         ///< part of the copy below that is touched
-  std::int32_t lower_part = -1;         ///< part of the copy above that touches it
+  ContactType type = ContactType::dot;  ///< type of the region, seen along r
+  std::int32_t upper_part = -1;         ///< touched part of the copy below
+  std::int32_t lower_part = -1;         ///< touching part of the copy above
   double area = 0;  ///< area of the union of the polygons seen along r, model units squared
+  /// Area centroid on the upper envelope, model units; the mean of the points when the area is zero.
   Eigen::Vector3d
       upper_centre;  ///< area centroid on the upper envelope (mean of the points where the area is zero)
   Eigen::Vector3d lower_centre;          ///< the same on the lower envelope, before the lift
-  Eigen::Vector3d long_axis;             ///< unit vector orthogonal to r: primary direction of a line region
+  Eigen::Vector3d long_axis;             ///< unit vector orthogonal to r: main direction of a line region
   std::vector<ContactPolygon> polygons;  ///< convex, one per pair of triangles; they may overlap
 };
 
-/// What `contact_regions` counts as contact, and how it names the shapes of regions.
+/// Definition of contact and thresholds of the region types.
 struct ContactOptions {
-  ContactSemantics semantics = ContactSemantics::solid;  ///< that of the separation
+  ContactSemantics semantics = ContactSemantics::solid;  ///< semantics of the separation
   double band = tolerance::contact_band;  ///< eps as a fraction of the extent h(M, r); in [0, 1]
-  double line_aspect = 4;                 ///< a region at least this many times longer than wide is a line
-  double min_hole = 0.01;  ///< a ring's hole takes at least this share of the rectangle around the region
-  /// Pairs of triangles that are looked at one by one: at most this many, and eight more per triangle of the
-  /// shape. Coincident parts touch each other in quadratically many.
+  /// Smallest ratio of length to width of a line region.
+  double line_aspect = 4;
+  /// Smallest area of the hole of a ring, fraction of the area of the rectangle around the region.
+  double min_hole = 0.01;
+  /// Limit of the number of pairs of triangles that are examined one by one, plus eight per triangle of the
+  /// shape. Coincident parts touch in quadratically many pairs.
   std::int64_t max_pairs = std::int64_t{1} << 16;
 };
 
-/// Where a shape touches its copy.
+/// Contact regions of a shape and its copy.
 struct Contacts {
   std::vector<ContactRegion> regions;  ///< largest area first, ties by position
-  /// All pairs of triangles that touch are in the regions. If not, because they are too many
-  /// (ContactOptions::max_pairs), each triangle that touches is there with its deepest partner alone, of
-  /// triangles with the same three points the first for all: areas are lower bounds then.
+  /// Whether the regions contain all touching pairs of triangles. Otherwise there are too many pairs
+  /// (ContactOptions::max_pairs), and the regions contain each touching triangle with its deepest partner
+  /// only. Of triangles with the same three points, the first one represents all. Areas are then lower
+  /// bounds.
   bool complete = true;
-  /// Parts, ascending, that touch but are named by no region, because their triangles coincide with those of
-  /// parts that are. None where `complete`.
+  /// Touching parts, ascending, that no region names because their triangles coincide with those of other
+  /// parts. Empty when `complete`.
   std::vector<std::int32_t> coincident_parts;
 };
 
-/// A shape stacked on itself.
+/// Input of `contact_regions`: a shape stacked on itself.
 struct ContactQuery {
-  const Shape& shape;            ///< M
-  const SeparationTree& tree;    ///< of `shape`
-  const Direction& direction;    ///< r, from the copy below to the copy above
-  const Separation& separation;  ///< the answer for the three, in the semantics of the options
+  const Shape& shape;          ///< M
+  const SeparationTree& tree;  ///< tree of `shape`
+  const Direction& direction;  ///< r, from the copy below to the copy above
+  /// Separation of the shape from itself along r, in the semantics of the options.
+  const Separation& separation;
 };
 
-/// The contact regions { q : f(q) >= f_max - eps } of a shape stacked on itself along r, as
-/// polygons lifted to both surfaces, grouped into connected regions per pair of parts. Constructions in
+/// Computes the contact regions { q : f(q) >= f_max - eps } of a shape stacked on itself along r. The regions
+/// are polygons lifted to both surfaces, grouped into connected regions per pair of parts. Constructions in
 /// double precision, within tolerance::relative of the diagonal. Throws UsageError for a band outside [0, 1].
 Contacts contact_regions(const ContactQuery& query, const ContactOptions& options = {});
 

@@ -23,52 +23,55 @@ struct Window {
   }
 };
 
-/// Upper and lower envelope of a shape sampled at pixel centres. Heights run along the unit vector w = r /
-/// |r|. Exact at the samples up to double rounding when made by rays or scan conversion; single precision or
-/// 24-bit depth when made by a graphics card. By rays or scan conversion, max over samples of u - l is a
-/// lower bound of the exact closed f_max, up to rounding; a graphics card moves corners to a grid and gives
-/// none. (The solid f_max ignores walls along r, a sample that falls on one does not.)
+/// Upper and lower envelope of a shape, sampled at pixel centres. Heights are measured along the unit vector
+/// w = r / |r|.
+///
+/// Samples by rays or scan conversion are exact up to double rounding. The maximum of u - l over the samples
+/// is then a lower bound of the exact closed f_max, up to rounding. Samples by a graphics card have single
+/// precision or 24-bit depth; the card moves corners to a grid, so they give no bound. (The solid f_max
+/// ignores walls along r; a sample on such a wall does not.)
 struct HeightField {
   Frame frame;                ///< w along r
-  Window window;              ///< where the samples are
-  Unit unit = Unit::unknown;  ///< of the shape
+  Window window;              ///< positions of the samples
+  Unit unit = Unit::unknown;  ///< unit of the shape
   Eigen::MatrixXd upper;      ///< columns x rows, heights along w, model units; -inf where no surface
   Eigen::MatrixXd lower;      ///< columns x rows; +inf where no surface
 
-  /// Whether any surface was met at the sample of pixel (i, j).
+  /// Returns whether there is a surface at the sample of pixel (i, j).
   bool covered(int i, int j) const { return upper(i, j) >= lower(i, j); }
 };
 
-/// f = u - l (Eq. 1) per sample; NaN where nothing is covered. columns x rows, model units.
+/// Computes f = u - l (Eq. 1) at every sample: columns x rows, model units, NaN where there is no surface.
 Eigen::MatrixXd gap(const HeightField& field);
 
-/// Largest sampled gap, and where.
+/// Largest sampled gap and its pixel.
 struct GapMaximum {
   double value = 0;           ///< model units
-  int column = -1, row = -1;  ///< of its pixel
+  int column = -1, row = -1;  ///< pixel of the maximum
 };
-/// The maximum of `gap`, the first one in row order among equals; zero at (-1, -1) when nothing is covered.
+/// Returns the maximum of `gap`, the first one in row order among equals. The result is zero at (-1, -1) when
+/// there is no surface at any sample.
 GapMaximum maximum_gap(const HeightField& field);
 
-/// Largest number of samples along a side of a window.
+/// Limit of the number of samples along a side of a window.
 inline constexpr int max_resolution = 16384;
 
-/// Window centred on the projection of the shape, `resolution` samples along its longer side, the other side
-/// covered by whole pixels (at least one). Where the projection is a single point, the pixel is as large as
-/// the extent along r. Throws UsageError unless 1 <= resolution <= max_resolution.
+/// Returns a window centred on the projection of the shape. The longer side has `resolution` samples; the
+/// other side has as many whole pixels as cover it, at least one. For a projection to a single point, the
+/// pixel size is the extent along r. Throws UsageError unless 1 <= resolution <= max_resolution.
 Window window_around(const Shape& shape, const Direction& direction, int resolution);
 
-/// An empty height field (nothing covered) over `window`. Throws UsageError unless the window's numbers are
-/// finite, its pixel size positive and both counts in [1, max_resolution].
+/// Returns a height field without any surface over `window`. Throws UsageError unless the numbers of the
+/// window are finite, its pixel size is positive and both counts are in [1, max_resolution].
 HeightField empty_height_field(const Shape& shape, const Direction& direction, const Window& window);
 
-/// Envelopes by ray casting through every sample: which triangles a ray meets is decided by exact predicates
-/// on the ray whose end points are rounded to double; heights are constructed in double and never leave the
-/// triangle's own range. Vertical triangles, met along a segment, count with both ends; triangles without
-/// area cover nothing, and triangles with the same three points count once.
+/// Envelopes by a ray through every sample. Exact predicates decide which triangles meet the ray, whose end
+/// points are rounded to double. Heights are computed in double and stay within the range of the triangle.
+/// Vertical triangles meet the ray along a segment and count with both ends. Triangles without area cover
+/// nothing. Triangles with the same three points count once.
 ///
-/// Built once per shape (CGAL AABB tree), queried for any number of directions and windows, also by several
-/// threads at a time. A query runs in parallel over rows and is deterministic.
+/// Built once per shape (CGAL AABB tree) and queried for any number of directions and windows, also by
+/// several threads at a time. A query runs in parallel over rows and is deterministic.
 class RayCaster {
  public:
   /// Throws InputError unless `validate(shape)` passes.
@@ -77,8 +80,8 @@ class RayCaster {
   RayCaster& operator=(RayCaster&&) noexcept;
   ~RayCaster();
 
-  /// Throws UsageError as `empty_height_field` does, and InputError where all rays together meet more than
-  /// `max_hits` triangles.
+  /// Samples the envelopes. Throws UsageError as `empty_height_field` does. Throws InputError when all rays
+  /// together meet more than `max_hits` triangles.
   HeightField cast(const Direction& direction, const Window& window,
                    std::int64_t max_hits = std::numeric_limits<std::int64_t>::max()) const;
 
@@ -87,14 +90,14 @@ class RayCaster {
   std::unique_ptr<const Data> data_;
 };
 
-/// `RayCaster` for one use.
+/// Runs a `RayCaster` once.
 HeightField height_field_by_rays(const Shape& shape, const Direction& direction, const Window& window);
 
-/// Envelopes by scan conversion of the projected triangles on the CPU, independent of the ray caster: heights
-/// are interpolated in double along edges and then along rows, never extrapolated. Sample rule: pixel centre
-/// inside or on the projected triangle, as rounded to double; neighbours that share an edge leave no crack
-/// between them. Vertical triangles count with both ends. Parallel over bands of rows, deterministic. Throws
-/// as `RayCaster` does.
+/// Computes envelopes by scan conversion of the projected triangles on the CPU, independently of the ray
+/// caster. Heights are interpolated in double along edges and then along rows, and never extrapolated. A
+/// triangle covers the pixel centres inside or on its projection, as rounded to double; neighbours with a
+/// common edge leave no gap. Vertical triangles count with both ends. Parallel over bands of rows,
+/// deterministic. Throws as `RayCaster` does.
 HeightField height_field_by_scanline(const Shape& shape, const Direction& direction, const Window& window);
 
 }  // namespace stackabilization

@@ -12,19 +12,20 @@
 
 namespace stackabilization {
 
-/// What counts as a collision between two shapes.
+/// Definition of a collision between two shapes.
 enum class ContactSemantics {
-  solid,   ///< interiors meet: columns of zero width do not count, so sliding along walls parallel to r is
-           ///< free
-  closed,  ///< any common point: two walls in the same plane block each other; right for zero-thickness
-           ///< sheets
+  /// Interiors intersect. Columns of zero width do not count, so sliding along walls parallel to r is free.
+  solid,
+  /// Any common point is a collision. Two walls in the same plane block each other. Suitable for sheets of
+  /// zero thickness.
+  closed,
 };
 
-/// Where a separation is attained: `lower_point` lies on triangle `lower_triangle` of the upper copy,
-/// `upper_point` on triangle `upper_triangle` of the lower copy, straight above each other along r before the
-/// lift. Of triangles with the same three points the first is named. The exact value is the maximum of (a -
-/// b).r / r.r over the points a, b of these two triangles on a common line along r, which anyone can
-/// recompute in rational arithmetic; the points are the exact ones rounded to double.
+/// Two points that attain a separation: `lower_point` on triangle `lower_triangle` of the upper copy, and
+/// `upper_point` on triangle `upper_triangle` of the lower copy. Before the lift, both are on a common line
+/// along r. Of triangles with the same three points, the first one is named. The exact separation is the
+/// maximum of (a - b).r / r.r over the points a, b of these two triangles on a common line along r, and can
+/// be verified in rational arithmetic. The points are the exact ones, rounded to double.
 struct Witness {
   std::int32_t upper_triangle = -1;  ///< triangle of the copy below, on its upper envelope
   std::int32_t lower_triangle = -1;  ///< triangle of the copy above, on its lower envelope
@@ -32,50 +33,53 @@ struct Witness {
   Eigen::Vector3d lower_point = Eigen::Vector3d::Zero();  ///< on `lower_triangle`, before the lift
 };
 
-/// What a query did, in counts that depend on the input alone.
+/// Work of a query, in counts that depend only on the input.
 struct SeparationWork {
-  std::int64_t node_pairs = 0;      ///< pairs of nodes that were split, or whose triangles were looked at
+  std::int64_t node_pairs = 0;      ///< pairs of nodes that were split, or whose triangles were examined
   std::int64_t triangle_pairs = 0;  ///< pairs of triangles bounded in double precision
   std::int64_t exact_pairs = 0;     ///< pairs of triangles decided in rational arithmetic
-  std::int64_t longest_queue = 0;   ///< most pairs that waited at a time, in the queue and beside it
+  std::int64_t longest_queue = 0;   ///< largest number of waiting pairs, in the queue and beside it
 };
 
 /// Result of an exact separation query.
 struct Separation {
-  /// False when the projections along r have no common interior (solid) or no common point (closed): the
-  /// shapes pass each other at any height, and the other fields are meaningless.
+  /// Whether the shapes can collide: the projections along r have a common interior (solid) or a common point
+  /// (closed). Otherwise the shapes pass each other at any height, and the other members are meaningless.
   bool blocked = false;
   Rational value;       ///< in units of r: the translation is value * r
   double length = 0;    ///< value * |r|, model units, within 4 ulp
-  Witness witness;      ///< where the value is attained
-  SeparationWork work;  ///< what it took
+  Witness witness;      ///< points that attain the value
+  SeparationWork work;  ///< work of the query
 };
 
 /// A certified enclosure of a separation, in units of r: lower <= sep <= upper. Empty (lower = upper = -inf)
 /// when not blocked.
 struct Enclosure {
-  double lower = -std::numeric_limits<double>::infinity();  ///< certainly at most sep, units of r
-  double upper = -std::numeric_limits<double>::infinity();  ///< certainly at least sep, units of r
-  bool abandoned = false;  ///< stopped early: only `lower` > abandon_above is known, upper is +inf
-  SeparationWork work;     ///< what it took
+  /// Certified lower bound of the separation, units of r.
+  double lower = -std::numeric_limits<double>::infinity();
+  /// Certified upper bound of the separation, units of r.
+  double upper = -std::numeric_limits<double>::infinity();
+  /// Whether the query stopped early. Then `lower` > abandon_above and `upper` is +inf.
+  bool abandoned = false;
+  SeparationWork work;  ///< work of the query
 };
 
 /// Options of `separation` and `separation_enclosure`.
 struct SeparationOptions {
-  ContactSemantics semantics = ContactSemantics::solid;  ///< what counts as a collision
-  /// Stop as soon as the separation is certainly greater than this many units of r (enclosure queries only).
+  ContactSemantics semantics = ContactSemantics::solid;  ///< definition of a collision
+  /// Stops as soon as the separation is certainly greater than this, in units of r (enclosure queries only).
   std::optional<double> abandon_above;
-  /// Most pairs that wait in the queue of the best-first search (of 32 bytes each). Once it is full, further
-  /// pairs are followed depth first: no more than some hundred wait beside it, and the value is the same, of
-  /// several witnesses perhaps another.
+  /// Limit of the number of pairs in the queue of the best-first search (32 bytes each). When the queue is
+  /// full, further pairs are examined depth first, with no more than some hundred pairs beside the queue. The
+  /// value stays the same; of several witnesses, another one may be returned.
   std::int64_t max_queue = std::int64_t{1} << 20;
 };
 
-/// Bounding-volume tree of a shape's triangles, built once and queried for any number of directions, by any
-/// number of threads at the same time. It keeps its own copy of the coordinates. O(m log m) to build.
-/// Triangles with the same three points are one in it, named by the first of them.
-/// Two trees of which one lies far from the file's origin (several times its size) are built again for every
-/// query between them.
+/// Bounding-volume tree of the triangles of a shape. Built once in O(m log m), and queried for any number of
+/// directions by any number of threads at the same time. It has its own copy of the coordinates. Triangles
+/// with the same three points are one triangle in the tree, with the name of the first one. Two trees are
+/// rebuilt for every query between them when one of them lies far from the file's origin (several times its
+/// size).
 class SeparationTree {
  public:
   /// Precondition: `validate(shape)` passes (InputError otherwise).
@@ -85,30 +89,31 @@ class SeparationTree {
   ~SeparationTree();
 
   struct Data;
-  /// For the algorithms of this library: see envelope/separation_tree.h.
+  /// For the algorithms of this library.
   const Data& data() const { return *data_; }
 
  private:
   std::unique_ptr<const Data> data_;
 };
 
-/// sep(A, B, r): the least t such that B + t' r is clear of A for all t' >= t. Exact: a rational number with
-/// a witness, for any triangle soups, in both semantics. May be negative (B can move down) when A and B are
-/// different.
+/// Computes sep(A, B, r): the smallest t such that B + t' r is clear of A for all t' >= t. Exact: a rational
+/// number with a witness, for arbitrary triangle soups, in both semantics. It may be negative (B can move
+/// down) when A and B are different.
 ///
-/// Branch and bound over pairs of triangles; interval filters decide almost everything, rational arithmetic
-/// the rest. Deterministic. Source: Eq. 1 of the paper, read as a maximum over pairs of points on common
+/// Branch and bound over pairs of triangles: interval filters decide almost all pairs, rational arithmetic
+/// decides the rest. Deterministic. Source: Eq. 1 of the paper, as a maximum over pairs of points on common
 /// lines along r.
 Separation separation(const SeparationTree& below, const SeparationTree& above, const Direction& direction,
                       const SeparationOptions& options = {});
 
-/// Same quantity as a certified enclosure, about 1e-12 of the extent along the file axis next to r wide: what
-/// searches over directions use. Never slower than `separation`.
+/// Computes the same quantity as a certified enclosure. Its width is about 1e-12 of the extent along the file
+/// axis next to r. Searches over directions use it. Never slower than `separation`.
 Enclosure separation_enclosure(const SeparationTree& below, const SeparationTree& above,
                                const Direction& direction, const SeparationOptions& options = {});
 
-/// f_max(M, r) = sep(M, M, r), the minimal stacking translation, for one use. `blocked` is always true in
-/// closed semantics; in solid semantics it is false only when the projection of M along r has no area.
+/// Computes f_max(M, r) = sep(M, M, r), the minimal stacking translation, for one direction. `blocked` is
+/// always true in closed semantics. In solid semantics it is false only when the projection of M along r has
+/// no area.
 Separation minimal_stacking_translation(const Shape& shape, const Direction& direction,
                                         const SeparationOptions& options = {});
 

@@ -8,9 +8,10 @@
 
 namespace stackabilization {
 
-/// Files that a mesh file refers to: buffers and images of glTF, material libraries of OBJ. `format` is that
-/// of the file where its extension does not say. None for other formats, standard input, pipes, and files
-/// that cannot be read, which reading the mesh will tell. Whether the files exist is not asked.
+/// Returns the files that a mesh file refers to: buffers and images of glTF, material libraries of OBJ.
+/// `format` is the format of the file when the extension does not name it. The function does not check
+/// whether these files exist. The result is empty for other formats, for standard input and pipes, and for
+/// files that cannot be read (reading the mesh then reports the error).
 std::vector<std::filesystem::path> companion_files(const std::filesystem::path& mesh,
                                                    std::optional<Format> format = {});
 

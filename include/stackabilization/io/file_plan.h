@@ -7,33 +7,34 @@
 
 namespace stackabilization {
 
-/// The files that a program reads and those that it will write, held against each other before it works, so
-/// that no result ever takes the place of what was read.
+/// The input and output files of a program. `check` compares them before the program runs, so that no result
+/// replaces an input.
 ///
-/// Files are compared by device and inode, so through symbolic and hard links, folders that are links, and
-/// names in upper and lower case where the file system takes them for one; what is not there yet is compared
-/// by its folder and name. What a symbolic link leads to is what is written, be it there or not. A name of
-/// the temporary files of write_file.h counts as that of the file that is being written.
+/// Files are compared by device and inode: through symbolic and hard links, through linked folders, and
+/// through names in upper and lower case on file systems that ignore case. A missing file is compared by its
+/// folder and name. Writing to a symbolic link writes its target, whether this exists or not. A name of the
+/// temporary files of write_file.h counts as the name of the file being written.
 class FilePlan {
  public:
-  /// A file that is read; "-" is standard input. `what` is what messages call it: "the model".
+  /// Adds an input file; "-" is standard input. `what` is its name in messages: "the model".
   void reads(std::string what, std::filesystem::path path);
-  /// A file, or every file in a folder and the folders in it. Nothing where nothing is.
+  /// Adds an input file, or all files in a folder and its subfolders. A path that does not exist adds
+  /// nothing.
   void reads_all(const std::string& what, const std::filesystem::path& path);
-  /// A file that is written; "-" is standard output. `option` is what asked for it: "--json". Throws
-  /// UsageError for an empty path.
+  /// Adds an output file; "-" is standard output. `option` is the command-line option that requests it:
+  /// "--json". Throws UsageError for an empty path.
   void writes(std::string option, std::filesystem::path path);
-  /// The same for a file that is read first, and is meant to be replaced by what is made of it.
+  /// Adds an output file that the program also reads and replaces on purpose. Throws as `writes` does.
   void updates(std::string option, std::filesystem::path path);
-  /// A folder, made where it is missing, in which files with these names are written, replaced and removed.
-  /// Throws UsageError for "-" and an empty path.
+  /// Adds an output folder, created when missing. The program writes, replaces and removes files in it for
+  /// whose names `is_written` is true. Throws UsageError for "-" and for an empty path.
   void fills(std::string option, std::filesystem::path folder,
              std::function<bool(const std::string& name)> is_written);
 
-  /// Throws UsageError when a file that is read would be replaced or removed, two outputs name one file, or a
-  /// folder that is to be made is called like a file; OutputError when a file or folder cannot be written:
-  /// there is something else in its place, no folder around it, it or its folder is write-protected, or its
-  /// device is full. Terminals, pipes and devices are not compared.
+  /// Checks the plan. Throws UsageError when an output would replace or remove an input, when two outputs are
+  /// the same file, and when a folder to be created has the name of a file. Throws OutputError when a file or
+  /// folder cannot be written: something else has its name, its folder is missing, it or its folder is
+  /// write-protected, or its device is full. Terminals, pipes and devices are not compared.
   void check() const;
 
  private:

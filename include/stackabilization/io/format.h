@@ -6,21 +6,22 @@
 
 namespace stackabilization {
 
-/// Mesh file formats. `vtp` is only written; `gltf` is read as text (.gltf) or binary (.glb) and written as
-/// binary.
+/// Mesh file format. `gltf` is read as text (.gltf) or binary (.glb) and written as binary. `vtp` is only
+/// written.
 enum class Format { obj, off, ply, stl, three_mf, gltf, vtp };
 
-/// Format that the extension of `path` names, in either case. Throws InputError naming the supported
-/// extensions.
+/// Returns the format of the extension of `path`, in upper or lower case. Throws InputError, naming the
+/// supported extensions, for any other extension.
 Format format_of_extension(const std::filesystem::path& path);
 
-/// Format that the first bytes of a file give away, or nothing. Binary STL has no signature and is recognised
-/// by its size; OBJ by its first keyword.
+/// Returns the format that the first bytes of a file identify, or nothing. Binary STL has no signature and is
+/// identified by its size. OBJ is identified by its first keyword.
 std::optional<Format> sniff_format(std::string_view bytes);
 
-/// ".obj, .off, .ply, .stl, .3mf, .gltf, .glb" and so on, for messages and help texts.
+/// Returns the extensions of the formats that can be read, for messages and help texts: ".obj, .off, .ply,
+/// .stl, .3mf, .gltf, .glb".
 std::string_view readable_extensions();
-/// The same for formats that can be written, ".vtp" among them.
+/// Returns the extensions of the formats that can be written; they include ".vtp".
 std::string_view writable_extensions();
 
 }  // namespace stackabilization

@@ -13,38 +13,45 @@ namespace stackabilization {
 /// A coordinate axis of a file.
 enum class Axis { x, y, z };
 
-/// What `read_shape` takes instead of what the file says about itself.
+/// Options of `read_shape` that replace information of the file.
 struct ReadOptions {
-  /// Default: by extension; for standard input by content.
+  /// Format of the file. Default: by extension; for standard input by content.
   std::optional<Format> format;
-  /// Unit of the coordinates, instead of what the file states. Numbers are relabelled, not converted.
+  /// Unit of the coordinates. Numbers are not converted. Default: the unit in the file.
   std::optional<Unit> unit;
-  /// Axis of the file that points up; it becomes z by an exact rotation of the axes (x: (x,y,z) -> (-z,y,x);
-  /// y: (x,y,z) -> (x,-z,y)). Default: y for glTF, as its specification fixes, z for every other format.
+  /// Up axis of the file. It becomes z by an exact rotation of the axes (x: (x,y,z) -> (-z,y,x); y: (x,y,z)
+  /// -> (x,-z,y)). Default: y for glTF, as its specification demands, z for every other format.
   std::optional<Axis> up;
-  /// Part labels, one per triangle, that replace the parts of the file: see labels.h.
+  /// File of part labels that replace the parts of the mesh file: see labels.h.
   std::optional<std::filesystem::path> labels;
 };
 
-/// Reads a mesh file; `path` "-" is standard input. The result satisfies the invariants of Shape, has at
-/// least one triangle, and holds exactly the doubles that the file states (decimal numbers rounded to
-/// nearest).
+/// Reads a mesh file; `path` "-" is standard input. The result satisfies the invariants of Shape and has at
+/// least one triangle. Its coordinates are exactly the doubles in the file; decimal numbers are rounded to
+/// nearest.
 ///
-/// Vertices keep their order, also those that no triangle uses; STL has no vertices of its own, so corners
-/// with equal coordinates become one. Faces keep their order; polygons are cut into triangles of the same
-/// orientation, without new vertices. Parts come in the order of their first face: OBJ groups (`g`, inside
-/// `o` objects: "object/group"; several names are one, joined by blanks; a name that opens again goes on),
-/// STL solids, 3MF objects per build item and glTF meshes per node, transforms applied; a file without parts
-/// has one, "part". Empty parts vanish. Names are UTF-8, or the file is refused: they go on into JSON and
-/// XML, which hold nothing else.
+/// Vertices keep their order, including vertices that no triangle uses. STL has no shared vertices, so
+/// corners with equal coordinates become one vertex. Faces keep their order. Polygons are cut into triangles
+/// of the same orientation, without new vertices.
 ///
-/// Throws InputError, one sentence with the file and the line, byte or element, when the file is missing,
-/// unreadable, of unknown kind, damaged, has a number that is not finite in double precision, or has no
-/// faces.
+/// Parts come in the order of their first face. They are
+///
+/// * the groups of OBJ (`g`, inside `o` objects: "object/group"; several names are joined by blanks; a
+///   repeated name continues its part),
+/// * the solids of STL,
+/// * the objects of 3MF, one part per build item, with transforms applied,
+/// * the meshes of glTF, one part per node, with transforms applied,
+/// * one part, "part", for a file without parts.
+///
+/// Empty parts are dropped. Names must be UTF-8, since JSON and XML files contain them.
+///
+/// Throws InputError, one sentence with the file and the line, byte or element. The file may be missing,
+/// unreadable, of unknown format, damaged or without faces, or may contain a number that is not finite in
+/// double precision.
 Shape read_shape(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// The same for a file in memory; `name` is what messages call it. `options.format` is not used. A glTF file
-/// must carry its buffers inside.
+/// Reads a mesh from memory. `name` is its name in messages. `options.format` is ignored. A glTF file must
+/// contain its buffers.
 Shape read_shape(std::string_view bytes, Format format, const std::string& name,
                  const ReadOptions& options = {});
 

@@ -8,21 +8,22 @@
 
 namespace stackabilization {
 
-/// Writes `bytes` to a temporary name beside `path` and renames it onto `path`: readers see the old file or
-/// the whole new one, with the permissions of the old. `path` "-" writes to standard output; what exists and
-/// is no regular file (a pipe, /dev/null) is written directly. A symbolic link stays: what it leads to is
-/// written, be it there or not. Other names of the same file (hard links) keep what they had. Throws
-/// OutputError, leaving nothing behind.
+/// Writes `bytes` to a temporary name beside `path` and renames it to `path`. Readers see the old file or the
+/// complete new file, with the permissions of the old one. `path` "-" writes to standard output. An existing
+/// path that is not a regular file (a pipe, /dev/null) is written directly. A symbolic link stays; its target
+/// is written, whether it exists or not. Other hard links to the file keep the old content. Throws
+/// OutputError and removes the temporary file.
 ///
-/// The temporary name is PATH.PROCESS.tmp. A process that is killed while it writes leaves that file; the
-/// next one that writes the same path removes it.
+/// The temporary name is PATH.PROCESS.tmp. A process that is killed while writing leaves this file; the next
+/// write to the same path removes it.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-/// "a.obj" for the name "a.obj.4711.tmp", under which `write_file_atomically` writes; nothing for others.
+/// Returns the target name of a temporary name of `write_file_atomically`: "a.obj" for "a.obj.4711.tmp".
+/// Returns nothing for other names.
 std::optional<std::string> target_of_temporary(std::string_view name);
 
-/// A path, what it leads to if it is a symbolic link, what that leads to, and so on; the last one is no link,
-/// and need not be there. One that is a link means that the links lead in a circle.
+/// Returns a path, the target of the path when it is a symbolic link, the target of that target, and so on.
+/// The last path is not a link and need not exist. When the last path is a link, the links form a cycle.
 std::vector<std::filesystem::path> steps_of_links(const std::filesystem::path& path);
 
 }  // namespace stackabilization

@@ -8,13 +8,13 @@
 
 namespace stackabilization {
 
-/// Pairs of boxes, rows ascending within and between them.
+/// Pairs of boxes. Rows ascend within a pair and between pairs.
 using BoxPairs = std::vector<std::pair<int, int>>;
 
-/// All pairs of `boxes` whose extents come within `reach` of each other along every axis, touching included;
-/// empty boxes meet nothing. Nothing when there are more than `max_pairs`: it stops looking then. By CGAL's
-/// box intersection, in time near linear in boxes and pairs. Precondition: `reach` is finite and not
-/// negative.
+/// Returns all pairs of `boxes` whose extents come within `reach` of each other along every axis. Touching
+/// boxes are a pair; an empty box is in no pair. Returns nothing when there are more than `max_pairs`; the
+/// search stops then. Uses CGAL's box intersection, in time nearly linear in the numbers of boxes and pairs.
+/// Precondition: `reach` is finite and not negative.
 std::optional<BoxPairs> near_boxes(const std::vector<Eigen::AlignedBox3d>& boxes, double reach,
                                    std::size_t max_pairs);
 

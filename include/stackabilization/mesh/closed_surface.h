@@ -8,23 +8,23 @@
 
 namespace stackabilization {
 
-/// How the triangles of a shape hang together along their edges, when they close up.
+/// Edge adjacency of a closed surface.
 struct ClosedSurface {
-  /// Is every edge run through exactly once in each direction? The rest is empty unless it is.
+  /// Whether every edge is traversed exactly once in each direction. The other members are empty otherwise.
   bool closed = false;
-  /// Per triangle and corner k, the corner of the neighbour across the edge (k, k + 1) that lies opposite to
-  /// that edge, as a row of the vertex matrix.
+  /// Per triangle and corner k, the corner opposite the edge (k, k + 1) in the neighbour across this edge, as
+  /// a row of the vertex matrix.
   std::vector<std::array<std::int32_t, 3>> opposite;
-  /// Connected component of every triangle: an index into `representatives`; -1 for triangles with two equal
+  /// Connected component of every triangle, as an index of `representatives`; -1 for triangles with two equal
   /// corners.
   std::vector<std::int32_t> component;
-  /// The first triangle of every component, ascending.
+  /// First triangle of every component, ascending.
   std::vector<std::int32_t> representatives;
 };
 
-/// Looks for a closed surface in the shape's indices; where they do not close up, in corners of equal
-/// coordinates; then in such corners part by part (parts that touch along an edge). Triangles with two equal
-/// corners are passed over.
+/// Looks for a closed surface in three steps: by the vertex indices of the shape, then by equal coordinates,
+/// then by equal coordinates within each part (for parts that touch along an edge). Triangles with two equal
+/// corners are ignored.
 ClosedSurface closed_surface(const Shape& shape);
 
 }  // namespace stackabilization

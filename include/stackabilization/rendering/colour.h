@@ -19,11 +19,12 @@ inline constexpr Colour faint{0.38, 0.40, 0.43};    ///< secondary text and line
 inline constexpr Colour white{1, 1, 1};             ///< ground
 }  // namespace palette
 
-/// (1 - t) a + t b, component by component, t in [0, 1].
+/// Returns (1 - t) a + t b, component by component, t in [0, 1].
 Colour mix(const Colour& a, const Colour& b, double t);
 
-/// The perceptually uniform colour map viridis (van der Walt and Smith 2015) at t, clamped to [0, 1]; a fit
-/// of degree six within 0.01 of the published table. Dark blue is low, yellow is high.
+/// Returns the colour of the perceptually uniform colour map viridis (van der Walt and Smith 2015) at t,
+/// clamped to [0, 1]. Low values are dark blue, high values are yellow. It is a fit of degree six within 0.01
+/// of the published table.
 Colour viridis(double t);
 
 }  // namespace stackabilization

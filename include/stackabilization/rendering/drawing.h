@@ -20,24 +20,26 @@ struct Rectangle {
   double x = 0, y = 0;           ///< upper left corner
   double width = 0, height = 0;  ///< pixels
 
-  double right() const { return x + width; }    ///< x of the right side, pixels
-  double bottom() const { return y + height; }  ///< y of the lower side, pixels
+  /// Returns the x of the right side, pixels.
+  double right() const { return x + width; }
+  /// Returns the y of the lower side, pixels.
+  double bottom() const { return y + height; }
 };
 
 /// Filled polygon (even-odd rule).
 struct FilledPolygon {
   PlanePoints points;  ///< corners in order, not repeated
-  Colour colour;       ///< inside
+  Colour colour;       ///< fill colour
 };
 
 /// Open polyline with square joints.
 struct Polyline {
-  PlanePoints points;  ///< in order
+  PlanePoints points;  ///< points in order
   Colour colour;       ///< of the line
   double width = 1;    ///< pixels
 };
 
-/// Which point of a text lies where it is placed.
+/// Point of a text that lies at its position.
 enum class Anchor { left, centre, right };
 
 /// One line of text, UTF-8, sans serif.
@@ -46,52 +48,52 @@ struct Text {
   std::string text;              ///< UTF-8, no line breaks
   double size = 16;              ///< pixels per em
   Colour colour = palette::ink;  ///< of the letters
-  Anchor anchor = Anchor::left;  ///< horizontally
+  Anchor anchor = Anchor::left;  ///< horizontal anchor
   bool bold = false;             ///< heavier weight
-  bool upwards = false;          ///< reads from bottom to top
+  bool upwards = false;          ///< whether the text reads from bottom to top
 };
 
-/// How an image is stretched to its rectangle.
+/// Interpolation of an image in its rectangle.
 enum class Sampling {
-  smooth,  ///< averaged where it is shrunk: supersampled pictures
-  cells,   ///< every pixel of the image stays a sharp rectangle: sampled data
+  smooth,  ///< averaged when reduced: for supersampled pictures
+  cells,   ///< every pixel stays a sharp rectangle: for sampled data
 };
 
 /// A raster image in a drawing.
 struct PlacedImage {
-  Rectangle place;                       ///< that the image fills
+  Rectangle place;                       ///< rectangle that the image fills
   Image image;                           ///< any size
-  Sampling sampling = Sampling::smooth;  ///< how it is stretched
+  Sampling sampling = Sampling::smooth;  ///< interpolation
 };
 
-/// What a Drawing is made of.
+/// An element of a Drawing.
 using DrawingElement = std::variant<FilledPolygon, Polyline, Text, PlacedImage>;
 
-/// A flat picture made of shapes, text and images, in drawing order on white ground. It becomes a PNG or an
-/// SVG file; neither needs OpenGL.
+/// A flat picture of shapes, text and images, in drawing order on white ground. It can be written as PNG or
+/// SVG, without OpenGL.
 struct Drawing {
   int width = 0, height = 0;             ///< pixels
   std::vector<DrawingElement> elements;  ///< later ones cover earlier ones
 
-  /// On top of all before.
+  /// Adds an element on top of all others.
   void add(DrawingElement element) { elements.push_back(std::move(element)); }
-  /// In their order, on top of all before.
+  /// Adds elements in their order, on top of all others.
   void add(const std::vector<DrawingElement>& more) {
     elements.insert(elements.end(), more.begin(), more.end());
   }
 };
 
-/// Anti-aliased pixels of a drawing. Throws UsageError unless 1 <= width, height <= 16384.
+/// Renders a drawing with anti-aliasing. Throws UsageError unless 1 <= width, height <= 16384.
 Image rasterize(const Drawing& drawing);
 
-/// Width of a text in pixels, as `rasterize` draws it.
+/// Returns the width of a text in pixels, as `rasterize` draws it.
 double text_width(const Text& text);
 
-/// The drawing as an SVG 1.1 document: shapes and text as such, images embedded.
+/// Returns the drawing as an SVG 1.1 document with vector shapes, text and embedded images.
 std::string svg_text(const Drawing& drawing);
 
-/// Writes a PNG or an SVG file, as the extension says, through a temporary name. Throws UsageError for any
-/// other extension and OutputError when the file cannot be written.
+/// Writes a PNG or an SVG file, according to the extension, with write_file_atomically. Throws UsageError for
+/// any other extension, and OutputError when the file cannot be written.
 void write_drawing(const std::filesystem::path& path, const Drawing& drawing);
 
 }  // namespace stackabilization

@@ -7,10 +7,10 @@
 
 namespace stackabilization {
 
-/// The point on the ground below the middle of the box of a shape in the frame of r.
+/// Returns the point on the ground below the centre of the box of a shape, in the frame of r.
 Eigen::Vector3d foot_of(const Shape& shape, const Direction& direction);
 
-/// The shape moved so that its foot is the origin.
+/// Returns the shape, moved such that its foot is the origin.
 Shape on_ground(const Shape& shape, const Direction& direction);
 
 }  // namespace stackabilization

@@ -8,8 +8,8 @@
 
 namespace stackabilization {
 
-/// Lines that show a handle, a single point for a corner or a point; empty for parts, which are coloured, and
-/// for what is not known here, such as wires.
+/// Returns lines that show a handle; a corner or a point gives a single point. Empty for parts, which are
+/// coloured instead, and for handles without lines, such as wires.
 std::vector<Points> handle_lines(const Handle& handle, const Shape& shape,
                                  const std::vector<Primitive>& primitives);
 

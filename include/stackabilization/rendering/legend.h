@@ -6,14 +6,14 @@
 
 namespace stackabilization {
 
-/// What stands before a line of a legend.
+/// Mark in front of a legend entry.
 enum class LegendMark { swatch, dot, bar, line, ring };
 
 /// One entry of a legend.
 struct LegendEntry {
-  LegendMark mark = LegendMark::swatch;  ///< what stands before the text
-  Colour colour;                         ///< of the mark
-  std::string text;                      ///< what the mark means
+  LegendMark mark = LegendMark::swatch;  ///< mark in front of the text
+  Colour colour;                         ///< colour of the mark
+  std::string text;                      ///< meaning of the mark
 };
 
 }  // namespace stackabilization

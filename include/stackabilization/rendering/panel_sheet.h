@@ -16,36 +16,36 @@
 // Views, plots and images side by side in one drawing.
 namespace stackabilization {
 
-/// An arrow in a scene, such as a direction or what a handle does.
+/// An arrow in a scene, such as a direction or the effect of an edit.
 struct SceneArrow {
   Eigen::Vector3d from, to;      ///< model units
-  Colour colour = palette::ink;  ///< of shaft and head
-  double width = 0.14;           ///< of the shaft, em
+  Colour colour = palette::ink;  ///< colour of shaft and head
+  double width = 0.14;           ///< width of the shaft, em
 };
 
-/// Words at a point of a scene.
+/// A text at a point of a scene.
 struct SceneLabel {
   Eigen::Vector3d at;            ///< model units
   std::string text;              ///< one line, UTF-8
-  Colour colour = palette::ink;  ///< of the letters
-  Anchor anchor = Anchor::left;  ///< which end of the text is at the point
+  Colour colour = palette::ink;  ///< colour of the text
+  Anchor anchor = Anchor::left;  ///< end of the text at the point
 };
 
-/// A circle that draws the eye to a place in a scene.
+/// A circle that marks a place in a scene.
 struct SceneRing {
   Eigen::Vector3d centre;            ///< model units
   double radius = 0;                 ///< model units
-  Colour colour = palette::contact;  ///< of the line
+  Colour colour = palette::contact;  ///< colour of the line
 };
 
 /// A vertical dimension line beside a scene, from the height of one point to that of another.
 struct SceneDimension {
   Eigen::Vector3d from, to;    ///< model units
-  std::string caption;         ///< beside the line, such as "h"
-  Anchor side = Anchor::left;  ///< left or right of everything
+  std::string caption;         ///< text beside the line, such as "h"
+  Anchor side = Anchor::left;  ///< side of the scene: left or right
 };
 
-/// What is drawn over the picture of a scene: sharp, and never hidden by a surface. In drawing order.
+/// Elements over the picture of a scene. They are sharp and never occluded. In drawing order.
 struct SceneOverlay {
   std::vector<SceneLines> lines;           ///< widths are pixels of the drawing
   std::vector<SceneRing> rings;            ///< over the lines
@@ -62,40 +62,42 @@ struct ScenePanel {
   SceneOverlay over;                                    ///< drawn on top
 };
 
-/// One cell of a sheet: a scene, a plot, a gap function with its colour bar, or the values of all directions.
+/// One cell of a sheet: a scene, a plot, a gap function with its colour bar, or a map of S over all
+/// directions.
 struct Panel {
-  std::variant<ScenePanel, CurvePlot, HeightField, StackabilityMap> content;  ///< what it shows
-  std::string title;                  ///< below it, bold; may be empty
-  std::vector<std::string> captions;  ///< lines below the title, broken where they are too long
-  double share = 1;                   ///< width beside the other panels of the row, > 0
+  std::variant<ScenePanel, CurvePlot, HeightField, StackabilityMap> content;  ///< content of the cell
+  std::string title;                  ///< bold text below the content; may be empty
+  std::vector<std::string> captions;  ///< lines below the title, broken when too long
+  double share = 1;                   ///< share of the width of the row, relative to the other panels, > 0
 };
 
-/// How large the scenes of a row are drawn.
+/// Scale of the scenes of a row.
 enum class PanelScale {
-  own,     ///< each as large as fits
-  common,  ///< all in the scale in which the largest fits, standing on one ground
+  own,     ///< every scene as large as fits
+  common,  ///< one scale, in which the largest scene fits, and one ground for all scenes
 };
 
 /// Panels beside each other.
 struct PanelRow {
   std::vector<Panel> panels;  ///< from left to right, at least one
-  /// Of the pictures, fraction of the width of the sheet, in (0, 10]; rows of scenes only may turn out lower.
+  /// Height of the pictures, fraction of the width of the sheet, in (0, 10]. Rows of scenes only may be
+  /// lower.
   double height = 0.5;
-  PanelScale scale = PanelScale::own;  ///< of its scenes
+  PanelScale scale = PanelScale::own;  ///< scale of the scenes
 };
 
 /// Size, heading and legend of a `panel_sheet`.
 struct PanelSheetOptions {
-  int width = 820;                  ///< pixels; the height follows
+  int width = 820;                  ///< pixels; the height results from the rows
   double text_size = 20;            ///< pixels per em: about 6 points where the sheet is 8.5 cm wide
   std::string title;                ///< heading; may be empty
   std::vector<std::string> notes;   ///< lines under the heading
-  std::vector<LegendEntry> legend;  ///< below everything
+  std::vector<LegendEntry> legend;  ///< legend below all rows
 };
 
-/// Rows of panels from top to bottom. Throws UsageError when a row has no panel, a share or height is out of
-/// range or a scene is empty, and as `plot_elements` and `map_picture` do; RenderError when there is no
-/// OpenGL context.
+/// Draws rows of panels from top to bottom. Throws UsageError when a row has no panel, a share or height is
+/// out of range or a scene is empty, and as `plot_elements` and `map_picture` do. Throws RenderError when
+/// there is no OpenGL context.
 Drawing panel_sheet(const std::vector<PanelRow>& rows, const PanelSheetOptions& options = {});
 
 }  // namespace stackabilization

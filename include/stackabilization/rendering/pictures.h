@@ -16,16 +16,16 @@
 
 namespace stackabilization {
 
-/// Size and heading of a picture. Text grows with the width.
+/// Size and heading of a picture. The size of text grows with the width.
 struct PictureOptions {
   int width = 1600, height = 1180;  ///< pixels
   std::string title;                ///< heading, for example the file's name; may be empty
 };
 
-/// One sheet that explains a measurement: the shape with its contact regions (red), the upper (blue) and
-/// lower (orange) envelope pulled apart, two copies stacked with h and f_max, the sampled gap function with
-/// colour bar, and the numbers. `measured` and `contacts` must be of this shape and one direction, which
-/// points up. Needs no display; throws RenderError when there is no OpenGL context.
+/// Draws a sheet that explains a measurement: the shape with its contact regions (red), the upper (blue) and
+/// lower (orange) envelope pulled apart, two stacked copies with h and f_max, the sampled gap function with
+/// its colour bar, and the numbers. The direction points up. Needs no display. Throws RenderError when there
+/// is no OpenGL context. Precondition: `measured` and `contacts` belong to this shape and one direction.
 Drawing measure_picture(const Shape& shape, const Stackability& measured,
                         const std::vector<ContactRegion>& contacts, const PictureOptions& options = {});
 
@@ -34,11 +34,11 @@ struct StackPictureOptions {
   int width = 1200, height = 900;  ///< pixels
   std::string title;               ///< heading; may be empty
   std::vector<std::string> notes;  ///< lines under the heading, such as the numbers of the stack
-  bool side_view = true;           ///< a second view along the horizontal beside the 3/4 view
+  bool side_view = true;           ///< whether to draw a horizontal view beside the 3/4 view
 };
 
-/// A stack of copies in their places, bottom first, each in its own shade of yellow, with the total height
-/// along r, which points up. Throws UsageError when there is no copy, RenderError when there is no OpenGL
+/// Draws a stack of placed copies, lowest copy first, each in its own shade of yellow, with the total height
+/// along r. r points up. Throws UsageError when there is no copy, and RenderError when there is no OpenGL
 /// context.
 Drawing stack_picture(const std::vector<Shape>& copies, const Direction& direction,
                       const StackPictureOptions& options = {});
@@ -49,10 +49,10 @@ struct MapPictureOptions {
   std::string title;               ///< heading; may be empty
 };
 
-/// Map of S over all directions: the hemisphere z >= 0 as a disc in Lambert's equal-area projection, seen
-/// from +z with x to the right and y up (S(r) = S(-r) gives the other half). Every point has the colour of
-/// the nearest sample; the best sample, the first of equal ones, is marked. Needs no OpenGL. Throws
-/// UsageError when there is no sample, a direction is zero or a value is not finite.
+/// Draws a map of S over all directions: the hemisphere z >= 0 as a disc in Lambert's equal-area projection,
+/// seen from +z with x to the right and y up (S(r) = S(-r) determines the other hemisphere). Every point has
+/// the colour of the nearest sample. A mark shows the best sample, the first of equal ones. Needs no OpenGL.
+/// Throws UsageError when there is no sample, a direction is zero or a value is not finite.
 Drawing map_picture(const StackabilityMap& map, const MapPictureOptions& options = {});
 
 /// Options of `structure_picture`.
@@ -61,10 +61,10 @@ struct StructurePictureOptions {
   std::string title;                ///< heading; may be empty
 };
 
-/// The structure of a shape, as in the paper's Fig. 7: its parts, those that are symmetric to each other in
-/// one colour, with frames for the symmetries of the whole; beside them the cuboids and the circles of the
-/// generalized cylinders, point joints as green balls and line joints as red bars. z points up. Throws
-/// InputError when `validate(structured)` fails, RenderError when there is no OpenGL context.
+/// Draws the structure of a shape, as in Fig. 7 of the paper. One view shows the parts, with symmetric parts
+/// in one colour and frames for the symmetries of the whole shape. The other view shows the cuboids, the
+/// circles of the generalized cylinders, point joints as green balls and line joints as red bars. z points
+/// up. Throws InputError when `validate(structured)` fails, and RenderError when there is no OpenGL context.
 Drawing structure_picture(const StructuredShape& structured, const StructurePictureOptions& options = {});
 
 /// Options of `deformation_picture`.
@@ -72,50 +72,52 @@ struct DeformationPictureOptions {
   int width = 1200, height = 760;  ///< pixels
   std::string title;               ///< heading; may be empty
   std::vector<std::string> notes;  ///< lines under the heading, such as the edits and what they moved
+  /// Vertices of the shape along edited curves.
   std::vector<std::vector<std::int32_t>>
       curves;  ///< vertices of the shape along curves to be shown as edited
 };
 
-/// A shape before (yellow) and after (green) edits, side by side from one viewpoint and in one scale, with
-/// the edited handles in red where they can be shown; z points up. Throws UsageError when the edits were
-/// refused, RenderError when there is no OpenGL context. Precondition: `result` comes from `rest`.
+/// Draws a shape before (yellow) and after (green) edits, side by side from one viewpoint and in one scale.
+/// Edited handles are red where they can be shown. z points up. Throws UsageError when the edits were
+/// refused, and RenderError when there is no OpenGL context. Precondition: `result` comes from `rest`.
 Drawing deformation_picture(const StructuredShape& rest, const DeformationResult& result,
                             const std::vector<Handle>& handles,
                             const DeformationPictureOptions& options = {});
 
-/// One of several designs of a shape.
+/// A design of a shape in a sheet of designs.
 struct DesignTile {
   Shape shape;                          ///< the design, in its own coordinates
-  std::vector<Primitive> primitives;    ///< of its parts, for handles on them; may be empty
-  std::vector<Handle> handles;          ///< that were edited: red
-  std::vector<ContactRegion> contacts;  ///< along the direction of the sheet: red
-  std::vector<std::string> captions;    ///< lines below it, the first one bold
+  std::vector<Primitive> primitives;    ///< primitives of its parts, to show handles; may be empty
+  std::vector<Handle> handles;          ///< edited handles, drawn red
+  std::vector<ContactRegion> contacts;  ///< contact regions along the direction of the sheet, drawn red
+  std::vector<std::string> captions;    ///< lines below the design, the first one bold
 };
 
 /// Options of `design_sheet`.
 struct DesignSheetOptions {
-  int width = 1600;                ///< pixels; the height follows
+  int width = 1600;                ///< pixels; the height results from the tiles
   int columns = 4;                 ///< >= 1
   std::string title;               ///< heading; may be empty
   std::vector<std::string> notes;  ///< lines under the heading
 };
 
-/// Designs in rows from one viewpoint and in one scale, `direction` up: the first one, where one stands
-/// (yellow), then what it could become (green). Throws UsageError when there is no tile or no column,
-/// RenderError when there is no OpenGL context.
+/// Draws designs in rows from one viewpoint and in one scale, with `direction` up. The first design is the
+/// current one (yellow), the others are its possible successors (green). Throws UsageError when there is no
+/// tile or no column, and RenderError when there is no OpenGL context.
 Drawing design_sheet(const std::vector<DesignTile>& tiles, const Direction& direction,
                      const DesignSheetOptions& options = {});
 
-/// A shape measured along a direction, and where copies of it touch.
+/// A shape with its stackability along a direction and its contact regions.
 struct MeasuredShape {
-  Shape shape;            ///< in its own coordinates
-  Stackability measured;  ///< `measured.f_max` is the lift from copy to copy, air between copies included
+  Shape shape;  ///< in its own coordinates
+  /// `measured.f_max` is the lift between consecutive copies, including any clearance.
+  Stackability measured;
   std::vector<ContactRegion> contacts;  ///< may be empty
 };
 
-/// The same design before and after it was made stackable, measured along one direction.
+/// A design before and after improvement.
 struct ImprovedShape {
-  MeasuredShape before, after;  ///< along one direction
+  MeasuredShape before, after;  ///< measured along one direction
 };
 
 /// Options of `improvement_picture`.
@@ -125,27 +127,28 @@ struct ImprovementPictureOptions {
   std::vector<std::string> notes;  ///< lines under the heading, such as the edits
 };
 
-/// A shape before (yellow) and after (green), side by side from one viewpoint and in one scale, with the
-/// contact regions in red and S, f_max and h below each, both on the same ground wherever they are in their
-/// files; the direction points up. Throws UsageError when the
-/// directions differ, RenderError when there is no OpenGL context.
+/// Draws a shape before (yellow) and after (green), side by side from one viewpoint and in one scale. Contact
+/// regions are red. S, f_max and h are written below each shape. Both stand on the same ground, whatever
+/// their coordinates; the direction points up. Throws UsageError when the directions differ, and RenderError
+/// when there is no OpenGL context.
 Drawing improvement_picture(const ImprovedShape& shapes, const ImprovementPictureOptions& options = {});
 
 /// Options of `stacks_picture`.
 struct StacksPictureOptions {
   int width = 1200, height = 900;  ///< pixels
-  int copies = 5;                  ///< in each stack, in [1, 200]
+  int copies = 5;                  ///< copies in each stack, in [1, 200]
   std::string title;               ///< heading; may be empty
   std::vector<std::string> notes;  ///< lines under the heading, such as the saving
 };
 
-/// A stack of copies before (yellow) and one after (green), on the same ground and in the same scale, each
-/// with its height; every copy is lifted by `measured.f_max` above the one below it. Throws UsageError when
-/// the directions differ or the number of copies is out of range, RenderError when there is no OpenGL
-/// context.
+/// Draws a stack of copies before (yellow) and one after (green), on the same ground and in the same scale,
+/// each with its height. Every copy is lifted by `measured.f_max` above the one below it. Throws UsageError
+/// when the directions differ or the number of copies is out of range, and RenderError when there is no
+/// OpenGL context.
 Drawing stacks_picture(const ImprovedShape& shapes, const StacksPictureOptions& options = {});
 
-/// The sampled gap function f = u - l with colour bar and the place of its maximum. Needs no OpenGL.
+/// Draws the sampled gap function f = u - l with its colour bar and the position of its maximum. Needs no
+/// OpenGL.
 Drawing gap_picture(const HeightField& field, const PictureOptions& options = {1000, 860, {}});
 
 }  // namespace stackabilization

@@ -13,12 +13,12 @@ inline constexpr Colour symmetry{0.45, 0.62, 0.88};
 inline constexpr Colour ghost{0.90, 0.90, 0.88};  ///< a shape behind its primitives
 }  // namespace structure_colour
 
-/// The parts, those that are symmetric to each other in one colour, with frames for the first symmetries of
-/// the whole.
+/// Returns the parts, with symmetric parts in one colour and frames for the first symmetries of the whole
+/// shape.
 Scene parts_scene(const StructuredShape& structured);
 
-/// Cuboids and the circles of generalized cylinders in the colours of the parts, point joints as green balls
-/// and line joints as red bars, as in the paper's Fig. 7.
+/// Returns the cuboids and the circles of generalized cylinders in the colours of the parts, point joints as
+/// green balls and line joints as red bars, as in Fig. 7 of the paper.
 Scene primitives_scene(const StructuredShape& structured);
 
 }  // namespace stackabilization

@@ -8,23 +8,23 @@
 
 namespace stackabilization {
 
-/// Largest triangle count that `minkowski_translation` accepts: the sum takes about a quadratic time, and a
-/// few seconds here.
+/// Largest number of triangles that `minkowski_translation` accepts. Its cost is about quadratic: a few
+/// seconds for this number.
 inline constexpr Eigen::Index max_minkowski_triangles = 100;
 
-/// f_max(M, r) of a closed solid in `solid` semantics, in units of r, from the Minkowski sum of its interior
-/// with the mirrored one: int M and int M + t r meet exactly when t r lies in int M + (-int M), so f_max is
-/// the supremum of those t. Exact (CGAL Nef polyhedra over rationals) and sharing nothing with the separation
-/// code.
+/// Computes f_max(M, r) of a closed solid in `solid` semantics, in units of r, from the Minkowski sum of its
+/// interior and its mirrored interior: int M and int M + t r intersect exactly when t r lies in int M + (-int
+/// M), so f_max is the supremum of these t. Exact (CGAL Nef polyhedra over rationals). It shares no code with
+/// the separation queries.
 ///
-/// The solid is cut into convex pieces and the open sums of all pairs of pieces are intersected with the line
-/// along r. They are not united: two interior points that differ by t r can be moved together off the cuts,
-/// so no t is lost, and a closed union would fill passages that the solid just fits into.
+/// The function cuts the solid into convex pieces and intersects the open sums of all pairs of pieces with
+/// the line along r. It does not unite the sums. Two interior points that differ by t r can move together off
+/// the cuts, so no t is lost. A closed union would fill passages that the solid exactly fits.
 ///
-/// Connected components may overlap and are taken as solids whichever way they are oriented; cavities count
-/// as filled, which does not change f_max. Throws UsageError above `max_minkowski_triangles`; InputError
-/// unless every connected component is a closed, consistently oriented 2-manifold without triangles without
-/// area and without self-intersections, or when `validate(solid)` fails.
+/// Connected components may overlap; each counts as a solid, whatever its orientation. Cavities count as
+/// filled, which does not change f_max. Throws UsageError above `max_minkowski_triangles`. Throws InputError
+/// when `validate(solid)` fails, and unless every connected component is a closed, consistently oriented
+/// 2-manifold without self-intersections and without triangles of zero area.
 ///
 /// Source: Hachenberger, "Exact Minkowski sums of polyhedra and exact and efficient decomposition of
 /// polyhedra into convex pieces", Algorithmica 55 (2009).

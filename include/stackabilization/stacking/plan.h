@@ -7,41 +7,42 @@
 
 namespace stackabilization {
 
-/// "10 chairs within 2 m."
+/// A request for a stack, such as "10 chairs within 2 m".
 struct StackRequest {
-  int copies = 2;        ///< N, >= 1
-  double length = 0;     ///< L, room along r, model units, > 0
-  double clearance = 0;  ///< share of f_max that is air along r, model units, >= 0
+  int copies = 2;        ///< N, number of copies, >= 1
+  double length = 0;     ///< L, available length along r, model units, > 0
+  double clearance = 0;  ///< share of f_max that is clearance, model units, >= 0
 };
 
-/// What a wish takes, and how far the shape is from it. All for pure translation along r (Eq. 2 and 3).
+/// Requirements of a stack request, compared with the shape. All values hold for pure translation along r
+/// (Eq. 2 and 3).
 struct StackPlan {
-  /// False when not even one copy fits (h > L), or when the clearances alone do not: no change of shape that
-  /// keeps h helps.
+  /// Whether a shape with the same h can fit. False when one copy does not fit (h > L), or when the
+  /// clearances alone do not fit.
   bool possible = false;
-  /// Largest translation from copy to copy that fits, (L - h) / (N - 1), model units; nothing for one copy.
+  /// Largest translation between copies that fits, (L - h) / (N - 1), model units; empty for one copy.
   std::optional<double> translation;
   /// Largest f_max that fits: `translation` minus the clearance, model units; negative when impossible.
   std::optional<double> f_max;
-  /// Least S that fits, with the air counted as part of each copy: stackability_within; above 1 when not even
-  /// one copy fits.
+  /// Smallest S that fits, with the clearance included in the translation: `stackability_within`. It is above
+  /// 1 when one copy does not fit.
   std::optional<double> stackability;
-  /// Whether the shape as it is fits.
+  /// Whether the unchanged shape fits.
   bool met = false;
-  /// Length that N copies of the shape as it is take, model units.
+  /// Length of N copies of the unchanged shape, model units.
   double length_now = 0;
-  /// How many copies of the shape as it is fit within L; nothing when there is no end to it (f_max = 0).
+  /// Number of copies of the unchanged shape that fit within L; empty when it is unbounded (f_max = 0).
   std::optional<std::int64_t> copies_now;
 };
 
-/// S with the translation (length - h) / (copies - 1) from copy to copy: 1 - (translation / h) V(M, r) /
-/// V(M). Copies fit into the length when S, with the air between them counted in the translation, is at least
-/// that. Preconditions: copies >= 2, V(M) > 0.
+/// Computes the S that belongs to the translation t = (length - h) / (copies - 1): 1 - (t / h) V(M, r) /
+/// V(M). The copies fit into the length when their S, with the clearance included in the translation, is at
+/// least this value. Preconditions: copies >= 2, V(M) > 0.
 double stackability_within(const Stackability& measured, int copies, double length);
 
-/// From a wish to numbers, for a shape measured along r (StackabilitySolver::measure or stackability()) with
-/// the clearance and play that the copies keep. Lengths are compared within tolerance::relative of L, in
-/// favour of the shape. Throws UsageError on wishes outside their ranges.
+/// Computes the requirements of a stack request for a shape measured along r (StackabilitySolver::measure or
+/// stackability()), with the clearance and play that the copies keep. Lengths within tolerance::relative of L
+/// count as fitting. Throws UsageError for requests out of range.
 StackPlan plan_stack(const Stackability& measured, const StackRequest& wish);
 
 }  // namespace stackabilization

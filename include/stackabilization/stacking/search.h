@@ -12,60 +12,66 @@
 
 namespace stackabilization {
 
-/// Where `best_direction` looks, how closely, and what watches it.
+/// Region, density and callbacks of `best_direction`.
 struct SearchOptions {
-  /// Only look within this cone; default: the whole sphere.
+  /// Restricts the search to this cone; default: the whole sphere.
   std::optional<DirectionCone> cone = {};
-  /// Only look in the plane through the origin with this normal; default: everywhere.
+  /// Restricts the search to the plane through the origin with this normal; default: no restriction.
   std::optional<Eigen::Vector3d> plane_normal = {};
-  /// Further directions to try, exactly as given, for instance normals of symmetry planes; the great circles
-  /// orthogonal to them are searched too. Those outside cone and plane are left out.
+  /// Further directions, tried exactly as given, for instance normals of symmetry planes. The great circles
+  /// orthogonal to them are searched too. Candidates outside cone and plane are ignored.
   std::vector<Eigen::Vector3d> candidates = {};
-  double spacing = 0.04;  ///< radians between samples, in (0, 1]
-  int climbs = 12;        ///< distinct local maxima that are refined at most, at least 1
-  /// Directions tried at most, at least 1; a fixed amount of work whatever the machine. Over the whole sphere
-  /// the spacing is widened until even samples take half of them. Default: no limit.
+  /// Distance between samples, radians, in (0, 1].
+  double spacing = 0.04;
+  int climbs = 12;  ///< limit of the number of local maxima that are refined, >= 1
+  /// Limit of the number of directions tried, >= 1. It bounds the work independently of the machine. Over the
+  /// whole sphere, the spacing is increased until the even samples use half of it. Default: no limit.
   std::int64_t max_directions = std::numeric_limits<std::int64_t>::max();
-  /// Called with the fraction done, in [0, 1], from the calling thread.
+  /// Called from the calling thread with the completed fraction in [0, 1].
   std::function<void(double)> progress = {};
   /// Asked from the calling thread, between batches of samples and steps of a climb; true ends the search
   /// early.
   std::function<bool()> cancelled = {};
 };
 
-/// A direction at which S has a local maximum: of unit length unless it is a candidate of the options, signed
-/// as in DirectionRegion.
+/// A local maximum of S. The direction has unit length, unless it is a candidate of the options;
+/// DirectionRegion defines its sign.
 struct DirectionOptimum {
   Eigen::Vector3d direction;  ///< r
   double stackability;        ///< S(M, r)
 };
 
-/// What `best_direction` found.
+/// Result of `best_direction`.
 struct SearchResult {
-  Stackability best;      ///< S with its terms at the best direction
+  Stackability best;      ///< S and its terms at the best direction
   Separation separation;  ///< exact f_max with witness at the best direction
-  /// Distinct local maxima, best first; the first is the best direction. Only those within
-  /// about 0.05 of it are looked for.
+  /// Distinct local maxima, best first; the first one is the best direction. The search looks only for maxima
+  /// within about 0.05 of the best S.
   std::vector<DirectionOptimum> optima;
-  std::int64_t evaluated = 0;  ///< directions tried
-  /// Of these left out because S is certainly too far below the best (0.2 at first, then ever less) to be the
-  /// start of a climb, most of them before S was known.
+  std::int64_t evaluated = 0;  ///< number of directions tried
+  /// Number of these directions whose S is certainly too far below the best S for the start of a climb: by
+  /// 0.2 at first, later by less. Most of them were abandoned before S was known.
   std::int64_t abandoned = 0;
-  bool limited = false;    ///< all of `max_directions` were tried: the best of these
-  bool cancelled = false;  ///< ended early: the best of what was seen
+  /// Whether the search used all of `max_directions`.
+  bool limited = false;
+  /// Whether the search ended early with the best direction so far.
+  bool cancelled = false;
 };
 
-/// The direction of largest S(M, r): S is sampled evenly and on great circles orthogonal to the main axes,
-/// where symmetry planes are likely, and at candidates where it often has narrow peaks (axes of cone, file,
-/// box and surface, normals of large faces and directions along two of them; for a plane also where the
-/// planes orthogonal to these meet it); from the best distinct ones it climbs to local maxima, the winner
-/// along the cliffs of S too. Not proven global: a peak much narrower than `spacing` away from every
-/// candidate can be missed.
+/// Searches the direction of largest S(M, r).
 ///
-/// Among directions equal to tolerance::stackability the earliest wins: the axis of the cone, candidates of
-/// the options, then of the shape. Deterministic for any number of threads. Throws UsageError when an option
-/// is out of range, S is undefined, or cone and plane have no direction in common. Source: section 4.3 of the
-/// paper samples uniformly and takes the best sample.
+/// The search measures S at even samples, on great circles orthogonal to the main axes (probable symmetry
+/// planes), and at candidates where S often has narrow peaks. Candidates are the axes of the cone, the file,
+/// the box and the surface, the normals of large faces, and directions along pairs of such faces. A search in
+/// a plane also tries the intersections with the planes orthogonal to these directions. The search climbs to
+/// local maxima from the best distinct directions, and for the best maximum also along the discontinuities of
+/// S. The result is not proven global: a peak much narrower than `spacing`, away from every candidate, can be
+/// missed.
+///
+/// Of directions equal to tolerance::stackability, the first one wins, in the order: axis of the cone,
+/// candidates of the options, candidates of the shape. Deterministic for any number of threads. Throws
+/// UsageError when an option is out of range, S is undefined, or cone and plane have no common direction.
+/// Source: section 4.3 of the paper samples uniformly and takes the best sample.
 SearchResult best_direction(const StackabilitySolver& solver, const SearchOptions& options = {});
 
 }  // namespace stackabilization

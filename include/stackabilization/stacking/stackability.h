@@ -9,21 +9,24 @@
 
 namespace stackabilization {
 
-/// How V(M) and V(M, r) are measured.
+/// Definition of the boxes of V(M) and V(M, r).
 enum class BoxModel {
-  oriented,  ///< V(M) minimal oriented box, V(M, r) = h times the minimal-area rectangle: independent of the
-             ///< pose
-  frame,     ///< V(M) the file's axis-aligned box, V(M, r) axis-aligned after the minimal rotation of z to r
+  /// V(M): minimal oriented box. V(M, r): h times the minimal-area rectangle. Independent of the pose.
+  oriented,
+  /// V(M): axis-aligned box of the file. V(M, r): axis-aligned box after the minimal rotation from z to r.
+  frame,
 };
 
-/// V(M), model units cubed: 0 exactly when the shape is flat, straight or a point (`oriented`:
-/// HullSupport::dimension() below 3; `frame`: its box is no thicker than rounding, tolerance::rounding).
+/// Computes V(M), model units cubed. It is 0 exactly when the shape is flat, straight or a point (`oriented`:
+/// HullSupport::dimension() below 3; `frame`: the thickness of the box is within tolerance::rounding).
 double box_volume(const HullSupport& hull, BoxModel model);
 
-/// What to do with a shape of V(M) = 0: flat, straight or a point.
+/// Treatment of a shape with V(M) = 0: flat, straight or a point.
 enum class FlatShapes {
+  /// The solver throws InputError.
   refuse,
-  measure,  ///< all but S, which is undefined
+  /// The solver measures everything except S, which is undefined.
+  measure,
 };
 
 /// Meaning of a stackability: every number depends on these options.
@@ -62,23 +65,23 @@ struct ExactStackability {
   Separation separation;      ///< exact, with witness, without clearance and play
 };
 
-/// A shape prepared for measurements in many directions: separation tree, hull and V(M), built once. Queries
-/// are const, deterministic and safe to run from any number of threads.
+/// A shape prepared for measurements in many directions. The separation tree, the hull and V(M) are computed
+/// once. Queries are const, deterministic and safe from any number of threads.
 class StackabilitySolver {
  public:
-  /// Throws InputError when the shape has no volume to speak of (V(M) = 0: flat, straight or a point), since
-  /// S is then undefined, unless the options ask to measure the rest, or when `validate(shape)` fails.
-  /// Throws UsageError for a clearance or play out of range.
+  /// Throws InputError when `validate(shape)` fails. Throws InputError when V(M) = 0 (flat, straight or a
+  /// point), since S is then undefined, unless the options allow it. Throws UsageError for a clearance or
+  /// play out of range.
   explicit StackabilitySolver(const Shape& shape, const StackabilityOptions& options = {});
   StackabilitySolver(StackabilitySolver&&) noexcept;
   StackabilitySolver& operator=(StackabilitySolver&&) noexcept;
   ~StackabilitySolver();
 
-  const Shape& shape() const;                  ///< a copy of the one given
-  const SeparationTree& tree() const;          ///< of the shape
-  const HullSupport& hull() const;             ///< of the shape
-  const StackabilityOptions& options() const;  ///< as given
-  double box_volume() const;                   ///< V(M); 0 only if the options allow it
+  const Shape& shape() const;                  ///< copy of the given shape
+  const SeparationTree& tree() const;          ///< separation tree of the shape
+  const HullSupport& hull() const;             ///< convex hull of the shape
+  const StackabilityOptions& options() const;  ///< options of the solver
+  double box_volume() const;                   ///< V(M), model units cubed; 0 only when the options allow it
 
   /// Returns the exact f_max with its witness, without clearance and play.
   Separation separation(const Direction& direction) const;
@@ -86,7 +89,7 @@ class StackabilitySolver {
   Stackability measure(const Direction& direction) const;
   /// Returns S and its terms from the exact separation, with that separation.
   ExactStackability measure_exact(const Direction& direction) const;
-  /// As `measure`, but gives up and returns nothing as soon as S is certainly below `threshold`.
+  /// Computes the same as `measure`, but returns nothing as soon as S is certainly below `threshold`.
   std::optional<Stackability> measure_if_above(const Direction& direction, double threshold) const;
 
  private:
@@ -94,12 +97,13 @@ class StackabilitySolver {
   std::unique_ptr<const Data> data_;
 };
 
-/// S(M, r) for one use: cheaper than a solver, which is prepared for many directions. Equal to what a solver
-/// measures up to rounding. Throws as the constructor of StackabilitySolver.
+/// Computes S(M, r) for one direction, cheaper than a solver, which is prepared for many directions. The
+/// result equals that of a solver up to rounding. Throws as the constructor of StackabilitySolver does.
 Stackability stackability(const Shape& shape, const Direction& direction,
                           const StackabilityOptions& options = {});
 
-/// The same unless S is certainly below `threshold`, which is often cheap to see.
+/// Computes the same, but returns nothing when S is certainly below `threshold`, which is often cheap to
+/// decide.
 std::optional<Stackability> stackability_if_above(const Shape& shape, const Direction& direction,
                                                   double threshold, const StackabilityOptions& options = {});
 

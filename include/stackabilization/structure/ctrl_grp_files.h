@@ -9,38 +9,41 @@
 
 namespace stackabilization {
 
-/// Files of the program of the paper's authors, beside an OBJ file. Their `.seg` files are part labels
-/// (labels.h).
+/// Files that the program of the paper's authors writes beside an OBJ file. The authors' `.seg` files are
+/// part labels; labels.h reads them.
 struct CtrlGrpFiles {
   std::optional<std::filesystem::path> controls;  ///< `.ctrl`: primitives of parts
   std::optional<std::filesystem::path> groups;    ///< `.grp`: relations between parts
 };
 
-/// A text and what messages call it.
+/// A text and its name in messages.
 struct NamedText {
-  std::string_view text;  ///< all of it; empty: no file
-  std::string name;       ///< such as the path of its file
+  std::string_view text;  ///< the whole text; empty when there is no file
+  std::string name;       ///< name in messages, such as the path of the file
 };
 
-/// Structure of `shape` from those files, in the frame of `shape`; their own numbers are in the frame in
-/// which the box around the shape has its centre at the origin and a diagonal of 2.
+/// Reads the structure of `shape` from the authors' files. The result is in the frame of `shape`. The numbers
+/// in the files are in another frame: the bounding box of the shape has its centre at the origin and a
+/// diagonal of 2.
 ///
-/// * Parts that the `.ctrl` file does not have are fitted (`fit_primitive`); fit errors are measured for all.
-/// * A symmetric pair is mirrored in the plane midway between the centres of its primitives.
-/// * A cuboid's self-symmetries are the planes through its centre with the normals given; where older files
-/// give none,
-///   those across its axes that its surface satisfies best. Of a cylinder's only their number counts: one is
-///   the plane of its curve, two make it a body of revolution.
-/// * The numbers are not quite symmetric: the result is made so (`symmetrize`), planes that nearly agree with
-/// each other or
-///   with a symmetry found on the shape becoming one.
-/// * A shape of one part is that part, whatever the files call it.
+/// * Parts without an entry in the `.ctrl` file are fitted by `fit_primitive`. Fit errors are measured for
+///   all parts.
+/// * The mirror plane of a symmetric pair is the plane midway between the centres of its two primitives.
+/// * The self-symmetries of a cuboid are the planes through its centre with the normals in the file. Older
+///   files contain no normals; the function then takes the planes across the axes of the cuboid with the
+///   smallest residuals on its surface.
+/// * Of the self-symmetries of a cylinder, only their number is used. One is a reflection in the plane of the
+///   curve; two describe a body of revolution.
+/// * The numbers in the files are only nearly symmetric. The result is symmetrized (`symmetrize`). Planes
+/// that
+///   nearly agree with each other, or with a symmetry found on the shape, become one plane.
+/// * A shape with one part is that part, whatever its name in the files.
 ///
-/// Throws InputError, naming file, line and what was expected, for damaged files, parts that do not exist and
-/// relations that contradict each other.
+/// Throws InputError, naming the file, the line and the expected content, for damaged files, for parts that
+/// do not exist, and for relations that contradict each other.
 Structure read_ctrl_grp(const Shape& shape, const CtrlGrpFiles& files);
 
-/// The same from texts; empty ones stand for no file.
+/// Computes the same structure from texts. An empty text stands for a missing file.
 Structure parse_ctrl_grp(const Shape& shape, const NamedText& controls, const NamedText& groups);
 
 }  // namespace stackabilization

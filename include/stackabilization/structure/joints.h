@@ -8,48 +8,51 @@
 
 namespace stackabilization {
 
-/// What `find_joints` takes for contact of two parts, and for a line.
+/// Thresholds of `find_joints`.
 struct JointOptions {
-  /// Parts whose surfaces come nearer than this meet, fraction of the diameter of the smallest ball around
-  /// the shape.
+  /// Largest distance between the surfaces of two parts that meet, fraction of the diameter of the smallest
+  /// ball around the shape.
   double reach = 0.01;
-  /// Regions of contact nearer than this are one joint, fraction of the diameter of the ball around the
-  /// smaller part.
+  /// Contact regions of two parts nearer to each other than this are one joint, fraction of the diameter of
+  /// the smallest ball around the smaller part.
   double separate = 0.15;
-  /// A contact this many times longer than wide, and longer than `min_line`, is a line joint.
+  /// Smallest ratio of length to width of a line joint. A line joint must also be longer than `min_line`.
   double line_aspect = 4;
-  /// Shortest line joint, fraction of the diameter of the smallest ball around the smaller part.
+  /// Smallest length of a line joint, fraction of the diameter of the smallest ball around the smaller part.
   double min_line = 0.25;
-  /// Pairs of parts that are looked at; more are refused.
+  /// Limit of the number of pairs of nearby parts; more pairs are refused.
   std::size_t max_pairs = 100'000;
-  /// Triangles of the parts of these pairs, each pair counting those of both its parts; more are refused.
+  /// Limit of the number of triangles of nearby parts, counted once per pair; more triangles are refused.
   std::size_t max_pair_triangles = 8'000'000;
 };
 
-/// The pairs of parts that `find_joints` looks at: their boxes come within reach of each other. Throws
-/// UsageError for options out of range, InputError when there are more than JointOptions::max_pairs, or they
-/// have more than JointOptions::max_pair_triangles.
+/// Returns the pairs of parts whose boxes come within reach of each other: the input of `find_joints`. Throws
+/// UsageError for options out of range. Throws InputError when there are more than JointOptions::max_pairs
+/// pairs or more than JointOptions::max_pair_triangles triangles in them.
 BoxPairs near_parts(const Shape& shape, const JointOptions& options);
 
-/// Point and line joints of every pair of parts. Regions of contact are where the surfaces come within reach
-/// and what one part has inside the other: compact regions give a point joint at their centroid, elongated
-/// ones a line joint between their ends, separate ones a joint each. Whether a point is inside is decided by
-/// the part's surface where that is closed, else by its primitive, where that fits well. A joint inside a
-/// third part that both parts meet is left out: two bars that end in one leg are held by the leg. Several
-/// regions in a row along a cuboid, with the other part there between them, are one line joint, as the
-/// primitives would have it (a rail hung on pegs); a handle, which is a cylinder, keeps its two points. A
-/// ring, in whose middle neither part is, is joined at four sides, which follow the axes of the shape.
+/// Finds the point joints and line joints of all pairs of parts.
 ///
-/// The regions are found from edges and faces, without sampling; they are the same in every pose and at every
-/// scale, up to rounding and to the order of the joints of one pair, which is by their coordinates.
-/// Relation::residual is the gap left between the surfaces, fraction of the diameter of the ball around the
-/// shape.
+/// * A contact region of two parts consists of the places where the surfaces come within reach, and of the
+///   portions of one part inside the other. A compact region gives a point joint at its centroid. An
+///   elongated region gives a line joint between its ends. Separate regions give separate joints.
+/// * The surface of a part decides whether a point is inside, when the surface is closed. Otherwise its
+///   primitive decides, provided that it fits well.
+/// * The function omits a joint inside a third part that both parts meet: two bars that end in one leg are
+///   joined to the leg only.
+/// * Several regions in a row along a cuboid, with the other part present between them, become one line
+///   joint: a rail on pegs. A handle is a cylinder and keeps its two point joints.
+/// * A ring-shaped region, with neither part in its middle, gives four joints at its sides. The four sides
+///   follow the axes of the shape.
 ///
-/// `parts` are those of `shape`, in its order. Throws UsageError for options out of range, InputError when a
-/// part has no triangle of positive area.
+/// The regions are computed from edges and faces, without sampling. The result is the same in every pose and
+/// at every scale, up to rounding and to the order of the joints of one pair: they are ordered by
+/// coordinates. Relation::residual is the remaining gap between the surfaces, as a fraction of the diameter
+/// of the smallest ball around the shape.
 ///
-/// Throws InputError as well when more than JointOptions::max_pairs pairs of parts come near each other,
-/// before it looks at any of them.
+/// Precondition: `parts` are the parts of `shape`, in its order. Throws UsageError for options out of range.
+/// Throws InputError when a part has no triangle of positive area, and under the conditions of `near_parts`
+/// before any pair is examined.
 std::vector<Relation> find_joints(const Shape& shape, const std::vector<Part>& parts,
                                   const JointOptions& options = {});
 

@@ -10,54 +10,59 @@
 
 namespace stackabilization {
 
-/// A cuboid by its eight corners: a box while undeformed, any hexahedron of the same corners afterwards.
+/// A cuboid, given by its eight corners: a box before deformation, a general hexahedron afterwards.
 ///
-/// Corner k lies on the positive side of the box's axis a where bit a of k is set: 0 = (-,-,-), 1 = (+,-,-),
-/// 2 = (-,+,-), ..., 7 = (+,+,+). Face f lies across axis f / 2, on the negative side for even f, on the
-/// positive for odd f.
+/// Corner k lies on the positive side of axis a of the box when bit a of k is set: 0 = (-,-,-), 1 = (+,-,-),
+/// 2 = (-,+,-), ..., 7 = (+,+,+). Face f is orthogonal to axis f / 2: on the negative side for even f, on the
+/// positive side for odd f.
 struct Cuboid {
   Eigen::Matrix<double, 8, 3, Eigen::RowMajor> corners;  ///< model units
 };
 
-/// A generalized cylinder: circles threaded on a curve, in the order of the curve (paper, section 4.1).
+/// A generalized cylinder: circles along a curve, in the order of the curve (paper, section 4.1).
 ///
-/// A hollow body such as a cup is one as well: its circles hold the outer wall, and whatever moves or scales
-/// a circle moves inner and outer wall together.
+/// A hollow body such as a cup is represented as well: the circles follow its outer wall. A move or a scaling
+/// of a circle moves the inner and the outer wall together.
 struct GeneralizedCylinder {
-  Points centres;  ///< n x 3 centres of the cross-sections, model units; n >= 2, closed: n >= 3; neighbours
-                   ///< differ
+  /// n x 3 centres of the cross-sections, model units. n >= 2, or n >= 3 for a closed curve. Consecutive
+  /// centres differ.
+  Points centres;
   Eigen::VectorXd radii;  ///< n radii > 0, model units
-  bool closed = false;    ///< the last section is followed by the first: rims, ring handles
-  /// Rotation of the whole since rest. The curve cannot tell how far it was turned about its own tangents.
+  bool closed = false;    ///< whether the first section follows the last one, as in rims and ring handles
+  /// Rotation of the whole cylinder since rest. The curve does not determine the rotation about its own
+  /// tangents.
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
-/// What stands for a part in edits, relations and propagation.
+/// Primitive that represents a part in edits, relations and propagation.
 using Primitive = std::variant<Cuboid, GeneralizedCylinder>;
 
-/// The corners of a box, its axes in the order of `box.axes`.
+/// Returns the corners of a box. The axes of the cuboid are in the order of `box.axes`.
 Cuboid cuboid_of(const OrientedBox& box);
 
-/// Rows of `Cuboid::corners` around face `face` (0 to 5), counter-clockwise from outside while the box is
-/// right-handed.
+/// Returns the rows of `Cuboid::corners` around face `face` (0 to 5). They run counter-clockwise seen from
+/// outside for a right-handed box.
 std::array<int, 4> cuboid_face(int face);
 
-/// n x 3 unit tangents of the curve at its sections: central differences, one-sided at open ends.
+/// Computes the n x 3 unit tangents of the curve at its sections, by central differences, at open ends by
+/// one-sided differences.
 Points section_tangents(const GeneralizedCylinder& cylinder);
 
-/// n arc lengths of the sections from the first, model units; for a closed one n + 1 entries, the last of
-/// them the length of the loop.
+/// Computes the n arc lengths from the first section to every section, model units. A closed cylinder has n +
+/// 1 entries; the last one is the length of the loop.
 Eigen::VectorXd section_arc_lengths(const GeneralizedCylinder& cylinder);
 
-/// The control points: corners of a cuboid, centres of a cylinder. What symmetries and energies compare.
+/// Returns the control points: the corners of a cuboid, or the centres of a cylinder. Symmetries and energies
+/// compare these points.
 Points control_points(const Primitive& primitive);
 
-/// Volume of the primitive, model units cubed: of the hexahedron with its faces cut along both diagonals and
-/// averaged; of the sum of cone frusta between neighbouring circles.
+/// Computes the volume of a primitive, model units cubed. For a cuboid it is the volume of the hexahedron,
+/// averaged over both diagonals of every face. For a cylinder it is the sum of the cone frusta between
+/// neighbouring circles.
 double volume(const Primitive& primitive);
 
-/// Throws InputError, naming `name` and what is wrong, unless the invariants stated above hold and every
-/// number is finite.
+/// Throws InputError, with `name` and the defect, unless the invariants above hold and every number is
+/// finite.
 void validate(const Primitive& primitive, const std::string& name);
 
 }  // namespace stackabilization

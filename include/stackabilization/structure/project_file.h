@@ -9,11 +9,12 @@
 
 namespace stackabilization {
 
-/// Suffix of project files by convention.
+/// Conventional suffix of project files.
 inline constexpr std::string_view project_suffix = ".stackabilize.json";
 
-/// A structured shape as one JSON text for people to read and correct: parts with their primitives,
-/// symmetries, relations by part names, and last the mesh, a vertex or triangle per line.
+/// Writes a structured shape as one JSON text for people to read and correct. It holds the parts with their
+/// primitives, the symmetries, the relations by part names, and last the mesh, with one vertex or triangle
+/// per line.
 ///
 ///     {"format": "stackabilize project", "version": 1, "unit": "mm",
 ///      "parts": [{"name": "leg", "primitive": {"kind": "cuboid", "centre": [0, 0, 0],
@@ -21,52 +22,55 @@ inline constexpr std::string_view project_suffix = ".stackabilize.json";
 ///                 "fit": {"cuboid_error": 0.01, "cylinder_error": 0.2, "note": ""}}, ...],
 ///      "symmetries": [{"kind": "reflection", "point": [0, 0, 0], "axis": [1, 0, 0]}],
 ///      "relations": [{"type": "symmetry", "parts": ["leg", "leg_2"], "symmetry": {...}, "residual": 0},
-///                    {"type": "point_joint", "parts": ["leg", "top"], "points": [[0, 0, 3]], "residual":
-///                    0}],
+///                    {"type": "point_joint", "parts": ["leg", "top"], "points": [[0, 0, 3]],
+///                     "residual": 0}],
 ///      "mesh": {"vertices": [[x, y, z], ...], "triangles": [[a, b, c, part], ...]}}
 ///
-/// A primitive is a cuboid by `centre` and `half_axes` (vectors from the centre to three faces), once it is
-/// no such box by its eight `corners`, or {"kind": "cylinder", "closed": false, "sections": [[x, y, z,
-/// radius], ...]}, with "rotation": [w, x, y, z] where it was turned. `unit` is um, mm, cm, m, in, ft or
-/// unknown. Numbers are written so that they read back as the same doubles; `centre` and `half_axes` are
-/// rounded to 2^-48 of the cuboid's largest coordinate first, once.
+/// A cuboid that is a box has `centre` and `half_axes`, the vectors from the centre to three faces. Any other
+/// cuboid has its eight `corners`. A generalized cylinder is {"kind": "cylinder", "closed": false,
+/// "sections": [[x, y, z, radius], ...]}, with an entry "rotation": [w, x, y, z] when it was rotated. `unit`
+/// is um, mm, cm, m, in, ft or unknown. Reading the numbers gives the same doubles. Before writing, `centre`
+/// and `half_axes` are rounded once to 2^-48 of the largest coordinate of the cuboid.
 ///
-/// A last entry, "history", is for modules built on this one (`ProjectSections`).
+/// An optional last entry, "history", belongs to other modules (`ProjectSections`).
 ///
 /// Throws InputError when `structured` is invalid or a part name is not UTF-8.
 std::string project_text(const StructuredShape& structured);
 
-/// Entries of a project file that are written and understood elsewhere: the JSON text of each value; nothing
-/// where the file has no such entry.
+/// Entries of a project file that other modules write and read, each as the JSON text of its value. A missing
+/// entry is empty.
 struct ProjectSections {
-  std::optional<std::string> history;  ///< the designs that were tried: see improvement/history.h
+  std::optional<std::string> history;  ///< designs that were tried, see improvement/history.h
 };
 
-/// The same with further entries, their texts as they are. Precondition: each is one JSON value.
+/// Writes the same text with further entries. Precondition: each section is one JSON value; it is copied
+/// verbatim.
 std::string project_text(const StructuredShape& structured, const ProjectSections& sections);
 
-/// Writes that text (`write_file_atomically`). Throws OutputError as well.
+/// Writes the project text to a file with `write_file_atomically`. Also throws OutputError.
 void write_project(const StructuredShape& structured, const std::filesystem::path& path);
 
-/// Reads a project. Primitives that miss a symmetry, after editing by hand, are made symmetric
-/// (`symmetrize`).
+/// Reads a project. Primitives that violate a symmetry relation, for instance after editing by hand, are
+/// symmetrized (`symmetrize`). Sections are ignored.
 ///
-/// Throws InputError, one sentence with `name`, the place as a JSON pointer ("/parts/2/primitive/half_axes";
-/// the line for text that is no JSON) and what was expected there, for anything that is not as described
-/// above: unknown and repeated keys, missing entries, wrong types and sizes, names of parts that do not
-/// exist, numbers that are not finite, relations that contradict each other. Sections are passed over.
+/// Throws InputError for any text that differs from the description above: unknown and repeated keys, missing
+/// entries, wrong types and sizes, names of parts that do not exist, numbers that are not finite, and
+/// relations that contradict each other. The message is one sentence with `name`, the place and the expected
+/// content. The place is a JSON pointer ("/parts/2/primitive/half_axes"), or the line when the text is not
+/// JSON.
 StructuredShape project_of_text(std::string_view text, const std::string& name);
 
-/// The same with the text of a file; "-" is standard input.
+/// Reads a project from a file; "-" is standard input.
 StructuredShape read_project(const std::filesystem::path& path);
 
-/// A project with the entries that this module does not look into.
+/// A project together with the entries of other modules.
 struct ProjectContents {
-  StructuredShape structured;  ///< what `project_of_text` gives
-  ProjectSections sections;    ///< as texts
+  StructuredShape structured;  ///< result of `project_of_text`
+  ProjectSections sections;    ///< JSON texts of the entries of other modules
 };
 
-/// As `project_of_text`; the sections are JSON, and whoever knows them checks the rest.
+/// Reads a project with its sections. The function checks only that sections are JSON. Throws as
+/// `project_of_text` does.
 ProjectContents project_contents(std::string_view text, const std::string& name);
 
 }  // namespace stackabilization

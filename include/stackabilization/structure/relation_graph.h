@@ -8,24 +8,26 @@
 
 namespace stackabilization {
 
-/// A structure as a graph: parts are nodes, relations edges, a self-symmetry a loop. What propagation walks
-/// along.
+/// Graph of a structure. The parts are nodes, the relations are edges, and a self-symmetry is a loop.
+/// Propagation follows the edges of this graph.
 class RelationGraph {
  public:
   /// Precondition: every relation refers to existing parts (`validate`).
   explicit RelationGraph(const Structure& structure);
 
-  /// Rows of Structure::relations that name `part`, each once, in the order in which propagation follows
-  /// them: symmetries, self-symmetries, then joints, in each by row.
+  /// Returns the rows of Structure::relations that name `part`, each row once. The order is that of
+  /// propagation: symmetries, self-symmetries, joints, and by row within each type.
   const std::vector<int>& incident(int part) const;
 
-  /// The part at the other end of `relation`, one of `incident(part)`; `part` itself for a self-symmetry.
+  /// Returns the part at the other end of `relation`, and `part` itself for a self-symmetry. Precondition:
+  /// `relation` is in `incident(part)`.
   int opposite(int relation, int part) const;
 
-  /// Parts that `part` has a relation with, in order, without itself.
+  /// Returns the other parts that share a relation with `part`, ascending.
   std::vector<int> neighbours(int part) const;
 
-  /// Per part the number of its connected component; numbers are given in the order of the parts.
+  /// Returns the connected component of every part. Components are numbered in the order of their first
+  /// parts.
   std::vector<int> components() const;
 
  private:
@@ -33,9 +35,9 @@ class RelationGraph {
   std::shared_ptr<const Data> data_;
 };
 
-/// The graph in the DOT language, for Graphviz: a box for a cuboid, an ellipse for a cylinder; a double line
-/// for a symmetric pair, a dotted one for a self-symmetry, green for point joints, red for line joints.
-/// Deterministic.
+/// Returns the graph in the DOT language of Graphviz. A cuboid is a box and a cylinder is an ellipse. A
+/// symmetric pair is a double line, a self-symmetry is dotted, point joints are green, and line joints are
+/// red. Deterministic.
 std::string graphviz(const Structure& structure);
 
 }  // namespace stackabilization

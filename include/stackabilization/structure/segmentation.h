@@ -8,51 +8,54 @@
 
 namespace stackabilization {
 
-/// How `segmented` finds parts.
+/// Method of `segmented`.
 enum class SegmentationMethod {
-  given,           ///< the parts of the shape as they are
-  whole,           ///< one part, for what follows as a whole: a basket of many wires
-  components,      ///< connected components, those that touch over an area merged
+  given,           ///< the parts of the shape, unchanged
+  whole,           ///< one part, for shapes that deform as a whole, such as a basket of many wires
+  components,      ///< connected components; two components that touch over a large area are merged
   primitives,      ///< components, each cut by hierarchical fitting of primitives (Attene et al. 2006)
   shape_diameter,  ///< components, each cut by the shape-diameter function (Shapira et al. 2008, CGAL)
-  automatic,       ///< given when the shape has several parts; else whole for a net of wires; else components
-                   ///< when there are several or the whole is a body of revolution; else primitives
+  /// `given` when the shape has several parts. Otherwise `whole` for a net of wires. Otherwise `components`
+  /// when there are several or when the shape is a body of revolution. Otherwise `primitives`.
+  automatic,
 };
 
 /// Options of `segmented`.
 struct SegmentationOptions {
-  SegmentationMethod method = SegmentationMethod::automatic;  ///< how parts are found
-  int parts = 0;  ///< parts to end with per component; 0: as many as the shape has by the method's measure
-  /// Crumbs below this share of the component's area join a neighbour; in [0, 1).
+  SegmentationMethod method = SegmentationMethod::automatic;  ///< segmentation method
+  /// Number of parts per component. 0: the method determines the number.
+  int parts = 0;
+  /// Smallest area of a part, fraction of the area of its component, in [0, 1). A smaller segment joins a
+  /// neighbour.
   double min_part_area = 0.005;
 };
 
-/// `shape` with its parts replaced: same vertices and triangles in the same order. Parts are called "part_1"
-/// and on, largest area first, except with `given` and where one part stays one: that keeps its name.
-/// Boundaries between parts run along short, concave paths; every part of a component is connected.
-/// Deterministic.
+/// Segments a shape: returns it with new parts, and with the same vertices and triangles in the same order.
+/// Parts are named "part_1", "part_2", ... by descending area. The names stay with `given`, and when one part
+/// stays one part. Boundaries between parts are short and follow concave edges. Every part of a component is
+/// connected. Deterministic.
 ///
-/// `primitives` cuts for parts that a cuboid, a solid of revolution or a ring holds, not for single faces:
-/// the patches of Attene et al. are joined on as long as the solid behind them fills its primitive, concave
-/// edges keeping parts asunder; hollows that the shape itself closes in count as filled, so that a vessel is
-/// one part. It takes the side from which a component has positive volume for its outside. `shape_diameter`
-/// leaves a component whole where CGAL finds no diameter (sheets, very few triangles), and may end with fewer
-/// parts than asked for.
+/// `primitives` looks for parts that fit a cuboid, a solid of revolution or a ring, not for single faces. It
+/// merges the patches of Attene et al. (2006) as long as the solid behind them fills its primitive. Concave
+/// edges between patches count against a merge. Cavities that the shape itself encloses count as filled, so
+/// that a vessel is one part. The method orients a component such that its volume is positive.
+/// `shape_diameter` does not cut a component for which CGAL computes no diameter: sheets and meshes of very
+/// few triangles. It may return fewer parts than requested.
 ///
-/// Guarantee: one label per triangle, also for open, non-manifold and several-shelled shapes. Throws
-/// UsageError for options outside their ranges and InputError when `validate(shape)` fails.
+/// Guarantee: every triangle belongs to exactly one part, also in open, non-manifold and disconnected shapes.
+/// Throws UsageError for options out of range, and InputError when `validate(shape)` fails.
 Shape segment(const Shape& shape, const SegmentationOptions& options = {});
 
-/// Triangles that a user has marked as belonging to a part.
+/// Triangles that the user marked as members of a part.
 struct PartSeeds {
-  std::string name;                     ///< of the part
-  std::vector<std::int32_t> triangles;  ///< at least one
+  std::string name;                     ///< name of the part
+  std::vector<std::int32_t> triangles;  ///< rows of Shape::triangles; at least one
 };
 
-/// Interactive segmentation (after Meng et al. 2011): every triangle gets the part whose seeds it is nearest
-/// to, over the surface, where crossing a concave edge costs most. `shape`'s own parts are not looked at.
-/// Components without seeds go to the part that is nearest in space. Throws UsageError when a part has no
-/// seed, a triangle is seeded twice or does not exist.
+/// Segments a shape interactively (after Meng et al. 2011): every triangle joins the part with the nearest
+/// seed. The distance is measured over the surface; crossing a concave edge is the most expensive step. A
+/// component without seeds joins the part that is nearest in space. The parts of `shape` have no influence.
+/// Throws UsageError when a part has no seed, and when a seed triangle does not exist or occurs twice.
 Shape segment(const Shape& shape, const std::vector<PartSeeds>& seeds);
 
 }  // namespace stackabilization

@@ -10,54 +10,60 @@
 
 namespace stackabilization {
 
-/// How well the two kinds of primitive hold a part: see fitting.h for what the errors measure.
+/// Fit errors of the two kinds of primitive for a part. fitting.h defines the errors.
 struct PrimitiveFit {
-  double cuboid_error = 0;               ///< fraction of the part's bounding-box diagonal
-  std::optional<double> cylinder_error;  ///< the same; nothing where no cylinder could be fitted
-  std::string note;                      ///< one clause on what was done to the part first; may be empty
+  double cuboid_error = 0;               ///< fraction of the diagonal of the oriented box of the part
+  std::optional<double> cylinder_error;  ///< the same for the cylinder; empty when none could be fitted
+  std::string note;                      ///< one clause about the preparation of the part; may be empty
 };
 
-/// A part of a shape and what stands for it.
+/// A part of a shape and its primitive.
 struct Part {
-  std::string name;     ///< as in Shape::part_names
+  std::string name;     ///< name in Shape::part_names
   Primitive primitive;  ///< model units
-  PrimitiveFit fit;     ///< how well either kind holds the part
+  PrimitiveFit fit;     ///< fit errors of both kinds
 };
 
-/// Kinds of relations between parts (paper, section 4.1).
+/// Type of a relation between parts (paper, section 4.1).
 enum class RelationType { symmetry, self_symmetry, point_joint, line_joint };
 
-/// What an edit has to keep.
+/// A relation between parts that every edit must preserve.
 struct Relation {
-  RelationType type = RelationType::symmetry;  ///< which of the fields below count
-  std::vector<int> parts;  ///< rows of Structure::parts: one for self_symmetry, two different ones otherwise
-  Symmetry symmetry;       ///< of symmetry (takes the first part onto the second) and self_symmetry
-  Points points;           ///< of joints, where the parts meet at rest: 1 x 3, or the 2 x 3 ends of a line
-  double residual = 0;     ///< how far the surfaces miss it at rest, fraction of Structure::diagonal
+  /// Type; it determines which of the following members are used
+  RelationType type = RelationType::symmetry;
+  /// Rows of Structure::parts: one row for self_symmetry, two different rows otherwise.
+  std::vector<int> parts;
+  /// Symmetry of a symmetry relation (it maps the first part to the second) or of a self_symmetry.
+  Symmetry symmetry;
+  /// Points of a joint at rest: 1 x 3 for a point joint, the 2 x 3 ends for a line joint.
+  Points points;
+  /// Distance by which the surfaces at rest violate the relation, fraction of Structure::diagonal.
+  double residual = 0;
 };
 
 /// Parts, primitives and relations of one shape at rest.
 ///
-/// The primitives satisfy every symmetry relation exactly, up to rounding, also where the mesh does so only
-/// nearly: they are the idealised design, and the mesh rides on them with its irregularities.
+/// The primitives satisfy every symmetry relation exactly, up to rounding, also where the mesh is only nearly
+/// symmetric. The mesh keeps its irregularities relative to its primitives.
 struct Structure {
-  std::vector<Part> parts;           ///< one per part of the shape, in its order
-  std::vector<Symmetry> symmetries;  ///< of the whole shape, best first
+  std::vector<Part> parts;           ///< one per part of the shape, in the order of the shape
+  std::vector<Symmetry> symmetries;  ///< symmetries of the whole shape, best first
   std::vector<Relation> relations;   ///< symmetries before joints, then by parts
-  double diagonal = 0;               ///< of the bounding box of the shape, model units
+  double diagonal = 0;               ///< diagonal of the bounding box of the shape, model units
 };
 
-/// A shape with its structure: what edits start from and what a project file holds.
+/// A shape with its structure: the input of edits and the content of a project file.
 struct StructuredShape {
   Shape shape;          ///< the mesh at rest
-  Structure structure;  ///< one part per part of `shape`
+  Structure structure;  ///< structure with one part per part of `shape`
 };
 
-/// "symmetry", "self_symmetry", "point_joint", "line_joint".
+/// Returns "symmetry", "self_symmetry", "point_joint" or "line_joint".
 std::string name_of(RelationType type);
 
-/// Throws InputError, naming the part or relation, unless there is one primitive per part of `shape` under
-/// its name and every relation refers to existing parts and has what its type needs.
+/// Throws InputError, naming the part or the relation, unless the structure matches the shape: every part of
+/// `shape` has one primitive under its name, and every relation refers to existing parts and has the members
+/// of its type.
 void validate(const StructuredShape& structured);
 
 }  // namespace stackabilization

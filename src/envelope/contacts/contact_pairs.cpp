@@ -21,7 +21,7 @@ PairBounds bounds_of(const TreeTriangle& upper, const TreeTriangle& lower, const
                     cut);
 }
 
-/// The pairs by descending the tree against itself, as long as they are not too many.
+/// Finds the pairs by descending the tree against itself, as long as there are not too many.
 class PairSearch {
  public:
   PairSearch(const SeparationTree::Data& tree, const Projection& projection, double floor,
@@ -98,8 +98,8 @@ class PairSearch {
 
 enum class Side { upper, lower };
 
-/// The deepest partner of every triangle. Of nodes and triangles on the side of the one that is asked for,
-/// "own", and on the other, "partner".
+/// Finds the deepest partner of every triangle. "Own" nodes and triangles are on the side of the triangle in
+/// question, "partner" ones on the other side.
 class DeepestPartners {
  public:
   DeepestPartners(const SeparationTree::Data& tree, const Projection& projection, double floor,

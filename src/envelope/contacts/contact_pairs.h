@@ -8,8 +8,8 @@
 
 namespace stackabilization::detail {
 
-/// A triangle of the copy below and one of the copy above: rows of Shape::triangles, and where the triangle,
-/// or the first with the same three points, lies in tree order.
+/// A triangle of the copy below and a triangle of the copy above: rows of Shape::triangles, and positions in
+/// tree order. A triangle with the same three points as an earlier one has the position of the first one.
 struct ContactPair {
   std::int32_t upper, lower;
   std::int32_t upper_at, lower_at;
@@ -22,14 +22,18 @@ struct ContactPair {
 /// Pairs of triangles in the order of their rows.
 struct ContactPairs {
   std::vector<ContactPair> pairs;
-  bool complete = true;  ///< these are all; else each triangle has its deepest partner alone
+  /// Whether these are all pairs. Otherwise each triangle has its deepest partner only.
+  bool complete = true;
 };
 
-/// All pairs of triangles over whose common columns the height difference may reach `floor` (as a height
-/// difference). If these are more than `max_pairs`, or finding them takes `nodes_per_pair` times as many
-/// pairs of nodes, then instead for each triangle of the tree, as upper and as lower one, the pair with the
-/// largest difference, up to `resolution`, looked for in at most `max_partners` nodes; where several have it,
-/// one of them, the same in every run. Of triangles with the same three points the first stands for all then.
+/// Returns all pairs of triangles whose height difference over common columns may reach `floor` (a height
+/// difference).
+///
+/// The function falls back to one pair per triangle when there are more than `max_pairs` pairs, or when the
+/// search examines `nodes_per_pair` times as many pairs of nodes. Each triangle of the tree, as upper and as
+/// lower one, then has the pair with the largest difference, up to `resolution`, found within at most
+/// `max_partners` nodes. Of several such pairs the result has one, the same in every run. Of triangles with
+/// the same three points, the first one represents all.
 ContactPairs contact_pairs(const SeparationTree::Data& tree, const Projection& projection, double floor,
                            std::int64_t max_pairs, double resolution);
 

@@ -26,7 +26,7 @@ LoopCorner between(const LoopCorner& a, const LoopCorner& b, double t) {
   return {mix(a.x, b.x), mix(a.y, b.y), mix(a.upper, b.upper), mix(a.lower, b.lower)};
 }
 
-/// What of the convex polygon has value >= 0, for a function that is linear on it.
+/// Returns the portion of the convex polygon with value >= 0, for a function that is linear on it.
 template <typename Value>
 std::vector<LoopCorner> clip(const std::vector<LoopCorner>& polygon, const Value& value) {
   std::vector<LoopCorner> kept;
@@ -44,8 +44,8 @@ double edge_side(const ProjectedTriangle& triangle, int p, int q, double x, doub
          (triangle.y[q] - triangle.y[p]) * (x - triangle.x[p]);
 }
 
-/// Height of the triangle's plane, kept within the triangle's heights: slivers seen edge-on extrapolate
-/// wildly.
+/// Returns the height of the triangle's plane, clamped to the heights of the triangle: the extrapolation of
+/// edge-on slivers is unreliable.
 double height_over(const ProjectedTriangle& triangle, double x, double y) {
   double weighted = 0;
   for (int c = 0; c < 3; ++c) weighted += edge_side(triangle, (c + 1) % 3, (c + 2) % 3, x, y) * triangle.h[c];
@@ -94,7 +94,7 @@ class ContactClipper {
     const ProjectedTriangle lower(tree_.triangles[pair.lower_at], projection_);
     const PairBounds bounds = bound_pair(upper, lower, projection_, cut_);
     if (bounds.high <= cut_) return std::nullopt;
-    // Neighbours of a contact that only share an edge with it in projection would come as slivers of
+    // Neighbours of a contact that only share an edge with it in projection would otherwise give slivers from
     // rounding.
     const bool certain = bounds.low.high > -infinity;
     if (!certain && !exact_maximum(tree_.triangles[pair.upper_at], tree_.triangles[pair.lower_at],

@@ -20,13 +20,13 @@ struct Patch {
   ConvexPolygon outline;
 };
 
-/// Consecutive patches [first, last) that act as one in the plane.
+/// Consecutive patches [first, last) that are treated as one outline in the plane.
 struct Tile {
   ConvexPolygon outline;
   std::size_t first, last;
 };
 
-/// What the steps of one query share.
+/// Data of one query.
 struct Setting {
   Frame frame;
   ContactOptions options;
@@ -40,7 +40,7 @@ double diagonal(const Shape& shape) {
   return extents.norm();
 }
 
-/// The point where the separation is attained, for contacts that have no area at all.
+/// Returns the point that attains the separation, for contacts without area.
 ContactPolygon witness_polygon(const Witness& witness) {
   ContactPolygon polygon{witness.upper_triangle, witness.lower_triangle, Points(1, 3), Points(1, 3)};
   polygon.upper_points.row(0) = witness.upper_point;
@@ -57,8 +57,9 @@ ConvexPolygon outline_of(const Points& points, const Frame& frame) {
   return outline;
 }
 
-/// On dense meshes most upper triangles are covered whole, by many small patches: those count as the
-/// triangle. (Patches over one triangle that overlap and leave gaps of the very same area would pass for it.)
+/// Merges the patches of fully covered upper triangles. On dense meshes many small patches cover most upper
+/// triangles completely; the triangle then replaces them. (Patches over one triangle whose overlaps and gaps
+/// have exactly the same area would be mistaken for a full cover.)
 std::vector<Tile> tiles(const std::vector<Patch>& patches, const Shape& shape, const Frame& frame) {
   std::vector<Tile> result;
   for (std::size_t first = 0; first < patches.size();) {
@@ -161,7 +162,8 @@ bool comes_first(const ContactRegion& a, const ContactRegion& b) {
 /// By pairs of parts: of the upper triangle, of the lower one.
 using PatchesByParts = std::map<std::pair<std::int32_t, std::int32_t>, std::vector<Patch>>;
 
-/// Parts whose triangles have the same points as those of the polygons, other than the parts named there.
+/// Returns the parts whose triangles have the same points as those of the polygons, except the parts named
+/// there.
 std::vector<std::int32_t> coincident_parts(const PatchesByParts& by_parts, const Shape& shape,
                                            const std::vector<TriangleCopy>& copies) {
   std::vector<char> touches(static_cast<std::size_t>(shape.triangle_count()), 0);

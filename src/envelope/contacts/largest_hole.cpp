@@ -7,13 +7,13 @@
 namespace stackabilization::detail {
 namespace {
 
-/// Which cells of a coarse bitmap the outlines touch. Cells that are only touched count as covered: that
-/// closes cracks and small gaps between neighbouring outlines.
+/// Coarse bitmap of the cells that the outlines touch. Touched cells count as covered, which closes cracks
+/// and small gaps between neighbouring outlines.
 class CoverageBitmap {
  public:
   CoverageBitmap(const OutlineBounds& bounds) : low_(bounds.low), covered_(side * side, 0) {
     const double longer = (bounds.high - bounds.low).maxCoeff();
-    // One empty cell all around, so that the outside hangs together.
+    // One empty cell all around connects the outside.
     cell_ = longer > 0 ? longer / (side - 2) : 1;
   }
 
@@ -24,7 +24,7 @@ class CoverageBitmap {
     for (int row = row_of(bounds.low.y()); row <= last; ++row) fill_row(outline, row);
   }
 
-  /// Area of the largest set of free cells that does not reach the border.
+  /// Returns the area of the largest set of free cells that does not reach the border.
   double largest_hole() {
     if (!has_gaps()) return 0;
     flood(0);
@@ -58,8 +58,8 @@ class CoverageBitmap {
     std::fill(cells + index_of(left - low_.x()), cells + index_of(right - low_.x()) + 1, char{1});
   }
 
-  /// Whether some row is covered in several runs. Where none is, all free cells reach the border along
-  /// theirs.
+  /// Returns whether some row is covered in several runs. Otherwise all free cells reach the border along
+  /// their row.
   bool has_gaps() const {
     for (auto row = covered_.begin(); row != covered_.end(); row += side) {
       const auto first = std::find(row, row + side, 1);

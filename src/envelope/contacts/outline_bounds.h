@@ -7,7 +7,7 @@
 
 namespace stackabilization::detail {
 
-/// The axis-parallel rectangle around outlines; inverted while there is none.
+/// Axis-parallel rectangle around outlines; inverted while it is empty.
 struct OutlineBounds {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
   Eigen::Vector2d high = -low;

@@ -67,8 +67,9 @@ Eigen::VectorXd outline_centroid(const ConvexPolygon& outline) {
 
 namespace {
 
-/// Outlines in the order of their left ends, and of each component those that the sweep may still meet: one
-/// that touches is enough, so outlines that lie many deep cost no more than those side by side.
+/// Sweep over outlines in the order of their left ends. Per component, it keeps the outlines that the sweep
+/// may still meet. One touching outline suffices, so deeply nested outlines cost no more than outlines side
+/// by side.
 class OutlineSweep {
  public:
   OutlineSweep(const std::vector<ConvexPolygon>& outlines, double reach)
@@ -108,7 +109,7 @@ class OutlineSweep {
     active_.push_back(std::move(own));
   }
 
-  /// Whether one of the members does; drops those that end before `o` begins.
+  /// Returns whether one of the members touches `o`. Drops members that end before `o` begins.
   bool touches(std::size_t o, Members& members) const {
     for (std::size_t m = members.size(); m-- > 0;) {
       const OutlineBounds& other = bounds_[members[m]];

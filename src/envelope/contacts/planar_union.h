@@ -12,25 +12,27 @@ using ConvexPolygon = std::vector<Eigen::Vector2d>;
 
 double outline_area(const ConvexPolygon& outline);
 
-/// Barycentric weights of the corners whose combination is the centroid of the area (of the corners if that
-/// is zero).
+/// Returns weights of the corners whose combination is the centroid of the area, or of the corners when the
+/// area is zero.
 Eigen::VectorXd outline_centroid(const ConvexPolygon& outline);
 
-/// Indices of outlines that hang together: two are neighbours when they come within `reach` of each other.
-/// Components by their smallest index, members ascending.
+/// Returns the connected components of outlines, as indices. Two outlines are adjacent when they come within
+/// `reach` of each other. Components are ordered by their smallest index, members ascend.
 std::vector<std::vector<std::size_t>> connected_outlines(const std::vector<ConvexPolygon>& outlines,
                                                          double reach);
 
-/// Area of the union of the outlines: up to 4096 of them on a grid of 2^30 cells across; of more by
-/// 2048 lines across, to within about a thousandth of the rectangle around them, or by fewer where so many
-/// lie above each other that more than 2^24 cuts would be needed.
+/// Computes the area of the union of the outlines. Up to 4096 outlines are united on a grid of 2^30 cells
+/// across. More outlines are measured along 2048 scan lines, to within about a thousandth of the rectangle
+/// around them; fewer lines are used when more than 2^24 intersections would be needed.
 double union_area(const std::vector<ConvexPolygon>& outlines);
 
-/// Area of the largest hole of the union, on a bitmap of 254 cells across in which every touched cell is
-/// covered: good enough to tell a ring from a patch, and blind to cracks between neighbours.
+/// Computes the area of the largest hole of the union, on a bitmap of 254 cells across in which every touched
+/// cell is covered. The accuracy suffices to distinguish a ring from a disc. Narrow gaps between neighbours
+/// are not holes.
 double largest_hole(const std::vector<ConvexPolygon>& outlines);
 
-/// Minimal-area rectangle around all corners: its longer side and the unit direction of that side.
+/// Minimal-area rectangle around all corners: the lengths of its longer and its shorter side, and the unit
+/// direction of the longer side.
 struct Elongation {
   double length = 0, width = 0;
   Eigen::Vector2d axis = Eigen::Vector2d::UnitX();

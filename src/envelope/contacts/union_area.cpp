@@ -11,10 +11,11 @@
 namespace stackabilization::detail {
 namespace {
 
-/// More outlines than these, which often lie many deep, are not united: that takes quadratic time.
+/// Largest number of outlines that are united, since the union takes quadratic time. More outlines often lie
+/// above each other.
 constexpr std::size_t max_united_outlines = 4096;
 
-/// What of the line at height y lies in the convex outline: from, to.
+/// Returns the interval of the line at height y inside the convex outline.
 std::optional<std::pair<double, double>> cut_at(const ConvexPolygon& outline, double y) {
   double left = std::numeric_limits<double>::infinity(), right = -left;
   for (std::size_t c = 0; c < outline.size(); ++c) {
@@ -39,7 +40,7 @@ double covered_length(std::vector<std::pair<double, double>>& intervals) {
   return length;
 }
 
-/// The lines of the midpoint rule that an outline reaches: first, last.
+/// Returns the first and the last line of the midpoint rule that meet an outline.
 using LineRange = std::pair<int, int>;
 
 std::vector<LineRange> line_ranges(const std::vector<ConvexPolygon>& outlines, const OutlineBounds& bounds,
@@ -57,7 +58,7 @@ std::vector<LineRange> line_ranges(const std::vector<ConvexPolygon>& outlines, c
   return ranges;
 }
 
-/// As many lines as max_cuts allows.
+/// Returns the number of lines that max_cuts allows.
 int line_count(const std::vector<ConvexPolygon>& outlines, const OutlineBounds& bounds) {
   constexpr int max_lines = 2048, min_lines = 16;
   constexpr std::int64_t max_cuts = std::int64_t{1} << 24;
@@ -67,7 +68,7 @@ int line_count(const std::vector<ConvexPolygon>& outlines, const OutlineBounds& 
   return std::max(min_lines, static_cast<int>(max_lines * max_cuts / cuts));
 }
 
-/// Area of the union by the midpoint rule: what of evenly spaced lines is covered.
+/// Computes the area of the union by the midpoint rule: the covered lengths of evenly spaced lines.
 double area_by_lines(const std::vector<ConvexPolygon>& outlines, const OutlineBounds& bounds) {
   if (!(bounds.high.y() > bounds.low.y())) return 0;
   const int lines = line_count(outlines, bounds);
@@ -117,9 +118,9 @@ std::vector<GridCorner> hull_of(std::vector<GridCorner> corners) {
   return hull;
 }
 
-/// The area inside the border of the union, each edge without what other outlines cover. On a grid where the
-/// signs of cross products are exact: whether an edge or its twin is covered must never be decided in two
-/// ways, for borders that do not close have no area.
+/// Computes the area inside the border of the union: every edge without its portions covered by other
+/// outlines. The grid makes the signs of cross products exact. Whether an edge or its twin is covered must
+/// always be decided in the same way, because an open border has no area.
 class UnionBorder {
  public:
   UnionBorder(const std::vector<ConvexPolygon>& outlines, const OutlineBounds& bounds) {
@@ -174,8 +175,9 @@ class UnionBorder {
     return result;
   }
 
-  /// What part of the edge from `a` (0) to `b` (1) lies inside; of edges that run along each other the one of
-  /// the first outline stays. Edges that run against each other both stay: their areas cancel.
+  /// Returns the portion of the edge from `a` (0) to `b` (1) that lies inside. Of coincident edges in the
+  /// same direction, the edge of the first outline stays. Coincident edges in opposite directions both stay:
+  /// their areas cancel.
   static std::optional<std::pair<double, double>> covered_part(const GridCorner& a, const GridCorner& b,
                                                                const std::vector<GridCorner>& polygon,
                                                                bool earlier) {

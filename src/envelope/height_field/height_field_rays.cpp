@@ -80,8 +80,8 @@ CellHeights heights_over(const LocalTriangle& corners, const Eigen::Vector3d& q)
   return range;
 }
 
-/// Rows of triangles, ascending: of those with the same three points, in whatever order, the first. Written
-/// apart from what separations do about copies, since rays check separations.
+/// Returns rows of triangles, ascending; of triangles with the same three points in any order, the first one.
+/// This code is separate from that of separations, since rays check separations.
 std::vector<std::int32_t> distinct_triangles(const Shape& shape) {
   std::vector<std::pair<std::array<std::array<double, 3>, 3>, std::int32_t>> triangles;
   triangles.reserve(static_cast<std::size_t>(shape.triangle_count()));

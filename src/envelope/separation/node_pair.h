@@ -37,11 +37,11 @@ struct ProjectedNode {
     slab_high = node.slab_high;
   }
 
-  /// Slabs steeper than this bound no heights: they would amplify rounding more than they help.
+  /// Smallest |slope| of a slab that bounds heights: smaller slopes would amplify rounding errors.
   static constexpr double steepest = 1.0 / 256;
 };
 
-/// The projected nodes of a tree, computed when they are first asked for.
+/// The projected nodes of a tree, computed on first use.
 class ProjectedNodes {
  public:
   explicit ProjectedNodes(const std::vector<TreeNode>& nodes)
@@ -65,7 +65,7 @@ class ProjectedNodes {
 
 inline const std::vector<TreeNode> no_nodes;
 
-/// The common rectangle of two projected nodes.
+/// The intersection of the rectangles of two projected nodes.
 struct CommonRectangle {
   double x, y, half_width, half_height;
   bool empty;
@@ -81,7 +81,7 @@ struct CommonRectangle {
   }
 };
 
-/// Range of heights of a node over a rectangle; empty when its slab does not reach over it.
+/// Range of heights of a node over a rectangle; empty when its slab has no point over it.
 struct HeightRange {
   double low, high;
   bool empty;
@@ -109,7 +109,7 @@ class NodePairBound {
   explicit NodePairBound(double magnitude)
       : rounding_(16 * unit_roundoff * magnitude), plane_rounding_(64 * unit_roundoff * magnitude) {}
 
-  /// -inf where the nodes have no common columns, or certainly nothing above `floor`.
+  /// Returns the bound, or -inf when the nodes have no common columns or certainly nothing above `floor`.
   DoubleDouble operator()(const ProjectedNode& upper, const ProjectedNode& lower,
                           const DoubleDouble& floor) const {
     constexpr DoubleDouble none{-infinity, 0};
@@ -136,8 +136,8 @@ class NodePairBound {
   }
 
  private:
-  double rounding_;        ///< of n.p within the shapes: three products and their sums, n no longer than 1
-  double plane_rounding_;  ///< of the difference of two planes within the shapes, for slopes up to 1
+  double rounding_;        ///< error of n.p within the shapes: three products and their sums, |n| <= 1
+  double plane_rounding_;  ///< error of the difference of two planes within the shapes, for slopes up to 1
 };
 
 }  // namespace stackabilization::detail

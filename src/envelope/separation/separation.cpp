@@ -19,7 +19,7 @@ namespace {
 
 using namespace detail;
 
-/// A pair still to be looked at: two nodes, or two triangles when `triangles` is set.
+/// A pair to be examined: two nodes, or two triangles when `triangles` is set.
 struct Task {
   DoubleDouble high;
   std::int32_t upper, lower;
@@ -116,7 +116,8 @@ class SeparationQuery {
   }
 
  private:
-  /// Can a pair of this bound be left out? Within the width of an enclosure it can, but the bound counts.
+  /// Returns whether a pair with this bound can be omitted. Within the width of an enclosure it can, but its
+  /// bound then counts.
   bool hopeless(const DoubleDouble& high) {
     if (high <= cut_) return true;
     if (!(high.high - floor_.high <= width_)) return false;

@@ -18,11 +18,11 @@ namespace {
 
 using namespace detail;
 
-/// A slab over many triangles is no tighter than the box; larger nodes keep none.
+/// Largest node with a slab. A slab over more triangles is no tighter than the box.
 constexpr std::int32_t largest_slab = 256;
 constexpr std::int32_t min_task_size = 8192;
 
-/// Where the box of a triangle has its centre, for splitting: little that is moved about.
+/// Centre of the box of a triangle, for splitting: small, because it moves often.
 struct Place {
   std::array<double, 3> centre;
   std::int32_t triangle;  ///< row of the list that the tree is built from

@@ -8,7 +8,7 @@
 
 namespace stackabilization {
 
-/// Corners of one triangle, relative to the origin of the tree, and where it came from.
+/// Corners of one triangle, relative to the origin of the tree, and its row in the shape.
 struct TreeTriangle {
   std::array<std::array<double, 3>, 3> corners;  ///< by corner, then coordinate; model units
   std::int32_t index;                            ///< row of Shape::triangles
@@ -25,32 +25,33 @@ struct TriangleCopy {
   }
 };
 
-/// Axis-aligned box plus one slab  slab_low <= normal . p <= slab_high  holding all points of the node.
-/// `normal` is zero where no slab is kept. Leaves have count > 0.
+/// Bounding volume of a node: an axis-aligned box plus one slab, slab_low <= normal . p <= slab_high.
+/// `normal` is zero when there is no slab. Leaves have count > 0.
 struct TreeNode {
   std::array<double, 3> low, high;  ///< corners of the box, relative to the origin of the tree
-  std::array<double, 3> normal;     ///< of the slab; unit, or zero
+  std::array<double, 3> normal;     ///< unit normal of the slab, or zero
   double slab_low, slab_high;       ///< bounds of normal . p, rounded outwards
   std::int32_t first;               ///< leaf: first triangle; inner: left child, the right one follows it
   std::int32_t count;               ///< leaf: number of triangles; inner: 0
 };
 
-/// Most triangles in a leaf.
+/// Largest number of triangles in a leaf.
 inline constexpr int leaf_size = 2;
 
-/// What a SeparationTree keeps.
+/// Content of a SeparationTree.
 struct SeparationTree::Data {
-  /// Subtracted from all coordinates without rounding any: where a shape lies far from the file's origin, the
-  /// error bounds of the filters, which grow with the coordinates, would drown its features.
+  /// Origin of the tree, subtracted from all coordinates without rounding. The error bounds of the filters
+  /// grow with the coordinates; for a shape far from the file's origin they would exceed its features.
   std::array<double, 3> origin{};
-  std::vector<TreeTriangle> triangles;  ///< in tree order, of those with the same points the first
-  std::vector<TriangleCopy> copies;     ///< the others, sorted
-  std::vector<TreeNode> nodes;          ///< nodes[0] is the root
-  double magnitude = 0;                 ///< largest absolute coordinate, relative to the origin
+  /// Triangles in tree order; of triangles with the same points, the first one.
+  std::vector<TreeTriangle> triangles;
+  std::vector<TriangleCopy> copies;  ///< the other triangles with the same points, sorted
+  std::vector<TreeNode> nodes;       ///< nodes[0] is the root
+  double magnitude = 0;              ///< largest absolute coordinate, relative to the origin
 
-  /// The triangle as in the shape, exactly.
+  /// Returns a triangle with the exact coordinates of the shape.
   TreeTriangle in_file_axes(std::int32_t triangle) const;
-  /// The same shape with the file's origin, built again.
+  /// Rebuilds the tree with the file's origin.
   Data in_file_axes() const;
 };
 

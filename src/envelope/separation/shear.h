@@ -31,7 +31,7 @@ struct DoubleDouble {
   }
 };
 
-/// a - b, exactly (Knuth's two-sum).
+/// Computes a - b exactly (Knuth's two-sum).
 inline DoubleDouble exact_difference(double a, double b) {
   const double high = a - b;
   const double virtual_b = a - high;

@@ -6,8 +6,9 @@
 
 namespace stackabilization::detail {
 
-/// Takes out of `triangles`, which are in the order of their indices, those with the same three points as an
-/// earlier one, in whatever order (-0 = 0); returns them, sorted. Expected O(m).
+/// Removes from `triangles` every triangle with the same three points (-0 = 0), in any order, as an earlier
+/// one, and returns the removed ones, sorted. Precondition: `triangles` are in the order of their indices.
+/// Expected O(m).
 std::vector<TriangleCopy> take_copies(std::vector<TreeTriangle>& triangles);
 
 }  // namespace stackabilization::detail

@@ -40,8 +40,8 @@ struct PairBounds {
   DoubleDouble high{-infinity, 0};
 };
 
-/// Bounds for one pair. Cost: one or two comparisons for most pairs; pairs that cannot exceed `floor` return
-/// at once with a high of -inf.
+/// Computes the bounds of one pair. Most pairs cost one or two comparisons. A pair that cannot exceed `floor`
+/// returns early with a high of -inf.
 PairBounds bound_pair(const ProjectedTriangle& upper, const ProjectedTriangle& lower,
                       const Projection& projection, const DoubleDouble& floor);
 

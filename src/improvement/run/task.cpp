@@ -59,12 +59,11 @@ double target_of(const StackLengthLimit& limit, const StructuredShape& rest, con
   const Stackability measured = stackability(rest.shape, direction, measure);
   const StackPlan plan = plan_stack(measured, {limit.copies, limit.length, measure.clearance});
   if (!plan.possible || *plan.stackability >= 1)
-    throw UsageError("the length " + shortest_text(limit.length) + " has no room for " +
-                     std::to_string(limit.copies) + " copies of height " + shortest_text(measured.extent) +
-                     (measure.clearance > 0
-                          ? " with " + shortest_text(measure.clearance) + " of air between them"
-                          : "") +
-                     ", however well they stack");
+    throw UsageError(
+        "the length " + shortest_text(limit.length) + " has no room for " + std::to_string(limit.copies) +
+        " copies of height " + shortest_text(measured.extent) +
+        (measure.clearance > 0 ? " with " + shortest_text(measure.clearance) + " of air between them" : "") +
+        ", however well they stack");
   return *plan.stackability;
 }
 

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 using NameTest = std::function<bool(const std::string&)>;
 
-/// A file or folder on this machine, whatever it is called.
+/// A file or folder on this machine, independent of its name.
 struct FileId {
   dev_t device = 0;
   ino_t inode = 0;
@@ -33,7 +33,7 @@ struct Entry {
   bool operator==(const Entry&) const = default;
 };
 
-/// What a path names.
+/// Resolved path.
 struct Place {
   std::optional<FileId> file;  ///< a regular file or a folder, if one is there
   std::vector<Entry> entries;  ///< the path itself, and what each link on the way leads to
@@ -73,7 +73,7 @@ bool same_file(const Place& a, const Place& b) {
   return !a.entries.empty() && !b.entries.empty() && a.entries.back() == b.entries.back();
 }
 
-/// Would writing one, which goes through temporary names, replace or remove the other?
+/// Returns whether writing one, through its temporary names, would replace or remove the other.
 bool replaces(const Place& output, const Place& input) {
   if (same_file(output, input)) return true;
   for (const Entry& entry : input.entries) {
@@ -84,13 +84,13 @@ bool replaces(const Place& output, const Place& input) {
   return false;
 }
 
-/// Pipes and devices swallow any number of outputs.
+/// Pipes and devices accept any number of outputs.
 bool is_device(const fs::path& path) {
   std::error_code error;
   return path != "-" && fs::is_other(fs::status(path, error));
 }
 
-/// Whoever may do anything keeps to what the owner of a file said.
+/// The superuser respects the permissions that the owner of a file set.
 bool is_protected(const fs::path& path) {
   struct stat status = {};
   constexpr mode_t any_write = S_IWUSR | S_IWGRP | S_IWOTH;
@@ -131,7 +131,7 @@ fs::path normal(const fs::path& path) {
   return fs::absolute(path).lexically_normal();
 }
 
-/// Would somebody who types it expect a file? A folder may be called "v1.2".
+/// Returns whether a user who types this name expects a file. A folder may be called "v1.2".
 bool looks_like_file(const fs::path& path) {
   constexpr std::array<const char*, 20> endings = {".3mf",  ".csv", ".dot",  ".glb", ".gltf", ".htm", ".html",
                                                    ".jpeg", ".jpg", ".json", ".md",  ".obj",  ".off", ".pdf",
@@ -142,20 +142,20 @@ bool looks_like_file(const fs::path& path) {
   return false;
 }
 
-/// Is it a name of a file that is written, or of one under way?
+/// Returns whether this is the name of a written file, or of its temporary file.
 bool is_affected(const NameTest& is_written, const std::string& name) {
   const std::optional<std::string> target = target_of_temporary(name);
   return is_written(name) || (target && is_written(*target));
 }
 
-/// The same for an entry of the folder; some file systems take a name in capitals for the same.
+/// Returns the same for an entry of the folder; some file systems ignore case.
 bool is_affected(const NameTest& is_written, const fs::path& file) {
   const std::string name = file.filename().string(), lower = lower_case(name);
   if (is_affected(is_written, name)) return true;
   return is_affected(is_written, lower) && id_of(file) && id_of(file) == id_of(file.parent_path() / lower);
 }
 
-/// Does a file lie in the folder, or a link to it, under a name that is written there?
+/// Returns whether the folder contains a file, or a link to it, under a name that is written there.
 bool lies_under(const NameTest& is_written, const FileId& folder, const Place& file) {
   for (const Entry& entry : file.entries)
     if (entry.folder == folder && is_affected(is_written, entry.name)) return true;
@@ -164,7 +164,7 @@ bool lies_under(const NameTest& is_written, const FileId& folder, const Place& f
 
 }  // namespace
 
-/// A plan with where its paths lead, looked up once.
+/// A plan with its resolved paths, looked up once.
 class FilePlanCheck {
  public:
   explicit FilePlanCheck(const FilePlan& plan) : plan_(plan) {
@@ -185,7 +185,8 @@ class FilePlanCheck {
     if (!lies_in_new_folder(i)) check_writable(path);
   }
 
-  /// Is it a file in a folder that is filled, and made before?
+  /// Returns whether an output lies in an output folder that does not exist yet and that the program creates
+  /// first. Throws UsageError when the folder would replace the file.
   bool lies_in_new_folder(std::size_t i) const {
     const FilePlan::Output& output = plan_.outputs_[i];
     const fs::path target = steps_of_links(output.path).back();
@@ -239,7 +240,8 @@ class FilePlanCheck {
     check_around(path, existing);
   }
 
-  /// Files that are known by a name in the folder, be they there or not.
+  /// Throws UsageError when the folder would replace an input or output under a name in the folder, whether
+  /// the file exists or not.
   void check_names(const FilePlan::Folder& folder) const {
     const std::optional<FileId> id = id_of(folder.path);
     if (!id) return;
@@ -253,7 +255,7 @@ class FilePlanCheck {
                          plan_.outputs_[k].path.string());
   }
 
-  /// A file that is there and would be replaced or removed.
+  /// Checks an existing entry of the folder that would be replaced or removed.
   void check_entry(const FilePlan::Folder& folder, const fs::directory_entry& entry) const {
     const fs::path& file = entry.path();
     const Place place = place_of(file, STDOUT_FILENO);

@@ -8,7 +8,7 @@
 
 namespace stackabilization {
 
-/// The number stored at `bytes` in the given order; needs no alignment.
+/// Loads the number at `bytes` in the given byte order. No alignment is required.
 template <class Number>
 Number load(const char* bytes, std::endian order) {
   std::array<char, sizeof(Number)> buffer;

@@ -31,7 +31,8 @@ std::string padded_glb(std::string_view bytes) {
   return padded;
 }
 
-/// Is the JSON of a GLB followed by anything that starts off a word?
+/// Returns whether the length of the JSON of a GLB is not a multiple of four, so that the data after it are
+/// not aligned.
 bool needs_padding(std::string_view bytes) {
   constexpr std::size_t start = 20;
   if (!bytes.starts_with("glTF") || bytes.size() < start) return false;
@@ -72,7 +73,7 @@ Callbacks file_callbacks(const Folder& folder) {
   return callbacks;
 }
 
-/// What the JSON reader says, in words for people.
+/// Returns the error of the JSON reader as a sentence for people.
 std::string plain_reason(std::string error) {
   if (error.find("too short") != std::string::npos) return "it is too short";
   if (const std::size_t place = error.find("line "); error.find("json.exception") != std::string::npos)

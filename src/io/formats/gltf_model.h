@@ -13,7 +13,7 @@
 
 namespace stackabilization {
 
-/// The parsed file with its buffers, which may lie in `folder`; images are left alone. Throws InputError.
+/// Parses a glTF file with its buffers, which may be in `folder`. Images are ignored. Throws InputError.
 tinygltf::Model parse_gltf(const Source& source, const std::optional<std::filesystem::path>& folder);
 
 }  // namespace stackabilization

@@ -19,7 +19,7 @@ constexpr std::int64_t max_row = std::numeric_limits<int>::max();
 constexpr std::int64_t max_bytes = std::int64_t{1} << 53;
 constexpr std::size_t whole = 0;
 
-/// What stands at a place: one whole number in [min, max], or a list of so many numbers.
+/// Allowed value at a place: one integer in [min, max], or a list of `list_size` numbers.
 struct Rule {
   std::string_view place;  ///< JSON pointer, * for every row of a list
   std::int64_t min = 0, max = max_row;

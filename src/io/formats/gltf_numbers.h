@@ -5,10 +5,9 @@
 
 namespace stackabilization {
 
-/// Checks every number of the JSON of a glTF file that reading it uses, because tinygltf takes what is
-/// negative, broken or not a number for absent, and cuts what is too large. Throws InputError naming the file
-/// `name`, the place as JSON pointer, what was expected and what was found. Text that is no JSON is left
-/// alone.
+/// Checks all numbers in the JSON of a glTF file that the reader uses. tinygltf treats negative, fractional
+/// and non-numeric values as absent, and truncates large ones. Throws InputError with the file `name`, the
+/// place as JSON pointer, the expected value and the actual value. Accepts text that is not JSON.
 void check_gltf_numbers(std::string_view text, const std::string& name);
 
 }  // namespace stackabilization

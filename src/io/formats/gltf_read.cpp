@@ -108,7 +108,7 @@ class GltfAssembler {
     }
   }
 
-  /// Where the elements of an accessor lie; all of them inside their buffer.
+  /// Location of the elements of an accessor; all of them are inside their buffer.
   struct Elements {
     const char* start;
     std::size_t stride;

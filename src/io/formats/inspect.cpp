@@ -111,8 +111,8 @@ class Inspector {
     return moment / total;
   }
 
-  /// How well the shape stands on its low end along `axis`: the part of the footprint that the lowest points
-  /// span, or nothing when they do not carry the centre.
+  /// Returns the stability of the shape on its lower end along `axis`: the share of the footprint that the
+  /// lowest points span, or nothing when they do not support the centre.
   double support(Eigen::Index axis, const Eigen::Array3d& extent, const Eigen::Vector3d& centroid) const {
     const Eigen::Array3d scale = (extent > 0).select(extent, 1);
     const double highest = findings_.lower[axis] + tolerance::support_slab * extent[axis];

@@ -26,7 +26,7 @@ std::string with_unit(const std::string& text, Unit unit) {
   return symbol.empty() ? text : text + " " + symbol;
 }
 
-/// A summary is for reading.
+/// The summary has rounded numbers.
 std::string rounded(double value) {
   return significant_text(value, 6);
 }

@@ -16,7 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Deeper nesting is no document of ours, and would only cost memory.
+/// Limit of the nesting. Deeper nesting does not occur in documents of this project and would only cost
+/// memory.
 constexpr int deepest = 16;
 
 std::string shown(const Json& value) {

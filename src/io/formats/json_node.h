@@ -11,36 +11,38 @@
 
 namespace stackabilization::detail {
 
-/// The whole text as JSON. Throws InputError naming the line, or the key that an object has twice.
+/// Parses a whole text as JSON. Throws InputError with the line, or with the key that an object contains
+/// twice.
 nlohmann::ordered_json parse_json(std::string_view text, const std::string& name);
 
-/// A value of a JSON document and its place. Every demand that is not met throws InputError
-/// "NAME: PLACE: expected WHAT, found VALUE".
+/// A value of a JSON document with its place. All members that check throw InputError "NAME: PLACE: expected
+/// WHAT, found VALUE".
 class JsonNode {
  public:
   JsonNode(const nlohmann::ordered_json& value, const std::string& name, std::string place = "");
 
   const std::string& place() const { return place_; }
 
-  /// Demands an object, of these keys and no others. All but the last `optional` ones must be there.
+  /// Checks that the value is an object with these keys and no others. The last `optional` keys may be
+  /// missing.
   void expect_keys(const std::vector<std::string_view>& keys, std::size_t optional = 0) const;
   bool has(std::string_view key) const;
   JsonNode operator[](std::string_view key) const;  ///< precondition: `has(key)`
 
-  std::size_t list_size() const;               ///< demands a list
+  std::size_t list_size() const;               ///< checks that the value is a list
   JsonNode operator[](std::size_t row) const;  ///< precondition: row < list_size()
-  /// Demands a list of `size` entries.
+  /// Checks that the value is a list of `size` entries.
   void expect_size(std::size_t size) const;
 
-  double finite() const;  ///< demands a finite number
-  double number() const;  ///< of magnitude at most tolerance::max_coordinate
+  double finite() const;  ///< checks for a finite number
+  double number() const;  ///< checks for a number of magnitude at most tolerance::max_coordinate
   std::int64_t integer(std::int64_t low, std::int64_t high) const;
   bool boolean() const;
   std::string text() const;
-  /// Row of one of the `names`.
+  /// Returns the row of the value in `names`, and checks that it is one of them.
   std::size_t one_of(const std::vector<std::string>& names) const;
   Eigen::VectorXd numbers(std::size_t size) const;
-  /// Rows of `columns` numbers, at least `least`.
+  /// Returns a list of rows of `columns` numbers, and checks that it has at least `least` rows.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> table(std::size_t columns,
                                                                                std::size_t least) const;
 
@@ -53,7 +55,7 @@ class JsonNode {
   std::string place_;  ///< JSON pointer
 };
 
-/// ", did you mean 'X'?" with the nearest of `names` to `word`, empty when none is near.
+/// Returns ", did you mean 'X'?" with the entry of `names` nearest to `word`, or nothing when none is near.
 std::string nearest_hint(std::string_view word, const std::vector<std::string>& names);
 
 }  // namespace stackabilization::detail

@@ -15,7 +15,7 @@ namespace stackabilization {
 
 namespace {
 
-/// A line with something on it: its tokens joined by single blanks.
+/// A non-empty line: its tokens joined by single blanks.
 struct Line {
   std::int64_t number;
   std::string text;
@@ -66,8 +66,8 @@ class LabelReader {
 
   void apply_seg() {
     const std::optional<std::int64_t> part_count = parse_integer(lines_[0].text);
-    // Each part has a triangle, or else a name or a bare number that nobody uses; more parts than text is a
-    // lie.
+    // Each part has a triangle, a name, or an unused number. A number of parts larger than the text is an
+    // error.
     const auto max_parts = static_cast<std::int64_t>(shape_.triangle_part.size() + lines_[1].text.size());
     if (*part_count < 1 || *part_count > max_parts)
       fail(lines_[0], "expected the number of parts, found " + in_quotes(lines_[0].text));

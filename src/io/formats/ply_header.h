@@ -13,15 +13,17 @@ namespace stackabilization::ply {
 
 enum class Scalar { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-/// Bytes of a value.
+/// Returns the number of bytes of a value.
 std::size_t size_of(Scalar type);
 
+/// A property of an element.
 struct Property {
   std::string name;
   Scalar type = Scalar::int32;
-  std::optional<Scalar> count_type;  ///< Set for lists.
+  std::optional<Scalar> count_type;  ///< type of the count; set for lists
 };
 
+/// An element: a table of `count` rows of properties.
 struct Element {
   std::string name;
   std::int64_t count = 0;
@@ -35,10 +37,11 @@ struct Element {
   }
 };
 
+/// Header of a PLY file.
 struct Header {
-  std::optional<std::endian> order;  ///< Empty for ascii.
+  std::optional<std::endian> order;  ///< byte order; empty for ascii
   std::vector<Element> elements;
-  std::vector<std::string> part_names;  ///< From comments "part NAME", as this library writes them.
+  std::vector<std::string> part_names;  ///< from comments "part NAME", which this library writes
 
   const Element* find(std::string_view name) const {
     for (const Element& element : elements)
@@ -47,7 +50,8 @@ struct Header {
   }
 };
 
-/// Reads the header and leaves the cursor in its last line. Throws InputError naming the line.
+/// Reads the header. Afterwards the cursor is in the last line of the header. Throws InputError with the
+/// line.
 Header read_header(TextCursor& cursor);
 
 }  // namespace stackabilization::ply

@@ -10,29 +10,31 @@
 
 namespace stackabilization {
 
-/// Collects what a reader finds and makes a Shape of it. Parts come into being with their first face.
+/// Collects the vertices, faces and parts of a file and builds a Shape. A part exists from its first face on.
 class ShapeBuilder {
  public:
-  /// `name` is the file in messages.
+  /// `name`: name of the file in messages.
   explicit ShapeBuilder(const std::string& name) : name_(name) {}
 
-  /// Room for that many; the caller has checked them against the size of the file.
+  /// Reserves memory. Precondition: the caller checked the numbers against the size of the file.
   void reserve(std::size_t vertices, std::size_t faces);
 
-  /// Coordinates must be finite. Throws InputError when there are more vertices than can be indexed.
+  /// Adds a vertex and returns its index. Throws InputError when there are more vertices than can be indexed.
+  /// Precondition: finite coordinates.
   std::int32_t add_vertex(double x, double y, double z);
   std::int64_t vertex_count() const { return static_cast<std::int64_t>(coordinates_.size() / 3); }
 
-  /// Following faces belong to the part of this name, which may have been open before. Empty means "part".
+  /// Assigns the following faces to the part of this name, new or existing. An empty name means "part".
   void continue_part(const std::string& name);
-  /// Following faces belong to a part of their own, called `name`, or `name`_2 and so on where that is taken.
+  /// Assigns the following faces to a new part `name`, or `name`_2 and so on when the name exists.
   void begin_part(const std::string& name);
 
-  /// A polygon of at least three corners. Indices may be checked as late as just before `finish`.
+  /// Adds a polygon of at least three corners. The indices are used only in `finish`.
   void add_face(std::span<const std::int32_t> corners);
   std::int64_t face_count() const { return static_cast<std::int64_t>(face_sizes_.size()); }
 
-  /// Cuts polygons into triangles and gives everything away. Throws InputError when there is no face.
+  /// Cuts polygons into triangles and returns the shape. The builder is empty afterwards. Throws InputError
+  /// when there is no face.
   Shape finish();
 
  private:
@@ -45,10 +47,10 @@ class ShapeBuilder {
   std::vector<std::int32_t> face_parts_;
   std::vector<std::string> part_names_;
   std::map<std::string, std::int32_t> part_of_name_;
-  std::map<std::string, int> copies_of_name_;  ///< Numbers tried so far, so that many equal names stay cheap.
+  std::map<std::string, int> copies_of_name_;  ///< numbers tried so far, so that many equal names stay cheap
   std::string open_name_ = "part";
   bool open_as_new_ = false;
-  std::int32_t open_part_ = -1;  ///< Index of the open part once it has a face.
+  std::int32_t open_part_ = -1;  ///< index of the open part; -1 before its first face
 };
 
 }  // namespace stackabilization

@@ -25,15 +25,16 @@ inline constexpr std::array<UnitName, 6> unit_names = {{{"micron", Unit::microme
                                                         {"inch", Unit::inch},
                                                         {"foot", Unit::foot}}};
 
-/// Empty is the identity, so that untransformed coordinates stay as they are to the bit.
+/// Transform of a placement. Empty: the identity, so that coordinates without transform are not rounded.
 using Transform = std::optional<Eigen::Affine3d>;
 
-/// A build item or a component: an object placed somewhere.
+/// A build item or a component: a placed object.
 struct Placement {
-  std::string model;  ///< Entry of the archive that holds the object.
+  std::string model;  ///< entry of the archive that contains the object
   std::int64_t object = 0;
   Transform transform;
-  std::string name;  ///< Part number of a build item; goes before the names of its parts.
+  /// Part number of a build item; prefix of the names of its parts.
+  std::string name;
 };
 
 struct Object {
@@ -49,10 +50,10 @@ struct Model {
   std::vector<Placement> items;
 };
 
-/// First child element of that name, whatever its namespace prefix.
+/// Returns the first child element with that name and any namespace prefix.
 pugi::xml_node child(pugi::xml_node node, const char* name);
 
-/// The model that the XML text of the archive's entry `entry` describes. Throws InputError naming the place.
+/// Parses the XML text of the archive's entry `entry`. Throws InputError with the place.
 Model parse_model(const Source& source, const std::string& entry);
 
 }  // namespace stackabilization::three_mf

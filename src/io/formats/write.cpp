@@ -97,7 +97,7 @@ std::string shape_bytes(const Shape& shape, Format format, const WriteOptions& o
 
 namespace {
 
-/// Can they be read back from placements?
+/// Returns whether the copies can be read back from placements.
 bool can_be_instanced(const Copies& copies) {
   const auto count = static_cast<std::int64_t>(copies.placed.size());
   return count * (copies.shape.part_count() + 1) <= max_placed_objects &&

@@ -12,7 +12,7 @@ namespace stackabilization {
 
 namespace {
 
-/// What minizip sees as a file: bytes to read, or a string to write to.
+/// File interface for minizip: bytes to read, or a string to write to.
 struct MemoryFile {
   std::string_view bytes;
   std::string* sink = nullptr;

@@ -13,12 +13,12 @@ namespace stackabilization {
 /// A zip archive in memory.
 class ZipReader {
  public:
-  /// Throws InputError unless the bytes are a zip archive. They must outlive the reader.
+  /// Throws InputError unless the bytes are a zip archive. The bytes must outlive this object.
   explicit ZipReader(const Source& source);
   ~ZipReader();
 
-  /// Content of the entry of this name, in either case, or nothing when there is none. Throws InputError when
-  /// it is damaged, or inflates to more than any mesh would.
+  /// Returns the content of the entry of this name, in upper or lower case, or nothing when there is none.
+  /// Throws InputError when the entry is damaged or inflates beyond the limit.
   std::optional<std::string> entry(const std::string& name) const;
 
  private:
@@ -26,8 +26,8 @@ class ZipReader {
   std::unique_ptr<Archive> archive_;
 };
 
-/// Zip archive of (name, content) entries, all dated 1980-01-01 so that the same content gives the same
-/// bytes.
+/// Returns a zip archive of (name, content) entries. All entries are dated 1980-01-01, so that the same
+/// content gives the same bytes.
 std::string zip(const std::vector<std::pair<std::string, std::string>>& entries);
 
 }  // namespace stackabilization

@@ -7,8 +7,8 @@
 
 namespace stackabilization::detail {
 
-/// Draws entries from left to right in rows as wide as `place`; what does not fit its height is counted in a
-/// last entry, "and 5 more". Nothing when not even one row fits.
+/// Draws entries from left to right in rows as wide as `place`. A last entry, "and 5 more", counts the
+/// entries that do not fit the height. Returns nothing when no row fits.
 Elements legend(const std::vector<LegendEntry>& entries, const Rectangle& place, double text_size);
 
 }  // namespace stackabilization::detail

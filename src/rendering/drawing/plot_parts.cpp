@@ -22,8 +22,8 @@ FilledPolygon arrow_head(const Eigen::Vector2d& tip, double direction, double si
   return {points, palette::ink};
 }
 
-/// What the brightest colour of a gap image stands for: the largest gap, but no less than a small part of the
-/// height, so that rounding does not show.
+/// Value of the brightest colour of a gap image: the largest gap, but at least a small fraction of the
+/// height, so that rounding is invisible.
 double colour_ceiling(const HeightField& field, double largest_gap) {
   constexpr double fraction = 0.001;
   double low = std::numeric_limits<double>::infinity(), high = -low;

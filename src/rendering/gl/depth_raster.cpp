@@ -109,8 +109,8 @@ DepthRasterizer::Data::Data(const Shape& input, const DepthRasterOptions& option
   camera->SetClippingRange(1, 3);
 }
 
-/// Puts the triangles into pixels relative to the middle of the tile, and heights into [-7/8, 7/8]. Vertices
-/// that no triangle uses may hold anything.
+/// Converts the triangles to pixels relative to the middle of the tile, and heights to [-7/8, 7/8]. Vertices
+/// that no triangle uses may have any values.
 void DepthRasterizer::Data::place(const Points& local, const HeightRange& range, const Window& target,
                                   const Tile& tile) {
   const double x = tile.column + tile.columns / 2.0, y = tile.row + tile.rows / 2.0;
@@ -127,7 +127,8 @@ void DepthRasterizer::Data::place(const Points& local, const HeightRange& range,
   mesh->Modified();
 }
 
-/// Seen from below is seen from above after mirroring the heights, which keeps the pixels and their tie rule.
+/// The view from below is the view from above after mirroring the heights, which keeps the pixels and their
+/// tie rule.
 void DepthRasterizer::Data::draw(const Tile& tile, double side) {
   actor->SetScale(1, 1, side);
   renderer->GetActiveCamera()->SetParallelScale(tile.rows / 2.0);

@@ -2,12 +2,12 @@
 
 namespace stackabilization::detail {
 
-/// An OpenGL 3.2 core context without a window, a display server or special rights, created through EGL:
-/// Mesa's surfaceless platform first, then the first usable device, then EGL's default display (which reaches
-/// the X server of xvfb-run). Private to rendering/; use one context from one thread at a time.
+/// An OpenGL 3.2 core context without a window, a display server or special rights, created through EGL. It
+/// tries Mesa's surfaceless platform, then the first usable device, then EGL's default display (the X server
+/// of xvfb-run). Use a context from one thread at a time.
 class EglContext {
  public:
-  /// Creates the context and makes it current. Throws RenderError when no platform can give one.
+  /// Creates the context and makes it current. Throws RenderError when no platform provides one.
   EglContext();
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
@@ -17,8 +17,8 @@ class EglContext {
   bool is_current() const;
 
  private:
-  void* display_ = nullptr;  ///< borrowed: displays live as long as the process
-  void* surface_ = nullptr;  ///< 1 x 1 pixel; drawing happens in framebuffer objects
+  void* display_ = nullptr;  ///< not owned: displays live as long as the process
+  void* surface_ = nullptr;  ///< 1 x 1 pixel; rendering uses framebuffer objects
   void* context_ = nullptr;
 };
 

@@ -6,12 +6,11 @@ class vtkRenderWindow;
 
 namespace stackabilization::detail {
 
-/// A VTK render window that needs no display: an EGL context under vtkGenericOpenGLRenderWindow. VTK's own
-/// windows abort the process when there is no X server; this one throws. Private to rendering/;
-/// single-threaded use.
+/// A VTK render window without a display: an EGL context under vtkGenericOpenGLRenderWindow. VTK's own
+/// windows abort the process when there is no X server; this class throws. For a single thread.
 class OffscreenWindow {
  public:
-  /// Throws RenderError when there is no OpenGL context. Sizes in pixels, > 0.
+  /// Creates a window, sizes in pixels, > 0. Throws RenderError when there is no OpenGL context.
   OffscreenWindow(int width, int height);
   OffscreenWindow(OffscreenWindow&&) noexcept;
   OffscreenWindow& operator=(OffscreenWindow&&) noexcept;
@@ -19,9 +18,9 @@ class OffscreenWindow {
 
   vtkRenderWindow& vtk();
   void resize(int width, int height);
-  /// Largest side that can be rendered at once, pixels.
+  /// Returns the largest side that can be rendered at once, pixels.
   int maximal_side();
-  /// Draws all renderers. Throws RenderError with VTK's own words when it reports an error.
+  /// Renders all renderers. Throws RenderError with VTK's message when VTK reports an error.
   void render();
 
  private:

@@ -19,7 +19,7 @@ struct DeformationSide {
   std::string caption;
 };
 
-/// What was edited.
+/// Edited handles.
 struct Edited {
   const std::vector<Handle>& handles;
   const std::vector<std::vector<std::int32_t>>& curves;

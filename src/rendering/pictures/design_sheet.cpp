@@ -22,7 +22,7 @@ Scene tile_scene(const DesignTile& tile, const Colour& colour, const Direction& 
   return scene;
 }
 
-/// What a tile takes, pixels.
+/// Size of a tile, pixels.
 struct TileSize {
   double width = 0, picture = 0, text = 0, lines = 0;
 

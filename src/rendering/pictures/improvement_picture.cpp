@@ -30,14 +30,14 @@ std::vector<ContactRegion> moved(std::vector<ContactRegion> regions, const Eigen
   return regions;
 }
 
-/// The shape on its foot at the origin, wherever it is in its file.
+/// Returns the shape with its foot at the origin.
 Scene scene_of(const ImprovementSide& side, const Direction& up) {
   const Eigen::Vector3d to_origin = -foot_of(side.what.shape, up);
   return touching_scene({transformed(side.what.shape, Eigen::Matrix3d::Identity(), to_origin), {side.colour}},
                         moved(side.what.contacts, to_origin), up);
 }
 
-/// What side it is, and its numbers, below the picture of it.
+/// Title and numbers of one side, below its picture.
 detail::Elements caption(const ImprovementSide& side, const Rectangle& place, double size) {
   const Stackability& measured = side.what.measured;
   const Unit unit = side.what.shape.unit;

@@ -19,7 +19,7 @@ using detail::number_text;
 
 constexpr int gap_samples = 400;
 
-/// What all panels of the sheet share.
+/// Data of all panels of the sheet.
 struct Subject {
   const Shape& shape;
   const Stackability& measured;
@@ -40,7 +40,7 @@ ViewOptions view_of(const Rectangle& place) {
   return options;
 }
 
-/// Says in the middle of a panel why it is empty.
+/// Writes into the middle of a panel why it is empty.
 Elements no_envelope(const Rectangle& place, double text_size) {
   return detail::paragraph(
       {{place.x, place.y + place.height / 2},
@@ -96,7 +96,7 @@ std::string volume_text(double value, Unit unit) {
   return unit == Unit::unknown ? number_text(value) : length_text(value, unit) + "³";
 }
 
-/// The numbers, one row each: what it is, and its value.
+/// The numbers, one row each: name and value.
 Elements number_table(const Subject& s, const Rectangle& place) {
   const Stackability& m = s.measured;
   const Unit unit = s.shape.unit;

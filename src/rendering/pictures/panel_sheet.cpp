@@ -21,7 +21,7 @@ constexpr double caption_lead = 1.35;  ///< em from line to line
 constexpr double highest = 10;
 constexpr double legend_row = 1.7, max_legend_rows = 4;  ///< em
 
-/// Where the parts of a row are, pixels.
+/// Layout of a row, pixels.
 struct RowLayout {
   std::vector<Rectangle> places;  ///< of the contents
   double captions = 0;            ///< height of the block below them
@@ -84,7 +84,7 @@ RowLayout layout_of(const PanelRow& row, double top, const PanelSheetOptions& op
   return layout;
 }
 
-/// Pixels per unit in which every scene of the row fits.
+/// Returns the scale, pixels per unit, at which every scene of the row fits.
 std::optional<double> common_scale(const PanelRow& row, const RowLayout& layout, double size) {
   if (row.scale == PanelScale::own) return std::nullopt;
   double scale = std::numeric_limits<double>::infinity();
@@ -95,7 +95,7 @@ std::optional<double> common_scale(const PanelRow& row, const RowLayout& layout,
   return scale;
 }
 
-/// What the row takes of its height: scenes that are as wide as fits may be lower.
+/// Returns the height that the row needs: scenes limited by their width may be lower.
 double used_height(const PanelRow& row, const RowLayout& layout, const detail::SceneStyle& style) {
   double used = 0;
   for (std::size_t k = 0; k < row.panels.size(); ++k) {

@@ -36,14 +36,14 @@ int dimensions_at(const SceneOverlay& over, Anchor side) {
       }));
 }
 
-/// What is left of the place beside the dimensions.
+/// Returns the rectangle without the space for dimensions.
 Rectangle inner_place(const SceneOverlay& over, const Rectangle& place, double size) {
   const double left = dimension_room * size * dimensions_at(over, Anchor::left);
   const double right = dimension_room * size * dimensions_at(over, Anchor::right);
   return {place.x + left, place.y, std::max(1.0, place.width - left - right), place.height};
 }
 
-/// The scene with everything that has to be in the picture.
+/// Returns the scene with all points that must be in the picture.
 Scene framed_scene(const ScenePanel& panel, const View& turned) {
   Scene framed = panel.scene;
   Points reach = reach_of(panel.over, {turned.right, turned.up, turned.towards});

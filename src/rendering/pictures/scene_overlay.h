@@ -5,23 +5,24 @@
 #include "rendering/drawing/plot_parts.h"
 #include "stackabilization/rendering/panel_sheet.h"
 
-/// A scene with what is drawn over it, in a place of a drawing. Private to rendering/.
+/// Drawing of a scene and its overlay in a rectangle of a drawing.
 namespace stackabilization::detail {
 
-/// How a scene is drawn into its place.
+/// Style of a scene in a rectangle.
 struct SceneStyle {
-  double text_size = 16;                  ///< pixels per em
-  std::optional<double> pixels_per_unit;  ///< default: as many as fit
+  double text_size = 16;  ///< pixels per em
+  /// Scale; default: the largest that fits.
+  std::optional<double> pixels_per_unit;
 };
 
-/// The largest scale in which the scene, its arrows and its dimensions fit, pixels per unit. Throws
+/// Computes the largest scale at which the scene, its arrows and its dimensions fit, pixels per unit. Throws
 /// UsageError when the scene is empty.
 double scale_of(const ScenePanel& panel, const Rectangle& place, double text_size);
 
-/// Height that the panel takes at `pixels_per_unit` in a place of that width, pixels.
+/// Computes the height of the panel at `pixels_per_unit` in a rectangle of that width, pixels.
 double height_at(const ScenePanel& panel, const Rectangle& place, const SceneStyle& style);
 
-/// The picture and over it the overlay. Throws as `render` does.
+/// Draws the scene and its overlay. Throws as `render` does.
 Elements scene_elements(const ScenePanel& panel, const Rectangle& place, const SceneStyle& style);
 
 }  // namespace stackabilization::detail

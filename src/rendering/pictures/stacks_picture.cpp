@@ -35,8 +35,8 @@ Stack stack_of(const MeasuredShape& measured, const Colour& colour, const Eigen:
   return stack;
 }
 
-/// Both stacks on the same ground, with air between them: more for tall ones, which leave room in the
-/// picture.
+/// Both stacks on the same ground, with a gap between them: a larger one for tall stacks, which leave space
+/// in the picture.
 std::array<Stack, 2> stacks_of(const ImprovedShape& shapes, int copies, const Eigen::Vector3d& right) {
   constexpr double gap_of_width = 0.8, gap_of_height = 0.3;
   std::array<Stack, 2> stacks{stack_of(shapes.before, palette::input, right),
@@ -48,7 +48,7 @@ std::array<Stack, 2> stacks_of(const ImprovedShape& shapes, int copies, const Ei
   return stacks;
 }
 
-/// Where things are in the picture.
+/// Layout of the picture.
 struct StackPlace {
   const View& view;
   Rectangle place;
@@ -60,7 +60,7 @@ struct StackPlace {
   }
 };
 
-/// The height of a stack at its left, and what it is below it.
+/// Height of a stack at its left, and its caption below.
 detail::Elements labels_of(const Stack& stack, const std::string& name, int copies, const StackPlace& stage) {
   const double size = stage.text_size, height = stack.height(copies);
   const Eigen::Vector3d& right = stage.view.right;

@@ -17,7 +17,7 @@ struct SampleCount {
   int seen = 0, hidden = 0;
 };
 
-/// Cuts triangles where the samples of a height field say that they pass behind others.
+/// Cuts triangles where they pass behind others, according to the samples of a height field.
 class SheetCutter {
  public:
   SheetCutter(const Shape& shape, const HeightField& field, EnvelopeSide side)
@@ -75,8 +75,8 @@ SampleCount SheetCutter::count(const Corners& t) const {
   return result;
 }
 
-/// For a piece between samples: its middle against the nearest sample, allowing for its slope on the way
-/// there.
+/// Returns whether a piece between samples is visible: compares its middle with the nearest sample, with an
+/// allowance for its slope.
 bool SheetCutter::seen_near(const Corners& t) const {
   constexpr double farthest = 0.71;  // pixels to the nearest sample
   const Eigen::Vector3d middle = (t[0] + t[1] + t[2]) / 3, normal = (t[1] - t[0]).cross(t[2] - t[0]);
@@ -112,7 +112,7 @@ std::vector<Corners> SheetCutter::cut(const Corners& triangle) const {
   return kept;
 }
 
-/// So close to parallel to r (about one degree) that an envelope jumps there.
+/// Returns whether a triangle is so nearly parallel to r (about one degree) that the envelope jumps there.
 bool is_wall(const Corners& t, double pixel_size) {
   constexpr double fraction = 0.02;
   const auto area = [](const Eigen::Vector3d& ab, const Eigen::Vector3d& ac) { return ab.cross(ac).norm(); };

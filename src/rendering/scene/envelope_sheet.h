@@ -5,10 +5,11 @@
 
 namespace stackabilization {
 
-/// The part of a shape's surface that is seen along r from above (`upper`) or from below (`lower`), as
-/// triangles with the parts they came from: a picture of an envelope without its vertical jumps. `field` must
-/// be of the same shape; occlusion is decided at its samples, and triangles are cut to about a pixel where
-/// they pass behind others. Without triangles when nothing is seen at any sample.
+/// Returns the portion of a surface that is visible along r from above (`upper`) or from below (`lower`), as
+/// triangles with their parts: an envelope without its vertical jumps. The samples of `field` decide
+/// visibility. Triangles are cut to about a pixel where other triangles occlude them. The result has no
+/// triangles when there is no surface at any sample. Precondition: `field` is a height field of the same
+/// shape.
 Shape envelope_sheet(const Shape& shape, const HeightField& field, EnvelopeSide side);
 
 }  // namespace stackabilization

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double of_height = 0.004, of_breadth = 0.001;
 
-/// Far enough off the surface to be seen, too little to be noticed.
+/// Distance of marks from the surface: large enough to be visible, too small to be noticed.
 Eigen::Vector3d mark_lift(const Shape& shape, const Direction& direction) {
   const Frame frame = frame_of(direction);
   const double breadth = std::max(range_along(shape, frame.u).length(), range_along(shape, frame.v).length());
@@ -22,7 +22,7 @@ Shape moved(const Shape& shape, const Eigen::Vector3d& shift) {
   return transformed(shape, Eigen::Matrix3d::Identity(), shift);
 }
 
-/// Of all samples, along r.
+/// Range of all samples along r.
 Range heights(const HeightField& field) {
   Range range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (int i = 0; i < field.window.columns; ++i)
@@ -34,7 +34,7 @@ Range heights(const HeightField& field) {
   return range;
 }
 
-/// From where the lower copy is touched to where the upper one touches it.
+/// Lines from the contacts on the lower copy to their counterparts on the upper copy.
 SceneLines links_of(const std::vector<ContactRegion>& contacts, const Eigen::Vector3d& lift) {
   constexpr std::size_t max_links = 8;
   SceneLines links{{}, palette::faint, 1};

@@ -29,7 +29,7 @@ constexpr std::array<Colour, 6> quiet_hues{{{0.82, 0.76, 0.63},
                                             {0.71, 0.67, 0.78},
                                             {0.62, 0.62, 0.61}}};
 
-/// Colour k of a list without end: each further round is paler.
+/// Returns colour k of an infinite list: each further round is paler.
 template <std::size_t Count>
 Colour hue(const std::array<Colour, Count>& hues, std::size_t k) {
   const double fade = 1 - std::pow(0.6, static_cast<double>(k / Count));

@@ -20,7 +20,7 @@ constexpr std::int64_t directions_per_step = 3;  ///< a trial, and two for its s
 constexpr std::size_t max_planes = 12;           ///< of the latest trials
 constexpr double widest_chart = 0.1;             ///< tangent coordinates beyond this start a new chart
 
-/// One of the smooth functions whose least is S, near a point of the chart.
+/// Linear model of one of the smooth functions whose minimum is S, near a point of the chart.
 struct Plane {
   Eigen::Vector2d at, slope;
   double value;
@@ -28,14 +28,14 @@ struct Plane {
   double operator()(const Eigen::Vector2d& p) const { return value + slope.dot(p - at); }
 };
 
-/// The least of some planes over the square |p - centre| <= radius.
+/// The minimum of some planes over the square |p - centre| <= radius.
 class Model {
  public:
   Model(const std::vector<Plane>& planes, const Eigen::Vector2d& centre, double radius)
       : planes_(planes), centre_(centre), radius_(radius), best_(centre), best_value_(value(centre)) {}
 
-  /// Its maximum is at a corner of the square, where two planes meet on a side of it, or where three planes
-  /// meet.
+  /// Finds its maximum: at a corner of the square, at the intersection of two planes and a side of the
+  /// square, or at the intersection of three planes.
   Eigen::Vector2d maximum() {
     for (const double x : {-radius_, radius_})
       for (const double y : {-radius_, radius_}) consider(centre_ + Eigen::Vector2d(x, y));
@@ -140,8 +140,8 @@ void BundleAscent::add_plane(const Eigen::Vector2d& p, double value) {
   planes_.push_back(plane);
 }
 
-/// Planes of the trust region. One that S exceeds at the centre comes from where S is not concave: it is
-/// lifted.
+/// Planes of the trust region. A plane below S at the centre comes from a point where S is not concave; it is
+/// raised to S.
 std::vector<Plane> BundleAscent::planes_here(const Eigen::Vector2d& centre) const {
   std::vector<Plane> here;
   for (Plane plane : planes_) {

@@ -22,7 +22,7 @@ bool same_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a.cross(b).norm() < tolerance::relative;
 }
 
-/// Appends the unit vectors of those that no line in `known` or `lines` has, up to `limit`.
+/// Appends unit vectors, up to `limit`, whose lines are neither in `known` nor in `lines`.
 void append(const Lines& from, std::size_t limit, const Lines& known, Lines& lines) {
   for (const Eigen::Vector3d& vector : from) {
     if (limit == 0) return;
@@ -85,7 +85,7 @@ class NormalCells {
  public:
   NormalCells() : sums_(3 * across * across, Eigen::Vector3d::Zero()) {}
 
-  /// A normal and its opposite count as one.
+  /// Adds a normal; opposite normals count as one.
   void add(const Eigen::Vector3d& vector) {
     int axis = 0;
     const double largest = vector.cwiseAbs().maxCoeff(&axis);
@@ -97,7 +97,7 @@ class NormalCells {
     sums_[(axis * across + cell(outward[(axis + 1) % 3])) * across + cell(outward[(axis + 2) % 3])] +=
         outward;
   }
-  /// Sums of the fullest cells first.
+  /// Returns the sums of the cells, largest first.
   Lines fullest(std::size_t count) const {
     Lines sorted;
     for (const Eigen::Vector3d& sum : sums_)

@@ -7,18 +7,18 @@
 
 namespace stackabilization {
 
-/// Directions at which S often peaks although samples miss them; unit vectors, one for r and -r, no two
-/// closer than tolerance::relative, the most natural first.
+/// Directions at which S often has peaks that even samples miss. Unit vectors, one for r and -r, no two
+/// closer than tolerance::relative, most probable first.
 struct CandidateDirections {
-  /// The file's axes, the axes of the minimal box, the principal axes of the surface: normals of likely
-  /// symmetry planes.
+  /// The axes of the file, the axes of the minimal box and the principal axes of the surface: probable
+  /// normals of symmetry planes.
   std::vector<Eigen::Vector3d> main;
-  /// Normals of the largest hull faces and of the directions most of the surface faces, and the directions
-  /// along pairs of the most important of these.
+  /// Normals of the largest hull faces, the dominant normals of the surface, and the directions along pairs
+  /// of the most important of these faces.
   std::vector<Eigen::Vector3d> others;
 };
 
-/// Candidates for the shape of `solver`; the same bits for the same shape.
+/// Computes the candidates for the shape of `solver`. The same shape gives the same bits.
 CandidateDirections candidate_directions(const StackabilitySolver& solver);
 
 }  // namespace stackabilization

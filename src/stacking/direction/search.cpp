@@ -23,23 +23,24 @@ namespace stackabilization {
 
 namespace {
 
-/// Directions measured between two updates of the threshold; fixed, so that what is abandoned does not depend
-/// on the number of threads.
+/// Number of directions measured between two updates of the threshold. It is fixed, so that the abandoned
+/// directions do not depend on the number of threads.
 constexpr std::size_t trials_per_batch = 256;
 
-/// A sample is worth a closer look when its S is at most this much below the best; halved with the spacing.
+/// Largest difference of a sample's S from the best S at which its neighbourhood is refined; halved with the
+/// spacing.
 constexpr double promising_range = 0.2;
 
-/// Times the spacing of samples is halved around the promising ones, and how many of these at most: no
-/// halving costs more than the even samples did.
+/// Number of halvings of the spacing around promising samples, and limit of the number of such samples: no
+/// halving costs more than the even samples.
 constexpr int halvings = 3;
 constexpr std::size_t max_promising = 400;
 constexpr std::size_t trials_per_promising = 6;
 
-/// After that, climbs start from peaks of the samples at most this much below the best.
+/// Largest difference of a peak's S from the best S at which a climb starts.
 constexpr double climbing_range = 0.05;
 
-/// Looking around the winner: new climbs at most, and directions of each circle.
+/// Search around the best direction: limit of the number of new climbs, and directions of each circle.
 constexpr int max_new_climbs = 20;
 constexpr int circle_points = 24;
 constexpr int circle_halvings = 10;
@@ -56,7 +57,7 @@ struct Sample {
   Eigen::Vector3d circle_normal;
 };
 
-/// The two largest of the values on a circle that no neighbour exceeds.
+/// Returns the two largest local maxima of the values on a circle.
 std::vector<int> circle_peaks(const std::vector<double>& values) {
   const auto count = static_cast<int>(values.size());
   const auto at = [&](int i) { return values[static_cast<std::size_t>((i + count) % count)]; };
@@ -68,7 +69,8 @@ std::vector<int> circle_peaks(const std::vector<double>& values) {
   return peaks;
 }
 
-/// The spacing asked for or, over the whole sphere, one that leaves half of the directions for a closer look.
+/// Returns the requested spacing or, over the whole sphere, one that leaves half of the directions for
+/// refinement.
 double affordable_spacing(const SearchOptions& options) {
   if (options.cone || options.plane_normal) return options.spacing;
   // The hemisphere has 2 pi square radians.
@@ -116,10 +118,9 @@ class DirectionSearch {
   void report(double fraction) const {
     if (options_.progress) options_.progress(fraction);
   }
-  /// No copy of a shape goes lower than the first, so that S is at most 1: sheets reach it in many
-  /// directions.
+  /// f_max is not negative, so S is at most 1. Sheets reach it in many directions.
   bool perfect() const { return best_ >= 1 - tolerance::stackability; }
-  /// Directions that may still be tried.
+  /// Returns the number of directions that may still be tried.
   std::int64_t left() const { return std::max<std::int64_t>(0, options_.max_directions - result_.evaluated); }
   bool ended() {
     if (left() == 0) return true;
@@ -137,8 +138,8 @@ class DirectionSearch {
   SearchResult result_;
 };
 
-/// What a candidate says about a plane of directions: where the plane meets the one orthogonal to the
-/// candidate, and what in the plane is nearest to the candidate.
+/// Directions in a plane that belong to a candidate: the intersection with the plane orthogonal to the
+/// candidate, and the direction nearest to the candidate.
 std::vector<Eigen::Vector3d> lines_in_plane(const Eigen::Vector3d& plane_normal,
                                             const Eigen::Vector3d& candidate) {
   const Eigen::Vector3d normal = plane_normal.normalized(), unit = candidate.normalized();
@@ -238,8 +239,8 @@ std::vector<Trial> DirectionSearch::around(const Sample& sample, double distance
   return trials;
 }
 
-/// The best samples that have no better one within `distance`: peaks, not the flanks beside them. Of those
-/// equally good the earliest leads.
+/// Returns the best samples without a better one within `distance`: peaks, not the slopes beside them. Of
+/// equally good samples the earliest one comes first.
 std::vector<Sample> DirectionSearch::peaks(const std::vector<Sample>& samples, double distance) const {
   const auto level = [](const Sample& sample) {
     return std::round(sample.at.value / tolerance::stackability);
@@ -267,7 +268,8 @@ std::vector<Sample> DirectionSearch::peaks(const std::vector<Sample>& samples, d
   return kept;
 }
 
-/// Many starts lead to the same peak: they climb a little way, and what has come together goes on as one.
+/// Climbs in two rounds. Many starts lead to the same peak: after a short climb from every start, starts that
+/// have met continue as one.
 void DirectionSearch::climb_to_peaks() {
   const double step = spacing_ / (1 << halvings), small_step = step / 32;
   std::vector<Sample> tops = peaks(samples_, spacing_ / 2);
@@ -282,11 +284,11 @@ void DirectionSearch::climb_to_peaks() {
   for (const Sample& top : tops) result_.optima.push_back({top.at.direction, top.at.value});
 }
 
-/// Only the calling thread asks whether to end; climbs in other threads learn it from what it heard.
+/// Asks whether to end from the calling thread only; climbs in other threads use its last answer.
 std::vector<Sample> DirectionSearch::climb_from(std::vector<Sample> starts, double first_step,
                                                 double last_step) {
   std::atomic<bool> end_climbs = ended();
-  // Of what is left every climb gets the same, so that none depends on the others.
+  // Every climb gets the same share of the remaining directions, so that none depends on the others.
   const std::int64_t each = left() / static_cast<std::int64_t>(std::max<std::size_t>(1, starts.size()));
   const AscentOptions climbing{first_step, last_step,
                                [&, caller = std::this_thread::get_id()] {
@@ -304,8 +306,9 @@ std::vector<Sample> DirectionSearch::climb_from(std::vector<Sample> starts, doub
   return starts;
 }
 
-/// S has cliffs, where walls begin to pass each other, and creases; a climb may end on one short of the peak.
-/// What is better nearby, at any distance down to the last step, is climbed from anew.
+/// Climbs again from better directions around the best one, at all distances down to the last step. S is
+/// discontinuous where walls begin to pass each other, and has creases; a climb may end there before the
+/// peak.
 void DirectionSearch::look_around(Sample& top) {
   const double widest = spacing_ / (1 << halvings);
   int climbs_left = max_new_climbs;
@@ -322,9 +325,9 @@ void DirectionSearch::look_around(Sample& top) {
   }
 }
 
-/// The best of a circle around `top`: of even samples, then between the best two peaks of these and their
-/// neighbours. Along a cliff only a narrow part of the circle, next to one of the two drops, is better than
-/// the centre.
+/// Returns the best direction of a circle around `top`: first of even samples, then by bisection between the
+/// best two peaks and their neighbours. Along a discontinuity, only a narrow part of the circle next to one
+/// of the two jumps is better than the centre.
 Sample DirectionSearch::best_on_circle(const Sample& top, double radius) {
   const Frame frame = frame_of(Direction(top.at.direction));
   Sample best = top;

@@ -19,8 +19,8 @@ namespace stackabilization {
 
 namespace {
 
-/// The triangles with the first vertex of the same coordinates in place of each, so that neighbours are found
-/// in files that repeat vertices.
+/// Returns the triangles with welded vertices (the first vertex of equal coordinates), so that neighbours are
+/// found in files with repeated vertices.
 Triangles welded_triangles(const Shape& shape) {
   const detail::WeldedMesh mesh = detail::weld(shape);
   return mesh.triangles.unaryExpr([&](std::int32_t point) { return mesh.first_vertex[detail::at(point)]; });
@@ -111,7 +111,8 @@ class Dilation {
     collect_vertices();
   }
 
-  /// Translates by the corner of P that is farthest uphill, and by all that cannot be told from it.
+  /// Translates by the corner of P that is farthest uphill, and by all corners that rounding does not
+  /// distinguish from it.
   void collect_triangle(std::int32_t t) {
     const std::int32_t a = vertex(t, 0), b = vertex(t, 1), c = vertex(t, 2);
     const Eigen::Vector2d d = plan(a, b), w = plan(a, c);
@@ -133,7 +134,7 @@ class Dilation {
     }
   }
 
-  /// Sweeps one edge along every edge of P over which it can be lowest.
+  /// Sweeps one edge along every edge of P over which it can attain the lower envelope.
   void collect_edge(std::span<const detail::TriangleSide> sides) {
     const std::int32_t a = sides.front().low, b = sides.front().high;
     const Eigen::Vector2d d = plan(a, b);
@@ -142,7 +143,7 @@ class Dilation {
       const Eigen::Vector2d sweep = polygon_.edge(i);
       const double outward = cross(d, sweep);
       if (outward == 0) continue;
-      // Walking up along the edge must lead into q - P, else the edge is lower further on.
+      // The upward direction of the edge must point into q - P; otherwise the edge is lower elsewhere.
       if (up * outward < -tolerance::relative * length * length * sweep.norm()) continue;
       const bool lowest = std::none_of(sides.begin(), sides.end(), [&](const detail::TriangleSide& side) {
         return descends(side, sweep);
@@ -153,7 +154,7 @@ class Dilation {
     }
   }
 
-  /// Whether the triangle leads clearly down, away from its edge, along `sweep` or its opposite.
+  /// Returns whether the triangle clearly descends from its edge along `sweep` or its opposite.
   bool descends(const detail::TriangleSide& side, const Eigen::Vector2d& sweep) const {
     const std::int32_t opposite = vertex(side.triangle, (side.corner + 2) % 3);
     const Eigen::Vector2d d = plan(side.low, side.high), w = plan(side.low, opposite);
@@ -165,7 +166,7 @@ class Dilation {
     return slope < -tolerance::relative * sweep.norm() * size;
   }
 
-  /// Puts P at every vertex that no edge clearly descends from.
+  /// Adds P at every vertex from which no edge clearly descends.
   void collect_vertices() {
     std::vector<std::int32_t> triangle_at(static_cast<std::size_t>(shape_.vertex_count()), -1);
     std::vector<char> lowest(triangle_at.size(), 1);

@@ -8,14 +8,14 @@
 
 namespace stackabilization {
 
-/// The exact number type of a CGAL kernel (GMP or Boost, as CGAL was configured) with the same value. Through
-/// decimal text, the one form that they all share.
+/// Converts a rational to the exact number type of a CGAL kernel (GMP or Boost, by CGAL's configuration). The
+/// conversion uses decimal text, the only form that all of these types share.
 template <class Exact>
 Exact to_exact(const Rational& value) {
   return Exact(value.numerator() + "/" + value.denominator());
 }
 
-/// The Rational with the same value.
+/// Converts an exact number of CGAL to the Rational with the same value.
 template <class Exact>
 Rational from_exact(const Exact& value) {
   std::ostringstream stream;

@@ -16,7 +16,8 @@ Rational exact_dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
          Rational(a.z()) * Rational(b.z());
 }
 
-/// Largest p . r over the used vertices, exactly: rationals only for those that doubles cannot rule out.
+/// Computes the largest p . r over the used vertices exactly, with rationals only for vertices that doubles
+/// do not exclude.
 Rational exact_support(const Shape& shape, const Eigen::Vector3d& r) {
   double most = -std::numeric_limits<double>::infinity(), magnitude = 0;
   const auto each_vertex = [&](const auto& visit) {

@@ -12,7 +12,8 @@ struct Span {
   double approximate_bottom = 0, approximate_top = 0;  ///< nearest doubles, units of r
 };
 
-/// Least and largest p . r / r . r over the points of the triangles. Precondition: `validate(shape)` passes.
+/// Computes the smallest and the largest p . r / r . r over the points of the triangles. Precondition:
+/// `validate(shape)` passes.
 Span exact_span(const Shape& shape, const Direction& direction);
 
 }  // namespace stackabilization

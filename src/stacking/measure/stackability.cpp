@@ -20,7 +20,7 @@ namespace {
 
 constexpr double unlimited = -std::numeric_limits<double>::infinity();
 
-/// V(M) > 0, or what the options say of shapes without.
+/// Returns V(M). Throws InputError when it is 0, unless the options allow it.
 double checked_volume(double volume, FlatShapes flat_shapes) {
   if (volume > 0 || flat_shapes == FlatShapes::measure) return volume;
   throw InputError("the shape is flat: its box has no volume, so its stackability is undefined");
@@ -78,7 +78,7 @@ std::optional<Stackability> measured_above(const Stackability& boxes, const Shap
   return result;
 }
 
-/// V(M) of the `frame` model: a box is flat when rounding could have made it as thick as it is.
+/// V(M) of the `frame` model. A box is flat when its thickness is within rounding.
 double frame_volume(const Points& points) {
   const OrientedBox box = axis_aligned_box(points);
   const double thinnest = 2 * box.half_extents.minCoeff(), largest = points.cwiseAbs().maxCoeff();

@@ -12,39 +12,38 @@
 
 namespace stackabilization {
 
-/// What one copy asks of a later one: a lift of at least `lift` between them, in units of r, if they can meet
-/// at all.
+/// Lift that one copy requires of a later copy.
 struct Demand {
-  bool blocked = false;    ///< else they pass each other at any height
-  Rational lift;           ///< sep plus clearance, exact
-  double approximate = 0;  ///< nearest double of it
+  bool blocked = false;  ///< whether the copies can collide; otherwise they pass each other at any height
+  /// Smallest lift between the copies: sep plus clearance, in units of r, exact.
+  Rational lift;
+  double approximate = 0;  ///< nearest double of `lift`
 };
 
-/// The different poses of a stack and what each pair of copies demands, computed when first asked for and
-/// kept. Not to be shared between threads. What stack_copies and the searches over stacks share; not meant
-/// for users.
+/// The different poses of a stack and the lifts between pairs of copies. Lifts are computed on first use and
+/// cached. Shared by stack_copies and the searches over stacks. Not to be shared between threads.
 class StackPairs {
  public:
-  /// Checks every option of `options`; see stack_copies for the errors.
+  /// Checks all options; throws as stack_copies does.
   StackPairs(const Shape& shape, const Direction& direction, const StackOptions& options);
 
-  /// The same poses with another twist; the prepared shapes are shared, the demands are not.
+  /// Returns the same poses with another twist. The prepared shapes are shared, the lifts are not.
   StackPairs with_twist(double degrees) const;
 
-  /// Index of the pose of copies 0 ... K - 1; equal poses have equal indices.
+  /// Returns the pose of each of the copies 0 ... K - 1. Equal poses have equal indices.
   const std::vector<int>& sequence() const { return sequence_; }
-  /// Span along r of a copy with this pose, not twisted.
+  /// Returns the span along r of a copy with this pose, without twist.
   const Span& span(int pose) const { return (*poses_)[static_cast<std::size_t>(pose)].span; }
-  /// Whether each copy is turned against the one below.
+  /// Returns whether each copy is rotated against the copy below.
   bool twisted() const { return twist_degrees_ != 0; }
-  /// Turn of copy k about the axis, in (-180, 180].
+  /// Returns the rotation of a copy about the axis, degrees, in (-180, 180].
   double turn_degrees(int copy) const { return reduced_degrees(copy * twist_degrees_); }
-  /// T_k of a copy with this pose.
+  /// Returns T_k of a copy with this pose.
   RigidTransform transform(int pose, int copy) const;
-  /// Demand of copy j with pose `below` on copy j + lag with pose `above`.
+  /// Returns the lift that copy j with pose `below` requires of copy j + lag with pose `above`.
   const Demand& demand(int below, int above, int lag);
   const Direction& direction() const { return direction_; }  ///< r
-  double clearance() const { return clearance_; }            ///< in units of r
+  double clearance() const { return clearance_; }            ///< units of r
 
  private:
   struct Pose {
@@ -52,7 +51,8 @@ class StackPairs {
     Shape shape;
     Span span;
     SeparationTree tree;
-    std::optional<SeparationTree> dilated_tree;  ///< of the shape as a lower copy, where there is play
+    /// Tree of the dilated shape as a lower copy; only with play.
+    std::optional<SeparationTree> dilated_tree;
   };
 
   Direction direction_;
@@ -62,7 +62,8 @@ class StackPairs {
   Line axis_;
   std::shared_ptr<const std::vector<Pose>> poses_;
   std::vector<int> sequence_;
-  std::map<std::tuple<double, int, int>, Demand> demands_;  ///< by turn between the copies and their poses
+  /// Key: rotation between the copies, and their poses.
+  std::map<std::tuple<double, int, int>, Demand> demands_;
 };
 
 }  // namespace stackabilization

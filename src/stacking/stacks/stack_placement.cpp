@@ -18,21 +18,21 @@ int pose_of(const std::vector<int>& sequence, int copy) {
   return sequence[static_cast<std::size_t>(copy) % sequence.size()];
 }
 
-/// Where a copy stops on its way down.
+/// Level at which a copy stops on its way down, and the copy that stops it.
 struct Stop {
   Rational lift;
   double approximate = 0;
   int rests_on = -1;
 };
 
-/// Finds what stops a copy. Doubles only rule out what is clearly not the highest demand; rationals decide
-/// the rest.
+/// Finds the copy that stops another copy. Doubles exclude pairs that are clearly not the highest; rationals
+/// decide the rest.
 class StackDescent {
  public:
   StackDescent(StackPairs& pairs, const std::vector<int>& sequence) : pairs_(pairs), sequence_(sequence) {}
 
-  /// The highest demand on copy `k` by the placed copies first, first - 1, ..., last, or `stop` where none is
-  /// higher.
+  /// Returns the highest level that the placed copies first, first - 1, ..., last require of copy `k`, or
+  /// `stop` when none is higher.
   Stop lowest_position(int k, std::pair<int, int> first_to_last, Stop stop) {
     const int pose = pose_of(sequence_, k);
     for (int j = first_to_last.first; j >= first_to_last.second; --j) {
@@ -116,7 +116,7 @@ std::vector<StackConflict> find_conflicts(StackPairs& pairs, const std::vector<i
 
 namespace {
 
-/// A chain of contacts: its lift and how many copies it climbs.
+/// A chain of contacts: its lift and the number of copies that it spans.
 struct Chain {
   double lift = -std::numeric_limits<double>::infinity();
   double copies = 1;
@@ -125,9 +125,9 @@ struct Chain {
   double mean() const { return lift / copies; }
 };
 
-/// Largest mean lift per copy over all closed chains, by Newton's iteration: chains that beat the mean found
-/// so far are found by Floyd and Warshall's algorithm. `contacts(a, b)` leads from a copy with pose a to the
-/// next one with pose b.
+/// Computes the largest mean lift per copy over all closed chains by Newton's iteration. Floyd and Warshall's
+/// algorithm finds chains with a larger mean than the current one. `contacts(a, b)` is the contact of a copy
+/// with pose a and the next copy with pose b.
 double largest_closed_mean(const Eigen::MatrixX<Chain>& contacts) {
   double most = 0;
   for (bool improved = true; improved;) {
@@ -190,7 +190,7 @@ double long_run_increment(StackPairs& pairs, const std::vector<int>& sequence, c
 
 Points stack_hull_points(const StackPairs& pairs, const std::vector<int>& sequence,
                          const Placement& placement, const HullSupport& hull) {
-  // Copies that differ by a lift only: the hull needs the lowest and the highest of them.
+  // Of copies that differ only by a lift, the hull needs the lowest and the highest.
   std::map<std::pair<int, double>, std::pair<std::size_t, std::size_t>> extremes;
   for (std::size_t k = 0; k < placement.approximate.size(); ++k) {
     const int copy = static_cast<int>(k);

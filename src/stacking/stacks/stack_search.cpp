@@ -44,7 +44,7 @@ class TwistSearch {
     tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) { costs[i] = cost(samples[i]); });
 
     const std::vector<std::size_t> order = best_first(costs);
-    // No twist, then the best samples, then what refining them gave.
+    // No twist, then the best samples, then their refinements.
     std::vector<double> candidates(1 + 2 * order.size(), 0.0);
     for (std::size_t i = 0; i < order.size(); ++i) candidates[1 + i] = samples[order[i]];
     tbb::parallel_for(std::size_t{0}, order.size(), [&](std::size_t i) {
@@ -65,7 +65,7 @@ class TwistSearch {
     return twists;
   }
 
-  /// What the search minimises: height, or volume of the stack's box with one axis along r.
+  /// Objective of the search: height, or volume of the stack's box with one axis along r.
   double cost(double twist) const {
     StackPairs pairs = pairs_.with_twist(twist);
     const Placement placed = place(pairs, pairs.sequence(), options_.stack.copies, Reach::all);
@@ -83,7 +83,7 @@ class TwistSearch {
     return reduced_degrees(twist);
   }
 
-  /// The first of the candidates that no other beats clearly; the first candidate is no twist.
+  /// Returns the first candidate that no other one clearly exceeds; the first candidate is no twist.
   TwistResult choose(const std::vector<double>& candidates) const {
     std::vector<StackResult> stacks(candidates.size());
     tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t i) {

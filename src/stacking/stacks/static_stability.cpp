@@ -16,8 +16,8 @@ namespace stackabilization {
 
 namespace {
 
-/// Convex hull of what copies rest on, in the frame of r: corners counter-clockwise, one or two when it is a
-/// point or a line.
+/// Convex hull of the support of a copy, in the frame of r: counter-clockwise corners, one or two when it is
+/// a point or a line.
 using Support = std::vector<Eigen::Vector3d>;
 
 class StaticStabilityTest {
@@ -75,7 +75,7 @@ Support StaticStabilityTest::ground() const {
   return support_of(points);
 }
 
-/// Of the copy above, in the coordinates of the copy below.
+/// Support of the copy above, in the coordinates of the copy below.
 Support StaticStabilityTest::contacts(const SeparationTree& tree, const Separation& separation) const {
   const ContactOptions options{.semantics = options_.semantics, .band = options_.band};
   std::vector<Eigen::Vector3d> points;
@@ -86,7 +86,7 @@ Support StaticStabilityTest::contacts(const SeparationTree& tree, const Separati
   return support_of(points);
 }
 
-/// Radians at which a mass topples over the border of its support.
+/// Returns the tipping angle of a mass over the border of its support, radians.
 double StaticStabilityTest::tilt(const Support& support, const Eigen::Vector3d& mass) const {
   const bool has_area = support.size() > 2;
   double least = std::numbers::pi / 2;
@@ -121,7 +121,8 @@ StaticStability StaticStabilityTest::run() const {
     const double step = separation.length;
     least = tilt(ground(), centre + step * (options_.copies - 1.0) / 2 * up);
     const Support support = contacts(tree, separation);
-    // Copies 1 ... n-1 rest alike, under ever less: the extreme tilts are those of the first and the last.
+    // Copies 1 ... n-1 have the same support, with fewer copies above them upwards: the extreme tilts are
+    // those of the first and the last.
     for (const int copy : {1, options_.copies - 1}) {
       const double above = step * (1.0 + options_.copies - copy) / 2;
       const double over_contacts = tilt(support, centre + above * up);

@@ -26,7 +26,7 @@ using detail::Number;
 using detail::Point;
 using detail::Vector;
 
-/// A shape at its place: exact coordinates of all vertices.
+/// A placed shape: exact coordinates of all vertices.
 struct Placed {
   const Shape& shape;
   const ClosedSurface& surface;
@@ -57,8 +57,8 @@ struct Interval {
   Number low, high;
 };
 
-/// Where triangle t, with corners strictly on both sides of the plane of `plane`, crosses it: parameters
-/// along `line`.
+/// Returns the crossings of triangle t, with corners strictly on both sides of the plane of `plane`, as
+/// parameters along `line`.
 Interval crossing(const Corners& t, const Corners& plane, const Vector& line) {
   const Vector normal = normal_of(plane);
   std::array<Number, 3> distance, along;
@@ -77,7 +77,7 @@ Interval crossing(const Corners& t, const Corners& plane, const Vector& line) {
   return {std::min(found[0], found[1]), std::max(found[0], found[1])};
 }
 
-/// Do the relative interiors of two triangles in different planes share a segment?
+/// Returns whether the relative interiors of two triangles in different planes share a segment.
 bool cross_properly(const Corners& a, const Corners& b) {
   if (!on_both_sides(sides(a, b)) || !on_both_sides(sides(b, a))) return false;
   const Vector line = CGAL::cross_product(normal_of(a), normal_of(b));
@@ -85,7 +85,7 @@ bool cross_properly(const Corners& a, const Corners& b) {
   return std::max(in_a.low, in_b.low) < std::min(in_a.high, in_b.high);
 }
 
-/// The two coordinate axes onto which a triangle projects without becoming flat, by its exact normal.
+/// Returns the two coordinate axes onto which a triangle projects without degeneration, by its exact normal.
 class Projection {
  public:
   explicit Projection(const Corners& t) {
@@ -102,7 +102,7 @@ class Projection {
 
 using ExactPolygon = std::vector<Exact::Point_2>;
 
-/// Does the line of some edge of `a` have all of `b` on its outer side or on itself?
+/// Returns whether the line of some edge of `a` has all of `b` on its outer side or on itself.
 bool separated_by_edge(const ExactPolygon& a, const ExactPolygon& b) {
   const CGAL::Orientation turn = CGAL::orientation(a[0], a[1], a[2]);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -118,14 +118,14 @@ ExactPolygon project(const Corners& t, const Projection& projection) {
   return {projection(t[0]), projection(t[1]), projection(t[2])};
 }
 
-/// Do two triangles in one plane share area?
+/// Returns whether two triangles in one plane overlap in an area.
 bool coplanar_overlap(const Corners& a, const Corners& b) {
   const Projection projection(a);
   const ExactPolygon in_a = project(a, projection), in_b = project(b, projection);
   return !separated_by_edge(in_a, in_b) && !separated_by_edge(in_b, in_a);
 }
 
-/// Does the segment from p to q, in the plane of t, run through the relative interior of t?
+/// Returns whether the segment from p to q, in the plane of t, runs through the relative interior of t.
 bool runs_inside(const Corners& t, const Point& p, const Point& q) {
   const Projection projection(t);
   const ExactPolygon triangle = project(t, projection);
@@ -135,8 +135,9 @@ bool runs_inside(const Corners& t, const Point& p, const Point& q) {
   return on_both_sides(side) && !separated_by_edge(triangle, segment);
 }
 
-/// Two neighbouring triangles of a solid meet in an edge that runs inside triangle t: does t enter the solid
-/// there? `solid_corners` is one of them, its edge from `corner` on lies in the plane of t.
+/// Returns whether t enters the solid at an edge inside t. Two neighbouring triangles of the solid meet in
+/// this edge; `solid_corners` is one of them, and the edge starts at its corner `corner` and lies in the
+/// plane of t.
 bool enters_at_edge(const Corners& t, const Corners& solid_corners, std::size_t corner,
                     const Point& opposite) {
   const Point &p = solid_corners[corner], &q = solid_corners[(corner + 1) % 3];
@@ -145,8 +146,9 @@ bool enters_at_edge(const Corners& t, const Corners& solid_corners, std::size_t 
   if (here * there > 0 || there == 0) return false;  // both faces on one side, or decided from the neighbour
   if (!runs_inside(t, p, q)) return false;
   if (here != 0) return true;
-  // The face here lies in the plane of t, facing the other way (else area is shared, which is tested before):
-  // the solid is on the side of t's normal, and t goes on into it when the surface turns to the other side.
+  // The face lies in the plane of t with the opposite orientation (the test for overlap in an area comes
+  // before). The solid is on the side of t's normal, and t continues into it when the surface turns to the
+  // other side.
   return there < 0;
 }
 
@@ -161,7 +163,7 @@ bool enters_at_edges(const Corners& t, const Placed& solid, std::int32_t solid_t
   return false;
 }
 
-/// Is it certain, from these two touching triangles and their neighbours alone, that the interiors overlap?
+/// Returns whether these two touching triangles and their neighbours alone prove that the interiors overlap.
 bool overlap_near(const Placed& a, std::int32_t in_a, const Placed& b, std::int32_t in_b) {
   const Corners s = a.corners(in_a), t = b.corners(in_b);
   if (sides(s, t) == std::array<int, 3>{0, 0, 0}) {
@@ -173,9 +175,9 @@ bool overlap_near(const Placed& a, std::int32_t in_a, const Placed& b, std::int3
   return enters_at_edges(s, b, in_b) || enters_at_edges(t, a, in_a);
 }
 
-/// Does the relative interior of t, which the solid's surface does not cross, run inside the solid? Looks at
-/// points of t on a parabola. Where t touches the solid without lying on it, it does so along lines and at
-/// points, of which the parabola meets each twice at most: so this ends.
+/// Returns whether the relative interior of t, which the surface of the solid does not cross, runs inside the
+/// solid. The function tests points of t on a parabola. The parabola meets a line or a point where t touches
+/// the solid at most twice, so the search ends.
 bool inside(const Corners& t, const detail::SolidLocator& solid) {
   for (int attempt = 0;; ++attempt) {
     const detail::PointLocation found = solid.locate(detail::inner_point(t, attempt));
@@ -194,15 +196,15 @@ double signed_volume(const Shape& shape) {
   return volume;
 }
 
-/// The shape, its triangles turned around where it is inside out as a whole.
+/// Returns the shape, with all triangles reversed when it is inside out as a whole.
 Shape outward(Shape shape) {
   validate(shape);
   if (signed_volume(shape) < 0) shape.triangles.col(1).swap(shape.triangles.col(2));
   return shape;
 }
 
-/// Corners of a triangle from the smallest one on and, of a closed surface, the opposite corners of the
-/// neighbours in the same order: all that a test looks at.
+/// Key of a triangle: its corners from the smallest one on and, for a closed surface, the opposite corners of
+/// its neighbours in the same order. A test depends on these only.
 using TriangleKey = std::array<std::array<double, 3>, 6>;
 
 TriangleKey key_of(const Shape& shape, const ClosedSurface& surface, std::int32_t t) {
@@ -222,8 +224,8 @@ TriangleKey key_of(const Shape& shape, const ClosedSurface& surface, std::int32_
   return key;
 }
 
-/// A shape with all that its place does not change. Of triangles that tests cannot tell apart, as those of
-/// parts in one place, they look at the first.
+/// A shape with its data that do not depend on the placement. Of triangles with equal keys, as in coincident
+/// parts, only the first one is tested.
 struct ExactBody {
   Shape shape;
   ClosedSurface surface;
@@ -263,8 +265,9 @@ struct ExactBody {
     return placed;
   }
 
-  /// What may lie inside another solid, where no triangle crosses its surface: those that touch it and one
-  /// triangle of every component, as neighbours that do not touch it are on the same side.
+  /// Returns the triangles that may lie inside another solid although no triangle crosses its surface: the
+  /// triangles that touch it, and one triangle of every component. Neighbours that do not touch it are on the
+  /// same side.
   std::vector<std::int32_t> candidates(const std::vector<std::atomic<bool>>& touched) const {
     std::vector<std::int32_t> rows;
     for (const std::int32_t row : surface.representatives)
@@ -291,7 +294,7 @@ struct CollisionTester::Data {
     return found;
   }
 
-  /// Throws InputError where more than `max_collision_pairs` pairs would have to be tested.
+  /// Throws InputError when more than `max_collision_pairs` pairs would have to be tested.
   void require_bounded_pairs(const Placed& lifted) const {
     if (above.distinct.size() * below.distinct.size() <= std::size_t{max_collision_pairs}) return;
     std::atomic<std::int64_t> pairs = 0;
@@ -304,8 +307,8 @@ struct CollisionTester::Data {
                        " pairs of triangles come near each other: collisions are tested between so many");
   }
 
-  /// Calls visit(triangle of below, triangle of above) for pairs of distinct triangles that touch until one
-  /// call returns true; any order, in parallel. Tells whether one did.
+  /// Calls visit(triangle of below, triangle of above) for pairs of distinct triangles that touch, in any
+  /// order and in parallel, until a call returns true. Returns whether a call did.
   template <class Visitor>
   bool any_touching_pair(const Placed& fixed, const Placed& lifted, const Visitor& visit) const {
     require_bounded_pairs(lifted);
@@ -336,8 +339,8 @@ Vector translation_by(const Direction& direction, const Rational& lift) {
   return {t * r.x(), t * r.y(), t * r.z()};
 }
 
-/// Winding numbers beside one point of every triangle: none below 0, and no surfaces that cancel each other
-/// where there is nothing on one side?
+/// Returns whether the winding numbers beside one point of every triangle are not negative, and no surfaces
+/// cancel each other where they enclose nothing on one side.
 std::optional<InteriorDefect> winding_defect(const ExactBody& body) {
   if (body.distinct.size() * body.solid.rows().size() > std::size_t{max_collision_pairs}) {
     std::atomic<std::int64_t> pairs = 0;
@@ -359,7 +362,7 @@ std::optional<InteriorDefect> winding_defect(const ExactBody& body) {
   return std::nullopt;
 }
 
-/// Is some triangle among `candidates`, moved by `by`, inside the solid?
+/// Returns whether some triangle among `candidates`, moved by `by`, is inside the solid.
 bool any_inside(const Placed& shape, const std::vector<std::int32_t>& candidates, const Vector& by,
                 const detail::SolidLocator& solid) {
   std::atomic<bool> found = false;

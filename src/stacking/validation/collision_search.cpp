@@ -7,7 +7,7 @@ namespace stackabilization {
 
 namespace {
 
-/// Lifts, in units of r, between which the shapes can meet at all.
+/// Range of lifts, in units of r, at which the shapes can meet.
 Range possible_lifts(const Shape& below, const Shape& above, const Direction& direction) {
   const Range below_range = range_along(below, direction.vector());
   const Range above_range = range_along(above, direction.vector());

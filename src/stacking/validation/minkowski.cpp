@@ -31,7 +31,7 @@ using Number = Kernel::FT;
 using Mesh = CGAL::Polyhedron_3<Kernel>;
 using Nef = CGAL::Nef_polyhedron_3<Kernel>;
 
-/// Triangles of one connected component with points of their own.
+/// Triangles of one connected component with their own points.
 struct Component {
   std::vector<Point> points;
   std::vector<std::vector<std::size_t>> triangles;

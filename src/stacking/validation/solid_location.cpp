@@ -14,7 +14,7 @@ namespace {
 
 using Filtered = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// What a ray tells of a triangle.
+/// Relation of a ray to a triangle.
 enum class Meeting {
   passed,     ///< not met
   crossed,    ///< met in its interior
@@ -38,11 +38,11 @@ struct Ray {
     if (slope > 0) return {q.y() - slope * q.x(), q.z() - slope * slope * q.x()};
     return {q[(axis + 1) % 3], q[(axis + 2) % 3]};
   }
-  /// Along the three axes first, where few triangles are near.
+  /// Tries the three axes first, because few triangles are near an axis-parallel ray.
   static Ray number(int k) { return k < 3 ? Ray{k, 0} : Ray{0, k - 2}; }
 };
 
-/// Of the ray from p with triangle t.
+/// Returns the meeting of the ray from p with triangle t.
 RayMeeting ray_meeting(const Point& p, const Ray& ray, const Corners& t) {
   const Exact::Point_2 a = ray.flat(t[0]), b = ray.flat(t[1]), c = ray.flat(t[2]), q = ray.flat(p);
   const std::array<int, 3> side = {CGAL::orientation(a, b, q), CGAL::orientation(b, c, q),
@@ -54,7 +54,7 @@ RayMeeting ray_meeting(const Point& p, const Ray& ray, const Corners& t) {
   const bool on_outline = least == 0 || most == 0;
   if (above_plane == 0) return {Meeting::starts_on, on_outline ? 0 : side[0]};
   if (on_outline) return {Meeting::undecided, 0};
-  // Seen against the ray the triangle turns counter-clockwise (side = 1): its normal goes along the ray, and
+  // Seen against the ray, the triangle is counter-clockwise (side = 1): its normal points along the ray, and
   // the ray meets it when it starts behind it.
   return above_plane * side[0] < 0 ? RayMeeting{Meeting::crossed, side[0]} : RayMeeting{};
 }

@@ -18,14 +18,14 @@ using Vector = Exact::Vector_3;
 using Number = Exact::FT;
 using Corners = std::array<Point, 3>;
 
-/// A point inside a triangle, another one for each attempt: on a parabola, by weights that no model has by
-/// design.
+/// Returns a point inside a triangle, a different one for each attempt. The points lie on a parabola; their
+/// weights are unlikely to coincide with features of a model.
 Point inner_point(const Corners& corner, int attempt);
 
-/// Where a point lies with respect to a closed surface.
+/// Location of a point with respect to a closed surface.
 enum class PointPlace { outside, inside, boundary };
 
-/// The place of one point; for `boundary` also a triangle that holds it.
+/// Location of one point. A boundary point also names a triangle that contains it.
 struct PointLocation {
   PointPlace place = PointPlace::outside;
   std::int32_t triangle = -1;
@@ -34,32 +34,34 @@ struct PointLocation {
 /// Winding numbers on both sides of a surface.
 struct Windings {
   int ahead = 0, behind = 0;
-  bool opposed = false;  ///< triangles of both orientations lie there
+  bool opposed = false;  ///< whether triangles of both orientations lie there
 };
 
-/// Winding numbers about a closed surface, exact for its coordinates and any rational point, by rays through
-/// an AABB tree of its triangles. Triangles without area are passed over. Safe to share between threads.
+/// Winding numbers about a closed surface, by rays through an AABB tree of its triangles. Exact for the
+/// coordinates of the surface and any rational point. Triangles without area are ignored. Safe to share
+/// between threads.
 class SolidLocator {
  public:
-  /// `solid` must outlive it. Precondition: `validate(solid)`; the answers mean something where it is closed.
+  /// `solid` must outlive this object. Precondition: `validate(solid)`. Results are meaningful for closed
+  /// surfaces only.
   explicit SolidLocator(const Shape& solid);
   SolidLocator(const SolidLocator&) = delete;
   SolidLocator& operator=(const SolidLocator&) = delete;
   ~SolidLocator();
 
-  /// The triangles with area, ascending.
+  /// Returns the triangles with area, ascending.
   const std::vector<std::int32_t>& rows() const;
   Corners corners(std::int32_t triangle) const;
-  /// Triangles with area that meet a box, ascending.
+  /// Returns the triangles with area that meet a box, ascending.
   std::vector<std::int32_t> triangles_in(const CGAL::Bbox_3& box) const;
 
-  /// `inside` is where the winding number is not 0. Of several triangles that hold a point on the boundary
-  /// the first.
+  /// Locates a point. A point is inside when its winding number is not 0. A boundary point names the first
+  /// triangle that contains it.
   PointLocation locate(const Point& p) const;
-  /// How many triangles `windings_beside` looks at for one point.
+  /// Returns the number of triangles that `windings_beside` examines for one point.
   std::int64_t count_beside(std::int32_t triangle) const;
-  /// Winding numbers right beside an inner point of a triangle with area, on both sides of all triangles that
-  /// hold this point.
+  /// Computes the winding numbers directly beside an inner point of a triangle with area, on both sides of
+  /// all triangles that contain this point.
   Windings windings_beside(std::int32_t triangle) const;
 
  private:

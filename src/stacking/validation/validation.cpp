@@ -71,7 +71,7 @@ class Validator {
   }
 
  private:
-  /// Appends a row that `check` fills; what it throws about the input is a reason to skip.
+  /// Appends a row that `check` fills; an InputError becomes the reason to skip the check.
   template <class Check>
   ValidationRow& timed(const std::string& name, const Check& check) {
     ValidationRow row;
@@ -116,7 +116,7 @@ class Validator {
     });
   }
 
-  /// The witness points must be straight above each other and as far apart as the answer says.
+  /// Checks that the witness points are above each other along r, at the distance of the answer.
   void witness() {
     const Separation& answer = report_.solid.blocked ? report_.solid : report_.closed;
     timed("witness points", [&](ValidationRow& row) {
@@ -137,7 +137,7 @@ class Validator {
     if (report_.extent > 0) row.error = (*row.value - exact) / report_.extent;
   }
 
-  /// Agreement, or the shortfall of sampling; above the exact value only for a stated reason.
+  /// Returns agreement, or the error of sampling; a value above the exact one only for a stated reason.
   void judge_sampled(ValidationRow& row, const HeightFieldMaker& maker) const {
     const double allowed = maker.precision * report_.extent;
     set_error(row, report_.solid.length);
@@ -157,8 +157,8 @@ class Validator {
     }
   }
 
-  /// Rays in ever smaller windows around the witness: what any sampling sees of f_max once its pixels are
-  /// small enough.
+  /// Casts rays in successively smaller windows around the witness: they show the part of f_max that any
+  /// sampling finds at small pixels.
   void raster_around_witness(const HeightFieldMaker& rays) {
     constexpr int samples = 64, levels = 12;
     constexpr double factor = 4;
@@ -198,8 +198,8 @@ class Validator {
     }
   }
 
-  /// Why a sampled value is far below the exact one or no better than at the resolution before; empty when it
-  /// is not.
+  /// Returns why a sampled value is far below the exact one, or not better than at the previous resolution;
+  /// empty otherwise.
   std::string explain_shortfall(double value, double pixel, const std::optional<double>& coarser) const {
     // On a slope of f the error halves with the pixel; a part that asks for far smaller pixels is thin.
     constexpr double thin = 8;

@@ -94,8 +94,8 @@ class Analysis {
                      [](const Relation& a, const Relation& b) { return a.parts < b.parts; });
   }
 
-  /// Symmetric parts get the kind that one of them is forced to, else the kind that fits all of them better
-  /// in sum.
+  /// Returns the kind of primitive of symmetric parts: the kind that one of them is forced to, otherwise the
+  /// kind with the smaller sum of errors over all of them.
   void agree_on_kinds() {
     for (const detail::Orbit& orbit : detail::find_orbits(structure()).orbits) {
       const PrimitiveKind kind = common_kind(orbit);
@@ -127,9 +127,10 @@ class Analysis {
     return cylinder < cuboid ? PrimitiveKind::cylinder : PrimitiveKind::cuboid;
   }
 
-  /// Symmetries were found one by one; where primitives cannot have all of them, the last to come goes. What
-  /// goes may settle other contradictions, so they go one at a time; where that would take too long, one of
-  /// every orbit at a time.
+  /// Removes relations until none contradict each other. Each symmetry was found separately, and primitives
+  /// may not be able to satisfy all of them; the last one found is removed. A removal may resolve other
+  /// contradictions, so relations are removed one at a time. When that would take too long, one relation of
+  /// every orbit is removed at a time.
   void drop_contradictions() {
     constexpr std::size_t max_relations_looked_at = 20'000;
     for (std::size_t looked_at = 0;;) {
@@ -157,7 +158,7 @@ class Analysis {
     structure().relations.insert(structure().relations.end(), joints.begin(), joints.end());
   }
 
-  /// Only the calling thread is heard.
+  /// Reports progress from the calling thread only.
   void report(AnalysisStep step, double fraction) const {
     if (options_.progress && std::this_thread::get_id() == caller_) options_.progress(step, fraction);
   }

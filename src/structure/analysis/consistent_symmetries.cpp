@@ -19,8 +19,8 @@ namespace {
 
 constexpr double angle_tolerance = tolerance::same_symmetry;
 
-/// Cosine of the largest angle between the axes of symmetries that may be the same: of small parts a plane is
-/// not known better than to some degrees.
+/// Cosine of the largest angle between the axes of symmetries that may be the same. The plane of a small part
+/// is known only to some degrees.
 constexpr double min_cosine = 0.98;
 
 bool is_symmetry(const Relation& relation) {
@@ -133,7 +133,7 @@ class SymmetrySet {
     return symmetry.kind == SymmetryKind::rotation ? symmetry.order : 2;
   }
 
-  /// The members before `i` that bear on one of its orbits, ascending.
+  /// The members before `i` that relate parts of one of its orbits, ascending.
   std::vector<std::size_t> meeting(std::size_t i,
                                    const std::vector<std::vector<std::size_t>>& earlier_on) const {
     std::set<std::size_t> found;
@@ -142,16 +142,17 @@ class SymmetrySet {
     return {found.begin(), found.end()};
   }
 
-  /// Objects are modelled along the axes of their files; what is found by fitting misses them by a hair, and
-  /// then no edit could keep both the symmetry and the extent along a file axis.
+  /// Aligns an axis with the axes of the file. Objects are modelled along these axes, and a fit deviates
+  /// slightly from them. Without the alignment no edit could preserve both the symmetry and the extent along
+  /// a file axis.
   static void align_with_file(Eigen::Vector3d& axis) {
     for (double& component : axis)
       if (std::abs(component) < tolerance::file_axis) component = 0;
     axis.normalize();
   }
 
-  /// Perpendicular to those it is nearly perpendicular to; at the nearest simple angle to the first of the
-  /// others.
+  /// Makes the axis perpendicular to the axes that it is nearly perpendicular to. The angle to the first of
+  /// the other axes becomes the nearest simple angle.
   void correct_direction(std::size_t i, const std::vector<std::size_t>& earlier) {
     Eigen::Vector3d& axis = members_[i].symmetry.axis;
     std::vector<Eigen::Vector3d> across;
@@ -183,8 +184,8 @@ class SymmetrySet {
     return axis;
   }
 
-  /// An axis of rotation in a mirror plane, and the third plane through a line, go exactly there when they
-  /// nearly do.
+  /// Moves an axis of rotation exactly into a mirror plane, and a third plane exactly through a common line,
+  /// when they are nearly there.
   void correct_place(std::size_t i, const std::vector<std::size_t>& earlier) {
     Symmetry& symmetry = members_[i].symmetry;
     const bool is_plane = symmetry.kind == SymmetryKind::reflection;

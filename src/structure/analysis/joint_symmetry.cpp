@@ -18,7 +18,7 @@ namespace {
 /// A joint and the image of another nearer than this, fraction of the diagonal, are meant to be the same.
 constexpr double same_joint = 0.05;
 
-/// Orders symmetries by all that they are.
+/// Orders symmetries by all their members.
 struct ByValue {
   static auto values(const Symmetry& s) {
     return std::tuple(s.kind, s.order, s.point.x(), s.point.y(), s.point.z(), s.axis.x(), s.axis.y(),
@@ -28,7 +28,7 @@ struct ByValue {
   bool operator()(const Symmetry& a, const Symmetry& b) const { return values(a) < values(b); }
 };
 
-/// A symmetry and where it takes the parts that it is known to take somewhere.
+/// A symmetry and its known images of parts.
 struct Action {
   Symmetry symmetry;
   std::map<int, int> parts;
@@ -48,8 +48,8 @@ std::vector<Action> actions_of(const Structure& structure) {
   return actions;
 }
 
-/// Largest distance between points of two joints, ends of lines either way; of a point and a line between
-/// their middles.
+/// Returns the largest distance between corresponding points of two joints; the ends of lines may be
+/// exchanged. For a point and a line it is the distance between their midpoints.
 double distance(const Points& a, const Points& b) {
   if (a.rows() != b.rows()) return (a.colwise().mean() - b.colwise().mean()).norm();
   const Points reversed = b.colwise().reverse();
@@ -70,7 +70,7 @@ class JointSymmetry {
   }
 
   std::vector<Relation> run() {
-    // Images of images are found as the list grows; a finite group keeps it short.
+    // The list grows by images of images. The group is finite, so it stays short.
     const std::size_t most = joints_.size() * max_growth;
     for (std::size_t k = 0; k < joints_.size() && joints_.size() <= most; ++k)
       for (const std::size_t a : actions_on_[static_cast<std::size_t>(joints_[k].parts[0])])

@@ -32,8 +32,8 @@ const Eigen::VectorXd* radii_of(const Primitive& primitive) {
   return cylinder ? &cylinder->radii : nullptr;
 }
 
-/// The image of a primitive. The corners of a mirrored cuboid are renamed, so that a right-handed box stays
-/// one.
+/// Returns the image of a primitive. The corners of a mirrored cuboid are renamed, so that a right-handed box
+/// stays right-handed.
 Primitive image_of(const Primitive& primitive, const Eigen::Isometry3d& map) {
   Primitive image = primitive;
   Points points = transformed(control_points(primitive), map);
@@ -43,7 +43,7 @@ Primitive image_of(const Primitive& primitive, const Eigen::Isometry3d& map) {
   return image;
 }
 
-/// Mean of primitives of one kind and size, each seen through its correspondence to the first.
+/// Mean of primitives of one kind and size, each mapped by its correspondence to the first one.
 class Mean {
  public:
   explicit Mean(const Primitive& first)
@@ -91,7 +91,7 @@ double miss(const Primitive& from, const Primitive& target, const Eigen::Isometr
   return most;
 }
 
-/// `axes` turned as little as possible so that one of them is `direction`; those in `fixed` stay.
+/// Rotates `axes` by the smallest rotation that makes one of them `direction`. The axes in `fixed` stay.
 void align_axis(Eigen::Matrix3d& axes, std::vector<int>& fixed, const Eigen::Vector3d& direction) {
   int nearest = -1;
   for (int a = 0; a < 3; ++a)
@@ -107,13 +107,14 @@ void align_axis(Eigen::Matrix3d& axes, std::vector<int>& fixed, const Eigen::Vec
   fixed.push_back(nearest);
 }
 
-/// A box turned to the mirror planes of `group`, its extents kept: a round plate holds a square box at any
-/// angle.
+/// Returns a box with the same extents, rotated into the mirror planes of `group`. A square box fits a round
+/// plate at any angle.
 Cuboid aligned(const Cuboid& cuboid, const std::vector<Eigen::Isometry3d>& group) {
   OrientedBox box = nearest_box(cuboid);
   std::vector<int> fixed;
   for (const Eigen::Isometry3d& map : group) {
-    // A reflection takes the direction across its plane to its opposite, and nothing else changes.
+    // A reflection maps the normal of its plane to the opposite direction, and leaves all orthogonal
+    // directions unchanged.
     const Eigen::Matrix3d across = (Eigen::Matrix3d::Identity() - map.linear()) / 2;
     if (std::abs(across.trace() - 1) > tolerance::relative || map.linear().determinant() > 0) continue;
     Eigen::Index column = 0;
@@ -140,7 +141,7 @@ class Symmetrizer {
  private:
   Part& part(int row) { return structure_.parts[static_cast<std::size_t>(row)]; }
 
-  /// Mean over the group. A box that lies askew to the planes is turned to them first.
+  /// Returns the mean over the group. A box that is not aligned with the planes is first rotated into them.
   Primitive made_symmetric(const Primitive& primitive, const Orbit& orbit, bool boxes) const {
     const auto average = [&](const Primitive& one) {
       Mean mean(one);
@@ -151,14 +152,14 @@ class Symmetrizer {
     };
     const Primitive mean = average(primitive);
     if (!boxes) return average(mean);
-    // Averaging shrinks a box that lies askew a little; turning it does not, but may be the longer way.
+    // Averaging shrinks a rotated box slightly. A rotation keeps its size, but may move its corners farther.
     const Primitive turned = average(aligned(std::get<Cuboid>(primitive), orbit.group));
     const bool turn =
         worst_miss(mean, orbit) > limit() || distance(turned, primitive) <= 1.5 * distance(mean, primitive);
     return average(turn ? turned : mean);
   }
 
-  /// How far the corners moved.
+  /// Returns the largest displacement of a control point.
   static double distance(const Primitive& a, const Primitive& b) {
     return (control_points(a) - control_points(b)).rowwise().norm().maxCoeff();
   }
@@ -175,8 +176,8 @@ class Symmetrizer {
                      : fit.cylinder_error.value_or(std::numeric_limits<double>::infinity());
   }
 
-  /// Same kind, same number of sections: the kind that fits better in sum, the best of its primitives copied
-  /// to the others.
+  /// Gives the parts of an orbit primitives of the same kind and number of sections. The kind is the one with
+  /// the smaller sum of errors. The best primitive of this kind is copied to the other parts.
   void unify_kinds(const Orbit& orbit) {
     std::vector<std::size_t> best_of_kind;
     std::size_t winner = 0;
@@ -203,7 +204,7 @@ class Symmetrizer {
     }
   }
 
-  /// What rounding may leave, model units.
+  /// Returns the bound of rounding errors, model units.
   double limit() const {
     double largest = structure_.diagonal;
     for (const Part& one : structure_.parts)
@@ -211,7 +212,7 @@ class Symmetrizer {
     return tolerance::symmetrized * largest;
   }
 
-  /// The first relation that does not hold, and of every other orbit the first as well.
+  /// Returns the first violated relation, and the first violated relation of every other orbit.
   std::optional<Contradiction> check(const std::vector<Orbit>& orbits) const {
     std::vector<int> orbit_of(structure_.parts.size(), -1);
     for (std::size_t k = 0; k < orbits.size(); ++k)
@@ -234,7 +235,7 @@ class Symmetrizer {
     return first;
   }
 
-  /// Why a symmetry does not hold; empty when it does.
+  /// Returns why a symmetry relation is violated; empty when it holds.
   std::string broken(const Relation& relation, int row, double most) const {
     if (symmetry_residual(structure_, relation) > most)
       return describe(structure_, row) +

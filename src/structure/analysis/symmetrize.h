@@ -7,16 +7,17 @@
 
 namespace stackabilization::detail {
 
-/// What `symmetrize` does, telling what contradicts instead of throwing; `structure` is then half done. The
-/// last of the contradicting relations is the one to do without.
+/// Symmetrizes the primitives as `symmetrize` does, but returns a contradiction instead of throwing.
+/// `structure` is then only partly changed. The last of the contradicting relations is the one to remove.
 std::optional<Contradiction> try_symmetrize(Structure& structure);
 
-/// Gives the parts of an orbit the mean of their primitives, seen from each of them, averaged over the group
-/// of the orbit.
+/// Replaces the primitives of an orbit by their symmetric mean. The mean is taken over all parts, mapped to
+/// each part by the symmetries, and over the group of the orbit.
 void make_symmetric(Structure& structure, const Orbit& orbit);
 
-/// Largest distance between where `relation`, a symmetry, takes the control points of its part and where they
-/// should go, radii compared likewise, model units. Infinite when the primitives do not correspond.
+/// Computes the residual of a symmetry relation, model units: the largest distance between the image of a
+/// control point and its counterpart, and the largest difference of corresponding radii. Infinite when the
+/// primitives do not correspond. Precondition: `relation` is a symmetry or a self-symmetry.
 double symmetry_residual(const Structure& structure, const Relation& relation);
 
 }  // namespace stackabilization::detail

@@ -7,17 +7,19 @@
 
 namespace stackabilization::detail {
 
-/// A part in its own frame: the one of its box, longest axis first, each axis toward the side with the longer
-/// tail, mirrored where that is left-handed.
+/// A part in the frame of its box: longest axis first. Each axis points to the side with the longer tail of
+/// the part. A left-handed frame mirrors the part.
 struct CanonicalPose {
-  Shape part;  ///< coordinates rounded to 2^-24 of the diagonal; turned inside out where mirrored, for it to
-               ///< stay outward
-  Eigen::Vector3d centre;
-  Eigen::Matrix3d axes;  ///< columns, orthonormal: a point q of `part` is at centre + axes * q in the file
+  /// The part in its own frame. Coordinates are rounded to 2^-24 of the diagonal. The triangles of a mirrored
+  /// part are reversed, so that normals stay outward.
+  Shape part;
+  Eigen::Vector3d centre;  ///< origin of the frame, model units
+  Eigen::Matrix3d axes;    ///< orthonormal columns: point q of `part` is at centre + axes * q in the file
 };
 
-/// Copies of a part, moved, turned or mirrored, are equal bit for bit in this pose unless they are symmetric
-/// themselves or rounding falls badly. Algorithms that amplify rounding then treat them alike.
+/// Computes the canonical pose. Moved, rotated or mirrored copies of a part are equal bit for bit in this
+/// pose, except when the part is symmetric or rounding is unfavourable. Algorithms that amplify rounding then
+/// treat the copies alike.
 CanonicalPose canonical_pose(const Shape& part, const OrientedBox& box);
 
 }  // namespace stackabilization::detail

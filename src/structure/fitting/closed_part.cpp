@@ -34,7 +34,7 @@ constexpr double wanted_triangles = 2000;
 constexpr std::size_t max_triangles = 20000;
 /// Cells along the diagonal of a clustered part.
 constexpr double clusters = 150;
-/// Wrapping: diagonal over the size of what is closed, and over the distance kept.
+/// Alpha wrap: ratio of the diagonal to alpha, and to the offset.
 constexpr double wrap_alpha = 24, wrap_offset = 120;
 
 struct Soup {
@@ -42,8 +42,8 @@ struct Soup {
   std::vector<std::array<std::size_t, 3>> polygons;
 };
 
-/// The welded triangles of a part; with a positive `cell`, all vertices of a cell of that size are the first
-/// one there.
+/// Returns the welded triangles of a part. With a positive `cell`, all vertices in a grid cell of that size
+/// become the first one of the cell.
 Soup soup_of(const Shape& part, double cell) {
   Shape cells = part;
   if (cell > 0) cells.vertices = (part.vertices / cell).array().floor();
@@ -101,8 +101,8 @@ std::optional<ClosedPart> closed_part(const Shape& part) {
                                             range_along(part, Eigen::Vector3d::UnitY()).length(),
                                             range_along(part, Eigen::Vector3d::UnitZ()).length())
                                 .norm();
-    // Remeshing collapses such a plate through itself, wrapped or not, and CGAL 5.5 may crash on what is
-    // left.
+    // Remeshing collapses such a plate through itself, with or without a wrap, and CGAL 5.5 may crash on the
+    // result.
     if (principal_extents(part.vertices, tolerance::relative * diagonal).length(2) < diagonal / wrap_offset)
       return std::nullopt;
     const Soup soup = soup_of(part, count > max_triangles ? diagonal / clusters : 0);

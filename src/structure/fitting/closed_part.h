@@ -6,16 +6,19 @@
 
 namespace stackabilization::detail {
 
-/// A closed, connected, outward oriented surface of some thousand even triangles that stands for a part.
+/// A closed, connected, outward oriented surface of a few thousand well-shaped triangles that replaces a
+/// part.
 struct ClosedPart {
   Shape surface;
+  /// Whether `surface` is an alpha wrap. The part itself is then open, non-manifold, of several shells or
+  /// very large.
   bool wrapped =
       false;  ///< the part itself is open, not manifold, of several shells or very large: this wraps it
 };
 
-/// The part itself remeshed (Botsch and Kobbelt 2004) where it is closed and connected, else its alpha wrap
-/// (Portaneri et al. 2022), a little larger than the part. The work is bounded for parts of any size. Nothing
-/// when CGAL fails.
+/// Remeshes a closed connected part (Botsch and Kobbelt 2004). Any other part is replaced by its alpha wrap
+/// (Portaneri et al. 2022), which is slightly larger than the part. The cost is bounded for parts of any
+/// size. Returns nothing when CGAL fails.
 std::optional<ClosedPart> closed_part(const Shape& part);
 
 }  // namespace stackabilization::detail

@@ -4,13 +4,14 @@
 #include <memory>
 #include <new>
 
-/// For one source file, which hands it to CGAL.
+/// Allocator for the CGAL skeleton code: addresses increase in the order of allocation.
 namespace stackabilization::detail {
 
-/// One block of memory that is given out from its low end to its high end and taken back as a whole.
+/// One block of memory. It is handed out from its low end to its high end and freed as a whole.
 class CreationOrderMemory {
  public:
-  /// Becomes the memory of CreationOrderAllocator in this thread, until it is destroyed.
+  /// Becomes the memory of CreationOrderAllocator in this thread until its destruction. `bytes`: size of the
+  /// block.
   explicit CreationOrderMemory(std::size_t bytes)
       : block_(new std::byte[bytes]), room_(bytes), next_(block_.get()), outer_(current_) {
     current_ = this;
@@ -19,7 +20,8 @@ class CreationOrderMemory {
   CreationOrderMemory& operator=(const CreationOrderMemory&) = delete;
   ~CreationOrderMemory() { current_ = outer_; }
 
-  /// Throws std::bad_alloc when the block is used up, or this thread has none.
+  /// Returns the next `bytes` bytes of the block of this thread. Throws std::bad_alloc when the block is used
+  /// up or the thread has none.
   static void* take(std::size_t bytes, std::size_t alignment) {
     if (current_ == nullptr || std::align(alignment, bytes, current_->next_, current_->room_) == nullptr)
       throw std::bad_alloc();
@@ -37,8 +39,9 @@ class CreationOrderMemory {
   static inline thread_local CreationOrderMemory* current_ = nullptr;
 };
 
-/// What is allocated later lies higher. Algorithms that visit elements in the order of their addresses so
-/// visit them in the order of their creation, and give the same result in every run.
+/// Allocator of the CreationOrderMemory of the thread. A later allocation has a higher address. Algorithms
+/// that visit elements by address therefore visit them in the order of creation, and give the same result in
+/// every run.
 template <class T>
 struct CreationOrderAllocator {
   using value_type = T;

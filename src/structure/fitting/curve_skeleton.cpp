@@ -25,7 +25,7 @@ namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-/// Several times what the skeleton of some thousand triangles takes; untouched memory costs nothing.
+/// Several times the memory for the skeleton of a few thousand triangles. Unused memory costs nothing.
 constexpr std::size_t memory = std::size_t{1} << 27;
 
 using Skeletonization = CGAL::Mean_curvature_flow_skeletonization<Mesh>;

@@ -46,8 +46,8 @@ Curve resampled(const Curve& curve, int n) {
   return even;
 }
 
-/// A loop counter-clockwise about its upward normal, from its side toward the file's axes on; other curves as
-/// they are.
+/// Orients a loop counter-clockwise about its upward normal, with its start on the side of the file's axes.
+/// Returns other curves unchanged.
 Curve ordered(const Curve& curve) {
   if (!curve.closed) return curve;
   const Eigen::Index n = curve.points.rows();
@@ -75,7 +75,7 @@ Points smoothed(const Points& rows, bool closed) {
   return smooth;
 }
 
-/// Where on a curve a surface point belongs.
+/// Projection of a surface point onto a curve.
 struct Foot {
   double at;        ///< sections from the first: 2.5 is halfway between the third and the fourth
   double distance;  ///< from the curve
@@ -94,7 +94,7 @@ Foot foot_of(const Curve& curve, const Eigen::RowVector3d& point) {
   return best;
 }
 
-/// Surface points around one section, how much each counts, and how far they are from the curve.
+/// Surface points around one section, with their weights and their distances from the curve.
 struct Ring {
   std::vector<Eigen::RowVector3d> points;
   std::vector<double> weights, distances;
@@ -108,7 +108,7 @@ class Fit {
     for (int pass = 0; pass < smoothing; ++pass) curve_.points = smoothed(curve_.points, curve_.closed);
   }
 
-  /// Moves are smoothed, not places: smoothing a bent curve would draw it inward, off the middle.
+  /// Smooths the moves, not the positions: smoothing a bent curve would pull it inwards, off the middle.
   void refine() {
     assign();
     Points moves(curve_.points.rows(), 3);
@@ -119,7 +119,7 @@ class Fit {
     curve_ = resampled(curve_, static_cast<int>(moves.rows()));
   }
 
-  /// Finite, and neighbouring sections at different places?
+  /// Returns whether the curve is finite and neighbouring sections have different positions.
   bool usable() const {
     for (Eigen::Index i = 0; i < piece_count(curve_); ++i)
       if (!(piece(curve_, i).norm() > 0)) return false;
@@ -147,7 +147,7 @@ class Fit {
   }
 
  private:
-  /// Deals the samples to the two sections next to their feet.
+  /// Distributes the samples to the two sections next to their projections.
   void assign() {
     const Eigen::Index n = curve_.points.rows();
     rings_.assign(static_cast<std::size_t>(n), {});
@@ -172,7 +172,7 @@ class Fit {
     }
   }
 
-  /// To the ends of the part, also back to them.
+  /// Extends the curve to the ends of the part, or shortens it to them.
   void extend() {
     const Eigen::Index last = curve_.points.rows() - 1;
     const Eigen::RowVector3d first_step = piece(curve_, 0).normalized(),
@@ -181,8 +181,8 @@ class Fit {
     curve_.points.row(last) += beyond_last_ * last_step;
   }
 
-  /// From a section to the centre of the circle through its ring, least squares (Kasa 1976), at most a radius
-  /// away.
+  /// Returns the vector from a section to the centre of the least-squares circle through its points (Kasa
+  /// 1976), at most one radius long.
   Eigen::RowVector3d offset(Eigen::Index i) const {
     const Ring& ring = rings_[static_cast<std::size_t>(i)];
     const auto count = static_cast<Eigen::Index>(ring.points.size());

@@ -20,7 +20,8 @@ constexpr int direction_count = 48;
 
 using OutlineSegment = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
 
-/// The segments that the plane third coordinate = height cuts out of the triangles, seen from the axis.
+/// Segments of the intersection of the triangles with the plane third coordinate = height, seen from the
+/// axis.
 class Sections {
  public:
   Sections(const Shape& part, const AxisLine& axis, std::vector<double> heights)
@@ -37,7 +38,7 @@ class Sections {
     }
   }
 
-  /// Farthest distance from the axis; NaN where nothing is cut.
+  /// Returns the largest distance from the axis; NaN where the intersection is empty.
   double outermost(std::size_t section) const {
     double farthest = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [a, b] : segments_[section])
@@ -45,7 +46,8 @@ class Sections {
     return farthest;
   }
 
-  /// Mean over the directions that meet the outline of their farthest point on it; NaN where nothing is cut.
+  /// Returns the mean, over the directions that meet the outline, of the distance of its farthest point; NaN
+  /// where the intersection is empty.
   double mean(std::size_t section) const {
     double sum = 0;
     int count = 0;
@@ -57,7 +59,8 @@ class Sections {
     return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
   }
 
-  /// Centroid of the outline, in the plane across the axis; NaN where nothing is cut.
+  /// Returns the centroid of the outline, in the plane orthogonal to the axis; NaN where the intersection is
+  /// empty.
   Eigen::Vector2d middle(std::size_t section) const {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     double length = 0;
@@ -95,7 +98,7 @@ class Sections {
   std::vector<std::vector<OutlineSegment>> segments_;
 };
 
-/// Between shells nothing is cut: there the radius runs evenly from the known one below to the one above.
+/// Interpolates radii linearly where the intersection is empty, as between shells.
 void fill_gaps(Eigen::VectorXd& radii) {
   Eigen::Index known = -1;
   for (Eigen::Index i = 0; i < radii.size(); ++i) {
@@ -109,8 +112,8 @@ void fill_gaps(Eigen::VectorXd& radii) {
   if (known >= 0) radii.tail(radii.size() - known - 1).setConstant(radii(known));
 }
 
-/// Slanted and rounded ends cut a tip at most: there the wall, continued straight but not wider, counts as
-/// well.
+/// Enlarges the radii at the ends. The plane at a slanted or rounded end cuts only a tip of the part; the
+/// radius is at least that of the wall, extended straight but not wider.
 void hold_ends(Eigen::VectorXd& radii) {
   const Eigen::Index n = radii.size();
   const auto held = [&](Eigen::Index end, Eigen::Index next, Eigen::Index after) {
@@ -121,7 +124,7 @@ void hold_ends(Eigen::VectorXd& radii) {
   radii(n - 1) = last;
 }
 
-/// Even heights over the axis point from end to end of the part.
+/// Equal steps in height over the axis point, from end to end of the part.
 struct Heights {
   Range range;  ///< of the part along the axis, above the axis point
   std::vector<double> planes;
@@ -129,7 +132,8 @@ struct Heights {
   Heights(const Shape& part, const AxisLine& axis, int sections) : range(range_along(part, axis.direction)) {
     const double offset = axis.direction.dot(axis.point);
     range = {range.low - offset, range.high - offset};
-    // A plane through an end misses it as often as not: the outermost two pass just inside.
+    // A plane through an end may miss the part because of rounding: the outermost two planes lie slightly
+    // inside.
     for (int i = 0; i < sections; ++i)
       planes.push_back(
           std::lerp(range.low, range.high,

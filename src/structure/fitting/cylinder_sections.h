@@ -9,31 +9,35 @@
 
 namespace stackabilization::detail {
 
-/// A radius is at least this fraction of the largest one: pointed ends keep a circle that can be scaled.
+/// Smallest radius as a fraction of the largest one. A pointed end keeps a circle that can be scaled.
 constexpr double min_relative_radius = 0.01;
 
-/// What a circle across a straight axis takes from the outline of the part there.
+/// Definition of the radius of a section across a straight axis.
 enum class SectionRadius {
-  outermost,  ///< the distance of its farthest point: right for bodies of revolution, however finely cut
-  mean        ///< the mean over all directions of the outermost distance: right for other outlines
+  /// Distance of the farthest point of the outline: right for bodies of revolution at any tessellation.
+  outermost,
+  mean  ///< mean over all directions of the outermost distance: right for other outlines
 };
 
-/// Circles at even heights along `axis` from the lower end of the part (by z, y, x) to the other; of a hollow
-/// body its outer wall. Nothing when the part has no extent along or across the axis.
+/// Fits circles at equal steps along `axis`, from the lower end of the part (by z, y, x) to the other end.
+/// The circles of a hollow body follow its outer wall. Returns nothing when the part has no extent along or
+/// across the axis.
 std::optional<GeneralizedCylinder> straight_cylinder(const Shape& part, const AxisLine& axis, int sections,
                                                      SectionRadius radius);
 
-/// The straight line nearest to the middles of the part's outlines across `axis`, for legs that lean in their
-/// box: least squares. Nothing when fewer than half of the sections have an outline.
+/// Fits, by least squares, the straight line through the middles of the outlines of the part across `axis`.
+/// It serves parts that lean in their box. Returns nothing when fewer than half of the sections have an
+/// outline.
 std::optional<AxisLine> middle_line(const Shape& part, const AxisLine& axis, int sections);
 
-/// A closed one around the axis of a body of revolution, through the middle of its profile,
-/// counter-clockwise about its upward side. Nothing when the profile reaches the axis.
+/// Fits a closed cylinder around the axis of a body of revolution, through the middle of its profile. It runs
+/// counter-clockwise about the upward direction of the axis. Returns nothing when the profile reaches the
+/// axis.
 std::optional<GeneralizedCylinder> ring_cylinder(const FitSurface& part, const AxisLine& axis, int sections);
 
-/// Circles at even arc lengths of a curve that is first moved to the middle of the part and, when open,
-/// extended to its ends; the radius is the mean distance of the surface whose nearest point of the curve is
-/// there. Nothing when the curve leaves the part.
+/// Fits circles at equal arc lengths of a curve. First the curve moves to the middle of the part and, when
+/// open, is extended to the ends of the part. The radius is the mean distance of the surface points whose
+/// nearest curve point lies at the section. Returns nothing when the curve leaves the part.
 std::optional<GeneralizedCylinder> curved_cylinder(const FitSurface& part, const Curve& curve, int sections);
 
 }  // namespace stackabilization::detail

@@ -20,19 +20,19 @@ namespace {
 
 constexpr int min_sections = 4;
 
-/// Error, as a fraction of the diagonal, up to which a part counts as held by a box or along a straight axis,
-/// so that its skeleton has nothing to add.
+/// Error up to which a box or a straight axis represents a part well, so that a skeleton is not tried;
+/// fraction of the diagonal.
 constexpr double max_held_error = 0.01;
 
-/// Error, as a fraction of the one so far, that the next cylinder has to stay below: hardly less will do for
-/// another straight axis than the longest, a less simple curve has to be clearly better.
+/// Factor by which the error of the next cylinder must improve. Another straight axis than the longest needs
+/// a small improvement, a more complex curve needs a clear one.
 constexpr double other_axis = 0.95;
 constexpr double other_curve = 0.8;
 constexpr double wrapped_curve = 0.6;  // the finer points of a wrapped surface are not the part's
 constexpr double other_kind = 0.85;    // between a panel and a flat curved tube, the panel
 
-/// Least length of a cylinder along another axis of the box than the longest, as a fraction of its largest
-/// radius: flatter ones are plates, which a box holds as well.
+/// Smallest length of a cylinder along another axis of the box than the longest, fraction of its largest
+/// radius. Flatter parts are plates, and a box represents them as well.
 constexpr double min_length = 0.5;
 
 struct FittedCylinder {

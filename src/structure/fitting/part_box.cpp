@@ -18,7 +18,8 @@ namespace {
 constexpr double volume_slack = 1.05;
 constexpr double distance_slack = 1.2;
 
-/// The same three lines, ordered and signed to a right-handed frame as near to the identity as can be.
+/// Orders and signs the same three lines, such that the frame is right-handed and as near to the identity as
+/// possible.
 Eigen::Matrix3d canonical(const Eigen::Matrix3d& axes) {
   Eigen::Matrix3d best = axes;
   double best_trace = -std::numeric_limits<double>::infinity();
@@ -28,7 +29,7 @@ Eigen::Matrix3d canonical(const Eigen::Matrix3d& axes) {
       Eigen::Matrix3d turned;
       for (int k = 0; k < 3; ++k)
         turned.col(k) = ((signs >> k) & 1 ? -1.0 : 1.0) * axes.col(order[static_cast<std::size_t>(k)]);
-      // Frames as near as each other, up to rounding, are taken in their order here, not as rounding has it.
+      // Frames that are equally near up to rounding are chosen by their order here, not by rounding.
       if (turned.determinant() < 0 || turned.trace() <= best_trace + tolerance::relative) continue;
       best = turned;
       best_trace = turned.trace();

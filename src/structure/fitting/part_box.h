@@ -10,30 +10,36 @@ namespace stackabilization::detail {
 
 /// First and second moments of a surface of constant mass per area.
 struct SurfaceMoments {
-  double area = 0;
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< mean of (p - centre) (p - centre)^T
+  double area = 0;                                   ///< model units squared
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centroid of the area, model units
+  /// Mean of (p - centre) (p - centre)^T, model units squared.
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 };
 
-/// Integrated triangle by triangle, without sampling: as symmetric as the part.
+/// Integrates the moments over the triangles, without sampling. The result has the symmetries of the part.
 SurfaceMoments surface_moments(const Shape& part);
 
-/// The cuboid's box of a part.
+/// Box of the cuboid of a part.
 struct PartBox {
-  OrientedBox box;         ///< every half extent at least `tolerance::min_thickness` of the diagonal, halved
-  bool flat = false;       ///< without extent across some direction: no cylinder holds it
-  bool thickened = false;  ///< some half extent was raised to the least one
+  /// Every half extent is at least half of `tolerance::min_thickness` of the diagonal.
+  OrientedBox box;
+  /// Whether the part has no extent in some direction. No generalized cylinder represents a flat part.
+  bool flat = false;
+  /// Whether a half extent was raised to the minimum.
+  bool thickened = false;
 };
 
-/// The minimal oriented box, or another one that is as good to the eye and better placed: in this order the
-/// box of the file's axes, boxes around the axis of inertia that stands out, boxes around an axis of the
-/// minimal one, each turned as the file's axes demand; and the minimal one itself. As good: at most 5 % more
-/// volume, and at most 20 % more root mean square distance from the surface. So round and square parts of a
-/// model get boxes alike, and tapered ones symmetric boxes. Axes are ordered and signed to lie nearest to the
-/// file's.
+/// Computes the box of a part: the minimal oriented box, or a better aligned box that fits nearly as well.
+/// The candidates, in this order, are the box of the file's axes, boxes around the distinct axis of inertia,
+/// boxes around an axis of the minimal box, and the minimal box. The file's axes determine the rotation of
+/// the second and third kind. A candidate fits nearly as well with at most 5 % more volume and at most 20 %
+/// more root mean square distance from the surface. Round and square parts of a model thus get consistent
+/// boxes, and tapered parts get symmetric boxes. The order and the signs of the axes are the nearest ones to
+/// the file's axes.
 PartBox part_box(const FitSurface& part);
 
-/// Columns of `box.axes`, longest first; of equally long ones (tolerance::relative) the later first.
+/// Returns the columns of `box.axes`, longest first. Of equally long axes (tolerance::relative) the later one
+/// comes first.
 std::array<int, 3> axes_by_length(const OrientedBox& box);
 
 }  // namespace stackabilization::detail

@@ -13,15 +13,16 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Root mean square miss of a turned part, as a fraction of its largest radius, up to which it is round: a
-/// regular octagon misses itself by 0.035, a hexagon by 0.06, a square by 0.12.
+/// Largest root mean square deviation of a rotated part from itself for a round part, fraction of its largest
+/// radius. A regular octagon has 0.035, a hexagon 0.06, a square 0.12.
 constexpr double roundness = 0.04;
 
-/// Least-squares residuals of axis directions, relative to the extent squared, below which they are all axes:
-/// a sphere.
+/// Residual of an axis direction, relative to the squared extent, below which every direction is an axis: a
+/// sphere.
 constexpr double any_axis = 0.001;
 
-/// Quadratic form of (direction, moment) of a line: how far, over the surface, the normals pass it.
+/// Quadratic form of the Pluecker coordinates (direction, moment) of a line: the integral over the surface of
+/// the squared deviation of the normals from the line.
 struct NormalComplex {
   Eigen::Matrix3d directions = Eigen::Matrix3d::Zero(), mixed = directions, moments = directions;
 };

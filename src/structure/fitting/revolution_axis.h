@@ -7,17 +7,17 @@
 
 namespace stackabilization::detail {
 
-/// A line.
+/// A line in space.
 struct AxisLine {
-  Eigen::Vector3d point;
-  Eigen::Vector3d direction;  ///< unit
+  Eigen::Vector3d point;      ///< any point of the line, model units
+  Eigen::Vector3d direction;  ///< unit vector
 };
 
-/// The axis of a body of revolution, hollow or not: the line that the normals of the surface meet best, by
-/// least squares in line coordinates (Pottmann and Randrup, Rotational and helical surface approximation,
-/// Computing 60, 1998), integrated over the triangles, so that it does not depend on how they are oriented or
-/// sampled. Nothing when the part, turned about it by several angles, misses itself by more than a regular
-/// octagon would.
+/// Computes the axis of a body of revolution, hollow or not: the line that the surface normals intersect
+/// best, by least squares in line coordinates (Pottmann and Randrup, Rotational and helical surface
+/// approximation, Computing 60, 1998). The sums are integrals over the triangles; orientation and
+/// tessellation do not influence them. Returns nothing when the part, rotated by several angles about the
+/// axis, deviates from itself by more than a regular octagon does.
 std::optional<AxisLine> revolution_axis(const FitSurface& part);
 
 }  // namespace stackabilization::detail

@@ -11,8 +11,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Shares of the length of a skeleton from which on its loop, or the longest path in it, stands for it: what
-/// branches is no tube.
+/// Shares of the length of a skeleton that its loop, or its longest path, must have at least. A branching
+/// skeleton is not a tube.
 constexpr double loop_share = 0.5;
 constexpr double path_share = 0.85;
 
@@ -26,7 +26,8 @@ class SkeletonGraph {
     }
   }
 
-  /// The loop that is left when all branches are cut back, in its order; empty unless there is exactly one.
+  /// Returns the loop that remains after removal of all branches, in order; empty unless there is exactly
+  /// one.
   std::vector<int> loop() const {
     std::vector<int> degree;
     for (const auto& list : neighbours_) degree.push_back(static_cast<int>(list.size()));

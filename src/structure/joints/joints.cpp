@@ -24,10 +24,10 @@ namespace {
 
 using detail::PartSurface;
 
-/// Share of a region, about its centre, that a third part must hold to hide it.
+/// Share of a region, about its centre, that must lie in a third part for the joint to be omitted.
 constexpr double hidden_share = 0.75;
 
-/// Width over length of a region from which on it has no longest direction.
+/// Smallest ratio of width to length of a region without a longest direction.
 constexpr double round_share = 0.9;
 
 /// The same for the second moments of a shape across an axis.
@@ -48,7 +48,8 @@ double size_of(const Shape& shape) {
   return detail::enclosing_diameter(corners);
 }
 
-/// Second moment of the surface of a shape about its centroid: tells directions that belong to the shape.
+/// Second moments of the surface of a shape about its centroid: they define directions that move with the
+/// shape.
 Eigen::Matrix3d surface_moment(const Shape& shape) {
   const Eigen::Vector3d origin = shape.corner(0, 0);
   double area = 0;
@@ -95,7 +96,7 @@ class JointFinder {
   std::vector<Joint> joints_between(int a, int b) const {
     const PartSurface &first = surface(a), &second = surface(b);
     const double smaller = std::min(first.size(), second.size());
-    // Parts far smaller than the reach would meet everything around them.
+    // Parts far smaller than the reach would otherwise meet all parts around them.
     const double reach = std::min(options_.reach * size_, options_.separate * smaller);
     std::vector<detail::PartInterface> spots =
         part_interfaces(first, second, {reach, options_.separate * smaller});
@@ -111,9 +112,9 @@ class JointFinder {
     return joints;
   }
 
-  /// Several spots in a row along the side of a cuboid are the seam that the cuboid has with the other part:
-  /// a rail that hangs on two pegs. The other part must be there between them; a bar between two arms has
-  /// none.
+  /// Replaces several regions in a row along the side of a cuboid by the line joint of the cuboid with the
+  /// other part, such as a rail on two pegs. The other part must be present between the regions; a bar
+  /// between two arms is not.
   std::optional<detail::PartInterface> seam(const std::vector<detail::PartInterface>& spots,
                                             const std::array<int, 2>& parts, double reach) const {
     const int bar = surface(parts[0]).size() < surface(parts[1]).size() ? 0 : 1;
@@ -146,10 +147,11 @@ class JointFinder {
 
   const PartSurface& surface(int part) const { return *surfaces_[static_cast<std::size_t>(part)]; }
 
-  /// Two bars that end in one leg overlap there, but it is the leg that holds them: what they share is
-  /// smaller than what each of them shares with the leg, and lies in it.
+  /// Removes the joints that a third part hides. Two bars that end in one leg overlap there, but both are
+  /// joined to the leg: the overlap of the bars is smaller than the overlap of each of them with the leg, and
+  /// lies inside the leg.
   std::vector<Relation> without_hidden(const std::vector<Joint>& joints) const {
-    // What each part shares at most with each that it is joined to.
+    // Largest overlap of each part with the parts that it is joined to.
     std::vector<std::map<int, double>> shares(surfaces_.size());
     for (const auto& [relation, region] : joints)
       for (const std::size_t side : {0U, 1U}) {
@@ -209,7 +211,8 @@ class JointFinder {
     return joint;
   }
 
-  /// False for the middle of a ring: where a rim sits on a cup neither of them is there.
+  /// Returns whether one of the parts is at the centre of a region. In the middle of a ring, such as a rim on
+  /// a cup, neither part is.
   bool is_shared(const Eigen::Vector3d& point, const std::array<int, 2>& parts) const {
     return std::all_of(parts.begin(), parts.end(), [&](int part) {
       return surface(part).contains(point) ||
@@ -217,8 +220,8 @@ class JointFinder {
     });
   }
 
-  /// How far a region reaches to four sides of its centre: along its two longest axes, or, where it is as
-  /// long as wide, so that every choice is as good, along the axes of the shape.
+  /// Returns the extreme points of a region on four sides of its centre, along its two longest axes. When its
+  /// length equals its width, the axes of the shape define the four sides.
   std::vector<Eigen::RowVector3d> extremes(const detail::PrincipalExtents& region) const {
     const Eigen::Vector3d normal = region.axes.col(2);
     const bool is_round = region.deviations(1) > round_share * region.deviations(0);

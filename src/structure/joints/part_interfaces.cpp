@@ -21,8 +21,8 @@ namespace {
 
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, int>;
 
-/// Of what lies within reach, the part that comes this much farther than the nearest, as a share of the
-/// reach, gives the place of a joint.
+/// Largest additional distance, beyond the smallest one, of the points that define the position of a joint;
+/// fraction of the reach.
 constexpr double place_share = 0.25;
 
 /// An edge of one surface that comes within reach of a triangle of the other.
@@ -110,7 +110,8 @@ class InterfaceFinder {
       if (one.edge >= 0) meetings_.push_back(one);
   }
 
-  /// Of a short edge, what it touches and the nearest triangle are enough.
+  /// Examines an edge and a triangle. For a short edge, its touching triangles and its nearest triangle
+  /// suffice.
   void meet(int side, int row, int triangle) {
     const Segment ends = segment(side, row);
     const Corners corner = corners(1 - side, triangle);
@@ -135,9 +136,9 @@ class InterfaceFinder {
     return std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()}) <= options_.reach;
   }
 
-  /// Within reach of a triangle lies a convex piece of each triangle of the other surface. Neighbouring
-  /// pieces share a piece of an edge; so meetings belong together when they are about the same two triangles,
-  /// or the same small one.
+  /// Joins meetings. The portion of a triangle within reach of another triangle is convex. Neighbouring
+  /// portions share a piece of an edge. Meetings therefore belong together when they concern the same two
+  /// triangles, or the same small triangle.
   void join_pieces() {
     std::vector<std::pair<std::uint64_t, std::size_t>> pieces;
     constexpr auto any = static_cast<std::uint64_t>(std::numeric_limits<std::uint32_t>::max());
@@ -179,8 +180,8 @@ class InterfaceFinder {
 
   bool touches(const Meeting& meeting) const { return meeting.approach.distance <= resolution_; }
 
-  /// Stretches of edges between crossings that run inside the other surface tie together what lies along
-  /// them.
+  /// Joins the meetings along every stretch of an edge, between crossings, that runs inside the other
+  /// surface.
   void join_inside(int side) {
     for (const auto& [row, range] : meetings_by_edge(side)) {
       std::vector<double> places = {0, 1};
@@ -223,9 +224,9 @@ class InterfaceFinder {
     for (const std::size_t member : members) sets_.join(members[0], member);
   }
 
-  /// From vertices known to be inside over edges that do not cross the other surface. What touches it nowhere
-  /// is inside or outside as a whole. Where the other surface is open, "inside" is a guess: what reaches
-  /// beyond its box is not.
+  /// Propagates from vertices known to be inside over edges that do not cross the other surface. A shell that
+  /// does not touch the other surface is inside or outside as a whole. Where the other surface is open,
+  /// "inside" is an estimate: points beyond its box are not inside.
   void spread_inside(int side) {
     const std::size_t count = mine(side).points().size();
     std::vector<bool> is_touched(mine(side).edges().size(), false);
@@ -330,8 +331,8 @@ class InterfaceFinder {
     return result;
   }
 
-  /// What comes not quite as near as the nearest points counts when it makes the region longer or wider.
-  /// Elsewhere it would only tell how the surfaces beside the contact are cut into triangles.
+  /// Points slightly farther than the nearest ones count when they make the region longer or wider. Elsewhere
+  /// they would only depend on the triangulation beside the contact.
   PartInterface place_of(const Region& region) const {
     const double slack = place_share * options_.reach;
     const double gap = *std::min_element(region.gaps.begin(), region.gaps.end());

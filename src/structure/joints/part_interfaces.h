@@ -7,22 +7,23 @@
 
 namespace stackabilization::detail {
 
-/// A connected region in which two parts meet.
+/// A connected region in which two parts of one copy meet.
 struct PartInterface {
-  /// Hull of where the surfaces cross, where edges and corners of one lie on the other or nearest to it
-  /// (midway between both), and of corners of one inside the other.
+  /// Convex hull of the meeting points. These are the crossings of the surfaces, the points of edges and
+  /// corners of one surface on or nearest to the other (midway between both), and the corners of one part
+  /// inside the other.
   PrincipalExtents region;
-  double gap = 0;  ///< least distance between the surfaces, model units; 0 where they touch or cross
+  double gap = 0;  ///< smallest distance between the surfaces, model units; 0 where they touch or cross
 };
 
+/// Thresholds of `part_interfaces`.
 struct InterfaceOptions {
-  double reach = 0;     ///< surfaces nearer than this meet, model units
-  double separate = 0;  ///< regions nearer than this are one, model units
+  double reach = 0;     ///< largest distance between surfaces that meet, model units
+  double separate = 0;  ///< regions nearer to each other than this are one, model units
 };
 
-/// Every region in which surfaces `a` and `b` meet. All regions are found from edges against triangles,
-/// exactly in the sense that nothing is sampled: the result does not depend on how finely the surfaces are
-/// cut.
+/// Finds all regions in which surfaces `a` and `b` meet. The regions are computed from edges against
+/// triangles, without sampling. The tessellation of the surfaces does not influence them.
 std::vector<PartInterface> part_interfaces(const PartSurface& a, const PartSurface& b,
                                            const InterfaceOptions& options);
 

@@ -4,8 +4,8 @@
 
 namespace stackabilization {
 
-/// Diagonal of the axis-aligned box around the triangles of a shape, model units: Structure::diagonal.
-/// Precondition: at least one triangle.
+/// Computes the diagonal of the axis-aligned box around the triangles of a shape, model units. It is
+/// Structure::diagonal. Precondition: at least one triangle.
 double bounding_diagonal(const Shape& shape);
 
 }  // namespace stackabilization

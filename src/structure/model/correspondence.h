@@ -6,10 +6,10 @@
 
 namespace stackabilization {
 
-/// Which control point of `b` the image of each control point of `a` under `map` belongs to: the assignment,
-/// among those that keep the combinatorics (the 48 relabellings of a box; reversal of an open curve; shifts
-/// and reversals of a closed one), with the smallest sum of squared distances. Empty when the kinds or
-/// numbers of control points differ.
+/// Returns, for each control point of `a`, the control point of `b` that corresponds to its image under
+/// `map`. The result minimises the sum of squared distances over all assignments that preserve the
+/// combinatorics: the 48 relabellings of a box, the reversal of an open curve, the shifts and reversals of a
+/// closed curve. Empty when the kinds or the numbers of control points differ.
 std::vector<int> control_correspondence(const Primitive& a, const Primitive& b, const Eigen::Isometry3d& map);
 
 }  // namespace stackabilization

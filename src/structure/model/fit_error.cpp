@@ -13,8 +13,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Enough that the errors of cuboid and cylinder differ by more than their sampling where a person sees a
-/// difference.
+/// Number of samples. The sampling error is smaller than visible differences between the errors of cuboid and
+/// cylinder.
 constexpr int samples_of_part = 768;
 
 /// Square of the distance in a half plane (height, distance from the axis) to the segment from a to b.
@@ -112,8 +112,8 @@ std::vector<Frustum> frusta_of(const GeneralizedCylinder& cylinder) {
   return frusta;
 }
 
-/// Frusta that are certainly farther than the nearest so far are passed over: with a margin for rounding, so
-/// that the result is that of looking at all of them.
+/// Skips frusta that are certainly farther than the nearest one so far, with a margin for rounding. The
+/// result is the same as without skipping.
 double distance_to_frusta(const std::vector<Frustum>& frusta, bool closed, const Eigen::Vector3d& point) {
   constexpr double certainly = 1 + tolerance::relative;
   double least = std::numeric_limits<double>::infinity();  // squared

@@ -14,7 +14,7 @@ double size_of(const Cuboid& cuboid) {
   return (cuboid.corners.colwise().maxCoeff() - cuboid.corners.colwise().minCoeff()).norm();
 }
 
-/// Columns: unit directions of `edges`; where an edge has no length, what is perpendicular to the others.
+/// Columns: unit directions of `edges`. For an edge without length, a direction perpendicular to the others.
 Eigen::Matrix3d directions(const Eigen::Matrix3d& edges, double rounding) {
   Eigen::Matrix3d result = Eigen::Matrix3d::Zero();
   std::array<bool, 3> known{};

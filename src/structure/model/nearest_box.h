@@ -5,13 +5,15 @@
 
 namespace stackabilization {
 
-/// The box nearest to a cuboid: same centre, the mean directions of its edges made perpendicular (polar
-/// decomposition), their mean lengths. Its axes are those of the cuboid in their order, left-handed for a
-/// mirrored one, so that `cuboid_of` gives the corners in the cuboid's order. Exact up to rounding for a
-/// cuboid that is a box; commutes with isometries and relabellings of the corners. Flat cuboids are accepted.
+/// Computes the box nearest to a cuboid. It has the centre of the cuboid, the mean directions of its edges,
+/// made orthogonal by polar decomposition, and their mean lengths. The axes are in the order of the cuboid,
+/// and left-handed for a mirrored cuboid, so that `cuboid_of` returns the corners in the order of the cuboid.
+/// Exact up to rounding for a cuboid that is a box. Commutes with isometries and relabellings of the corners.
+/// Accepts flat cuboids.
 OrientedBox nearest_box(const Cuboid& cuboid);
 
-/// Whether every corner lies within tolerance::relative of the cuboid's size from that of its nearest box.
+/// Returns whether every corner lies within tolerance::relative of the size of the cuboid from the
+/// corresponding corner of its nearest box.
 bool is_box(const Cuboid& cuboid);
 
 }  // namespace stackabilization

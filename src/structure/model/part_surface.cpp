@@ -22,7 +22,8 @@ namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 
-/// Fit error, fraction of the part's diagonal, up to which a primitive tells what is inside an open surface.
+/// Largest fit error of a primitive that decides inside tests for an open surface, fraction of the diagonal
+/// of the part.
 constexpr double good_fit = 0.02;
 
 bool holds(const OrientedBox& box, const Eigen::Vector3d& point) {
@@ -97,7 +98,7 @@ void PartSurface::collect_edges() {
 
 bool PartSurface::contains(const Eigen::Vector3d& point) const {
   if (!tree_) return in_primitive_ && in_primitive_(point);
-  // No direction in which models have edges or faces.
+  // A direction that is unlikely to be parallel to edges or faces of a model.
   const std::array<Eigen::Vector3d, 3> directions = {Eigen::Vector3d(0.5423, 0.3178, 0.7778),
                                                      Eigen::Vector3d(-0.6771, 0.6139, 0.4056),
                                                      Eigen::Vector3d(0.1913, -0.8472, -0.4957)};

@@ -10,17 +10,17 @@
 
 namespace stackabilization::detail {
 
-/// The surface of a part as what meets others: its triangles of positive area with their corners and edges,
-/// points of equal coordinates being one.
+/// Welded, non-degenerate triangles of a part with their edges, for part-part proximity.
 class PartSurface {
  public:
+  /// An edge with all triangles that share it.
   struct Edge {
     std::array<int, 2> vertices;
     std::vector<int> triangles;
   };
 
-  /// `part` stands in for a surface that is not closed: what its primitive holds is inside then, where it
-  /// fits well.
+  /// `part` replaces a surface that is not closed in inside tests: the inside is then the inside of its
+  /// primitive, provided that the primitive fits well.
   PartSurface(const Shape& surface, const Part& part);
   PartSurface(PartSurface&&) noexcept;
   ~PartSurface();
@@ -28,18 +28,22 @@ class PartSurface {
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
   const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
   const std::vector<Edge>& edges() const { return edges_; }
+  /// Returns the lower corner of the axis-aligned box, model units.
   Eigen::Vector3d lowest() const { return lowest_; }
+  /// Returns the upper corner of the axis-aligned box, model units.
   Eigen::Vector3d highest() const { return highest_; }
-  /// Whether every edge has an even number of triangles, so that each point is inside or outside.
+  /// Returns whether every edge has an even number of triangles, so that every point is either inside or
+  /// outside.
   bool is_closed() const { return is_closed_; }
-  /// Diameter of the smallest ball around the part, model units: its size in any pose.
+  /// Returns the diameter of the smallest ball around the part, model units. It does not depend on the pose.
   double size() const { return size_; }
 
-  /// For closed surfaces whether a ray from `point` meets the surface oddly often, the majority of three
-  /// rays.
+  /// Returns whether `point` is inside. For a closed surface, a ray from an inner point meets the surface an
+  /// odd number of times; the majority of three rays decides.
   bool contains(const Eigen::Vector3d& point) const;
 
-  /// Distance from `point` to the surface, model units; looks at every triangle.
+  /// Computes the distance from `point` to the surface, model units. The cost is linear in the number of
+  /// triangles.
   double distance(const Eigen::Vector3d& point) const;
 
  private:
@@ -56,7 +60,7 @@ class PartSurface {
   std::function<bool(const Eigen::Vector3d&)> in_primitive_;
 };
 
-/// Diameter of the smallest ball around points, model units.
+/// Computes the diameter of the smallest ball around the points, model units.
 double enclosing_diameter(const std::vector<Eigen::Vector3d>& points);
 
 }  // namespace stackabilization::detail

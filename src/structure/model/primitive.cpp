@@ -95,7 +95,7 @@ Points section_tangents(const GeneralizedCylinder& cylinder) {
     const bool first = i == 0 && !cylinder.closed, last = i == n - 1 && !cylinder.closed;
     const Eigen::Index before = first ? i : (i + n - 1) % n, after = last ? i : (i + 1) % n;
     const Eigen::RowVector3d chord = cylinder.centres.row(after) - cylinder.centres.row(before);
-    // A hairpin turn has no chord: the piece that leaves it stands in.
+    // At a hairpin turn the chord vanishes; the piece after the turn replaces it.
     tangents.row(i) = chord.norm() > 0 ? chord.normalized() : piece(cylinder, i).transpose().normalized();
   }
   return tangents;

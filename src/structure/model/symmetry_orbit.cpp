@@ -10,8 +10,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// The symmetry group of the icosahedron, the largest that is no symmetry of a body of revolution, has 120
-/// members.
+/// The symmetry group of the icosahedron has 120 members. It is the largest finite group that is not a
+/// symmetry group of a body of revolution.
 constexpr std::size_t max_group_size = 120;
 
 class OrbitFinder {
@@ -75,7 +75,7 @@ class OrbitFinder {
         .from_first[static_cast<std::size_t>(place_[p])];
   }
 
-  /// Largest coordinate that matters: what rounding is measured by.
+  /// Largest relevant coordinate: rounding errors are proportional to it.
   double scale(const Orbit& orbit) const {
     const Points points =
         control_points(structure_.parts[static_cast<std::size_t>(orbit.parts[0])].primitive);

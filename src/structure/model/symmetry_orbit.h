@@ -9,10 +9,12 @@
 
 namespace stackabilization::detail {
 
-/// Parts that symmetry relations tie together, with how each of them is reached from the first.
+/// An orbit: parts that symmetry relations map onto each other, with the maps from the first part.
 struct Orbit {
-  std::vector<int> parts;                     ///< in the order they are reached, the least first
-  std::vector<Eigen::Isometry3d> from_first;  ///< per entry of `parts`: takes the first part there
+  std::vector<int> parts;  ///< rows of Structure::parts in breadth-first order, the lowest row first
+  /// Per entry of `parts`, the map from the first part to it.
+  std::vector<Eigen::Isometry3d> from_first;
+  /// Group of the isometries that must map the first part onto itself, the identity first.
   std::vector<Eigen::Isometry3d>
       group;  ///< what must take the first part onto itself; the identity comes first
 };
@@ -21,21 +23,24 @@ struct Orbit {
 struct Contradiction {
   std::vector<int> relations;  ///< rows of Structure::relations
   std::string reason;          ///< one sentence
-  /// The last relation of each orbit that contradicts itself, those of this one first: what to do without.
+  /// Rows of the relations to remove: the last relation of each contradictory orbit, starting with the orbit
+  /// of `relations`.
   std::vector<int> dispensable = {};
 };
 
+/// Result of `find_orbits`.
 struct OrbitsOrContradiction {
-  std::vector<Orbit> orbits;  ///< of the parts that have a symmetry relation
+  std::vector<Orbit> orbits;  ///< orbits of the parts with a symmetry relation
   std::optional<Contradiction> contradiction;
 };
 
-/// Follows the symmetry relations breadth first. What a loop of relations, or a self-symmetry, does to the
-/// first part generates a group, which must be finite: two mirror planes a little apart, say, generate
-/// translations, which no part allows.
+/// Computes the orbits by a breadth-first walk along the symmetry relations. Every loop of relations and
+/// every self-symmetry maps the first part to itself. These maps generate a group, which must be finite. Two
+/// parallel mirror planes at a small distance, for example, generate translations, and no part is invariant
+/// under a translation.
 OrbitsOrContradiction find_orbits(const Structure& structure);
 
-/// "relation 3 (symmetry of 'leg_1' and 'leg_2')".
+/// Returns a description such as "relation 3 (symmetry of 'leg_1' and 'leg_2')".
 std::string describe(const Structure& structure, int relation);
 
 }  // namespace stackabilization::detail

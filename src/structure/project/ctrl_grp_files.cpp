@@ -80,7 +80,7 @@ class StructureBuilder {
     return relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
   }
 
-  /// The error of the kind that is given, measured; the other is not known.
+  /// Measures the error of the given kind; the error of the other kind is unknown.
   static PrimitiveFit fit_of(const Primitive& primitive, const Shape& part) {
     const detail::FitSurface surface(part);
     const double diagonal = bounding_diagonal(part);
@@ -160,7 +160,8 @@ class StructureBuilder {
         svd.matrixV().cols() > 2 ? Eigen::Vector3d(svd.matrixV().col(2)) : along.unitOrthogonal();
     if (relation.count == 1)
       return push(RelationType::self_symmetry, relation.parts, {.point = middle, .axis = normal});
-    // Every plane through the axis of a body of revolution will do: one that the shape has, where it has one.
+    // Every plane through the axis of a body of revolution is a symmetry plane. A symmetry plane of the shape
+    // is preferred.
     for (const Symmetry& symmetry : structure_.symmetries)
       if (symmetry.kind == SymmetryKind::reflection &&
           std::abs(symmetry.axis.dot(along)) <= tolerance::same_symmetry &&

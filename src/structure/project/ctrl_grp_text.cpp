@@ -11,7 +11,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// A text walked line by line, with what both kinds of file share.
+/// Line-by-line reader, shared by both kinds of file.
 class Reader {
  public:
   Reader(const NamedText& text, const std::vector<std::string>& part_names, const CtrlGrpFrame& frame)
@@ -138,7 +138,7 @@ CtrlGrpRelation read_relation(Reader& reader, const std::string& word) {
   return relation;
 }
 
-/// Normals may be missing, or be garbage: what is no unit vector is none.
+/// Reads normals. They may be missing or invalid: vectors that are not unit vectors are ignored.
 Points read_normals(Reader& reader, int count) {
   Points normals(count, 3);
   for (auto row : normals.rowwise())

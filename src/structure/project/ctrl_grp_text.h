@@ -10,15 +10,17 @@
 
 namespace stackabilization::detail {
 
-/// The frame of the authors' numbers: p = centre + scale q.
+/// Frame of the numbers in the authors' files: p = centre + scale q.
 struct CtrlGrpFrame {
-  Eigen::Vector3d centre;
-  double scale;  ///< model units
+  Eigen::Vector3d centre;  ///< origin of the frame, model units
+  double scale;            ///< length of its unit, model units
 
+  /// Maps a point q of the files to model units.
   Eigen::Vector3d operator()(const Eigen::Vector3d& q) const { return centre + scale * q; }
 };
 
-/// Primitives of a `.ctrl` file in the frame of the shape, by row of `part_names`.
+/// Reads the primitives of a `.ctrl` file, in the frame of the shape, by row of `part_names`. Throws
+/// InputError as `read_ctrl_grp` does.
 std::map<int, Primitive> parse_ctrl(const NamedText& controls, const std::vector<std::string>& part_names,
                                     const CtrlGrpFrame& frame);
 
@@ -26,11 +28,13 @@ std::map<int, Primitive> parse_ctrl(const NamedText& controls, const std::vector
 struct CtrlGrpRelation {
   RelationType type;
   std::vector<int> parts;  ///< rows of `part_names`
-  Points vectors;     ///< joint points, in the frame of the shape; normals of a self-symmetry, unit, or none
-  int count = 0;      ///< of self-symmetries
-  std::string place;  ///< "NAME:LINE"
+  /// Points of a joint in the frame of the shape, or unit normals of a self-symmetry; may be empty.
+  Points vectors;
+  int count = 0;      ///< number of self-symmetries
+  std::string place;  ///< "NAME:LINE", for messages
 };
 
+/// Reads the relations of a `.grp` file. Throws InputError as `read_ctrl_grp` does.
 std::vector<CtrlGrpRelation> parse_grp(const NamedText& groups, const std::vector<std::string>& part_names,
                                        const CtrlGrpFrame& frame);
 

@@ -46,7 +46,7 @@ class ProjectReader {
  private:
   static Eigen::Vector3d vector(const JsonNode& node) { return node.numbers(3); }
 
-  /// Numbers that were written by hand to a few digits are made of length 1, those of a program stay.
+  /// Vectors typed with a few digits are normalised; vectors that a program wrote stay unchanged.
   static Eigen::VectorXd unit(const JsonNode& node, std::size_t size, const std::string& what) {
     constexpr double written_digits = 0.001;
     Eigen::VectorXd result = node.numbers(size);

@@ -44,8 +44,8 @@ std::string number(double value) {
   return text;
 }
 
-/// Centre and half axes (rows 0 to 3) that give the corners of a cuboid to rounding, themselves rounded so
-/// that they are the same when they are computed from those corners again.
+/// Returns the centre and the half axes (rows 0 to 3) of a cuboid, which reproduce its corners up to
+/// rounding. They are rounded such that a computation from the reproduced corners gives the same values.
 std::optional<Eigen::Matrix<double, 4, 3>> affine_box(const Cuboid& cuboid) {
   Eigen::Matrix<double, 4, 3> box = Eigen::Matrix<double, 4, 3>::Zero();
   for (int k = 0; k < 8; ++k) {

@@ -16,12 +16,11 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Rays start this far off the surface, fraction of the bounding-box diagonal, so that they do not meet their
-/// own triangle: a choice of scale, below which no wall is seen.
+/// Distance of the start of a ray from the surface, fraction of the bounding-box diagonal. It prevents
+/// intersections with the triangle of the sample. Thinner walls are not detected.
 constexpr double lift = 0.0001;
 
-/// Share of the half space in front of a place that is not barred by the shape, from which on the place is in
-/// the open, and up to which it is in a hollow.
+/// Visibility in front of a sample above which its exposure is 1, and below which its exposure is 0.
 constexpr double open_air = 0.9, hollow = 0.6;
 
 /// Directions of the upper half space, each standing for the same solid angle: a spiral.

@@ -7,27 +7,27 @@
 #include "stackabilization/core/shape.h"
 #include "structure/segmentation/surface_graph.h"
 
-/// Not installed.
 namespace stackabilization::detail {
 
-/// A line through a shape at a point of its surface: how much is solid behind the point, and how closed in it
-/// is.
+/// Ray statistics at a surface sample: inner length along -n, ambient visibility along +n.
 struct Chord {
-  std::int32_t triangle;
-  double area;                ///< of the surface it stands for
-  Eigen::Vector3d start;      ///< on the surface
-  Eigen::Vector3d normal;     ///< outward
-  double inner_length;        ///< length of the solid behind `start`; infinite when the surface is open there
-  Eigen::Vector3d end;        ///< where the solid ends; `start` when it does not
-  std::int32_t end_triangle;  ///< -1 when it does not end
-  double ambient_visibility =
-      1;                ///< share of the half space in front of `start` in which nothing of the shape is seen
-  double exposure = 1;  ///< 1 where `start` looks into the open, 0 where into a hollow of the shape itself
-  double end_exposure = 1;  ///< the same around `end`
+  std::int32_t triangle;   ///< triangle of the sample
+  double area;             ///< surface area that the sample represents, model units squared
+  Eigen::Vector3d start;   ///< sample point on the surface
+  Eigen::Vector3d normal;  ///< unit outward normal
+  /// Inner length: length of the solid behind `start`; infinite when the surface is open there.
+  double inner_length;
+  Eigen::Vector3d end;        ///< end of the solid; `start` when the solid has no end
+  std::int32_t end_triangle;  ///< triangle at `end`; -1 when the solid has no end
+  /// Ambient visibility: share of the half space in front of `start` that the shape does not occlude.
+  double ambient_visibility = 1;
+  /// Exposure: 1 where `start` faces the outside, 0 where it faces a cavity of the shape.
+  double exposure = 1;
+  double end_exposure = 1;  ///< exposure around `end`
 };
 
-/// `count` chords, spread over the triangles by area, and one more in each patch without. `patch` is a number
-/// per triangle; openness at the end of a chord is that of the patch there.
+/// Computes `count` chords, distributed over the triangles by area, and one more in each patch that has none.
+/// `patch`: patch of each triangle. The exposure at the end of a chord is the exposure of the patch there.
 std::vector<Chord> chords(const Shape& shape, const SurfaceGraph& graph,
                           const std::vector<std::int32_t>& patch, int count);
 

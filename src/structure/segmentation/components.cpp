@@ -20,10 +20,10 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Pairs of components that contact is looked for between.
+/// Limit of the number of pairs of components that are tested for contact.
 constexpr std::size_t max_pairs = 2'000'000;
 
-/// Points at which the contact of one component is measured.
+/// Number of points at which the contact of one component is measured.
 constexpr int contact_samples = 128;
 
 struct Component {
@@ -83,7 +83,8 @@ class ComponentMerger {
     std::size_t small, large;
   };
 
-  /// Pairs whose boxes meet, and enough of the smaller one is in the larger one's box.
+  /// Returns the pairs of components whose boxes intersect, with enough of the smaller component inside the
+  /// box of the larger one.
   std::vector<Pair> candidates() const;
   void prepare(const std::vector<Pair>& pairs);
   bool are_one_part(const Pair& pair) const;
@@ -152,7 +153,7 @@ bool ComponentMerger::are_one_part(const Pair& pair) const {
          (tiny && touching && held >= rule_.inside * contact_samples);
 }
 
-/// Sends the sets of `sets` without area to the set of the nearest component.
+/// Joins the sets without area to the set of the nearest component.
 void attach_flat(DisjointSets& sets, const std::vector<Component>& components, const Shape& shape,
                  const std::vector<std::int32_t>& component) {
   std::vector<std::int32_t> rows;

@@ -18,26 +18,27 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Patches to build volumes from, one for so many triangles, and chords to measure them with.
+/// Smallest and largest number of patches, triangles per patch, and chords per patch.
 constexpr int min_patches = 24, max_patches = 240, triangles_per_patch = 4, chords_per_patch = 10;
 
 int patch_count(const SurfaceGraph& graph) {
   return std::clamp(graph.size() / triangles_per_patch, min_patches, max_patches);
 }
 
-/// Emptiness that one union may add, root mean square over the whole surface, fraction of the bounding-box
-/// diagonal.
+/// Largest increase of the empty length by one union, root mean square over the whole surface, fraction of
+/// the bounding-box diagonal.
 constexpr double tolerated_emptiness = 0.016;
 
-/// What a union across edges of 90 degrees, concave or more so, costs on top: as if the smaller piece stood
-/// off by this fraction of the bounding-box diagonal.
+/// Additional cost of a union across concave edges of 90 degrees and more: as if the smaller piece were at
+/// this distance, fraction of the bounding-box diagonal.
 constexpr double concave_step = 0.1;
 
-/// Concave edges count in full where at least the second share of the half space is free, and not at all up
-/// to the first: deep inside a vessel, floor and wall meet in one.
+/// Visibility above which concave edges count fully (second value), and below which they do not count (first
+/// value): deep inside a vessel, floor and wall belong together.
 constexpr double deep_inside = 0.2, at_the_surface = 0.4;
 
-/// Weight of the growth of the spread, beside emptiness: decides between unions that fit equally well.
+/// Weight of the increase of the spread, relative to the empty length. It decides between unions that fit
+/// equally well.
 constexpr double compactness_of_parts = 0.0001;
 
 /// Stretch of the boundary between two patches.
@@ -51,7 +52,7 @@ struct Border {
   }
 };
 
-/// Patches with what is needed to measure unions of them.
+/// Patches with the data for measuring their unions.
 class Patches {
  public:
   Patches(const Shape& shape, const SurfaceGraph& graph)
@@ -93,8 +94,8 @@ class Patches {
   double total_area() const { return area_; }
   double diagonal() const { return diagonal_; }
 
-  /// Mean squared emptiness that the volume of some chords adds to that of the whole, fraction of the
-  /// diagonal squared.
+  /// Mean squared empty length that the volume of some chords contributes to the whole, fraction of the
+  /// squared diagonal.
   double emptiness(const std::vector<std::int32_t>& chord) const {
     return volume_error(chords_, chord) / (area_ * diagonal_ * diagonal_);
   }
@@ -135,7 +136,8 @@ class VolumeClustering {
     }
   }
 
-  /// Joins while a union costs at most `limit` and more than `least` clusters that are no crumbs are left.
+  /// Joins clusters while the cheapest union costs at most `limit` and more than `least` clusters are not
+  /// small segments.
   std::vector<std::int32_t> run(double limit, int least) {
     for (std::int32_t a = 0; a < patches_.count(); ++a)
       for (const auto& [b, border] : at(a).borders)

@@ -6,23 +6,21 @@
 #include "stackabilization/core/shape.h"
 #include "structure/segmentation/surface_graph.h"
 
-/// Not installed.
 namespace stackabilization::detail {
 
-/// Cuts a shape whose graph is connected into parts that a cuboid, a solid of revolution or a ring holds; a
-/// number per triangle, every part connected.
+/// Cuts a shape into parts that fit a cuboid, a solid of revolution or a ring. Returns the part of every
+/// triangle; every part is connected. Precondition: the graph is connected.
 ///
-/// 1. Patches: `surface_patches` (Attene et al. 2006), a few hundred.
-/// 2. Chords: from points of the surface through the solid behind them (chords.h).
-/// 3. Volumes: patches are joined on, cheapest pair first. A pair costs how much emptier its primitive is
-/// than
-///    those of the two apart (`volume_error`), and a step more where the border between them is concave. The
-///    closed faces of a box, and both walls of a vessel, join for nothing; a leg and the top it carries do
-///    not.
+/// 1. Patches: `surface_patches` computes a few hundred patches (Attene et al. 2006).
+/// 2. Chords: `chords` measures the solid behind points of the surface.
+/// 3. Volumes: the function merges neighbouring patches, cheapest pair first. The cost of a pair is the
+///    increase of `volume_error` over the two patches apart, plus a fixed step when the border between them
+///    is concave. The closed faces of a box merge at no cost, and so do both walls of a vessel. A leg and its
+///    table top do not merge.
 ///
-/// `parts` is the number to end with; 0 stops where the root mean square emptiness that a union adds exceeds
-/// a fixed share of the bounding-box diagonal. Parts below `smallest` of the area are not counted, and join
-/// whatever costs least.
+/// `parts`: number of parts of the result. 0: merging stops where the root mean square of the added empty
+/// length exceeds a fixed fraction of the bounding-box diagonal. Parts smaller than `smallest` (fraction of
+/// the area) do not count; they join the neighbour of least cost.
 std::vector<std::int32_t> fitted_parts(const Shape& shape, const SurfaceGraph& graph, int parts,
                                        double smallest);
 

@@ -13,7 +13,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Most samples along an edge: rods of few long triangles need no more.
+/// Largest number of samples along an edge: rods of few long triangles need no more.
 constexpr int max_steps = 64;
 
 using Cell = std::array<std::int64_t, 3>;
@@ -63,8 +63,8 @@ Cell cell_of(const Eigen::Vector3d& point, double width) {
   return cell;
 }
 
-/// Samples of the wires, by cells as wide as `reach`; of those of a wire in an eighth of a cell one is
-/// enough.
+/// Samples of the wires in a grid of cells of width `reach`. One sample of a wire per eighth of a cell
+/// suffices.
 std::vector<Sample> samples_of(const Pieces& pieces, const std::vector<std::int32_t>& wires, double reach) {
   std::vector<Sample> samples;
   for (const std::int32_t wire : wires) {

@@ -16,7 +16,8 @@ namespace stackabilization {
 
 namespace {
 
-/// Part of the seeds per triangle, -1 for the others. Throws what `segmented` promises.
+/// Returns the part of the seed of every triangle, -1 for triangles without a seed. Throws as `segmented`
+/// does.
 std::vector<std::int32_t> seeded_parts(const Shape& shape, const std::vector<PartSeeds>& seeds) {
   if (seeds.empty()) throw UsageError("there is no part: at least one part with a seed is needed");
   std::vector<std::int32_t> part(static_cast<std::size_t>(shape.triangle_count()), -1);
@@ -34,8 +35,8 @@ std::vector<std::int32_t> seeded_parts(const Shape& shape, const std::vector<Par
   return part;
 }
 
-/// What crossing a concave edge of 90 degrees costs, fraction of the bounding-box diagonal: as much on fine
-/// meshes as on coarse ones, and as much in one bend as in many small ones.
+/// Cost of crossing a concave edge of 90 degrees, fraction of the bounding-box diagonal. It is the same on
+/// fine and coarse meshes, and the same for one bend and for many small ones.
 constexpr double toll = 0.5;
 
 /// Spreads the parts from their seeds to whatever is connected, nearest first.

@@ -20,10 +20,10 @@ namespace {
 
 constexpr double far_away = std::numeric_limits<double>::infinity();
 
-/// Concave edges of 90 degrees are this many times as short to cut along as flat ones.
+/// Factor by which a cut along a concave edge of 90 degrees is cheaper than along a flat edge.
 constexpr double cutting_factor = 10;
 
-/// Reach of a boundary's band into a part: this share of the depth of the part, ...
+/// Width of the band around a boundary inside a part: at most this share of the depth of the part, ...
 constexpr double band_share = 0.5;
 /// ... and at most this share of the square root of the smaller part's area.
 constexpr double band_width = 0.2;
@@ -167,7 +167,7 @@ void BoundarySmoother::recut(std::int32_t a, std::int32_t b) {
     part_[static_cast<std::size_t>(triangles[n])] = with_a[n] ? a : b;
 }
 
-/// Pieces are the connected sets of one part; each goes by its least triangle.
+/// Pieces are the connected sets of one part. The smallest triangle of a piece identifies it.
 class SmallSegmentMerger {
  public:
   SmallSegmentMerger(const SurfaceGraph& graph, const std::vector<std::int32_t>& part, double min_area)

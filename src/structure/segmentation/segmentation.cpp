@@ -89,8 +89,8 @@ Shape cut_components(const Shape& shape, const std::vector<std::int32_t>& compon
   return with_parts_by_area(shape, part);
 }
 
-/// One generalized cylinder holds a body of revolution, whatever its profile; cutting a hat into crown and
-/// brim would only add joints.
+/// One generalized cylinder represents a body of revolution, whatever its profile. A cut, such as that of a
+/// hat into crown and brim, would only add joints.
 bool is_body_of_revolution(const Shape& shape) {
   return detail::surface_graph(shape).areas.sum() > 0 &&
          detail::revolution_axis(detail::FitSurface(shape)).has_value();

@@ -68,7 +68,7 @@ std::size_t different(const std::vector<std::int32_t>& part) {
   return std::set<std::int32_t>(part.begin(), part.end()).size();
 }
 
-/// Lets the smallest part join the neighbour it is tied to most until `parts` are left.
+/// Joins the smallest part to the neighbour with the strongest link, until `parts` are left.
 std::vector<std::int32_t> reduced(const SurfaceGraph& graph, std::vector<std::int32_t> part,
                                   std::size_t parts) {
   while (different(part) > parts) {
@@ -97,7 +97,7 @@ std::vector<std::int32_t> shape_diameter_parts(const Shape& shape, const Surface
     if (!(least < most) ||
         !std::all_of(diameters.begin(), diameters.end(), [](double d) { return d >= 0 && d <= 1; }))
       return whole;
-    // CGAL looks for ever for more clusters than there are different diameters.
+    // CGAL does not terminate for more clusters than different diameters.
     const std::size_t max_clusters =
         std::min(cluster_limit, std::set<double>(diameters.begin(), diameters.end()).size());
     std::vector<std::int32_t> found;
@@ -105,7 +105,8 @@ std::vector<std::int32_t> shape_diameter_parts(const Shape& shape, const Surface
     do {
       found = segments(outward.mesh, diameters, clusters);
     } while (parts > 0 && different(found) < static_cast<std::size_t>(parts) && ++clusters <= max_clusters);
-    // Triangles without area have no face: a part of their own, which is no part but a crumb.
+    // Triangles without area have no face. They form a segment of their own, which is merged as a small
+    // segment.
     std::vector<std::int32_t> part(whole.size(), -1);
     for (std::size_t f = 0; f < found.size(); ++f)
       part[static_cast<std::size_t>(outward.triangle_of_face[f])] = found[f];

@@ -6,13 +6,13 @@
 #include "stackabilization/core/shape.h"
 #include "structure/segmentation/surface_graph.h"
 
-/// Not installed.
 namespace stackabilization::detail {
 
-/// Segmentation by the shape-diameter function (Shapira et al. 2008) as CGAL has it, of the surface turned
-/// outward; a number per triangle. `parts` is the number to end with: CGAL's number of clusters is raised
-/// until there are as many segments, then the smallest join a neighbour; 0 leaves CGAL its default of five
-/// clusters. Where CGAL finds no diameter (sheets, surfaces of a few triangles) the piece stays one part.
+/// Segments a shape by the shape-diameter function (Shapira et al. 2008) in CGAL's implementation, after the
+/// surface was oriented outward. Returns the part of every triangle. `parts`: number of parts of the result.
+/// The function raises CGAL's number of clusters until there are as many segments; then the smallest segments
+/// join a neighbour. 0: CGAL's default of five clusters. A piece for which CGAL computes no diameter (a
+/// sheet, a surface of a few triangles) stays one part.
 std::vector<std::int32_t> shape_diameter_parts(const Shape& shape, const SurfaceGraph& graph, int parts);
 
 }  // namespace stackabilization::detail

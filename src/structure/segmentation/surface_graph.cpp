@@ -124,8 +124,8 @@ void GraphBuilder::link_across_edges() {
       const TriangleSide &a = sides[s], &b = sides[s + 1];
       const double length =
           (shape_.corner(a.triangle, a.corner) - shape_.corner(a.triangle, (a.corner + 1) % 3)).norm();
-      // Where sheets meet there is no outside to tell convex from concave by: a corner on one side at least
-      // is concave.
+      // Where sheets meet, no outside distinguishes convex from concave edges: a corner is concave on at
+      // least one side.
       double angle = bend(a, b);
       if (sides.size() > 2) angle = -std::min(std::abs(angle), std::numbers::pi - std::abs(angle));
       link(a.triangle, b.triangle, length, angle);

@@ -6,43 +6,47 @@
 
 #include "stackabilization/core/shape.h"
 
-/// Not installed: what the segmentations share.
+/// Dual graph of the triangles, which all segmentation methods share.
 namespace stackabilization::detail {
 
-/// Two triangles side by side.
+/// Two adjacent triangles.
 struct SurfaceLink {
   std::int32_t a, b;
-  double length;  ///< of the shared edge, model units; 0 where they share a point or nothing but their place
-  double bend;    ///< angle between the normals in radians, positive across a convex edge, negative across a
-                  ///< concave one
+  /// Length of the shared edge, model units; 0 when they share only a point or only their position.
+  double length;
+  /// Angle between the normals, radians: positive across a convex edge, negative across a concave edge.
+  double bend;
 };
 
-/// Triangles as nodes, neighbourhood as links.
+/// Graph with the triangles as nodes and adjacency as links.
 struct SurfaceGraph {
-  Eigen::VectorXd areas;  ///< model units squared
-  Points centres;         ///< of the triangles
-  Points normals;         ///< unit and outward as far as that can be told; zero where the area is
-  double diagonal = 0;    ///< of the bounding box of the triangles, model units
+  Eigen::VectorXd areas;  ///< areas of the triangles, model units squared
+  Points centres;         ///< centroids of the triangles, model units
+  /// Unit normals, outward where the orientation can be determined; zero for triangles without area.
+  Points normals;
+  double diagonal = 0;  ///< diagonal of the bounding box of the triangles, model units
   std::vector<SurfaceLink> links;
-  std::vector<std::vector<std::int32_t>> links_of;  ///< per triangle rows of `links`
+  std::vector<std::vector<std::int32_t>> links_of;  ///< per triangle, rows of `links`
 
+  /// Returns the number of triangles.
   std::int32_t size() const { return static_cast<std::int32_t>(areas.size()); }
+  /// Returns the triangle at the other end of `link`.
   std::int32_t across(std::int32_t link, std::int32_t from) const {
     const SurfaceLink& l = links[static_cast<std::size_t>(link)];
     return l.a == from ? l.b : l.a;
   }
 };
 
-/// The graph of all triangles, degenerate ones included. It is connected where the triangles are through
-/// common points: across edges first, across points where no edge does. A piece of surface is turned so that
-/// its volume seen from its centre is positive.
+/// Builds the graph of all triangles, including degenerate ones. Triangles that are connected through common
+/// points are connected in the graph: through edges first, and through points where no edge connects them.
+/// Each piece of surface is oriented such that its volume, seen from its centre, is positive.
 SurfaceGraph surface_graph(const Shape& shape);
 
-/// Joins the shells of a graph that belong together in space: each is linked to the largest one where it lies
-/// within `reach` (model units) of it, at its nearest triangle otherwise.
+/// Links the shells of a graph in space. Each shell is linked to the largest shell: at all places within
+/// `reach` (model units) of it, or at its nearest triangle when there is no such place.
 void link_shells(SurfaceGraph& graph, const Shape& shape, double reach);
 
-/// Rows of `shape`, in their order, as a shape of one part.
+/// Returns the triangles `rows` of `shape`, in their order, as a shape of one part.
 Shape extracted(const Shape& shape, const std::vector<std::int32_t>& rows);
 
 }  // namespace stackabilization::detail

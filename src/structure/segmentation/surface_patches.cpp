@@ -14,7 +14,8 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Weight of the spread of a union beside its fitting error: what decides where both fit exactly.
+/// Weight of the spread of a union, relative to its fitting error: it decides between unions that fit
+/// exactly.
 constexpr double compactness_of_patches = 0.001;
 
 class PatchClustering {

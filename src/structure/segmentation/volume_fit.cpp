@@ -12,11 +12,11 @@ namespace {
 
 constexpr double none = std::numeric_limits<double>::infinity();
 
-/// Wall normals at most this cosine off the axis plane belong to the side of a solid of revolution.
+/// Largest |cosine| of the angle between the axis and a normal on the side of a solid of revolution.
 constexpr double side_cosine = 0.7;
 
-/// Chords that run on into a neighbouring part where it joins, such as from a table top down a leg: at most
-/// this share of the chords of a piece.
+/// Largest share of the chords of a piece that run into a neighbouring part, such as from a table top down a
+/// leg.
 constexpr double deepest_share = 0.1;
 
 class VolumeFit {
@@ -46,8 +46,8 @@ class VolumeFit {
   double ring(const Eigen::Matrix3d& frame) const;
   Eigen::Matrix3d dominant_frame() const;
 
-  /// What the piece spans along an axis: its surface, and the solid behind all but the deepest chords on each
-  /// side.
+  /// Returns the range of the piece along an axis: its surface and the solid behind all but the deepest
+  /// chords on each side.
   Range span(const Eigen::Vector3d& axis) const;
 
   std::vector<const Chord*> chords_;
@@ -62,8 +62,9 @@ Eigen::Matrix3d frame_along(const Eigen::Vector3d& first, const Eigen::Vector3d&
   return frame;
 }
 
-/// Axes of the normals, which avoid the axis of a cylinder and gather along those of a box; axes of the
-/// solid; and the normals of the two largest faces across each other, for cubes.
+/// Candidate axes: the principal axes of the normals (the normals are orthogonal to the axis of a cylinder,
+/// and parallel to the axes of a box), the principal axes of the solid, and for cubes the normals of the two
+/// largest perpendicular faces.
 std::vector<Eigen::Matrix3d> VolumeFit::frames() const {
   Eigen::Matrix3d normals = Eigen::Matrix3d::Zero(), spread = Eigen::Matrix3d::Zero();
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
@@ -175,8 +176,8 @@ struct Revolution {
   double squared_radius(double z) const { return profile(0) + z * (profile(1) + z * profile(2)); }
   double excess(const Eigen::Vector3d& p) const { return p.head<2>().squaredNorm() - squared_radius(p.z()); }
 
-  /// Length of the solid from `p` along the unit vector `d`; how far `p` is off the surface when it is
-  /// outside.
+  /// Returns the length of the solid from `p` along the unit vector `d`, or the distance of `p` from the
+  /// surface when `p` is outside.
   double exit(const Eigen::Vector3d& p, const Eigen::Vector3d& d) const {
     const double c = excess(p);
     if (c >= 0) return p.head<2>().norm() - std::sqrt(std::max(0.0, squared_radius(p.z())));
@@ -194,7 +195,7 @@ struct Revolution {
   }
 };
 
-/// Of a chord through the wall of a vessel the end on its outside.
+/// Returns the end of a chord through the wall of a vessel that lies on its outside.
 const Eigen::Vector3d& outer_end(const Chord& chord) {
   return chord.exposure >= 0.5 ? chord.start : chord.end;
 }

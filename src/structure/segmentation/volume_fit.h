@@ -4,16 +4,16 @@
 
 #include "structure/segmentation/chords.h"
 
-/// Not installed.
 namespace stackabilization::detail {
 
-/// How badly a piece of surface and the solid behind it fill the best of a cuboid, a solid of revolution
-/// whose squared radius is a quadratic function along its axis (cylinder, cone, spheroid, paraboloid), and a
-/// ring: integral over the surface of the squared length of the empty stretches of the chords inside the
-/// primitive, which touches the piece from outside. Hollows closed in by the shape itself count as full, so
-/// that a vessel is as good as a solid.
+/// Computes the empty volume of the best primitive around a piece of surface and the solid behind it: the
+/// integral over the surface of the squared length of the chords inside the primitive but outside the solid.
+/// The unit is area times length squared. The primitives are a cuboid, a ring, and a solid of revolution
+/// whose squared radius is a quadratic function along the axis (cylinder, cone, spheroid, paraboloid). The
+/// primitive touches the piece from outside. Cavities that the shape itself encloses count as filled, so that
+/// a vessel fits as well as a solid.
 ///
-/// Units: area times length squared. `chord` says which chords make up the piece.
+/// `chord`: rows of the chords of the piece.
 double volume_error(const std::vector<Chord>& chords, const std::vector<std::int32_t>& chord);
 
 }  // namespace stackabilization::detail

@@ -6,21 +6,22 @@
 
 namespace stackabilization::detail {
 
-/// The mutually orthogonal reflections, three at most, that stand for the symmetry of a design: chosen from
-/// `candidates` (model units) in the order of how much of the shape lines up with them, by the boxes of its
-/// parts and of the whole, and made exactly orthogonal. A square table is meant to be symmetric about the
-/// planes along its sides, not the diagonals. `parts` may hold fewer entries than the shape has parts.
+/// Selects at most three mutually orthogonal reflections that represent the symmetry of a design, and makes
+/// them exactly orthogonal. `candidates` are in model units. A candidate has priority by the share of the
+/// shape that is aligned with it; the boxes of the parts and of the whole shape measure this. A square table,
+/// for example, gets the planes along its sides, not the diagonals. `parts` may have fewer entries than the
+/// shape has parts.
 std::vector<Symmetry> canonical_reflections(const SymmetrySurface& whole,
                                             const std::vector<const SymmetrySurface*>& parts,
                                             const std::vector<Symmetry>& candidates);
 
-/// Two perpendicular planes through the axis of a revolution. As any would do, they follow the axes of the
-/// file.
+/// Returns two perpendicular planes through the axis of a revolution. All such planes are equivalent; these
+/// follow the axes of the file.
 std::vector<Symmetry> planes_through(const Symmetry& axis);
 
-/// `plane` turned and moved by the little that makes it generate a finite group with the orthogonal planes
-/// `chosen`: to a right angle or a multiple of pi / n with each, and through the line that two of them have
-/// in common.
+/// Returns `plane` after the smallest rotation and translation by which it generates a finite group with the
+/// orthogonal planes `chosen`. It meets each of them at a right angle or at a multiple of pi / n, and
+/// contains the common line of two of them.
 Symmetry fitted_to(const std::vector<Symmetry>& chosen, const Symmetry& plane);
 
 }  // namespace stackabilization::detail

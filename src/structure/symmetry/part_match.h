@@ -8,7 +8,7 @@
 
 namespace stackabilization::detail {
 
-/// The parts of a shape, each a surface of its own, to be compared under symmetries of the whole.
+/// The surfaces of the parts of a shape, prepared for comparison under symmetries of the whole shape.
 class PartSurfaces {
  public:
   /// Precondition: `validate(shape)`.
@@ -19,23 +19,26 @@ class PartSurfaces {
 
   const SymmetrySurface& whole() const { return whole_; }
   int count() const { return static_cast<int>(parts_.size()); }
-  /// Null for parts without area.
+  /// Returns the surface of a part, null for a part without area.
   const SymmetrySurface* part(int index) const;
+  /// Returns the surfaces of all parts with area.
   std::vector<const SymmetrySurface*> with_area() const;
 
-  /// Rows of the parts that `match` has to be asked about for part `a`, ascending: those whose centroid and
-  /// widths are near enough. Of more than `max_matches` such parts, copies of each other in one place, the
-  /// first ones.
+  /// Returns the candidates for `match` of part `a`, ascending: the parts whose centroids and widths are near
+  /// those of its image. More than `max_matches` candidates are copies of each other in one place; the first
+  /// ones are returned.
   std::vector<int> near_image(int a, const Symmetry& symmetry) const;
   static constexpr std::size_t max_matches = 16;
 
-  /// Does `symmetry` (model units) take part `a` onto part `b`? If so, the residual as a fraction of the
-  /// diagonal of the bounding box of the shape. It does when
-  ///  * the centroids of their areas come within the tolerance of each other,
-  ///  * their root mean square widths along their principal axes agree to ten tolerances or, absolutely,
-  ///    to a tenth of the tolerance: a thin leg has no counterpart in one half as thick, however near, and
-  ///  * their surfaces agree both ways, see `agreement`.
-  /// Tolerances of place are fractions of the whole shape.
+  /// Returns the residual when `symmetry` (model units) maps part `a` to part `b`, as a fraction of the
+  /// diagonal of the bounding box of the shape, and nothing otherwise. The parts match when
+  ///
+  /// * the centroids of their areas come within the tolerance of each other,
+  /// * their root mean square widths along the principal axes agree to ten tolerances, or absolutely to a
+  ///   tenth of the tolerance: a thin leg does not match a leg of half its thickness at any distance, and
+  /// * their surfaces agree in both directions, see `agreement`.
+  ///
+  /// Tolerances of distances are fractions of the whole shape.
   std::optional<double> match(int a, int b, const Symmetry& symmetry) const;
 
  private:
@@ -50,8 +53,8 @@ class PartSurfaces {
   std::vector<std::optional<SymmetrySurface>> parts_;
   std::vector<Eigen::Vector3d> widths_;  ///< per part with area
   std::unique_ptr<const Centroids> centroids_;
-  double unit_;      ///< what tolerances are fractions of, model units
-  double diagonal_;  ///< of the axis-aligned box, model units
+  double unit_;      ///< length that tolerances are fractions of, model units
+  double diagonal_;  ///< diagonal of the axis-aligned box, model units
 };
 
 }  // namespace stackabilization::detail

@@ -69,7 +69,7 @@ class PartSymmetry {
     return {type, std::move(parts), symmetry, {}, residual};
   }
 
-  /// The part that `plane` takes `part` onto best, -1 for none, and the residual.
+  /// Returns the part that the image of `part` under `plane` matches best, -1 for none, and the residual.
   std::pair<int, double> counterpart(int part, const Symmetry& plane) const {
     std::pair<int, double> best{-1, 0};
     for (const int other : parts_.near_image(part, plane))
@@ -95,9 +95,9 @@ class PartSymmetry {
     return relations;
   }
 
-  /// Three legs, five legs: planes that are not orthogonal to those there are count when they give a part the
-  /// first counterpart it has. Six legs: also where they take parts onto each other that nothing else makes
-  /// equal. Only the diagonals of a square do not: it may become a rectangle.
+  /// Adds planes at other angles. Three legs, five legs: planes that are not orthogonal to the selected
+  /// planes count when they give a part its first counterpart. Six legs: they also count when they alone make
+  /// parts equal. The diagonals of a square do not count, because it may become a rectangle.
   void add_oblique_planes() {
     for (const Symmetry& candidate : candidates_) {
       if (meets_any_at(nearly_parallel, 1, candidate)) continue;
@@ -117,7 +117,7 @@ class PartSymmetry {
     }
   }
 
-  /// Whether the cosine of the angle to a plane there is lies between `least` and `most`.
+  /// Returns whether the cosine of the angle to a selected plane is between `least` and `most`.
   bool meets_any_at(double least, double most, const Symmetry& candidate) const {
     return std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& plane) {
       const double cosine = std::min(1.0, std::abs(plane.axis.dot(candidate.axis)));
@@ -125,7 +125,7 @@ class PartSymmetry {
     });
   }
 
-  /// Whether the relation takes parts onto each other that were not in one orbit.
+  /// Returns whether the relation joins parts of different orbits.
   static bool join(DisjointSets& orbits, const Relation& relation) {
     const auto a = static_cast<std::size_t>(relation.parts.front()),
                b = static_cast<std::size_t>(relation.parts.back());
@@ -134,7 +134,7 @@ class PartSymmetry {
     return apart;
   }
 
-  /// Reflections that take the part onto itself.
+  /// Returns the reflections that map the part to itself.
   std::vector<Symmetry> own_reflections(int part) const {
     std::vector<Symmetry> planes;
     for (const std::size_t row : relations_of_[static_cast<std::size_t>(part)])
@@ -142,7 +142,7 @@ class PartSymmetry {
     return planes;
   }
 
-  /// What a part without counterparts has by itself.
+  /// Returns the self-symmetries of a part without counterparts.
   std::vector<Relation> own_relations(int part) const {
     if (!parts_.part(part) || has(part, RelationType::symmetry)) return {};
     std::vector<Relation> relations = revolution(part);
@@ -150,9 +150,8 @@ class PartSymmetry {
     return relations;
   }
 
-  /// The relations of a part of revolution; none when it is none. Bars that the shape mirrors end to end are
-  /// left as bars: their roundness is the business of their primitive, and being straight is none of the
-  /// design's.
+  /// Returns the relations of a part of revolution, or none. A bar whose ends the shape exchanges by a
+  /// reflection gets none: its primitive represents its roundness.
   std::vector<Relation> revolution(int part) const {
     const SymmetrySurface& surface = *parts_.part(part);
     const std::vector<Symmetry> axes = detail::revolutions(surface, options_, detail::Roundness::tolerant);
@@ -185,7 +184,8 @@ class PartSymmetry {
     return relations;
   }
 
-  /// Planes through the middle of a part that the whole has no symmetry for, along its own box.
+  /// Returns the reflections in planes through the centre of a part and along its own box, for a part that no
+  /// symmetry of the whole shape maps.
   std::vector<Relation> own_planes(int part) const {
     const SymmetrySurface& surface = *parts_.part(part);
     std::vector<Symmetry> planes;
@@ -204,8 +204,9 @@ class PartSymmetry {
     return relations;
   }
 
-  /// A part that a plane of the whole cuts, but not in the middle, has no plane of its own beside that one:
-  /// what it is joined to on both sides would be symmetric about the one, and the joints about the other.
+  /// Returns whether a symmetry plane of the whole shape cuts the part next to, but not in, its own plane.
+  /// The part then keeps no plane of its own: its joints on both sides are symmetric about the plane of the
+  /// whole shape.
   bool lies_beside_common(const Symmetry& own, const SymmetrySurface& surface) const {
     const double half =
         surface.diagonal * (own.axis.transpose() * surface.box.axes).cwiseAbs() * surface.box.half_extents;

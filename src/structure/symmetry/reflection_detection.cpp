@@ -78,7 +78,7 @@ class ReflectionSearch {
                        [&](const FoundSymmetry& other) { return same(other.symmetry); });
   }
 
-  /// With two reflections their images in each other are symmetries as well.
+  /// The image of one reflection in another is a symmetry as well.
   void complete() {
     for (std::size_t i = 0; i < found_.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
@@ -91,8 +91,8 @@ class ReflectionSearch {
         }
   }
 
-  /// Facets and flutes make planes between true ones fit nearly, too. A plane goes when one at a small angle
-  /// is far better.
+  /// Removes spurious planes. With facets and flutes, planes between the true ones nearly fit, too. A plane
+  /// is removed when another one at a small angle is far better.
   void drop_shadows() {
     const auto shadow = [&](const FoundSymmetry& found) {
       return std::any_of(found_.begin(), found_.end(), [&](const FoundSymmetry& other) {
@@ -113,7 +113,7 @@ class ReflectionSearch {
       for (int k = 0; k < 3; ++k)
         if (std::abs(surface_.box.axes.col(k).dot(found.symmetry.axis)) > same_normal)
           extent = surface_.box.half_extents(k);
-      // What differs by rounding is equal.
+      // Values that differ by rounding are equal.
       return std::pair(-whole_steps(extent), extent > 0 ? 0 : whole_steps(found.residual));
     };
     std::stable_sort(found_.begin(), found_.end(),

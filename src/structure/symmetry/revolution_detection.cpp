@@ -18,7 +18,7 @@ constexpr double inertia_allowance = 0.15;  // share
 constexpr double clear_gain = 1.1;          // factor between residuals
 constexpr double same_direction = 0.99;     // cosine
 
-/// Do the moments about two directions across `axis` agree?
+/// Returns whether the moments about two directions orthogonal to `axis` agree.
 bool balanced(const Eigen::Matrix3d& spread, const Eigen::Vector3d& axis) {
   const Eigen::Vector3d u = axis.unitOrthogonal(), v = axis.cross(u);
   const double uu = u.dot(spread * u), vv = v.dot(spread * v), uv = u.dot(spread * v);
@@ -40,7 +40,8 @@ struct Sideways {
   }
 };
 
-/// Half steps of regular polygons: a prism of n sides differs most from itself turned by pi / n.
+/// Angles of half a step of regular polygons: a prism of n sides deviates most from itself when rotated by pi
+/// / n.
 constexpr int first_polygon = 3, last_polygon = 13;
 
 bool turns_into_itself(const SymmetrySurface& surface, const Symmetry& axis, const SymmetryOptions& options,
@@ -71,7 +72,7 @@ std::optional<Symmetry> revolution_about(const SymmetrySurface& surface, const E
   if (!balanced(surface.spread, start.axis)) return {};
   if (!verify(surface, start, loosen(options), Effort::sparse).holds) return {};
   const Symmetry better = refine_symmetry(surface, start, counterpart_reach(surface, options));
-  // The moments know the axis exactly when nothing is missing, also of prisms with an odd number of sides.
+  // The moments give the axis exactly when nothing is missing, also for prisms with an odd number of sides.
   const Agreement before = verify(surface, start, options, Effort::dense);
   const Agreement after = verify(surface, better, options, Effort::dense);
   const bool keep = before.holds && before.residual <= clear_gain * after.residual;

@@ -56,7 +56,7 @@ class RotationSearch {
     return axes;
   }
 
-  /// The line nearest to the planes that hold it, its order their number.
+  /// Returns the line nearest to the planes through it; its order is the number of these planes.
   Symmetry common_axis(const Eigen::Vector3d& line) const {
     Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
     Eigen::Vector3d offsets = Eigen::Vector3d::Zero();
@@ -81,7 +81,7 @@ class RotationSearch {
     });
   }
 
-  /// Candidates that lie in no reflection: in one, they would lie in as many as their order.
+  /// Candidates in no reflection plane: an axis in one reflection plane lies in as many as its order.
   std::vector<Symmetry> other_axes() const {
     std::vector<Symmetry> axes;
     const auto add = [&](const Eigen::Vector3d& axis) {
@@ -118,7 +118,7 @@ class RotationSearch {
     return {};
   }
 
-  /// Turned a twelfth of a step further or less far, does the shape fit less well?
+  /// Returns whether the shape fits less well when rotated by a twelfth of a step more and less.
   bool stands_out(const Symmetry& rotation) const {
     const auto misfit = [&](double steps) {
       Eigen::Isometry3d map = Eigen::Isometry3d::Identity();

@@ -42,7 +42,7 @@ std::array<Freedom, freedoms> freedoms_of(const Symmetry& symmetry) {
   return result;
 }
 
-/// Distances of the images of all points, and how they change with the freedoms.
+/// Distances of the images of all points, and their derivatives by the degrees of freedom.
 struct Linearization {
   Eigen::VectorXd distances;
   Eigen::Matrix<double, Eigen::Dynamic, freedoms, Eigen::RowMajor> slopes;
@@ -65,7 +65,7 @@ Linearization linearized(const SymmetrySurface& surface, const Symmetry& symmetr
     for (Eigen::Index k = range.begin(); k < range.end(); ++k) {
       const Eigen::Vector3d image = map * points.row(k).transpose();
       const SurfacePoint nearest = surface.index.nearest(image);
-      // On the surface itself the distance has no gradient; a step along the normal is what leaves it.
+      // On the surface the distance has no gradient; a step along the normal leaves the surface.
       const Eigen::Vector3d gradient =
           nearest.distance > tolerance::relative
               ? Eigen::Vector3d((image - nearest.point) / nearest.distance)
@@ -82,7 +82,8 @@ Linearization linearized(const SymmetrySurface& surface, const Symmetry& symmetr
   return result;
 }
 
-/// The smallest share of the knowledge about any freedom that `part` keeps of `whole`.
+/// Returns the smallest share of the information about any degree of freedom that `part` preserves of
+/// `whole`.
 double share(const Information& part, const Information& whole) {
   const Information floor = Information::Identity() * (tolerance::relative * (whole.trace() + 1));
   return Eigen::GeneralizedSelfAdjointEigenSolver<Information>(part + floor, whole + floor,
@@ -91,7 +92,7 @@ double share(const Information& part, const Information& whole) {
       .minCoeff();
 }
 
-/// The motion that lessens the weighted distances most; freedoms that nothing holds stay.
+/// Computes the motion that reduces the weighted distances most. Undetermined degrees of freedom stay.
 Eigen::Matrix<double, freedoms, 1> best_step(const Linearization& at, double scale) {
   Information information = at.information(scale);
   information.diagonal().array() += tolerance::relative * (information.trace() + 1);
@@ -132,8 +133,8 @@ struct RobustFit {
         symmetry(start),
         at(linearized(of, start, points)) {}
 
-  /// Steps at one scale until they are small. False when one was larger than `reach`: nothing holds the plane
-  /// there.
+  /// Steps at one scale until the steps are small. Returns false when a step is larger than `reach`: nothing
+  /// determines the plane there.
   bool settle(double scale, double reach) {
     for (int step = 0; step < steps_per_scale; ++step) {
       const Eigen::Matrix<double, freedoms, 1> motion = best_step(at, scale);

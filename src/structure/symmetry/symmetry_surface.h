@@ -8,37 +8,41 @@
 
 namespace stackabilization::detail {
 
-/// A surface prepared for questions about its symmetries, in a frame of its own: origin in the area centroid,
-/// unit the diagonal of the minimal oriented box, so that nothing depends on pose and size.
+/// A surface prepared for symmetry detection in its own frame: the origin is the centroid of the area, and
+/// the unit is the diagonal of the minimal oriented box. Results therefore do not depend on pose and size.
 struct SymmetrySurface {
-  Eigen::Vector3d centroid;  ///< of the area, model units
-  double diagonal;           ///< of the minimal box, model units; positive
+  Eigen::Vector3d centroid;  ///< centroid of the area, model units
+  double diagonal;           ///< diagonal of the minimal box, model units; positive
   OrientedBox box;           ///< minimal, own frame
-  Eigen::Matrix3d spread;    ///< second moments of the area per area, own frame
+  Eigen::Matrix3d spread;    ///< second moments of the area divided by the area, own frame
   double area;               ///< model units squared
-  /// What tolerances are fractions of, own frame: 1, but for slender shapes three times the middle extent of
-  /// the box. A bar would otherwise be symmetric in any plane along it.
+  /// Length that tolerances are fractions of, own frame: 1, or three times the middle extent of the box for
+  /// slender shapes. Otherwise a bar would be symmetric in any plane along it.
   double scale;
-  SurfaceIndex index;                    ///< own frame
-  Points normals;                        ///< unit, per triangle; 0 for those without area
-  SurfaceSamples dense, medium, sparse;  ///< own frame
-  Points corners;                        ///< vertices that triangles use, some hundreds at most; own frame
+  SurfaceIndex index;  ///< own frame
+  /// Unit normals of the triangles; 0 for triangles without area.
+  Points normals;
+  SurfaceSamples dense, medium, sparse;  ///< samples of decreasing number, own frame
+  /// At most some hundred vertices of triangles, own frame.
+  Points corners;
 };
 
-/// Which points of a surface a question is asked with.
+/// Number of points for a verification or refinement.
 enum class Effort {
   sparse,  ///< few points
   dense,   ///< all points
 };
 
-/// `samples` dense samples. Throws InputError when the surface has no area. Precondition: `validate(shape)`.
+/// Prepares a surface with `samples` dense samples. Throws InputError when the surface has no area.
+/// Precondition: `validate(shape)`.
 SymmetrySurface symmetry_surface(const Shape& shape, int samples);
 
-/// From the own frame of `surface` to model units, and back.
+/// Converts a symmetry from the own frame of `surface` to model units.
 Symmetry to_model(const SymmetrySurface& surface, const Symmetry& own);
+/// Converts a symmetry from model units to the own frame of `surface`.
 Symmetry to_own(const SymmetrySurface& surface, const Symmetry& model);
 
-/// The point of a plane or axis that is nearest to the origin.
+/// Returns the point of a plane or axis that is nearest to the origin.
 Eigen::Vector3d foot(const Symmetry& symmetry);
 
 }  // namespace stackabilization::detail

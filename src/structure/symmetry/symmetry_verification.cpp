@@ -20,7 +20,7 @@ constexpr double outlying_samples = 0.005;
 constexpr double outlying_corners = 0.02;
 constexpr double rough_allowance = 1.5;
 
-/// How far detail may stand out, fraction of the diagonal.
+/// Largest deviation of detail, fraction of the diagonal.
 double deepest_detail(const SymmetryOptions& options) {
   return std::max(depth_per_missing_share * (1 - options.support), counterpart * options.tolerance);
 }

@@ -79,7 +79,7 @@ std::vector<Peak> fullest_cells(const std::vector<Vote>& votes) {
   return peaks;
 }
 
-/// Mean shift: to the mean of the votes around, some times.
+/// Mean shift: moves to the mean of the surrounding votes, a few times.
 Peak climbed(Peak peak, const std::vector<Vote>& votes) {
   for (int round = 0; round < 3; ++round) {
     Peak mean{Eigen::Vector4d::Zero(), 0};

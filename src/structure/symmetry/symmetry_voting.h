@@ -7,15 +7,15 @@
 
 namespace stackabilization::detail {
 
-/// Reflections (own frame) that many pairs of surface samples vote for, most votes first (Mitra, Guibas and
-/// Pauly 2006). Furniture is flat, so instead of curvatures a pair must agree in how much of the surface lies
-/// within several distances of each sample, which any symmetry keeps. Votes are counted on a grid over the
-/// planes, peaks moved to the mean of the votes around. Planes far from the centroid of the area are left
-/// out: missing detail can move it only a little.
+/// Returns the reflections (own frame) with many votes of pairs of surface samples, most votes first (Mitra,
+/// Guibas and Pauly 2006). Furniture is flat, so the signature of a sample is not its curvature but the area
+/// of the surface within several distances of it, which is invariant under symmetries. Votes are counted on a
+/// grid over the planes. A peak moves to the mean of the votes around it. Planes far from the centroid of the
+/// area are omitted: missing detail moves the centroid only a little.
 std::vector<Symmetry> voted_reflections(const SymmetrySurface& surface, const SymmetryOptions& options);
 
-/// Axes (own frame, `order` without meaning) through the centroid that many pairs of samples with their
-/// normals vote for: each pair fixes a rotation about the centroid.
+/// Returns the axes (own frame, `order` without meaning) through the centroid with many votes of pairs of
+/// samples and their normals. Each pair determines a rotation about the centroid.
 std::vector<Symmetry> voted_axes(const SymmetrySurface& surface);
 
 }  // namespace stackabilization::detail

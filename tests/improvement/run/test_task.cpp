@@ -98,12 +98,14 @@ TEST_CASE("a length limit becomes a target, air included, and looks for no other
 TEST_CASE("a task refuses a length without room, and requirements that are none") {
   Requirements requirements = frame_requirements();
   requirements.length_limit = StackLengthLimit{5, 7};
-  CHECK(message_of<UsageError>([&] { ImprovementTask(designs::cup(), requirements); })
-            .find("the length 7 has no room for 5 copies of height 8") == 0);
+  CHECK(message_of<UsageError>([&] {
+          ImprovementTask(designs::cup(), requirements);
+        }).find("the length 7 has no room for 5 copies of height 8") == 0);
   requirements.length_limit = StackLengthLimit{3, 9};
   requirements.measure.clearance = 0.6;
-  CHECK(message_of<UsageError>([&] { ImprovementTask(designs::cup(), requirements); })
-            .find("with 0.6 of air between them") != std::string::npos);
+  CHECK(message_of<UsageError>([&] {
+          ImprovementTask(designs::cup(), requirements);
+        }).find("with 0.6 of air between them") != std::string::npos);
   CHECK_THROWS_AS(ImprovementTask(designs::cup(), frame_requirements(1)), UsageError);
 }
 
