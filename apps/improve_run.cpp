@@ -56,6 +56,7 @@ std::string status_text(const ImprovementProgress& progress) {
                      rounded(progress.best_energy) + "  expanded " + std::to_string(progress.expanded) +
                      "  queued " + std::to_string(progress.queued) + "  solutions " +
                      std::to_string(progress.solutions);
+  if (progress.work > 0) text += "  " + std::to_string(std::lround(100 * progress.work)) + " % of the work";
   if (std::isfinite(progress.seconds_left))
     text += "  " + std::to_string(std::lround(std::ceil(progress.seconds_left))) + " s left";
   return text;

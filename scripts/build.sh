@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
 # Configures the preset `release` and builds it, or only the targets given as arguments, into build/release.
+# For the program alone (build.sh stackabilize) the packages of tests and experiments need not be there.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -9,7 +10,9 @@ jobs=$(nproc)
 ((jobs * 3 > available_gb)) && jobs=$((available_gb / 3))
 ((jobs < 1)) && jobs=1
 
-options=()
+with_tests=ON
+[[ "$*" == stackabilize ]] && with_tests=OFF
+options=(-DSTACKABILIZATION_BUILD_TESTS=$with_tests -DSTACKABILIZATION_BUILD_EXPERIMENTS=$with_tests)
 if command -v ccache >/dev/null; then
   options+=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
   export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1

@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 echo "== 1/3 Packages"
-scripts/install_packages.sh
+scripts/install_packages.sh program
 
 echo
 echo "== 2/3 Building (minutes the first time)"

@@ -1,16 +1,24 @@
 #!/usr/bin/env bash
-# Installs what the build, the tests and the demo need on Debian 12, Debian 13 and Ubuntu 24.04.
+# Installs packages on Debian 12, Debian 13 and Ubuntu 24.04: install_packages.sh [program | all].
+# program: what the program needs to be built and run. all (default): also what tests, experiments and the reference need.
 # Does nothing, and needs no rights, when everything is there already.
 set -euo pipefail
 
+purpose=${1:-all}
 packages=(
   g++ cmake ninja-build ccache pkg-config git
-  libcgal-dev libeigen3-dev libboost-dev libopenmesh-dev libtbb-dev libgmp-dev libmpfr-dev
+  libcgal-dev libeigen3-dev libboost-dev libtbb-dev libgmp-dev libmpfr-dev
   libpugixml-dev libminizip-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
   libvtk9-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
-  libembree-dev libfcl-dev
-  catch2 doxygen python3
 )
+case $purpose in
+  program) ;;
+  all) packages+=(catch2 libopenmesh-dev libembree-dev libfcl-dev doxygen python3) ;;
+  *)
+    echo "scripts/install_packages.sh: expected 'program' or 'all', found '$purpose'" >&2
+    exit 2
+    ;;
+esac
 
 if ! command -v apt-get >/dev/null || ! command -v dpkg-query >/dev/null; then
   echo "This script knows Debian and Ubuntu only. Elsewhere, install what these packages hold: ${packages[*]}" >&2

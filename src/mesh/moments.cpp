@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/surface_moments.h"
+
 namespace stackabilization::detail {
 
 namespace {
@@ -125,7 +127,7 @@ Moments triangle_moments(const std::array<Eigen::Vector3d, 3>& corners, const Ei
   constexpr double near_edge = 0.091576213509771;
   constexpr double place[2] = {0.445948490915965, near_edge};
   Moments moments;
-  const double area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2;
+  const double area = area_vector(corners[0], corners[1], corners[2]).norm();
   for (int ring = 0; ring < 2; ++ring)
     for (std::size_t k = 0; k < 3; ++k) {
       const Eigen::Vector3d p =

@@ -10,17 +10,14 @@
 
 #include "mesh/affine_span.h"
 #include "mesh/hull_faces.h"
+#include "mesh/surface_moments.h"
 #include "stackabilization/mesh/convex_hull.h"
 
 namespace stackabilization::detail {
 
 namespace {
 
-struct Triangle {
-  std::array<Eigen::Vector3d, 3> corners;
-
-  double area() const { return (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm() / 2; }
-};
+using Triangle = std::array<Eigen::Vector3d, 3>;
 
 /// The boundary of a solid hull, a flat one cut from its middle to its sides, nothing for straight ones. Sums
 /// over the triangles do not depend on how they are cut.
@@ -29,26 +26,20 @@ std::vector<Triangle> triangles_of(const HullFaces& hull) {
   if (hull.dimension == 3) {
     const TriangulatedHull solid = triangulated_hull(hull.points);
     for (const auto& t : solid.triangles.rowwise())
-      triangles.push_back({{solid.points.row(t(0)).transpose(), solid.points.row(t(1)).transpose(),
-                            solid.points.row(t(2)).transpose()}});
+      triangles.push_back({solid.points.row(t(0)).transpose(), solid.points.row(t(1)).transpose(),
+                           solid.points.row(t(2)).transpose()});
     return triangles;
   }
   const Eigen::Vector3d middle = hull.points.colwise().mean().transpose();
   for (const auto& side : hull.edges.rowwise())
-    triangles.push_back(
-        {{middle, hull.points.row(side(0)).transpose(), hull.points.row(side(1)).transpose()}});
+    triangles.push_back({middle, hull.points.row(side(0)).transpose(), hull.points.row(side(1)).transpose()});
   return triangles;
 }
 
-/// Second moment of a triangle about `centre`.
-Eigen::Matrix3d moment(const Triangle& triangle, const Eigen::Vector3d& centre) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& corner : triangle.corners) {
-    sum += corner - centre;
-    squares += (corner - centre) * (corner - centre).transpose();
-  }
-  return triangle.area() / 12 * (squares + sum * sum.transpose());
+SurfaceMoments moments_about(const std::vector<Triangle>& triangles, const Eigen::Vector3d& origin) {
+  SurfaceMoments moments(origin);
+  for (const auto& [a, b, c] : triangles) moments.add(a, b, c);
+  return moments;
 }
 
 /// A direction by itself: its largest component is positive.
@@ -94,19 +85,14 @@ PrincipalExtents principal_extents(const Points& points, double resolution) {
   const std::vector<Triangle> triangles = triangles_of(hull);
   PrincipalExtents spread;
   spread.hull = hull.points;
-  double area = 0;
-  for (const Triangle& t : triangles) {
-    area += t.area();
-    spread.centre += t.area() / 3 * (t.corners[0] + t.corners[1] + t.corners[2]);
-  }
-  if (!(area > 0)) return with_ranges(straight_spread(std::move(spread)));
-  spread.centre /= area;
-  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-  for (const Triangle& t : triangles) sum += moment(t, spread.centre);
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(sum);
+  const SurfaceMoments whole = moments_about(triangles, Eigen::Vector3d::Zero());
+  if (!(whole.area() > 0)) return with_ranges(straight_spread(std::move(spread)));
+  spread.centre = whole.centre();
+  const SurfaceMoments centred = moments_about(triangles, spread.centre);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(centred.second());
   for (int k = 0; k < 3; ++k) {
     spread.axes.col(k) = oriented(solver.eigenvectors().col(2 - k));
-    spread.deviations(k) = std::sqrt(std::max(0.0, solver.eigenvalues()(2 - k) / area));
+    spread.deviations(k) = std::sqrt(std::max(0.0, solver.eigenvalues()(2 - k) / centred.area()));
   }
   return with_ranges(spread);
 }

@@ -7,16 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "mesh/surface_moments.h"
 #include "mesh/triangle_tree.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization {
 
 namespace {
-
-Eigen::Vector3d double_area_normal(const Shape& shape, Eigen::Index t) {
-  return (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0));
-}
 
 [[noreturn]] void no_area() {
   throw InputError("the surface has no triangle of positive area");
@@ -36,7 +33,7 @@ struct SurfaceIndex::Data {
 SurfaceIndex::SurfaceIndex(const Shape& shape) {
   std::vector<std::int32_t> rows;
   for (std::int32_t t = 0; t < shape.triangle_count(); ++t)
-    if (double_area_normal(shape, t).norm() > 0) rows.push_back(t);
+    if (detail::area_vector(shape, t).norm() > 0) rows.push_back(t);
   if (rows.empty()) no_area();
   data_ = std::make_unique<const Data>(shape, std::move(rows));
 }
@@ -54,7 +51,7 @@ SurfaceSamples surface_samples(const Shape& shape, int count) {
   const Eigen::Index m = shape.triangle_count();
   Eigen::VectorXd ends(m);  // running sum of areas
   double area = 0;
-  for (Eigen::Index t = 0; t < m; ++t) ends(t) = area += double_area_normal(shape, t).norm() / 2;
+  for (Eigen::Index t = 0; t < m; ++t) ends(t) = area += detail::area_vector(shape, t).norm();
   if (!(area > 0)) no_area();
 
   SurfaceSamples samples{Points(count, 3), Points(count, 3),
@@ -71,7 +68,7 @@ SurfaceSamples surface_samples(const Shape& shape, int count) {
     const Eigen::Vector3d origin = shape.corner(t, 0);
     samples.points.row(k) =
         (origin + u * (shape.corner(t, 1) - origin) + v * (shape.corner(t, 2) - origin)).transpose();
-    samples.normals.row(k) = double_area_normal(shape, t).normalized().transpose();
+    samples.normals.row(k) = detail::area_vector(shape, t).normalized().transpose();
     samples.triangles[static_cast<std::size_t>(k)] = static_cast<std::int32_t>(t);
   }
   return samples;

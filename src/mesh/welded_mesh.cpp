@@ -5,6 +5,7 @@
 #include "core/disjoint_sets.h"
 #include "core/index.h"
 #include "mesh/point_index.h"
+#include "mesh/surface_moments.h"
 
 namespace stackabilization::detail {
 
@@ -16,7 +17,7 @@ bool WeldedMesh::has_equal_corners(Eigen::Index triangle) const {
 double WeldedMesh::area(Eigen::Index triangle) const {
   const Eigen::Vector3d a = points.row(triangles(triangle, 0));
   const Eigen::Vector3d b = points.row(triangles(triangle, 1)), c = points.row(triangles(triangle, 2));
-  return (b - a).cross(c - a).norm() / 2;
+  return area_vector(a, b, c).norm();
 }
 
 WeldedMesh weld(const Shape& shape, Weld which) {

@@ -61,8 +61,8 @@ def first_part(program, model):
         return "shape"
 
 
-def answers(program, model, threads):
-    """The checksum of everything that all commands give, by command and file."""
+def answers(program, model, threads, keep=None):
+    """The checksum of everything that all commands give, by command and file. `keep`: folder for all of that."""
     found = {}
     first = first_part(program, model)
     for name, words in COMMANDS.items():
@@ -77,6 +77,10 @@ def answers(program, model, threads):
             for file in sorted(path for path in out.rglob("*") if path.is_file()):
                 data = file.read_bytes().replace(folder.encode(), b"OUT")
                 found[f"{name}/{file.relative_to(out)}"] = checksum(data)
+                if keep:
+                    copy = keep / model.name / name / file.relative_to(out)
+                    copy.parent.mkdir(parents=True, exist_ok=True)
+                    copy.write_bytes(data)
     return found
 
 
@@ -99,6 +103,7 @@ def main():
     parser.add_argument("--models", nargs="+", type=Path, default=[SHIPPED])
     parser.add_argument("--only", nargs="+", help="names of models, without suffix")
     parser.add_argument("--threads", nargs="+", type=int, default=[1, 2])
+    parser.add_argument("--keep", type=Path, help="folder for the answers and files, to see what differs")
     how = parser.add_mutually_exclusive_group(required=True)
     how.add_argument("--write", type=Path)
     how.add_argument("--check", type=Path)
@@ -121,7 +126,7 @@ def main():
     good = True
     all_found = {}
     for model in models:
-        by_threads = {threads: answers(program, model, threads) for threads in options.threads}
+        by_threads = {threads: answers(program, model, threads, options.keep) for threads in options.threads}
         found = by_threads[options.threads[0]]
         for threads, others in by_threads.items():
             good &= compare({f"{model.name}/{key}": value for key, value in found.items()},

@@ -20,8 +20,10 @@ struct ImprovementProgress {
   double best_energy = 0;        ///< least E of all candidates measured
   std::int64_t expanded = 0;     ///< expanded candidates: their successors were made
   std::int64_t evaluated = 0;    ///< designs measured
+  std::int64_t trials = 0;       ///< edits tried, counted as for BestFirstOptions::trials
   std::int64_t queued = 0;       ///< candidates in the queues of all starting directions
   int solutions = 0;             ///< solutions found
+  double work = 0;               ///< share of the allowed work that is done, in [0, 1]; 0 without limits
   double seconds_left = 0;       ///< seconds until the deadline; infinite without one
 };
 
@@ -79,7 +81,6 @@ struct BestFirstResult {
   std::vector<Candidate> nearest;
   std::vector<RefusalCount> refusals;    ///< reasons of refusals, most frequent first
   ImprovementProgress progress;          ///< counts at the end
-  std::int64_t trials = 0;               ///< edits tried, counted as for BestFirstOptions::trials
   SearchEnd end = SearchEnd::exhausted;  ///< why the search ended
 };
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/disjoint_sets.h"
+#include "mesh/surface_moments.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization {
@@ -48,7 +49,7 @@ RigidSurface::RigidSurface(Points points, const Triangles& triangles,
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const Eigen::Vector3d a = points_.row(triangles(t, 0));
     const Eigen::Vector3d b = points_.row(triangles(t, 1)), c = points_.row(triangles(t, 2));
-    area_ += (b - a).cross(c - a).norm() / 2;
+    area_ += detail::area_vector(a, b, c).norm();
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/disjoint_sets.h"
 #include "mesh/edge_table.h"
+#include "mesh/surface_moments.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
 
@@ -39,7 +40,7 @@ Eigen::Vector3d point_at(const detail::WeldedMesh& surface, int place) {
 
 Eigen::Vector3d unit_normal(const detail::WeldedMesh& surface, Eigen::Index triangle) {
   const auto at = [&](int k) { return point_at(surface, surface.triangles(triangle, k)); };
-  return (at(1) - at(0)).cross(at(2) - at(0)).stableNormalized();
+  return detail::area_vector(at(0), at(1), at(2)).stableNormalized();
 }
 
 /// The graph of feature edges.

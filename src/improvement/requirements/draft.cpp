@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "mesh/surface_moments.h"
 #include "stackabilization/core/tolerances.h"
 #include "structure/model/bounding_diagonal.h"
 
@@ -37,9 +38,7 @@ class DraftAngles {
 };
 
 std::optional<Touched> DraftAngles::touched(Eigen::Index triangle, const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d a = shape_.corner(triangle, 0);
-  const Eigen::Vector3d normal =
-      (shape_.corner(triangle, 1) - a).cross(shape_.corner(triangle, 2) - a).stableNormalized();
+  const Eigen::Vector3d normal = detail::unit_normal(shape_, triangle);
   if (!(normal.norm() > 0)) return std::nullopt;
   Touched result{std::atan2(std::abs(normal.dot(up_)), normal.cross(up_).norm()), true};
   for (int k = 0; k < 3; ++k) {

@@ -12,6 +12,7 @@
 
 #include "mesh/barycentric.h"
 #include "mesh/surface_index.h"
+#include "mesh/surface_moments.h"
 #include "mesh/triangle_tree.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
@@ -73,10 +74,8 @@ std::vector<Hit> WallThicknessRays::hits(std::int32_t triangle, const Eigen::Vec
   for (const std::size_t entry : met) {
     const std::int32_t other = tree_.rows()[entry];
     if (shell_[static_cast<std::size_t>(other)] != shell_[static_cast<std::size_t>(triangle)]) continue;
-    const Eigen::Vector3d a = shape_.corner(other, 0);
-    const Eigen::Vector3d normal =
-        (shape_.corner(other, 1) - a).cross(shape_.corner(other, 2) - a).stableNormalized();
-    const double distance = normal.dot(a - point) / normal.dot(along);
+    const Eigen::Vector3d normal = detail::unit_normal(shape_, other);
+    const double distance = normal.dot(shape_.corner(other, 0) - point) / normal.dot(along);
     if (distance > reach && distance <= 2 * diagonal_) found.push_back({distance, other});
   }
   std::sort(found.begin(), found.end());
@@ -87,9 +86,7 @@ std::vector<Hit> WallThicknessRays::hits(std::int32_t triangle, const Eigen::Vec
 
 std::optional<ThicknessProbe> WallThicknessRays::probe(std::int32_t triangle,
                                                        const Eigen::Vector3d& point) const {
-  const Eigen::Vector3d a = shape_.corner(triangle, 0);
-  const Eigen::Vector3d normal =
-      (shape_.corner(triangle, 1) - a).cross(shape_.corner(triangle, 2) - a).stableNormalized();
+  const Eigen::Vector3d normal = detail::unit_normal(shape_, triangle);
   const std::vector<Hit> behind = hits(triangle, point, -normal), before = hits(triangle, point, normal);
   if (behind.size() % 2 == before.size() % 2) return std::nullopt;
   const bool outward = behind.size() % 2 == 1;
@@ -120,8 +117,7 @@ SurfaceSamples samples_of_part(const Shape& shape, std::int32_t part) {
   for (std::int32_t t = 0; t < shape.triangle_count(); ++t) {
     if (shape.triangle_part[static_cast<std::size_t>(t)] != part) continue;
     rows.push_back(t);
-    const Eigen::Vector3d a = shape.corner(t, 0);
-    area += (shape.corner(t, 1) - a).cross(shape.corner(t, 2) - a).norm();
+    area += detail::area_vector(shape, t).norm();
   }
   if (!(area > 0)) return {};
   SurfaceSamples samples = surface_samples(detail::extracted(shape, rows), samples_per_part);

@@ -44,11 +44,14 @@ bool more_stackable(const Candidate& a, const Candidate& b) {
 /// edits, until there are as many different solutions as wanted.
 class Refinements {
  public:
-  Refinements(const RequirementChecker& checker, const ImprovementOptions& options, WorkBudget& budget)
+  /// `report`: called after each refinement.
+  Refinements(const RequirementChecker& checker, const ImprovementOptions& options, WorkBudget& budget,
+              std::function<void()> report)
       : checker_(checker),
         options_(options.refinement),
         wanted_(static_cast<std::size_t>(options.search.solutions)),
         budget_(budget),
+        report_(std::move(report)),
         less_changed_([measure = options.refinement.objective, &rest = checker.space().rest().shape](
                           const Candidate& a, const Candidate& b) {
           return size_of(measure, a, rest) < size_of(measure, b, rest);
@@ -93,6 +96,7 @@ class Refinements {
         static_cast<int>(std::min<std::int64_t>(options.evaluations, budget_.designs_until(share_)));
     RefinementResult result = refine_candidate(checker_, start, options);
     budget_.charge(result.evaluations);
+    report_();
     return result;
   }
 
@@ -145,6 +149,7 @@ class Refinements {
   RefinementOptions options_;
   std::size_t wanted_;
   WorkBudget& budget_;
+  std::function<void()> report_;
   double share_ = diagnosis_begin;  ///< share of the work at which the current phase ends
   std::function<bool(const Candidate&, const Candidate&)> less_changed_;
   detail::SolutionDiversity distinct_;
@@ -240,9 +245,9 @@ class ImprovementRun {
       search.progress = [this, report = search.progress](ImprovementProgress now) { report(counted(now)); };
     BestFirstResult found =
         state ? resume_best_first(checker_, search, *state) : best_first(checker_, search);
-    budget_.charge(found.trials);
     if (found.end == SearchEnd::time_limit) budget_.note_deadline();
     result_.progress = counted(found.progress);
+    budget_.charge(found.progress.trials);
     return found;
   }
 
@@ -250,13 +255,23 @@ class ImprovementRun {
   ImprovementProgress counted(ImprovementProgress now) const {
     now.expanded += result_.progress.expanded;
     now.evaluated += result_.progress.evaluated;
+    now.work = std::max(budget_.share_used(now.trials),
+                        static_cast<double>(now.expanded) / static_cast<double>(options_.search.expansions));
+    now.trials += result_.progress.trials;
     now.seconds_left = budget_.seconds_until(1);
     return now;
   }
 
   void refine(std::vector<Candidate> starts, BestFirstResult& found) {
     const std::int64_t before = budget_.used();
-    Refinements refinements(checker_, options_, budget_);
+    Refinements refinements(checker_, options_, budget_, [this, before] {
+      if (!options_.search.progress) return;
+      ImprovementProgress now = result_.progress;
+      now.evaluated += budget_.used() - before;
+      now.work = budget_.share_used();
+      now.seconds_left = budget_.seconds_until(1);
+      options_.search.progress(now);
+    });
     result_.solutions = refinements.refined(std::move(starts), found);
     result_.progress.evaluated += budget_.used() - before;
     if (refinements.nearest()) found.nearest.insert(found.nearest.begin(), *refinements.nearest());

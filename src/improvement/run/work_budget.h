@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -17,6 +18,10 @@ class WorkBudget {
   /// reproducible.
   void charge(std::int64_t designs) { used_ += designs; }
   std::int64_t used() const { return used_; }
+  /// Returns the share of the designs that are used, with `further` ones, in [0, 1]; 0 without a limit.
+  double share_used(std::int64_t further = 0) const {
+    return std::min(1.0, static_cast<double>(used_ + further) / designs_);
+  }
   /// Returns how many designs are left until `share` of the budget is used, at least `min_share` of the
   /// budget.
   std::int64_t designs_until(double share, double min_share = 0) const;

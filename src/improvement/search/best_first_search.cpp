@@ -19,6 +19,10 @@ constexpr std::int64_t cone_trials = 8;
 constexpr double save_every = 1;
 constexpr double save_share = 0.05;
 
+double share_of(std::int64_t done, std::int64_t allowed) {
+  return allowed > 0 ? static_cast<double>(done) / static_cast<double>(allowed) : 1;
+}
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -161,8 +165,11 @@ ImprovementProgress BestFirstSearch::progress() const {
   now.best_energy = best_energy_;
   now.expanded = state_.expanded;
   now.evaluated = state_.evaluated;
+  now.trials = state_.trials;
   now.queued = state_.tree.queued();
   now.solutions = static_cast<int>(solutions_.size());
+  now.work =
+      std::max(share_of(state_.expanded, options().expansions), share_of(state_.trials, options().trials));
   now.seconds_left = std::max(0.0, options().seconds - interruption_.seconds());
   return now;
 }
@@ -226,7 +233,6 @@ BestFirstResult BestFirstSearch::result(SearchEnd end) {
   result.nearest = nearest();
   result.refusals = refusals();
   result.progress = progress();
-  result.trials = state_.trials;
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "mesh/surface_moments.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization {
@@ -79,7 +80,7 @@ SampleCount SheetCutter::count(const Corners& t) const {
 /// allowance for its slope.
 bool SheetCutter::seen_near(const Corners& t) const {
   constexpr double farthest = 0.71;  // pixels to the nearest sample
-  const Eigen::Vector3d middle = (t[0] + t[1] + t[2]) / 3, normal = (t[1] - t[0]).cross(t[2] - t[0]);
+  const Eigen::Vector3d middle = (t[0] + t[1] + t[2]) / 3, normal = detail::area_vector(t[0], t[1], t[2]);
   if (normal.z() == 0) return false;
   const int i = std::clamp(static_cast<int>(middle.x()), 0, field_.window.columns - 1);
   const int j = std::clamp(static_cast<int>(middle.y()), 0, field_.window.rows - 1);

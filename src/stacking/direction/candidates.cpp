@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/surface_moments.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization {
@@ -40,37 +41,11 @@ Lines columns(const Eigen::Matrix3d& axes) {
   return {axes.col(0), axes.col(1), axes.col(2)};
 }
 
-Eigen::Vector3d area_vector(const Shape& shape, Eigen::Index t) {
-  return (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0)) / 2;
-}
-
 /// Eigenvectors of the covariance of the surface, each triangle by its area.
 Lines principal_axes(const Shape& shape) {
-  double total = 0;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  const Eigen::Vector3d origin = shape.corner(0, 0);
-  const auto centre_of = [&](Eigen::Index t) -> Eigen::Vector3d {
-    return (shape.corner(t, 0) + shape.corner(t, 1) + shape.corner(t, 2)) / 3 - origin;
-  };
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-    const double area = area_vector(shape, t).norm();
-    total += area;
-    mean += area * centre_of(t);
-  }
-  if (!(total > 0)) return {};
-  mean /= total;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-    // Second moment of a triangle: area / 12 times the corners' squares plus nine times the centre's.
-    const double weight = area_vector(shape, t).norm() / (12 * total);
-    const Eigen::Vector3d centre = centre_of(t) - mean;
-    covariance += weight * 9 * centre * centre.transpose();
-    for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector3d corner = shape.corner(t, k) - origin - mean;
-      covariance += weight * corner * corner.transpose();
-    }
-  }
-  return columns(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors());
+  const detail::SurfaceMoments moments(shape, shape.corner(0, 0));
+  if (!(moments.area() > 0)) return {};
+  return columns(Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments.covariance()).eigenvectors());
 }
 
 Lines rows(const Points& vectors) {
@@ -115,7 +90,7 @@ class NormalCells {
 
 Lines normals_of_surface(const Shape& shape) {
   NormalCells cells;
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) cells.add(area_vector(shape, t));
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) cells.add(detail::area_vector(shape, t));
   return cells.fullest(2 * surface_normals);
 }
 

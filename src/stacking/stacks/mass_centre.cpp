@@ -7,6 +7,7 @@
 #include <numeric>
 #include <vector>
 
+#include "mesh/surface_moments.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/mesh/closed_surface.h"
@@ -31,18 +32,6 @@ Eigen::AlignedBox3d box_of(const Shape& shape) {
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
     for (int k = 0; k < 3; ++k) box.extend(shape.corner(t, k));
   return box;
-}
-
-Mass mass_of_area(const Shape& shape, const Eigen::Vector3d& origin) {
-  Mass sum;
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-    const Eigen::Vector3d a = shape.corner(t, 0) - origin, b = shape.corner(t, 1) - origin,
-                          c = shape.corner(t, 2) - origin;
-    const double area = (b - a).cross(c - a).norm() / 2;
-    sum.amount += area;
-    sum.moment += area / 3 * (a + b + c);
-  }
-  return sum;
 }
 
 std::vector<Body> bodies(const Shape& shape, const ClosedSurface& surface, const Eigen::Vector3d& origin) {
@@ -90,14 +79,14 @@ Mass mass_of_bodies(std::vector<Body> bodies) {
 MassCentre mass_centre(const Shape& shape) {
   const Eigen::AlignedBox3d box = box_of(shape);
   const Eigen::Vector3d origin = box.center();
-  const Mass area = mass_of_area(shape, origin);
-  if (!(area.amount > 0)) throw InputError("the shape has no area, so nothing that could stand");
+  const SurfaceMoments surface_area(shape, origin);
+  if (!(surface_area.area() > 0)) throw InputError("the shape has no area, so nothing that could stand");
   if (const ClosedSurface surface = closed_surface(shape); surface.closed) {
     const Mass solid = mass_of_bodies(bodies(shape, surface, origin));
-    if (solid.amount > tolerance::relative * area.amount * box.diagonal().norm())
+    if (solid.amount > tolerance::relative * surface_area.area() * box.diagonal().norm())
       return {origin + solid.moment / solid.amount, true};
   }
-  return {origin + area.moment / area.amount, false};
+  return {surface_area.centre(), false};
 }
 
 }  // namespace stackabilization::detail

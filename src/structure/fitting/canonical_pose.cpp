@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "mesh/surface_moments.h"
 #include "structure/fitting/part_box.h"
 
 namespace stackabilization::detail {
@@ -18,7 +19,7 @@ Eigen::Vector3d skewness(const Shape& part) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (Eigen::Index t = 0; t < part.triangle_count(); ++t) {
     const Eigen::Vector3d a = part.corner(t, 0), b = part.corner(t, 1), c = part.corner(t, 2);
-    sum += (b - a).cross(c - a).norm() * ((a + b + c) / 3).array().cube().matrix();
+    sum += 2 * area_vector(a, b, c).norm() * ((a + b + c) / 3).array().cube().matrix();
   }
   return sum;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "mesh/surface_moments.h"
 #include "stackabilization/core/direction.h"
 #include "stackabilization/core/tolerances.h"
 #include "structure/model/canonical_axes.h"
@@ -75,30 +76,10 @@ std::vector<Eigen::Matrix3d> candidate_axes(const HullSupport& hull, const Eigen
 
 }  // namespace
 
-SurfaceMoments surface_moments(const Shape& part) {
-  SurfaceMoments moments;
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  const Eigen::Vector3d origin = part.corner(0, 0);
-  for (Eigen::Index t = 0; t < part.triangle_count(); ++t) {
-    Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k) corners.col(k) = part.corner(t, k) - origin;
-    const double area = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm() / 2;
-    const Eigen::Vector3d sum = corners.rowwise().sum();
-    moments.area += area;
-    first += area / 3 * sum;
-    second += area / 12 * (corners * corners.transpose() + sum * sum.transpose());
-  }
-  const Eigen::Vector3d mean = first / moments.area;
-  moments.centre = origin + mean;
-  moments.covariance = second / moments.area - mean * mean.transpose();
-  return moments;
-}
-
 PartBox part_box(const FitSurface& part) {
   const HullSupport hull(part.shape);
   const std::vector<Eigen::Matrix3d> candidates =
-      candidate_axes(hull, surface_moments(part.shape).covariance);
+      candidate_axes(hull, SurfaceMoments(part.shape, part.shape.corner(0, 0)).covariance());
   const auto thickened = [&](const Eigen::Matrix3d& axes) {
     OrientedBox box = box_with_axes(hull.points(), canonical(axes));
     const double diagonal = 2 * box.half_extents.norm();

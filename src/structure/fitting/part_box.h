@@ -8,17 +8,6 @@
 
 namespace stackabilization::detail {
 
-/// First and second moments of a surface of constant mass per area.
-struct SurfaceMoments {
-  double area = 0;                                   ///< model units squared
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();  ///< centroid of the area, model units
-  /// Mean of (p - centre) (p - centre)^T, model units squared.
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-};
-
-/// Integrates the moments over the triangles, without sampling. The result has the symmetries of the part.
-SurfaceMoments surface_moments(const Shape& part);
-
 /// Box of the cuboid of a part.
 struct PartBox {
   /// Every half extent is at least half of `tolerance::min_thickness` of the diagonal.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/surface_moments.h"
 #include "stackabilization/core/tolerances.h"
 #include "structure/fitting/part_box.h"
 
@@ -95,16 +96,16 @@ double miss_when_turned(const FitSurface& part, const AxisLine& axis) {
 }  // namespace
 
 std::optional<AxisLine> revolution_axis(const FitSurface& part) {
-  const SurfaceMoments moments = surface_moments(part.shape);
-  const double scale = std::sqrt(moments.covariance.trace());
-  const NormalComplex complex = normal_complex(part.shape, moments.centre, scale);
+  const SurfaceMoments moments(part.shape, part.shape.corner(0, 0));
+  const double scale = std::sqrt(moments.covariance().trace());
+  const NormalComplex complex = normal_complex(part.shape, moments.centre(), scale);
   const Eigen::Matrix3d elimination = -pseudo_inverse(complex.moments) * complex.mixed.transpose();
   const Eigen::Matrix3d residual = complex.directions + complex.mixed * elimination;
 
   AxisLine axis;
   axis.direction =
       direction_of_least_residual((residual + residual.transpose()) / 2, complex.moments.trace());
-  axis.point = moments.centre + scale * axis.direction.cross(elimination * axis.direction);
+  axis.point = moments.centre() + scale * axis.direction.cross(elimination * axis.direction);
   if (!axis.point.allFinite() || !axis.direction.allFinite()) return std::nullopt;
 
   double radius = 0;

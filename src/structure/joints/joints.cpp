@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "core/extract_parts.h"
+#include "mesh/surface_moments.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "structure/joints/part_interfaces.h"
@@ -48,29 +49,13 @@ double size_of(const Shape& shape) {
   return detail::enclosing_diameter(corners);
 }
 
-/// Second moments of the surface of a shape about its centroid: they define directions that move with the
-/// shape.
-Eigen::Matrix3d surface_moment(const Shape& shape) {
-  const Eigen::Vector3d origin = shape.corner(0, 0);
-  double area = 0;
-  Eigen::Vector3d first = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-    Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k) corners.col(k) = shape.corner(t, k) - origin;
-    const double share = (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm();
-    const Eigen::Vector3d sum = corners.rowwise().sum();
-    area += share;
-    first += share / 3 * sum;
-    second += share / 12 * (corners * corners.transpose() + sum * sum.transpose());
-  }
-  return second / area - first * first.transpose() / (area * area);
-}
-
 class JointFinder {
  public:
   JointFinder(const Shape& shape, const std::vector<Part>& parts, const JointOptions& options)
-      : options_(options), size_(size_of(shape)), moment_(surface_moment(shape)), surfaces_(parts.size()) {
+      : options_(options),
+        size_(size_of(shape)),
+        moment_(detail::SurfaceMoments(shape, shape.corner(0, 0)).covariance()),
+        surfaces_(parts.size()) {
     for (const Part& part : parts) is_cuboid_.push_back(std::holds_alternative<Cuboid>(part.primitive));
     const std::vector<Shape> pieces = extract_parts(shape);
     tbb::parallel_for(std::size_t{0}, parts.size(),
@@ -261,7 +246,7 @@ BoxPairs near_parts(const Shape& shape, const JointOptions& options) {
   std::vector<std::size_t> triangles(boxes.size(), 0);
   for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
     const Eigen::Vector3d a = shape.corner(t, 0), b = shape.corner(t, 1), c = shape.corner(t, 2);
-    if (!((b - a).cross(c - a).squaredNorm() > 0)) continue;
+    if (!detail::has_area(shape, t)) continue;
     const auto part = static_cast<std::size_t>(shape.triangle_part[static_cast<std::size_t>(t)]);
     for (const Eigen::Vector3d& p : {a, b, c}) boxes[part].extend(p);
     ++triangles[part];

@@ -12,6 +12,7 @@
 #include "mesh/edge_table.h"
 #include "mesh/point_index.h"
 #include "mesh/segment_triangle.h"
+#include "mesh/surface_moments.h"
 #include "mesh/triangle_tree.h"
 #include "stackabilization/core/errors.h"
 #include "structure/model/nearest_box.h"
@@ -65,7 +66,7 @@ PartSurface::PartSurface(const Shape& surface, const Part& part) : in_primitive_
   std::vector<std::int32_t> rows;
   for (std::int32_t t = 0; t < surface.triangle_count(); ++t) {
     const Eigen::Vector3d a = surface.corner(t, 0), b = surface.corner(t, 1), c = surface.corner(t, 2);
-    if (!((b - a).cross(c - a).squaredNorm() > 0)) continue;
+    if (!detail::has_area(surface, t)) continue;
     triangles_.push_back({index.insert(a), index.insert(b), index.insert(c)});
     rows.push_back(t);
   }

@@ -10,6 +10,7 @@
 
 #include "core/disjoint_sets.h"
 #include "mesh/surface_index.h"
+#include "mesh/surface_moments.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/mesh/box_pairs.h"
@@ -40,17 +41,10 @@ Component component_of(const Shape& shape, const std::vector<std::int32_t>& rows
   component.shape = extracted(shape, rows);
   for (Eigen::Index t = 0; t < component.shape.triangle_count(); ++t) {
     for (int k = 0; k < 3; ++k) component.box.extend(component.shape.corner(t, k));
-    const Eigen::Vector3d a = component.shape.corner(t, 0);
-    component.area += (component.shape.corner(t, 1) - a).cross(component.shape.corner(t, 2) - a).norm() / 2;
+    component.area += area_vector(component.shape, t).norm();
   }
   if (component.area > 0) component.samples = surface_samples(component.shape, contact_samples);
   return component;
-}
-
-Eigen::Vector3d unit_normal(const Shape& shape, Eigen::Index t) {
-  return (shape.corner(t, 1) - shape.corner(t, 0))
-      .cross(shape.corner(t, 2) - shape.corner(t, 0))
-      .stableNormalized();
 }
 
 bool inside(const HullSupport& hull, const Eigen::Vector3d& point, double reach) {

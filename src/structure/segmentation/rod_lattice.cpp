@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "mesh/surface_moments.h"
 #include "structure/model/part_surface.h"
 
 namespace stackabilization::detail {
@@ -35,13 +36,9 @@ Pieces pieces_of(const Shape& shape, const std::vector<std::int32_t>& component)
   Pieces pieces{std::vector<std::vector<Eigen::Vector3d>>(count), std::vector<double>(count, 0)};
   for (std::size_t t = 0; t < component.size(); ++t) {
     const auto c = static_cast<std::size_t>(component[t]);
-    Eigen::Matrix3d corners;
-    for (int k = 0; k < 3; ++k) {
-      corners.col(k) = shape.corner(static_cast<Eigen::Index>(t), k);
-      pieces.corners[c].emplace_back(corners.col(k));
-    }
-    pieces.areas[c] +=
-        (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).stableNorm() / 2;
+    const auto row = static_cast<Eigen::Index>(t);
+    for (int k = 0; k < 3; ++k) pieces.corners[c].emplace_back(shape.corner(row, k));
+    pieces.areas[c] += area_vector(shape, row).stableNorm();
   }
   return pieces;
 }

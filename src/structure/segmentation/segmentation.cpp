@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesh/surface_moments.h"
 #include "stackabilization/core/errors.h"
 #include "structure/fitting/revolution_axis.h"
 #include "structure/model/fit_error.h"
@@ -38,9 +39,7 @@ Shape with_parts_by_area(const Shape& shape, const std::vector<std::int32_t>& pa
   std::vector<std::size_t> first(count, part.size());
   for (std::size_t t = part.size(); t-- > 0;) {
     const auto row = static_cast<Eigen::Index>(t);
-    const Eigen::Vector3d a = shape.corner(row, 0);
-    area[static_cast<std::size_t>(part[t])] +=
-        (shape.corner(row, 1) - a).cross(shape.corner(row, 2) - a).stableNorm() / 2;
+    area[static_cast<std::size_t>(part[t])] += detail::area_vector(shape, row).stableNorm();
     first[static_cast<std::size_t>(part[t])] = t;
   }
   std::vector<std::size_t> order(count);

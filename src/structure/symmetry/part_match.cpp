@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/extract_parts.h"
+#include "mesh/surface_moments.h"
 
 namespace stackabilization::detail {
 
@@ -24,9 +25,7 @@ constexpr double size_tolerances = 10, absolute_size_tolerances = 0.1;
 
 double area_of(const Shape& shape) {
   double area = 0;
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-    area +=
-        (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0)).norm() / 2;
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) area += detail::area_vector(shape, t).norm();
   return area;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "mesh/surface_moments.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {
@@ -13,46 +14,27 @@ namespace {
 constexpr int sparse_samples = 150, medium_samples = 500, max_corners = 300;
 constexpr double slender_extents = 3;
 
-/// Area, its first and second moments.
-struct AreaMoments {
-  double area = 0;
-  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-};
-
-AreaMoments moments_of(const Shape& shape) {
-  AreaMoments moments;
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-    const Eigen::Vector3d a = shape.corner(t, 0), b = shape.corner(t, 1), c = shape.corner(t, 2),
-                          sum = a + b + c;
-    const double area = (b - a).cross(c - a).norm() / 2;
-    moments.area += area;
-    moments.centroid += area * sum / 3;
-    moments.spread +=
-        area / 12 * (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
-  }
-  if (moments.area > 0) {
-    moments.centroid /= moments.area;
-    moments.spread = moments.spread / moments.area - moments.centroid * moments.centroid.transpose();
-  }
-  return moments;
-}
-
 struct OwnFrame {
   Shape shape;
   Eigen::Vector3d centroid;
   double diagonal;
   OrientedBox box;
-  AreaMoments moments;
+  double area = 0;                                       ///< of `shape`
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< of the surface of `shape`
 };
 
 OwnFrame own_frame(const Shape& shape) {
-  OwnFrame frame{shape, {}, 0, minimal_oriented_box(HullSupport(shape)), {}};
+  OwnFrame frame{shape, {}, 0, minimal_oriented_box(HullSupport(shape))};
   frame.diagonal = 2 * frame.box.half_extents.norm();
   const Eigen::Vector3d centre = frame.box.centre;
   frame.shape.vertices = (shape.vertices.rowwise() - centre.transpose()) / frame.diagonal;
-  frame.moments = moments_of(frame.shape);
-  const Eigen::Vector3d offset = frame.moments.centroid;
+  const SurfaceMoments moments(frame.shape, Eigen::Vector3d::Zero());
+  Eigen::Vector3d offset = Eigen::Vector3d::Zero();
+  frame.area = moments.area();
+  if (frame.area > 0) {
+    offset = moments.centre();
+    frame.covariance = moments.covariance();
+  }
   frame.shape.vertices.rowwise() -= offset.transpose();
   frame.centroid = centre + frame.diagonal * offset;
   frame.box.centre = -offset;
@@ -76,11 +58,8 @@ Points used_corners(const Shape& shape) {
 
 Points unit_normals(const Shape& shape) {
   Points normals(shape.triangle_count(), 3);
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-    const Eigen::Vector3d normal =
-        (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0));
-    normals.row(t) = normal.stableNormalized().transpose();
-  }
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    normals.row(t) = unit_normal(shape, t).transpose();
   return normals;
 }
 
@@ -96,8 +75,8 @@ SymmetrySurface symmetry_surface(const Shape& shape, int samples) {
   return {.centroid = frame.centroid,
           .diagonal = frame.diagonal,
           .box = frame.box,
-          .spread = frame.moments.spread,
-          .area = frame.moments.area * frame.diagonal * frame.diagonal,
+          .spread = frame.covariance,
+          .area = frame.area * frame.diagonal * frame.diagonal,
           .scale = std::clamp(slender_extents * 2 * middle(frame.box.half_extents), tolerance::relative, 1.0),
           .index = SurfaceIndex(frame.shape),
           .normals = unit_normals(frame.shape),

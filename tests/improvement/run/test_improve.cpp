@@ -206,3 +206,19 @@ TEST_CASE("efforts are shares of a fixed amount of work, less of it for larger s
     CHECK_THROWS_AS(improve(checker(0.5), limited(none)), UsageError);
   }
 }
+
+TEST_CASE("progress counts the work of all phases, up to all that is allowed") {
+  ImprovementOptions options;
+  options.effort = 0.05;
+  std::vector<ImprovementProgress> seen;
+  options.search.progress = [&](const ImprovementProgress& now) { seen.push_back(now); };
+  const Improvement found = improve(checker(0.75), options);
+  REQUIRE(seen.size() > 2);
+  for (std::size_t k = 1; k < seen.size(); ++k) {
+    CHECK(seen[k].work >= seen[k - 1].work);
+    CHECK(seen[k].evaluated >= seen[k - 1].evaluated);
+  }
+  CHECK(seen.front().work > 0);
+  CHECK(seen.back().work <= 1);
+  CHECK(seen.back().evaluated == found.progress.evaluated);
+}

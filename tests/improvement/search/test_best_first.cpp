@@ -328,22 +328,22 @@ TEST_CASE("a saved search knows its directions, before its first step too") {
 TEST_CASE("a limit of trials bounds the edits tried, and leaves no trace of what goes beyond it") {
   BestFirstOptions how = options();
   const BestFirstResult whole = best_first(checker(0.6), how);
-  REQUIRE(whole.trials > 4);
+  REQUIRE(whole.progress.trials > 4);
   std::string state;
   how.save = [&](const std::string& text) { state = text; };
   std::int64_t before = 0;
-  for (const std::int64_t limit : {std::int64_t{0}, whole.trials / 2, whole.trials - 1}) {
+  for (const std::int64_t limit : {std::int64_t{0}, whole.progress.trials / 2, whole.progress.trials - 1}) {
     how.trials = limit;
     const BestFirstResult part = best_first(checker(0.6), how);
     CHECK(part.end == SearchEnd::trial_limit);
-    CHECK(part.trials <= limit);
-    CHECK(part.trials >= before);
-    before = part.trials;
+    CHECK(part.progress.trials <= limit);
+    CHECK(part.progress.trials >= before);
+    before = part.progress.trials;
     BestFirstOptions more = how;
-    more.trials = whole.trials;
+    more.trials = whole.progress.trials;
     check_same_search(resume_best_first(checker(0.6), more, {state}), whole);
   }
-  how.trials = whole.trials;
+  how.trials = whole.progress.trials;
   check_same_search(best_first(checker(0.6), how), whole);
 }
 
@@ -360,7 +360,10 @@ TEST_CASE("progress is reported after every candidate") {
     CHECK(seen[k].best_energy <= seen[k - 1].best_energy);
     CHECK(seen[k].evaluated >= seen[k - 1].evaluated);
     CHECK(seen[k].seconds_left <= seen[k - 1].seconds_left);
+    CHECK(seen[k].work >= seen[k - 1].work);
   }
+  CHECK(seen.back().work ==
+        static_cast<double>(result.progress.expanded) / static_cast<double>(how.expansions));
 }
 
 TEST_CASE("gap scaling is searched along its own direction only, and a cone around it is refused") {

@@ -78,15 +78,6 @@ TEST_CASE("errors are two-sided, and zero on the surface itself") {
   CHECK(fit_error(cube, hollow) == Approx(std::sqrt(4.0 / 72 / 2)).epsilon(0.02));
 }
 
-TEST_CASE("surface moments are those of the solid's faces") {
-  const SurfaceMoments moments = surface_moments(solids::box({1, 2, 3}, {3, 8, 4}));
-  CHECK(moments.area == Approx(2 * (12 + 6 + 2)));
-  CHECK((moments.centre - Eigen::Vector3d(2, 5, 3.5)).norm() == Approx(0).margin(1e-12));
-  // Across x: the faces x = const (6 each) lie 1 away, the others (28 in all) have a third of that, squared.
-  CHECK(moments.covariance(0, 0) == Approx((12 * 1 + 28 / 3.0) / 40));
-  CHECK(moments.covariance(0, 1) == Approx(0).margin(1e-12));
-}
-
 TEST_CASE("the axis of a body of revolution is found in any pose, from few facets, inside and outside") {
   for (const int segments : {8, 11, 64})
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
