@@ -1,11 +1,16 @@
 #include "apps/run_program.h"
 
+#include <signal.h>
 #include <stdlib.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <fstream>
+#include <future>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "stackabilization/io/write.h"
@@ -81,6 +86,43 @@ Outcome run_program(const Arguments& arguments, const std::string& input, const 
   outcome.out = bytes_of(folder / "out");
   outcome.err = bytes_of(folder / "err");
   return outcome;
+}
+
+Outcome run_and_signal(const Arguments& arguments, int signal, const std::function<bool(pid_t)>& ready) {
+  using namespace std::chrono_literals;
+  const TemporaryFolder folder;
+  const std::string number = folder / "process";
+  // The shell writes down its number and becomes the program.
+  const std::string prefix = "echo $$ >" + quoted(number) + "; exec";
+  std::future<Outcome> outcome =
+      std::async(std::launch::async, [&] { return run_program(arguments, "", prefix); });
+  pid_t process = 0;
+  const auto is_ready = [&] {
+    if (process == 0 && bytes_of(number).ends_with('\n')) process = std::stoi(bytes_of(number));
+    return process != 0 && ready(process);
+  };
+  const auto limit = std::chrono::steady_clock::now() + 5min;
+  bool is_late = false;
+  while (!is_late && !is_ready()) {
+    if (outcome.wait_for(10ms) == std::future_status::ready)
+      FAIL("the program ended early: " << outcome.get().err);
+    is_late = std::chrono::steady_clock::now() > limit;
+  }
+  if (process != 0) kill(process, is_late ? SIGKILL : signal);
+  Outcome result = outcome.get();
+  if (is_late) FAIL("the program is not ready for a signal: " << result.err);
+  return result;
+}
+
+double processor_seconds(pid_t process) {
+  const std::string text = bytes_of("/proc/" + std::to_string(process) + "/stat");
+  // After the name in parentheses: state, ten numbers, then the ticks in user and in system mode.
+  std::istringstream fields(text.substr(std::min(text.size(), text.rfind(')') + 1)));
+  std::string skipped;
+  for (int k = 0; k < 11; ++k) fields >> skipped;
+  double user = 0, system = 0;
+  fields >> user >> system;
+  return (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 bool is_one_sentence(const std::string& text) {

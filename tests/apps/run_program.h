@@ -1,7 +1,10 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <Eigen/Core>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -54,6 +57,14 @@ Eigen::Vector3d vector_of(const nlohmann::json& numbers);
 /// Runs `stackabilize` with these arguments and `input` on standard input. `prefix` goes before the program.
 Outcome run_program(const Arguments& arguments, const std::string& input = "",
                     const std::string& prefix = "");
+
+/// Runs `stackabilize` with these arguments and sends it `signal` as soon as `ready` says so of the process,
+/// however long that takes on a slow machine. Fails the test when the program ends before, or is not ready
+/// after some minutes.
+Outcome run_and_signal(const Arguments& arguments, int signal, const std::function<bool(pid_t)>& ready);
+
+/// Seconds that a process has computed so far, over all of its threads.
+double processor_seconds(pid_t process);
 
 /// Is it one sentence of the program, on one line?
 bool is_one_sentence(const std::string& text);

@@ -1,3 +1,5 @@
+#include <signal.h>
+
 #include <Eigen/Geometry>
 #include <map>
 #include <numbers>
@@ -312,8 +314,10 @@ TEST_CASE("an interrupted run says what it has, and goes on to the same result")
     return where.along_z(
         {"--target", "0.97", "--preset", "paper", "--expansions", std::to_string(expansions)});
   };
-  const Outcome stopped =
-      run_program(far(folder, 1000000), "", "timeout --foreground --preserve-status -s INT 2");
+  const Outcome stopped = run_and_signal(far(folder, 1000000), SIGINT, [&](pid_t) {
+    const json state = json::parse(bytes_of(folder.out + "/search-state.json"), nullptr, false);
+    return state.is_object() && state["expanded"] > 0;
+  });
   INFO(stopped.err << stopped.out);
   REQUIRE(stopped.status == 130);
   CHECK(stopped.err == "stackabilize: interrupted\n");

@@ -49,3 +49,66 @@ TEST_CASE("points that are solid to the resolution but whose corners are left in
     REQUIRE(spread.deviations(2) < 1e-6);
   }
 }
+
+TEST_CASE("the spread of a box is that of its surface, however its points are strewn") {
+  // Across an axis of length e with sides f and g lie two faces f g at e / 2; the others are spread over e.
+  const Eigen::Vector3d size(3, 2, 1);
+  Eigen::Vector3d deviations;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double e = size(axis), f = size((axis + 1) % 3), g = size((axis + 2) % 3);
+    const double moment = e * e * (f * g / 2 + e * (f + g) / 6);
+    deviations(axis) = std::sqrt(moment / (2 * (e * f + e * g + f * g)));
+  }
+  point_sets::Random random(83);
+  for (const auto& [pose, rotation] : point_sets::poses()) {
+    INFO(pose);
+    Points points(60, 3);
+    points << point_sets::box(size), Points::Zero(52, 3);
+    for (int row = 8; row < 60; ++row)  // dense in one corner
+      for (int axis = 0; axis < 3; ++axis) points(row, axis) = size(axis) * random.uniform(0, 0.25);
+    const Eigen::Vector3d shift(4, -5, 6);
+    const PrincipalExtents spread =
+        principal_extents(point_sets::moved(points, rotation, shift), tolerance::relative);
+    CHECK((spread.centre - rotation * size / 2 - shift).norm() < 1e-12);
+    CHECK((spread.deviations - deviations).norm() < 1e-12);
+    CHECK(spread.hull.rows() == 8);
+    for (int axis = 0; axis < 3; ++axis) {
+      CHECK(std::abs(spread.axes.col(axis).dot(rotation.col(axis))) == Approx(1).epsilon(1e-12));
+      CHECK(spread.ranges(axis, 0) == Approx(-size(axis) / 2).epsilon(1e-12));
+      CHECK(spread.length(axis) == Approx(size(axis)).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("the spread of a triangle, of a segment and of a point, in closed form") {
+  for (const auto& [pose, rotation] : point_sets::poses()) {
+    INFO(pose);
+    const Eigen::Vector3d shift(1, -2, 0.5);
+    Points corners(3, 3);
+    corners << 0, 0, 0, 6, 0, 0, 0, 3, 0;
+    const PrincipalExtents triangle =
+        principal_extents(point_sets::moved(corners, rotation, shift), tolerance::relative);
+    CHECK((triangle.centre - rotation * Eigen::Vector3d(2, 1, 0) - shift).norm() < 1e-12);
+    // About the centroid of a right triangle with legs a and b: a^2 / 18, b^2 / 18 and -a b / 36 per area.
+    const double mean = (36.0 + 9) / 36, half = std::hypot((36.0 - 9) / 36, 18.0 / 36);
+    CHECK(triangle.deviations(0) == Approx(std::sqrt(mean + half)).epsilon(1e-12));
+    CHECK(triangle.deviations(1) == Approx(std::sqrt(mean - half)).epsilon(1e-12));
+    CHECK(triangle.deviations(2) < 1e-7);  // the root of rounding
+    CHECK(triangle.length(2) < 1e-12);
+
+    Points ends(4, 3);
+    ends << 0, 0, 0, 0, 4, 0, 0, 1, 0, 0, 0.5, 0;
+    const PrincipalExtents segment =
+        principal_extents(point_sets::moved(ends, rotation, shift), tolerance::relative);
+    CHECK((segment.centre - rotation * Eigen::Vector3d(0, 2, 0) - shift).norm() < 1e-12);
+    CHECK(segment.deviations(0) == Approx(4 / std::sqrt(12.0)).epsilon(1e-12));
+    CHECK(segment.deviations.tail<2>().norm() == 0);
+    CHECK(segment.length(0) == Approx(4).epsilon(1e-12));
+
+    const PrincipalExtents point =
+        principal_extents(point_sets::moved(Points::Zero(3, 3), rotation, shift), tolerance::relative);
+    CHECK(point.centre == shift);
+    CHECK(point.deviations.norm() == 0);
+    CHECK(point.ranges.norm() == 0);
+  }
+}

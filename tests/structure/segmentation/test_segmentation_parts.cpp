@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -30,6 +31,16 @@ Shape cut(const Shape& shape, int parts = 0, SegmentationMethod method = Segment
 double area_of(const Shape& shape, Eigen::Index t) {
   const Eigen::Vector3d a = shape.corner(t, 0);
   return (shape.corner(t, 1) - a).cross(shape.corner(t, 2) - a).norm() / 2;
+}
+
+/// Share of each part in the area.
+std::vector<double> area_shares(const Shape& shape) {
+  std::vector<double> shares(static_cast<std::size_t>(shape.part_count()), 0);
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    shares[static_cast<std::size_t>(shape.triangle_part[static_cast<std::size_t>(t)])] += area_of(shape, t);
+  const double total = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= total;
+  return shares;
 }
 
 /// Share of the area of which the part is the one that `found` pairs with the true part: for each found part
@@ -212,14 +223,21 @@ TEST_CASE("the authors' connected models are cut") {
     return;
   }
   const std::filesystem::path data = std::filesystem::path(folder) / "stacker" / "data";
-  for (const char* name : {"selected/68.obj", "stackablechair_chocolate.obj"})
+  for (const char* name : {"selected/68.obj", "stackablechair_chocolate.obj"}) {
+    const Shape shape = read_shape(data / name);
+    CHECK(cut(shape, 0, SegmentationMethod::components).part_count() == 1);
     for (const auto method : {SegmentationMethod::primitives, SegmentationMethod::shape_diameter}) {
-      const Shape shape = read_shape(data / name);
       const Shape found = cut(shape, 0, method);
+      INFO(name << (method == SegmentationMethod::primitives ? ", primitives" : ", shape diameter"));
       CHECK_NOTHROW(validate(found));
       CHECK(found.triangles == shape.triangles);
-      CHECK(found.part_count() >= 1);
+      // Nothing that comes off is a splinter, and what is left is not nearly everything.
+      const std::vector<double> shares = area_shares(found);
+      CHECK(shares.size() >= 2);
+      CHECK(*std::min_element(shares.begin(), shares.end()) >= 0.04);
+      CHECK(*std::max_element(shares.begin(), shares.end()) <= 0.85);
     }
+  }
 }
 
 TEST_CASE("a body of revolution stays whole, cut only when asked to") {
