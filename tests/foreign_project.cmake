@@ -19,11 +19,11 @@ add_test(NAME "install: the installed examples build, and measure a shape"
 set_tests_properties("install: the installed examples build, and measure a shape" PROPERTIES LABELS unit
   FIXTURES_REQUIRED installed FIXTURES_SETUP installed_examples
   PASS_REGULAR_EXPRESSION "f_max = [0-9.]+ of 0[.][0-9]+, S = 0[.][0-9]+\n" TIMEOUT 600)
-add_test(NAME "install: an installed example improves a shape"
+add_test(NAME "install: an installed example leaves a shape alone that stacks well enough"
   COMMAND ${PROJECT_BINARY_DIR}/tests/install/example/improve ${installed_docs}/examples/cup.obj 0.6
     ${PROJECT_BINARY_DIR}/tests/install/stackable.obj)
-set_tests_properties("install: an installed example improves a shape" PROPERTIES LABELS unit
-  FIXTURES_REQUIRED "installed;installed_examples" PASS_REGULAR_EXPRESSION "S = 0[.]6" TIMEOUT 600)
+set_tests_properties("install: an installed example leaves a shape alone that stacks well enough" PROPERTIES LABELS unit
+  FIXTURES_REQUIRED "installed;installed_examples" PASS_REGULAR_EXPRESSION "S = 0[.]77[0-9]* with 0 edits, D = 0\n" TIMEOUT 600)
 
 find_package(Python3 COMPONENTS Interpreter)
 if(Python3_FOUND)

@@ -268,7 +268,7 @@ class ImprovementRun {
       if (!options_.search.progress) return;
       ImprovementProgress now = result_.progress;
       now.evaluated += budget_.used() - before;
-      now.work = budget_.share_used();
+      now.work = std::max(now.work, budget_.share_used());
       now.seconds_left = budget_.seconds_until(1);
       options_.search.progress(now);
     });
