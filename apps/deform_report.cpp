@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "apps/deform_run.h"
 #include "apps/edit_grammar.h"
@@ -43,11 +42,13 @@ std::string extents_text(const Shape& shape, Unit unit) {
 
 Json refusal_json(const Refusal& refusal, const Structure& structure) {
   Json relation = nullptr;
-  if (refusal.relation) {
-    relation = to_json(structure.relations.at(static_cast<std::size_t>(*refusal.relation)), structure);
-    relation["index"] = *refusal.relation;
+  if (refusal.relation >= 0) {
+    relation = to_json(structure.relations.at(static_cast<std::size_t>(refusal.relation)), structure);
+    relation["index"] = refusal.relation;
   }
-  return {{"reason", refusal.reason}, {"relation", relation}, {"amount", refusal.amount}};
+  return {{"reason", describe(refusal, structure)},
+          {"relation", relation},
+          {"amount", std::max(refusal.amount, 0.0)}};
 }
 
 Json relations_after_json(const DeformRun& run) {
@@ -77,9 +78,6 @@ void add_residual_lines(TextTable& table, const DeformRun& run) {
   if (largest.symmetry)
     table.add("Symmetries", small_percent(*largest.symmetry), "of the diagonal: the largest deviation");
 }
-
-constexpr std::array<const char*, 7> handle_kind_names = {"part",  "face", "corner", "section",
-                                                          "point", "wire", "shape"};
 
 }  // namespace
 
@@ -124,14 +122,14 @@ std::string deformation_text(const DeformRun& run, const Model& model) {
   add_model_line(table, model);
   const std::vector<std::string> lines = edit_texts(run.edits, before.part_names);
   for (std::size_t i = 0; i < lines.size(); ++i) table.add(i == 0 ? "Edits" : "", lines[i]);
-  if (run.result.refusal) {
-    if (run.result.refusal->relation) {
-      const auto row = static_cast<std::size_t>(*run.result.refusal->relation);
-      table.add(
-          "Breaks", small_percent(run.result.refusal->amount),
-          "of the diagonal: " + relation_text(run.rest.structure.relations.at(row), run.rest.structure));
+  if (const std::optional<Refusal>& refusal = run.result.refusal) {
+    const Structure& structure = run.rest.structure;
+    if (refusal->relation >= 0) {
+      const Relation& relation = structure.relations.at(static_cast<std::size_t>(refusal->relation));
+      table.add("Breaks", small_percent(std::max(refusal->amount, 0.0)),
+                "of the diagonal: " + relation_text(relation, structure));
     }
-    return table.text() + "Refused: " + run.result.refusal->reason + "\n";
+    return table.text() + "Refused: " + describe(*refusal, structure) + "\n";
   }
   const Shape& after = run.result.shape;
   const Displacement moved = displacement(before, after);
@@ -157,7 +155,7 @@ Json handles_json(const DeformationModel& model, const Shape& shape) {
   Json list = Json::array();
   for (const Handle& handle : model.handles())
     list.push_back({{"handle", handle_text(handle, shape.part_names)},
-                    {"kind", handle_kind_names.at(static_cast<std::size_t>(handle.kind))},
+                    {"kind", handle_kind_names().at(static_cast<std::size_t>(handle.kind))},
                     {"centre", to_json(model.centre(handle))}});
   return list;
 }

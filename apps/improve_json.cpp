@@ -75,7 +75,8 @@ Json edits_json(const ImproveTask& task, const Candidate& candidate) {
   for (std::size_t i = 0; i < edits.size(); ++i) {
     // Refinement may merge edits; then reasons and edits no longer go together.
     const bool known = candidate.reasons.size() == edits.size();
-    list.push_back(edit_json(edits[i], known ? candidate.reasons[i] : "", task.rest().shape.part_names));
+    const std::vector<std::string>& names = task.rest().shape.part_names;
+    list.push_back(edit_json(edits[i], known ? describe(candidate.reasons[i], names) : "", names));
   }
   return list;
 }
@@ -89,15 +90,15 @@ Json stackability_json(const Stackability& measured) {
           {"stack_box_volume", measured.stack_box_volume()}};
 }
 
-Json requirements_json(const Assessment& assessment) {
+Json requirements_json(const Assessment& assessment, const Structure& rest) {
   Json list = Json::array();
   for (const Check& check : assessment.checks)
-    list.push_back({{"name", check.name},
+    list.push_back({{"name", name_of(check.kind)},
                     {"value", check.value},
                     {"demanded", check.demanded},
-                    {"unit", check.unit},
+                    {"unit", unit_of(check.kind)},
                     {"passed", check.passed},
-                    {"note", check.note}});
+                    {"note", note_of(check, rest)}});
   return list;
 }
 
@@ -137,16 +138,18 @@ Json parts_json(const std::vector<int>& parts, const StructuredShape& rest) {
 }
 
 Json diagnosis_json(const Diagnosis& diagnosis, const StructuredShape& rest) {
-  Json blockers = Json::array(), remedies = Json::array();
+  Json blockers = Json::array(), constraints = Json::array(), remedies = Json::array();
   for (const Blocker& blocker : diagnosis.blockers)
     blockers.push_back({{"parts", parts_json({blocker.upper_part, blocker.lower_part}, rest)},
                         {"type", name_of(blocker.type)},
                         {"f", blocker.f},
                         {"stackability", blocker.stackability},
-                        {"reason", blocker.reason}});
+                        {"reason", reason_of(blocker, rest.structure)}});
+  for (const ObstacleCount& constraint : diagnosis.constraints)
+    constraints.push_back(describe(constraint, rest.structure));
   for (const Remedy& remedy : diagnosis.remedies) {
     const bool turns = remedy.kind == Remedy::Kind::other_direction;
-    remedies.push_back({{"what", remedy.what},
+    remedies.push_back({{"what", describe(remedy, rest.structure)},
                         {"parts", parts_json(remedy.parts, rest)},
                         {"direction", turns ? to_json(remedy.direction) : Json(nullptr)},
                         {"stackability", remedy.stackability}});
@@ -155,9 +158,9 @@ Json diagnosis_json(const Diagnosis& diagnosis, const StructuredShape& rest) {
           {"reached", diagnosis.reached},
           {"direction", to_json(diagnosis.direction)},
           {"blockers", blockers},
-          {"constraints", diagnosis.constraints},
+          {"constraints", constraints},
           {"remedies", remedies},
-          {"text", text(diagnosis, rest)}};
+          {"text", text(diagnosis, rest.structure)}};
 }
 
 Json target_json(const ImproveReport& report) {
@@ -198,7 +201,7 @@ Json solution_json(const ImproveReport& report, const SolutionReport& solution) 
           {"before", stackability_json(solution.before)},
           {"after", stackability_json(after)},
           {"stack", stack_json(solution)},
-          {"requirements", requirements_json(solution.assessment)},
+          {"requirements", requirements_json(solution.assessment, task.rest().structure)},
           {"relations", residuals_json(task.rest().structure, solution.residuals)},
           {"checks", checks_json(solution)},
           {"good", solution.good()}};

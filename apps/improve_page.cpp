@@ -92,12 +92,13 @@ std::string picture(const std::string& file, const std::string& words) {
   return "<img src=\"" + escaped(file) + "\" alt=\"" + escaped(words) + "\"/>\n";
 }
 
-std::string checks(const SolutionReport& solution) {
+std::string checks(const ImproveReport& report, const SolutionReport& solution) {
   std::string text = "<ul>\n";
   const auto line = [&text](bool good, const std::string& words) {
     text += element(good ? "li" : "li class=\"bad\"", words) + "\n";
   };
-  for (const Check& check : solution.assessment.checks) line(check.passed, check_text(check));
+  for (const Check& check : solution.assessment.checks)
+    line(check.passed, check_text(check, report.task.rest().structure));
   for (const WrittenCheck& check : solution.written) {
     const bool agrees = check.verdict != WrittenCheck::Verdict::disagrees;
     line(agrees, "written mesh, " + check.name + (agrees ? ": " : " DISAGREES: ") + check.note);
@@ -134,7 +135,7 @@ std::string article(const ImproveReport& report, const SolutionReport& solution)
                          stackability_text(solution.twist->untwisted_stackability) + ".") +
         "\n";
   text += element("h3", "Edits") + "\n" + list("ol", edit_lines(report.task, solution));
-  text += element("h3", "Checks") + "\n" + checks(solution) + links(solution);
+  text += element("h3", "Checks") + "\n" + checks(report, solution) + links(solution);
   return text + "</article>\n";
 }
 
@@ -184,7 +185,7 @@ std::string improvement_page(const ImproveReport& report) {
   page += element("h3", "Asked for") + "\n" + list("ul", wish_lines(report));
   if (report.run.result.diagnosis)
     page += element("h3", "Why it was not reached, and what would help") + "\n" +
-            element("pre", text(*report.run.result.diagnosis, report.task.rest())) + "\n";
+            element("pre", text(*report.run.result.diagnosis, report.task.rest().structure)) + "\n";
   page += comparison(report);
   if (!report.pictures_missing.empty())
     page += element("p class=\"faint\"", "No pictures: " + report.pictures_missing + ".") + "\n";

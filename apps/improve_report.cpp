@@ -142,12 +142,13 @@ std::string saving_text(const StackHeights& stack, Unit unit) {
          ", " + (share == percent(0) ? "about as high" : share + (saved < 0 ? " more" : " less"));
 }
 
-std::string check_text(const Check& check) {
-  std::string text = check.name + ": " + rounded(check.value);
-  if (!check.unit.empty()) text += " " + check.unit;
+std::string check_text(const Check& check, const Structure& rest) {
+  const std::string unit = unit_of(check.kind), note = note_of(check, rest);
+  std::string text = name_of(check.kind) + ": " + rounded(check.value);
+  if (!unit.empty()) text += " " + unit;
   text += ", asked for " + rounded(check.demanded);
   if (!check.passed) text += ", NOT met";
-  return check.note.empty() ? text : text + " (" + check.note + ")";
+  return note.empty() ? text : text + " (" + note + ")";
 }
 
 std::string improvement_text(const ImproveReport& report) {
@@ -168,7 +169,7 @@ std::string improvement_text(const ImproveReport& report) {
             saving_text(report.solutions.front().stack, task.rest().shape.unit) + ".\n";
   else if (report.solutions.empty())
     text += "Not reached.\n";
-  if (result.diagnosis) text += stackabilization::text(*result.diagnosis, task.rest());
+  if (result.diagnosis) text += stackabilization::text(*result.diagnosis, task.rest().structure);
   if (!text.ends_with('\n')) text += '\n';
   if (!report.pictures_missing.empty()) text += "No pictures: " + report.pictures_missing + ".\n";
   return text + "Written to " + report.options.folder + ": open index.html there in a browser.\n";

@@ -34,7 +34,7 @@ std::vector<std::string> edit_lines(const ImproveTask& task, const SolutionRepor
 /// "5 copies: 2.1 m instead of 4.5 m, 53.3 % less high".
 std::string saving_text(const StackHeights& stack, Unit unit);
 /// What the requirement asked and what was found.
-std::string check_text(const Check& check);
+std::string check_text(const Check& check, const Structure& rest);
 
 /// The whole of one solution.
 Json solution_json(const ImproveReport& report, const SolutionReport& solution);

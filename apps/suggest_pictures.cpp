@@ -66,12 +66,12 @@ void write_suggestion_pictures(const SuggestRun& run, const SuggestCommandOption
     const Edit& edit = one.edit.edit;
     Design after = run.space->edited(run.design, edit, run.constraints).design;
     const std::string number = std::to_string(k + 1), words = describe(edit, names),
-                      values = values_text(one.measured, one.energy);
+                      why = describe(one.edit.reason, names), values = values_text(one.measured, one.energy);
     const DeformationResult result{std::nullopt, after.shape, after.primitives};
     write_deformation_picture(
         {(folder.path() / files[k + 1]).string(), title_of(model) + ", suggestion " + number},
-        {before, result, {edit}, {}, {words, values + "   " + one.edit.why}});
-    sheet.tiles.push_back({std::move(after), edit.handle, {}, {number + ": " + values, words, one.edit.why}});
+        {before, result, {edit}, {}, {words, values + "   " + why}});
+    sheet.tiles.push_back({std::move(after), edit.handle, {}, {number + ": " + values, words, why}});
   }
   write_design_sheet({(folder.path() / sheet_name).string(), title_of(model)}, sheet);
   folder.remove_others(files);

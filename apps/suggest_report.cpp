@@ -30,14 +30,16 @@ Json standing_json(const Stackability& measured, const Json& energy) {
 Json suggestion_json(const Suggestion& suggestion, const SuggestRun& run) {
   const std::vector<std::string>& part_names = run.project.rest.shape.part_names;
   const ContactEdit& edit = suggestion.edit;
-  Json json = {{"edit", edit_text(edit.edit, part_names)},
-               {"words", describe(edit.edit, part_names)},
-               {"why", edit.why},
-               {"contact",
-                {{"region", edit.region},
-                 {"type", name_of(edit.type)},
-                 {"copy", edit.of_lower_copy ? "below" : "above"}}},
-               {"refusal", to_json(suggestion.refusal)}};
+  Json json = {
+      {"edit", edit_text(edit.edit, part_names)},
+      {"words", describe(edit.edit, part_names)},
+      {"why", describe(edit.reason, part_names)},
+      {"contact",
+       {{"region", edit.region},
+        {"type", name_of(edit.type)},
+        {"copy", edit.of_lower_copy ? "below" : "above"}}},
+      {"refusal",
+       suggestion.refusal ? Json(describe(*suggestion.refusal, run.project.rest.structure)) : Json(nullptr)}};
   if (suggestion.refusal) return json;
   json.update(standing_json(suggestion.measured, to_json(suggestion.energy, run.alpha)));
   return json;
@@ -73,11 +75,12 @@ std::string suggestion_table(const SuggestRun& run, const SuggestCommandOptions&
     const Suggestion& one = run.suggestions[k];
     const std::string edit = describe(one.edit.edit, names);
     if (one.refusal)
-      table.add({"-", "-", "-", "-", edit, "refused: " + *one.refusal});
+      table.add({"-", "-", "-", "-", edit, "refused: " + describe(*one.refusal, run.project.rest.structure)});
     else
       table.add({std::to_string(k + 1), stackability_text(one.measured.value),
                  stackability_text(one.energy.value), stackability_text(one.energy.distortion.total()), edit,
-                 one.edit.why + (options.target && one.reaches_target ? " (reaches the target)" : "")});
+                 describe(one.edit.reason, names) +
+                     (options.target && one.reaches_target ? " (reaches the target)" : "")});
   }
   return table.empty() ? "" : "\nS " + direction_text(run.direction.vector()) + ":\n" + table.text();
 }

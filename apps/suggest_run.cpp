@@ -49,7 +49,7 @@ void apply_suggestion(SuggestRun& run, int number) {
   HistoryNode node;
   node.edits = {chosen.edit.edit};
   node.constraints = run.constraints;
-  node.name = chosen.edit.why;
+  node.name = describe(chosen.edit.reason, run.project.rest.shape.part_names);
   node.direction = run.direction.vector();
   node.stackability = chosen.measured.value;
   node.energy = chosen.energy.value;

@@ -55,7 +55,7 @@ class GapScaling {
   Shape scaled(double factor) const {
     const Edit edit{{HandleKind::shape, 0, 0}, Scale{factor, direction_.unit()}};
     const DeformationResult result = model_->deformed({edit});
-    if (result.refusal) throw InputError("gap scaling is refused: " + result.refusal->reason);
+    if (result.refusal) throw InputError("gap scaling is refused: " + describe(*result.refusal, {}));
     return result.shape;
   }
 

@@ -1,4 +1,3 @@
-#include <sstream>
 #include <utility>
 
 #include "paper_figures/before_after.h"
@@ -31,14 +30,6 @@ SceneOverlay contact_rings(const MeasuredShape& shape) {
   for (const ContactRegion& region : shape.contacts)
     over.rings.push_back({region.upper_centre, of_extent * shape.measured.extent, palette::contact});
   return over;
-}
-
-std::string sentence_about_the_first_blocker(const Diagnosis& diagnosis, const StructuredShape& rest) {
-  std::istringstream lines(text(diagnosis, rest));
-  std::string line;
-  std::getline(lines, line);  // what was reached
-  std::getline(lines, line);
-  return line;
 }
 
 /// The class of symmetric parts without which the object at rest stacks best.
@@ -116,7 +107,7 @@ PanelRow blocked(const StackedTask& options, const Story& story, const std::stri
 FigureResult make_figure_12(const StackedTask& options, const ModelFolder& models) {
   const Story story = story_of(options, models);
   const DesignRun& run = story.run;
-  const std::string why = sentence_about_the_first_blocker(story.diagnosis(), run.rest());
+  const std::string why = describe(story.diagnosis().blockers.front(), run.rest().structure);
   PanelSheetOptions sheet;
   sheet.legend = {{LegendMark::swatch, palette::lower, "parts that block each other"},
                   {LegendMark::ring, palette::contact, "where copies touch"}};

@@ -44,11 +44,11 @@ std::string text_of(SearchEnd end) {
 }
 
 /// How the search ended, and what refused most of the edits.
-std::string reason_of(const Improvement& improvement) {
+std::string reason_of(const Improvement& improvement, const Structure& rest) {
   if (!improvement.solutions.empty()) return {};
   std::string reason = text_of(improvement.end);
   if (improvement.diagnosis && !improvement.diagnosis->constraints.empty())
-    reason += "; " + improvement.diagnosis->constraints.front();
+    reason += "; " + describe(improvement.diagnosis->constraints.front(), rest);
   return reason;
 }
 
@@ -119,7 +119,7 @@ Trial Subject::trial(const RequirementChecker& checker, const Task& task, const 
   trial.best = measured(best_of(improvement));
   trial.shape = best_of(improvement).design.shape;
   trial.evaluated = improvement.progress.evaluated;
-  trial.reason = reason_of(improvement);
+  trial.reason = reason_of(improvement, rest_.structure);
   trial.seconds = watch.seconds();
   trial.processor_seconds = watch.processor_seconds();
   return trial;

@@ -7,8 +7,8 @@
 
 namespace stackabilization::detail {
 
-/// Returns the vector area of a triangle, half of (b - a) x (c - a), model units squared: its direction is the
-/// normal, its length the area.
+/// Returns the vector area of a triangle, half of (b - a) x (c - a), model units squared: its direction is
+/// the normal, its length the area.
 inline Eigen::Vector3d area_vector(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                    const Eigen::Vector3d& c) {
   return (b - a).cross(c - a) / 2;
@@ -41,7 +41,7 @@ class SurfaceMoments {
   /// Adds a triangle.
   void add(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c);
 
-  double area() const { return area_; }                   ///< model units squared
+  double area() const { return area_; }                      ///< model units squared
   const Eigen::Matrix3d& second() const { return second_; }  ///< integral of (p - origin) (p - origin)^T
   /// Returns the centroid, model units. Precondition, here and below: the area is above 0.
   Eigen::Vector3d centre() const { return origin_ + first_ / area_; }

@@ -77,7 +77,7 @@ TEST_CASE("what a user ends with is what the edits make, and it holds all requir
     CHECK(again.design.shape.vertices == result.design.shape.vertices);
     const Assessment assessment = task.checker.check(again.design, Direction(0, 0, 1));
     CHECK(assessment.measured.value == Approx(result.measured.value).margin(1e-11));
-    for (const Check& check : assessment.checks) CHECK(check.passed == (check.name != "target"));
+    for (const Check& check : assessment.checks) CHECK(check.passed == (check.kind != CheckKind::target));
     const EnergyMeter meter(task.space->rest(), BoxModel::frame);
     const double gain = result.measured.value - task.tool.at_rest().measured.value;
     CHECK(result.energy.value == Approx(meter.energy(again.design, gain).value).margin(1e-11));

@@ -1,6 +1,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <string>
+#include <vector>
 
 #include "fuzz/seeds.h"
 #include "improvement/search/search_state.h"
@@ -15,8 +16,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return detail::read_state({text, "state"}, fuzz::search_task());
   };
   try {
-    const std::string text = detail::text_of(read({reinterpret_cast<const char*>(data), size}));
-    if (detail::text_of(read(text)) != text) std::abort();
+    const std::vector<std::string> parts = fuzz::search_task().rest.shape.part_names;
+    const std::string text = detail::text_of(read({reinterpret_cast<const char*>(data), size}), parts);
+    if (detail::text_of(read(text), parts) != text) std::abort();
   } catch (const InputError&) {
   }
   return 0;

@@ -104,12 +104,14 @@ detail::SearchState two_candidates() {
   child.parent = 1;
   child.queue = 1;
   child.direction = child.measured.direction = Eigen::Vector3d(0, 1, 1);
-  child.why = "a contact";
-  child.edit = {{HandleKind::section, 0, 2}, Scale{0.9, {}}, Falloff::linear};
+  child.reason = {EditEffect::down, true, 1};
+  child.edit = {{HandleKind::face, 0, 2}, Scale{0.9, {}}, Falloff::linear};
   state.tree.add(child);
   child.edit = {{HandleKind::part, 1, 0}, Rotate{{0, 0, 1}, 0.5}, {}};
   state.tree.add(child);
-  state.refusals["too long"] = 3;
+  state.refusals[without_amounts({.cause = RefusalCause::long_extent, .axis = {0, 0.6, -1}})] = 3;
+  state.refusals[Refusal{.cause = RefusalCause::symmetry, .part = 1, .relation = 0}] = 2;
+  state.refusals[Check{CheckKind::standing}] = 1;
   state.expanded = 1;
   state.evaluated = 4;
   return state;
@@ -118,9 +120,12 @@ detail::SearchState two_candidates() {
 }  // namespace
 
 detail::SearchTask search_task() {
+  static const StructuredShape rest = two_primitives();
   return {7,
           {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 1, 1)},
-          {{HandleKind::section, 0, 2}, {HandleKind::part, 1, 0}}};
+          {{HandleKind::face, 0, 2}, {HandleKind::part, 1, 0}},
+          rest,
+          DeformationKind::controllers};
 }
 
 std::vector<Seed> seeds() {
@@ -150,7 +155,7 @@ std::vector<Seed> seeds() {
   seed("ctrl_grp_files", "controls", controls);
   seed("ctrl_grp_files", "groups", groups);
   seed("seeds", "marked", "leg 0 1\nseat 3 # c\nleg 2\n");
-  seed("search_state", "written", detail::text_of(two_candidates()));
+  seed("search_state", "written", detail::text_of(two_candidates(), two_primitives().shape.part_names));
   for (const char* text :
        {"body move 1 -2.5e-3 0", "'left leg'/face=+x rotate 30 about 0 0 1",
         "body/section=3 scale 1.1 linearly", "shape scale 0.5 along 1 0 0", "'a/face=1'/corner=7 move 0 0 1",

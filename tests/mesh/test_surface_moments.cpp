@@ -36,7 +36,8 @@ TEST_CASE("surface moments are those of the solid's faces, about any origin") {
     const SurfaceMoments moments(box, origin);
     CHECK(moments.area() == Approx(2 * (12 + 6 + 2)));
     CHECK((moments.centre() - Eigen::Vector3d(2, 5, 3.5)).norm() == Approx(0).margin(1e-12));
-    // Across x: the faces x = const (6 each) lie 1 away, the others (28 in all) have a third of that, squared.
+    // Across x: the faces x = const (6 each) lie 1 away, the others (28 in all) have a third of that,
+    // squared.
     CHECK(moments.covariance()(0, 0) == Approx((12 * 1 + 28 / 3.0) / 40));
     CHECK(moments.covariance()(0, 1) == Approx(0).margin(1e-10));
     // The parallel axis theorem.

@@ -42,9 +42,9 @@ Design Cups::at_rest() const {
 DesignOutcome Cups::edited(const Design& now, const Edit& edit,
                            const DeformationConstraints& constraints) const {
   const auto* scaling = std::get_if<Scale>(&edit.operation);
-  if (!constraints.fixed_parts.empty()) return {Refusal{"the part is fixed", {}, 0}, now};
+  if (!constraints.fixed_parts.empty()) return {Refusal{.cause = RefusalCause::fixed_part, .part = 0}, now};
   if (scaling == nullptr || edit.handle.kind != HandleKind::section)
-    return {Refusal{"missed by 0.25 of the diagonal", {}, 0.25}, now};
+    return {Refusal{.cause = RefusalCause::symmetry, .part = 0, .amount = 0.25}, now};
   Eigen::Vector2d sizes = radii(now);
   sizes[edit.handle.index] *= scaling->factor;
   Design design{now.edits, {primitive(sizes[0], sizes[1])}, shape(sizes[0], sizes[1], segments_)};

@@ -66,7 +66,7 @@ class RandomEdits {
 
 std::string kind_of(const Edit& edit, const DeformationConstraints& constraints) {
   const char* operations[] = {"move", "rotate", "scale"};
-  const char* handles[] = {"part", "face", "corner", "section", "point", "wire", "shape"};
+  const std::vector<std::string>& handles = handle_kind_names();
   return std::string(operations[edit.operation.index()]) + ' ' +
          handles[static_cast<std::size_t>(edit.handle.kind)] +
          (constraints.keep_extent || constraints.box_tolerance ? ", bounded" : "");
@@ -131,8 +131,10 @@ std::map<std::string, Tally> run(const ControllerModel& model, int count, std::u
     const EditOutcome outcome = model.edited(now, edit, constraints);
     Tally& tally = tallies[kind_of(edit, constraints)];
     if (outcome.refusal) {
-      REQUIRE_FALSE(outcome.refusal->reason.empty());
-      const bool symmetry = outcome.refusal->reason.find("does not let") != std::string::npos;
+      REQUIRE_FALSE(describe(*outcome.refusal, model.rest().structure).empty());
+      const RefusalCause cause = outcome.refusal->cause;
+      const bool symmetry = cause == RefusalCause::symmetry || cause == RefusalCause::symmetry_of_shape ||
+                            cause == RefusalCause::symmetry_of_turn;
       ++(symmetry ? tally.contradicted : tally.broken);
       continue;
     }

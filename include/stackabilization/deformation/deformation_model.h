@@ -1,23 +1,13 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "stackabilization/deformation/edit.h"
+#include "stackabilization/deformation/refusal.h"
 #include "stackabilization/structure/structure.h"
 
 namespace stackabilization {
-
-/// Reason why an edit was refused.
-struct Refusal {
-  std::string reason;  ///< one sentence: which requirement would be violated, and by how much
-  /// Row of Structure::relations that would be violated, when the reason is a relation.
-  std::optional<int> relation;
-  /// Size of the violation: fraction of the bounding-box diagonal of the shape at rest, unless `reason` names
-  /// another unit.
-  double amount = 0;
-};
 
 /// Result of a list of edits: the deformed shape, or the reason for the refusal.
 struct DeformationResult {

@@ -23,6 +23,9 @@ enum class HandleKind {
   shape,    ///< the whole shape
 };
 
+/// Returns the names of the kinds in their order: those of the enumerators.
+const std::vector<std::string>& handle_kind_names();
+
 /// Identifies a handle. `kind` determines the meaning of `part` and `index`.
 struct Handle {
   HandleKind kind = HandleKind::part;  ///< kind of the handle

@@ -55,16 +55,9 @@ struct BestFirstOptions {
 struct Candidate {
   Design design;                                         ///< edits from rest, primitives and mesh
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< r, stacking direction
-  Stackability measured;             ///< S(M, r) with its terms, f_max with the clearance and play required
-  Energy energy;                     ///< E of Eq. 5 against the shape at rest
-  std::vector<std::string> reasons;  ///< one reason per edit, see ContactEdit::why
-};
-
-/// A reason why edits were refused, or why designs that reach the target failed a check, with its count.
-/// Input of a diagnosis.
-struct RefusalCount {
-  std::string reason;      ///< one sentence, amounts replaced by "..."
-  std::int64_t count = 0;  ///< number of edits or designs
+  Stackability measured;            ///< S(M, r) with its terms, f_max with the clearance and play required
+  Energy energy;                    ///< E of Eq. 5 against the shape at rest
+  std::vector<EditReason> reasons;  ///< one reason per edit
 };
 
 /// Why a search ended: enough solutions were found, no candidate was left, a limit was reached (expansions,
@@ -79,7 +72,7 @@ struct BestFirstResult {
   /// Candidates of largest S that are no solutions, S descending, at most 8. No two of them make the same
   /// kinds of edits to the same handles.
   std::vector<Candidate> nearest;
-  std::vector<RefusalCount> refusals;    ///< reasons of refusals, most frequent first
+  std::vector<ObstacleCount> refusals;   ///< why edits were refused and checks failed, see `sort_by_count`
   ImprovementProgress progress;          ///< counts at the end
   SearchEnd end = SearchEnd::exhausted;  ///< why the search ended
 };

@@ -31,13 +31,41 @@ struct ContactEditOptions {
   ContactOptions contacts;  ///< options of the contact regions; `band` also defines the ends of the extent
 };
 
+/// What an edit does about a contact.
+enum class EditEffect {
+  down,          ///< moves against r
+  up,            ///< moves along r
+  outwards,      ///< moves away from the axis of the shape
+  inwards,       ///< moves towards the axis of the shape
+  sideways,      ///< moves across r, neither outwards nor inwards
+  edge_inwards,  ///< moves an edge face of a plate inwards
+  narrower,      ///< shrinks across r
+  wider,         ///< grows across r
+  flatter,       ///< shrinks along r
+  squash,        ///< gap scaling: moves everything below the upper envelope up
+  compensation,  ///< no contact suggests it: it makes up for the other edits
+};
+
+/// Reason of an edit.
+struct EditReason {
+  EditEffect effect = EditEffect::compensation;  ///< what the edit does
+  bool leaning = false;                          ///< whether the moved end leans, with Falloff::linear
+  int away_from = -1;  ///< row of Structure::parts that is avoided; -1: the same part of the next copy
+
+  bool operator==(const EditReason&) const = default;  ///< compares all members
+};
+
+/// Returns a reason as one clause: "down, away from the next copy". Throws std::out_of_range when there is no
+/// such part.
+std::string describe(const EditReason& reason, const std::vector<std::string>& part_names);
+
 /// An edit that a contact region suggests.
 struct ContactEdit {
   Edit edit;                            ///< edit to make to the design
   ContactType type = ContactType::dot;  ///< type of the region
   int region = 0;                       ///< row of the region in ContactSituation::regions
   bool of_lower_copy = true;            ///< edited side of the region: the copy below, or the copy above
-  std::string why;                      ///< reason, one clause: "down, away from the next copy"
+  EditReason reason;                    ///< what it does, and what it avoids
 };
 
 /// A design stacked on itself, with its contacts.

@@ -18,19 +18,40 @@ struct Blocker {
   /// design where the two parts alone pass each other.
   double f = 0;
   double stackability = 0;  ///< S if this pair were the only obstacle, Eq. 3 with `f`
-  /// Why the edits that would separate the pair were refused, or did not raise S. Empty where no edit was
-  /// tried.
-  std::string reason;
+  /// What the edits that would separate the pair give.
+  enum class Edits {
+    untried,     ///< no edit was tried
+    unfinished,  ///< time was up before every edit was tried
+    none,        ///< there are no such edits
+    helpful,     ///< one of them raises S to `best_stackability`
+    unhelpful,   ///< none of them raises S
+    refused,     ///< all of them are refused, most for `refusal`
+  };
+  Edits edits = Edits::untried;  ///< see Edits
+  double best_stackability = 0;  ///< S after the best of the edits; at least that of the design
+  Refusal refusal;               ///< most frequent refusal, without amounts; refused only
 };
+
+/// Returns why a pair still blocks, one clause: what became of the edits that would separate it. Empty where
+/// none was tried. `rest`: structure of the shape at rest.
+std::string reason_of(const Blocker& blocker, const Structure& rest);
+
+/// Returns what blocks, and why, as sentences: "'leg' of each copy comes down on 'top' of the copy below.
+/// ..."
+std::string describe(const Blocker& blocker, const Structure& rest);
 
 /// A change that would raise S.
 struct Remedy {
-  /// Kinds of changes: stack along another direction, let a part change, leave a part out, relax a
-  /// requirement (height or box).
-  enum class Kind { other_direction, free_part, remove_part, relax };
-  Kind kind = Kind::relax;  ///< kind of the change
-  std::string what;         ///< the change as an imperative clause, for people
-  std::vector<int> parts;   ///< parts to be freed or left out; rows of Structure::parts
+  /// Kinds of changes.
+  enum class Kind {
+    other_direction,  ///< stack along another direction
+    free_part,        ///< let parts change
+    remove_part,      ///< leave parts out
+    relax_height,     ///< let the height change
+    relax_box,        ///< let the box change
+  };
+  Kind kind = Kind::relax_height;  ///< kind of the change
+  std::vector<int> parts;          ///< parts to be freed or left out; rows of Structure::parts
   /// r along which `stackability` is measured; the new direction for other_direction.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   /// S(M, r) with the change. other_direction and remove_part: of the shape at rest, without further edits.
@@ -38,14 +59,17 @@ struct Remedy {
   double stackability = 0;
 };
 
+/// Returns the change as an imperative clause: "let 'leg_1' and 'leg_2' change". `rest`: structure of the
+/// shape at rest.
+std::string describe(const Remedy& remedy, const Structure& rest);
+
 /// Why a target was not reached.
 struct Diagnosis {
   double target = 0, reached = 0;                        ///< S required, and S of the best candidate
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< r of the best candidate
   std::vector<Blocker> blockers;                         ///< blocking pairs, largest f first; at most 4
-  /// The most frequent reasons why edits were refused, with counts; at most 3.
-  std::vector<std::string> constraints;
-  std::vector<Remedy> remedies;  ///< changes that would help, largest S first
+  std::vector<ObstacleCount> constraints;                ///< the most frequent obstacles; at most 3
+  std::vector<Remedy> remedies;                          ///< changes that would help, largest S first
 };
 
 /// Options of `diagnose`.
@@ -65,7 +89,7 @@ struct DiagnosisOptions {
 Diagnosis diagnose(const RequirementChecker& checker, const BestFirstResult& result,
                    const DiagnosisOptions& options = {});
 
-/// Returns the diagnosis as text for people, a few lines.
-std::string text(const Diagnosis& diagnosis, const StructuredShape& rest);
+/// Returns the diagnosis as text for people, a few lines. `rest`: structure of the shape at rest.
+std::string text(const Diagnosis& diagnosis, const Structure& rest);
 
 }  // namespace stackabilization

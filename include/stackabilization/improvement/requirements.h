@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <string>
 #include <vector>
 
+#include "stackabilization/improvement/checks.h"
 #include "stackabilization/improvement/design.h"
 #include "stackabilization/stacking/stackability.h"
 
@@ -52,22 +52,6 @@ void validate(const Requirements& requirements, const StructuredShape& rest);
 DeformationConstraints deformation_constraints(const Requirements& requirements, const StructuredShape& rest,
                                                const Direction& direction);
 
-/// Result of one requirement for one design.
-struct Check {
-  /// "target" or "room", "height", "relations", "proportions", "box", "parts", "thickness", "draft",
-  /// "standing"
-  std::string name;
-  /// Measured quantity, in the order of the names: S or the length of the stack, change of h, largest
-  /// residual, least ratio of sizes, largest change of a side, largest displacement, least thickness, least
-  /// draft angle, tilt at which the stack topples.
-  double value = 0;
-  double demanded = 0;  ///< required value, or the tolerance of the comparison
-  bool passed = false;  ///< whether `value` satisfies `demanded`
-  /// "", "model units", "degrees", "of the diagonal", "of the height", "of the size at rest" or "of a side".
-  std::string unit;
-  std::string note;  ///< where and why; may be empty
-};
-
 /// Measures and checks of a design along one direction.
 struct Assessment {
   Stackability measured;      ///< from the exact separation, f_max with clearance and play
@@ -99,9 +83,9 @@ class RequirementChecker {
   /// Returns the least S for which `meets_target` holds, up to rounding, for a design with the extent and
   /// boxes of `measured`.
   double required_stackability(const Stackability& measured) const;
-  /// Returns why a design violates the proportions, one clause, or nothing. Cheap.
-  std::optional<std::string> size_ratio_violation(const Design& design) const;
-  /// Checks every requirement that was made, in the order of Check::name. The target is compared without
+  /// Returns the refusal of a design that violates the proportions. Cheap.
+  std::optional<Refusal> size_ratio_violation(const Design& design) const;
+  /// Checks every requirement that was made, in the order of CheckKind. The target is compared without
   /// slack, from exact separations. The other quantities are computed in double precision and compared within
   /// tolerance::relative.
   ///

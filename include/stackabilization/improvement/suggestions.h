@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "stackabilization/improvement/contact_edits.h"
@@ -16,7 +15,7 @@ struct Suggestion {
   /// Why the edit cannot be made: the model refuses it, it changes nothing, the design would violate a
   /// requirement (the first one; the target does not count, a room does), or S or D would be undefined. When
   /// set, `measured` and `energy` are meaningless.
-  std::optional<std::string> refusal;
+  std::optional<Obstacle> refusal;
   Stackability measured;  ///< S(M, r) after the edit, exact, with clearance and play
   Energy energy;          ///< E after the edit, against the shape at rest
   /// Whether `measured` reaches the target of the requirements; false where a room replaces the target.

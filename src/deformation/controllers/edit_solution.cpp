@@ -9,7 +9,6 @@
 #include "deformation/controllers/edit_target.h"
 #include "deformation/controllers/primitive_validity.h"
 #include "deformation/controllers/propagation.h"
-#include "deformation/model/refusal_words.h"
 #include "mesh/barycentric.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
@@ -72,8 +71,6 @@ class EditSolution {
 
   double diagonal() const { return rig_.rest.diagonal; }
 
-  const std::string& part_name(int part) const { return rig_.rest.parts[at(part)].name; }
-
   void fix_parts() {
     for (const int part : task_.constraints.fixed_parts) {
       const int c = rig_.space.class_of(part);
@@ -86,8 +83,7 @@ class EditSolution {
   /// corrections to those that keep it.
   std::optional<Refusal> prescribe() {
     if (progress_[at(class_)] == Progress::settled)
-      return Refusal{"'" + part_name(edit_.part) + "' is fixed, or symmetric to a part that is", std::nullopt,
-                     0};
+      return Refusal{.cause = RefusalCause::fixed_part, .part = edit_.part};
     EditTarget wanted =
         edit_target(rig_, {task_.now[at(edit_.part)], start_[at(class_)], edit_, task_.constraints});
     if (wanted.refusal) return std::move(wanted.refusal);
@@ -104,19 +100,17 @@ class EditSolution {
     std::vector<Primitive> wanted;
     for (const PartEdit& edit : task_.wanted) {
       if (progress_[at(rig_.space.class_of(edit.part))] == Progress::settled)
-        return Refusal{"'" + part_name(edit.part) + "' is fixed, or symmetric to a part that is",
-                       std::nullopt, 0};
+        return Refusal{.cause = RefusalCause::fixed_part, .part = edit.part};
       wanted.push_back(changed(task_.now[at(edit.part)], edit));
     }
     const std::vector<double> residuals = relation_residuals(rig_.rest, wanted);
     for (std::size_t row = 0; row < residuals.size(); ++row) {
-      const Relation& relation = rig_.rest.relations[row];
-      const bool symmetry =
-          relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry;
+      const RelationType type = rig_.rest.relations[row].type;
+      const bool symmetry = type == RelationType::symmetry || type == RelationType::self_symmetry;
       if (symmetry && residuals[row] > tolerance::relation)
-        return Refusal{name_of(relation, rig_.rest) + " does not let the shape go where the edit takes it: " +
-                           "it would be off by " + fraction(residuals[row]) + " of the diagonal",
-                       static_cast<int>(row), residuals[row]};
+        return Refusal{.cause = RefusalCause::symmetry_of_shape,
+                       .relation = static_cast<int>(row),
+                       .amount = residuals[row]};
     }
     state_.controls = rig_.space.states(wanted);
     return std::nullopt;
@@ -283,11 +277,13 @@ class EditSolution {
   std::optional<Refusal> broken() const {
     if (auto refusal = broken_relation()) return refusal;
     for (std::size_t part = 0; part < primitives_.size(); ++part)
-      if (const auto what = defect(rig_.rest.parts[part].primitive, primitives_[part]))
-        return Refusal{"'" + rig_.rest.parts[part].name + "' " + *what, std::nullopt, 0};
+      if (auto refusal = defect(rig_.rest.parts[part].primitive, primitives_[part])) {
+        refusal->part = static_cast<int>(part);
+        return refusal;
+      }
     if (const double gap = largest_gap(rig_, fixed_points_, state_) / diagonal();
         !(gap <= tolerance::relation))
-      return Refusal{"a fixed point would move by " + fraction(gap) + " of the diagonal", std::nullopt, gap};
+      return Refusal{.cause = RefusalCause::fixed_point, .amount = gap};
     return broken_extent();
   }
 
@@ -295,10 +291,9 @@ class EditSolution {
     const std::vector<double> residuals = relation_residuals(rig_.rest, primitives_);
     const auto worst = std::max_element(residuals.begin(), residuals.end());
     if (worst == residuals.end() || !(*worst > tolerance::relation)) return std::nullopt;
-    const auto row = static_cast<int>(worst - residuals.begin());
-    const Relation& relation = rig_.rest.relations[at(row)];
-    return Refusal{name_of(relation, rig_.rest) + " would be off by " + fraction(*worst) + " of the diagonal",
-                   row, *worst};
+    return Refusal{.cause = RefusalCause::relation,
+                   .relation = static_cast<int>(worst - residuals.begin()),
+                   .amount = *worst};
   }
 
   std::optional<Refusal> broken_extent() const {
@@ -308,13 +303,11 @@ class EditSolution {
       const double excess = extents_.excess(k, vertices);
       if (excess == 0) continue;
       const Eigen::Vector3d& n = extents_.bounds()[k].normal;
-      const std::string what = extents_.bounds()[k].level ? ") would begin or end elsewhere, off by "
-                               : excess > 0               ? ") would be too long by "
-                                                          : ") would be too short by ";
-      return Refusal{"the extent along (" + fraction(n.x()) + ", " + fraction(n.y()) + ", " +
-                         fraction(n.z()) + what + fraction(std::abs(excess) / diagonal()) +
-                         " of the diagonal",
-                     std::nullopt, std::abs(excess) / diagonal()};
+      return Refusal{.cause = extents_.bounds()[k].level ? RefusalCause::moved_extent
+                              : excess > 0               ? RefusalCause::long_extent
+                                                         : RefusalCause::short_extent,
+                     .axis = {n.x(), n.y(), n.z()},
+                     .amount = std::abs(excess) / diagonal()};
     }
     return std::nullopt;
   }

@@ -5,7 +5,6 @@
 
 #include "core/index.h"
 #include "deformation/controllers/reduced_basis.h"
-#include "deformation/model/refusal_words.h"
 #include "stackabilization/core/direction.h"
 #include "stackabilization/core/tolerances.h"
 
@@ -60,8 +59,8 @@ class EditTargetSolver {
     state_ = rig_.space.invariant(class_, wanted);
     const double miss = (wanted.values - state_.values).cwiseAbs().maxCoeff() / rig_.rest.diagonal;
     const double turn = wanted.rotation.angularDistance(state_.rotation);
-    if (miss > tolerance::relative) return missed(miss, "of the diagonal");
-    if (turn > tolerance::relation) return missed(turn, "radians");
+    if (miss > tolerance::relative) return missed(RefusalCause::symmetry, miss);
+    if (turn > tolerance::relation) return missed(RefusalCause::symmetry_of_turn, turn);
     return std::nullopt;
   }
 
@@ -70,7 +69,7 @@ class EditTargetSolver {
                                                      : handle_rows(rig_.edit_kernels[at(class_)]).transpose();
     const Eigen::VectorXd change = spread * (pseudo_inverse(handle_rows(spread)) * edit_.changes);
     const double miss = (handle_rows(change) - edit_.changes).cwiseAbs().maxCoeff() / rig_.rest.diagonal;
-    if (miss > tolerance::relative) return missed(miss, "of the diagonal");
+    if (miss > tolerance::relative) return missed(RefusalCause::symmetry, miss);
     state_.values += change;
     held_ = held(handle_rows(Eigen::MatrixXd::Identity(state_.values.size(), state_.values.size())));
     return std::nullopt;
@@ -114,20 +113,16 @@ class EditTargetSolver {
     return across;
   }
 
-  Refusal missed(double amount, const std::string& unit) const {
-    const std::optional<int> relation = contradicting_relation();
-    const std::string cause = relation ? name_of(rig_.rest.relations[at(*relation)], rig_.rest) : "rounding";
-    return {cause + " does not let '" + rig_.rest.parts[at(edit_.part)].name +
-                "' go where the edit takes it: it would miss by " + fraction(amount) + " " + unit,
-            relation, amount};
+  Refusal missed(RefusalCause cause, double amount) const {
+    return {.cause = cause, .part = edit_.part, .relation = contradicting_relation(), .amount = amount};
   }
 
-  /// Returns the symmetry of the edited class that the prescription violates most.
-  std::optional<int> contradicting_relation() const {
+  /// Returns the symmetry of the edited class that the prescription violates most; -1: none.
+  int contradicting_relation() const {
     const ControlState wanted = rig_.space.state_of(edit_.part, changed(now_, edit_));
     const Eigen::VectorXd change = wanted.values - start_.values;
     const auto& stabilisers = rig_.space.stabilisers(class_);
-    std::optional<int> worst;
+    int worst = -1;
     if (!stabilisers.empty()) worst = stabilisers.front().relation;
     double most = 0;
     for (const ControlSpace::Stabiliser& g : stabilisers)

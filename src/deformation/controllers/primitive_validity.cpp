@@ -46,8 +46,8 @@ double measure_ratio(const Eigen::Matrix3d& rest, const Eigen::Matrix3d& now, co
   return area.dot(side) / (side.norm() * rest.col(axes[0]).cross(rest.col(axes[1])).norm());
 }
 
-std::optional<std::string> defect_of(const Cuboid& rest, const Cuboid& now) {
-  if (!in_range(now.corners)) return "would leave the range of numbers";
+std::optional<Refusal> defect_of(const Cuboid& rest, const Cuboid& now) {
+  if (!in_range(now.corners)) return Refusal{.cause = RefusalCause::primitive_range};
   const std::vector<int> axes = extended_axes(rest);
   Eigen::Vector3d side = Eigen::Vector3d::Zero();
   if (axes.size() == 2)
@@ -56,39 +56,39 @@ std::optional<std::string> defect_of(const Cuboid& rest, const Cuboid& now) {
   for (int corner = 0; corner < 8 && !axes.empty(); ++corner) {
     const double ratio = measure_ratio(edges_at(rest, corner), edges_at(now, corner), side, axes);
     if (!(ratio > tolerance::collapse))
-      return (ratio < 0 ? "is turned inside out at corner " : "collapses at corner ") +
-             std::to_string(corner);
+      return Refusal{.cause = ratio < 0 ? RefusalCause::inverted_corner : RefusalCause::collapsed_corner,
+                     .index = corner};
   }
   return std::nullopt;
 }
 
-std::optional<std::string> defect_of(const GeneralizedCylinder& rest, const GeneralizedCylinder& now) {
+std::optional<Refusal> defect_of(const GeneralizedCylinder& rest, const GeneralizedCylinder& now) {
   if (!in_range(now.centres) || !in_range(now.radii) || !now.rotation.coeffs().allFinite())
-    return "would leave the range of numbers";
+    return Refusal{.cause = RefusalCause::primitive_range};
   const int n = static_cast<int>(rest.centres.rows());
   const Eigen::Quaterniond whole = now.rotation * rest.rotation.inverse();
   const Points tangents = section_tangents(now), rest_tangents = section_tangents(rest);
   for (int i = 0; i < n; ++i) {
     if (!(now.radii(i) > tolerance::collapse * rest.radii(i)))
-      return "loses the radius of cross-section " + std::to_string(i);
+      return Refusal{.cause = RefusalCause::collapsed_radius, .index = i};
     const int next = (i + 1) % n;
     if (next == 0 && !rest.closed) break;
     const Eigen::Vector3d before = whole * (rest.centres.row(next) - rest.centres.row(i)).transpose();
     const Eigen::Vector3d piece = (now.centres.row(next) - now.centres.row(i)).transpose();
-    const std::string where = "after cross-section " + std::to_string(i);
-    if (!(piece.norm() > tolerance::collapse * before.norm())) return "collapses " + where;
-    if (!(piece.dot(before) > 0)) return "folds " + where;
+    const Refusal folds{.cause = RefusalCause::folded_piece, .index = i};
+    if (!(piece.norm() > tolerance::collapse * before.norm()))
+      return Refusal{.cause = RefusalCause::collapsed_piece, .index = i};
+    if (!(piece.dot(before) > 0)) return folds;
     const Eigen::RowVector3d rest_piece = rest.centres.row(next) - rest.centres.row(i);
     for (const int k : {i, next})
-      if (rest_tangents.row(k).dot(rest_piece) > 0 && !(tangents.row(k).dot(piece) > 0))
-        return "folds " + where;
+      if (rest_tangents.row(k).dot(rest_piece) > 0 && !(tangents.row(k).dot(piece) > 0)) return folds;
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-std::optional<std::string> defect(const Primitive& rest, const Primitive& now) {
+std::optional<Refusal> defect(const Primitive& rest, const Primitive& now) {
   if (const auto* cuboid = std::get_if<Cuboid>(&rest)) return defect_of(*cuboid, std::get<Cuboid>(now));
   return defect_of(std::get<GeneralizedCylinder>(rest), std::get<GeneralizedCylinder>(now));
 }

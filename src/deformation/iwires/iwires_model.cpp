@@ -178,8 +178,9 @@ class Editing {
     }
     const detail::PropagatedWires result = propagate(edit);
     if (!(result.excess <= 1)) {
-      const double amount = result.violation / network_.diagonal;
-      return Refusal{result.missed + ", by " + significant_text(amount, 3) + " of the diagonal", {}, amount};
+      Refusal refusal = result.missed;
+      refusal.amount = result.violation / network_.diagonal;
+      return refusal;
     }
     maps_ = result.maps;
     nodes_ = detail::node_positions(network_, maps_, wire);
@@ -209,10 +210,7 @@ class Editing {
       const Eigen::Matrix3d carried = whole_.linear() * q * whole_.linear().inverse();
       const double bend = (carried.transpose() * carried - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
       if (!(bend <= tolerance::relation))
-        return Refusal{"symmetry " + std::to_string(pair.symmetry) + " would no longer be one, by " +
-                           significant_text(bend, 3) + " of any length",
-                       {},
-                       bend};
+        return Refusal{.cause = RefusalCause::wire_symmetry, .symmetry = pair.symmetry, .amount = bend};
     }
     return std::nullopt;
   }
@@ -232,12 +230,11 @@ std::optional<Refusal> broken_symmetry(const Shape& rest, const WireStructure& s
   for (std::size_t i = 0; i < residuals.size(); ++i)
     if (!(residuals[i] <= tolerance::relation * diagonal)) {
       const WireSymmetry& pair = structure.symmetric[i];
-      const double amount = residuals[i] / diagonal;
-      return Refusal{"wire " + std::to_string(pair.image) + " would no longer be the image of wire " +
-                         std::to_string(pair.wire) + " under symmetry " + std::to_string(pair.symmetry) +
-                         ", by " + significant_text(amount, 3) + " of the diagonal",
-                     {},
-                     amount};
+      return Refusal{.cause = RefusalCause::wire_image_of,
+                     .index = pair.image,
+                     .other = pair.wire,
+                     .symmetry = pair.symmetry,
+                     .amount = residuals[i] / diagonal};
     }
   return std::nullopt;
 }

@@ -26,28 +26,11 @@ constexpr double factor_of_symmetry = 32;
 constexpr int max_rounds = 16;
 constexpr double thin_angle = 0.1;  ///< sine below which two directions of sliding count as one
 
-/// Subject of an equation, for the message when the equation is violated.
+/// Subject of an equation, for the refusal when the equation is violated.
 struct Demand {
-  enum class Kind { junction, plane, symmetry, held, height } kind;
-  int a = 0, b = 0;
+  RefusalCause cause;
+  int wire = -1, other = -1;
 };
-
-std::string clause(const Demand& demand) {
-  const std::string a = "wire " + std::to_string(demand.a), b = "wire " + std::to_string(demand.b);
-  switch (demand.kind) {
-    case Demand::Kind::junction:
-      return a + " would come apart from " + b;
-    case Demand::Kind::plane:
-      return a + " would leave the plane of " + b;
-    case Demand::Kind::symmetry:
-      return b + " would no longer be the image of " + a + " under a symmetry";
-    case Demand::Kind::held:
-      return a + " would leave a point that is to stay";
-    case Demand::Kind::height:
-      return a + " would change the extent that is to be kept";
-  }
-  return {};
-}
 
 /// The least-squares problem of one edit.
 class PropagationProblem {
@@ -71,7 +54,7 @@ class PropagationProblem {
     for (std::size_t i = 0; i < network_.vertices.size(); ++i)
       if (std::binary_search(holds.vertices.begin(), holds.vertices.end(), network_.vertices[i]))
         for (const int k : network_.wires_at[i])
-          demand_zero(displacement(k, point(k, static_cast<int>(i))), {Demand::Kind::held, k});
+          demand_zero(displacement(k, point(k, static_cast<int>(i))), {RefusalCause::fixed_wire, k});
     if (holds.height) hold_height(*holds.height);
   }
 
@@ -109,7 +92,7 @@ class PropagationProblem {
 
   PropagatedWires flattened_result(int k) const {
     return {now_, std::numeric_limits<double>::infinity(), wire(k).length,
-            "wire " + std::to_string(k) + " would shrink to nothing or turn inside out"};
+            Refusal{.cause = RefusalCause::collapsed_wire, .index = k}};
   }
 
   PropagatedWires result_of(const ConstrainedLeastSquares::Solution& solution) const {
@@ -122,16 +105,16 @@ class PropagationProblem {
     }
     for (std::size_t i = 0; i < demands_.size(); ++i) {
       const bool measured =
-          demands_[i].kind == Demand::Kind::junction || demands_[i].kind == Demand::Kind::plane;
+          demands_[i].cause == RefusalCause::wire_junction || demands_[i].cause == RefusalCause::wire_plane;
       const double exact = tolerance::relation * network_.diagonal;
       const double violation = std::abs(solution.residual(static_cast<Eigen::Index>(i))) /
-                               (demands_[i].kind == Demand::Kind::symmetry ? factor_of_symmetry : 1);
+                               (demands_[i].cause == RefusalCause::wire_image ? factor_of_symmetry : 1);
       double excess = violation / (measured ? std::max(network_.tolerance, exact) : exact);
       if (std::isnan(excess)) excess = std::numeric_limits<double>::infinity();
       if (excess <= result.excess) continue;
       result.excess = excess;
       result.violation = violation;
-      result.missed = clause(demands_[i]);
+      result.missed = {.cause = demands_[i].cause, .index = demands_[i].wire, .other = demands_[i].other};
     }
     return result;
   }
@@ -206,7 +189,7 @@ class PropagationProblem {
   }
 
   void add_equality(Row row, double right, const Demand& about) {
-    if (about.kind == Demand::Kind::symmetry) {
+    if (about.cause == RefusalCause::wire_image) {
       for (auto& term : row) term.factor *= factor_of_symmetry;
       right *= factor_of_symmetry;
     }
@@ -274,7 +257,7 @@ class PropagationProblem {
         const int a = wires.front(), b = wires[j];
         const Eigen::Vector3d at_a = point(a, static_cast<int>(i)), at_b = point(b, static_cast<int>(i));
         demand_equal(difference(displacement(a, at_a), displacement(b, at_b)),
-                     turned(b, at_b) - turned(a, at_a), {Demand::Kind::junction, b, a});
+                     turned(b, at_b) - turned(a, at_a), {RefusalCause::wire_junction, b, a});
       }
     }
   }
@@ -307,7 +290,7 @@ class PropagationProblem {
           row.push_back({3 * k + c, (*after)(c)});
           row.push_back({3 * first + c, -(*after)(c)});
         }
-        add_equality(row, before->dot(between) - after->dot(between), {Demand::Kind::plane, k, first});
+        add_equality(row, before->dot(between) - after->dot(between), {RefusalCause::wire_plane, k, first});
       }
     }
   }
@@ -318,7 +301,7 @@ class PropagationProblem {
           isometry_of(structure_.symmetries[static_cast<std::size_t>(pair.symmetry)]);
       const Eigen::Matrix3d q = map.linear();
       const int a = pair.wire, b = pair.image;
-      const Demand about{Demand::Kind::symmetry, a, b};
+      const Demand about{RefusalCause::wire_image, b, a};
       Rows3 rows;
       for (int c = 0; c < 3; ++c)
         for (int d = 0; d < 3; ++d)
@@ -356,7 +339,8 @@ class PropagationProblem {
     const double slack = tolerance::relative * network_.diagonal;
     each_node([&](int k, const Eigen::Vector3d& x, double height) {
       if (height > low + slack && height < high - slack) return;
-      add_equality(combined(displacement(k, x), along), -along.dot(turned(k, x)), {Demand::Kind::height, k});
+      add_equality(combined(displacement(k, x), along), -along.dot(turned(k, x)),
+                   {RefusalCause::wire_extent, k});
     });
   }
 

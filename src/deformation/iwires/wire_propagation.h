@@ -2,11 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "deformation/iwires/wire_modes.h"
 #include "deformation/iwires/wire_network.h"
+#include "stackabilization/deformation/refusal.h"
 
 // Propagation of an edit from one wire to all others.
 namespace stackabilization::detail {
@@ -30,7 +30,7 @@ struct PropagatedWires {
   /// at most 1.
   double excess = 0;
   double violation = 0;  ///< violation of this relation, model units
-  std::string missed;    ///< clause that describes the violation
+  Refusal missed;        ///< refusal for this violation, without its amount
 };
 
 /// Propagates an edit of one wire to all others such that their properties and relations hold.

@@ -105,6 +105,12 @@ void check(const Scale& scale) {
 
 }  // namespace
 
+const std::vector<std::string>& handle_kind_names() {
+  static const std::vector<std::string> names = {"part",  "face", "corner", "section",
+                                                 "point", "wire", "shape"};
+  return names;
+}
+
 void validate(const Edit& edit) {
   if (const auto* move = std::get_if<Move>(&edit.operation)) {
     if (!move->by.allFinite()) throw UsageError("a move needs a finite translation, found " + text(move->by));

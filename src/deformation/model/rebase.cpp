@@ -25,7 +25,8 @@ Points settled_points(const Relation& joint, const Structure& rest,
 
 StructuredShape rebase(const StructuredShape& rest, const DeformationResult& result) {
   if (result.refusal)
-    throw UsageError("edits that were refused leave nothing to settle: " + result.refusal->reason);
+    throw UsageError("edits that were refused leave nothing to settle: " +
+                     describe(*result.refusal, rest.structure));
   if (result.primitives.size() != rest.structure.parts.size())
     throw UsageError("a deformation without primitives has no new structure");
   StructuredShape now{result.shape, rest.structure};

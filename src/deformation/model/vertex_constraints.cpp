@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
 #include "mesh/barycentric.h"
 #include "mesh/surface_index.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
-#include "stackabilization/core/number_text.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization {
@@ -55,7 +53,7 @@ class Check {
   std::optional<Refusal> finite(const Points& vertices) const {
     for (const std::int32_t v : rest_.triangles.reshaped<Eigen::RowMajor>())
       if (!(vertices.row(v).cwiseAbs().maxCoeff() <= tolerance::max_coordinate))
-        return Refusal{"the edit takes vertex " + std::to_string(v) + " out of the range of numbers", {}, 0};
+        return Refusal{.cause = RefusalCause::vertex_range, .index = v};
     return {};
   }
 
@@ -64,8 +62,7 @@ class Check {
   std::optional<Refusal> fixed_stay(Points& vertices) const {
     for (const std::int32_t v : fixed_) {
       const double moved = (vertices.row(v) - rest_.vertices.row(v)).norm();
-      if (!(moved <= 8 * rounding_))
-        return refusal("the edit would move what is to stay fixed (vertex " + std::to_string(v) + ")", moved);
+      if (!(moved <= 8 * rounding_)) return refusal(RefusalCause::fixed_vertex, moved, v);
       vertices.row(v) = rest_.vertices.row(v);
     }
     return {};
@@ -75,9 +72,8 @@ class Check {
   std::optional<Refusal> box_stays(const Points& vertices) const;
 
  private:
-  Refusal refusal(const std::string& what, double by) const {
-    const double amount = diagonal_ > 0 ? by / diagonal_ : 0;
-    return {what + " by " + significant_text(amount, 4) + " of the diagonal", {}, amount};
+  Refusal refusal(RefusalCause cause, double by, int index = -1) const {
+    return {.cause = cause, .index = index, .amount = diagonal_ > 0 ? by / diagonal_ : 0};
   }
 
   /// Returns the heights of vertices above the lowest corner of the box at rest, along the unit vector `up`.
@@ -122,8 +118,7 @@ std::optional<Refusal> Check::keep_extent(Points& vertices) const {
   const Range now = range(height);
   const double change = now.length() - before.length();
   if (std::abs(change) <= rounding_) return {};
-  if (now.length() == 0)
-    return refusal("the edit would flatten the shape along the direction whose extent is kept", -change);
+  if (now.length() == 0) return refusal(RefusalCause::flat_extent, -change);
 
   // Candidates are the intervals of the old length from "lowest point stays" to "highest point stays". Choose
   // the one nearest to the interval at rest.
@@ -140,12 +135,10 @@ std::optional<Refusal> Check::keep_extent(Points& vertices) const {
   }
   then.high = then.low + before.length();
   if (still && (now.low < still->low ? then.low >= still->low : then.low != now.low))
-    return refusal("what is fixed leaves the lower end of the extent no room to be kept: it changes",
-                   std::abs(change));
+    return refusal(RefusalCause::fixed_low, std::abs(change));
   if (still &&
       (now.high > still->high ? then.high <= still->high : std::abs(then.high - now.high) > rounding_))
-    return refusal("what is fixed leaves the upper end of the extent no room to be kept: it changes",
-                   std::abs(change));
+    return refusal(RefusalCause::fixed_high, std::abs(change));
 
   const Stretch stretch{now, still, then.low - now.low, then.high - now.high};
   for (Eigen::Index v = 0; v < vertices.rows(); ++v) vertices.row(v) += stretch(height(v)) * up.transpose();
@@ -158,7 +151,7 @@ std::optional<Refusal> Check::box_stays(const Points& vertices) const {
   const Eigen::Vector3d change = (now.high - now.low - before).cwiseAbs();
   for (int k = 0; k < 3; ++k)
     if (!(change(k) <= *constraints_.box_tolerance * before(k) + 8 * rounding_))
-      return refusal(std::string("the edit would change the side of the box along ") + "xyz"[k], change(k));
+      return refusal(RefusalCause::box_side, change(k), k);
   return {};
 }
 

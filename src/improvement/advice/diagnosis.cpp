@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "improvement/contacts/contact_symmetry.h"
-#include "improvement/search/refusal_reason.h"
 #include "stackabilization/core/direction_text.h"
 #include "stackabilization/core/number_text.h"
 #include "stackabilization/improvement/removal.h"
@@ -38,11 +37,11 @@ std::string number_unlike(double value, double other) {
   return number(value, digits);
 }
 
-std::string names(const std::vector<int>& parts, const Shape& shape) {
+std::string names(const std::vector<int>& parts, const Structure& structure) {
   std::string text;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (k > 0) text += k + 1 < parts.size() ? ", " : " and ";
-    text += "'" + shape.part_names[static_cast<std::size_t>(parts[k])] + "'";
+    text += "'" + structure.parts[static_cast<std::size_t>(parts[k])].name + "'";
   }
   return text;
 }
@@ -61,7 +60,7 @@ std::int64_t whole_directions(double count) {
 /// Result of trying the edits that would separate some regions.
 struct Trial {
   double best = 0;  ///< largest S after one edit, at least the S before
-  std::map<std::string, int> refusals;
+  std::map<Refusal, std::int64_t> refusals;
   int made = 0;
   bool stopped = false;  ///< whether the trial ended before all edits were tried
 };
@@ -84,11 +83,8 @@ class DiagnosisBuilder {
     diagnosis_.reached = best_.measured.value;
     diagnosis_.direction = best_.direction;
     find_blockers();
-    for (const RefusalCount& refusal : result_.refusals) {
-      if (diagnosis_.constraints.size() == max_constraints) break;
-      diagnosis_.constraints.push_back(refusal.reason + " (" + std::to_string(refusal.count) +
-                                       (refusal.count == 1 ? " edit)" : " edits)"));
-    }
+    diagnosis_.constraints = result_.refusals;
+    if (diagnosis_.constraints.size() > max_constraints) diagnosis_.constraints.resize(max_constraints);
     if (!stopped()) free_parts();
     if (!stopped()) relax();
     if (!stopped()) remove_parts();
@@ -99,8 +95,6 @@ class DiagnosisBuilder {
   }
 
  private:
-  const std::string& name(int part) const { return rest_.shape.part_names[static_cast<std::size_t>(part)]; }
-
   double designs_left() const { return options_.designs - static_cast<double>(designs_); }
 
   bool stopped() const { return designs_left() <= 0 || (options_.cancelled && options_.cancelled()); }
@@ -136,8 +130,7 @@ class DiagnosisBuilder {
     const Separation apart = separation(below, above, direction_, options);
     blocker.f = apart.blocked ? apart.length : measured.f_max;
     blocker.stackability = measured.value_at(blocker.f);
-    if (const auto trial = tried({region}, constraints(checker_.requirements())))
-      blocker.reason = reason_of(*trial);
+    if (const auto trial = tried({region}, constraints(checker_.requirements()))) explain(blocker, *trial);
     return blocker;
   }
 
@@ -155,7 +148,7 @@ class DiagnosisBuilder {
         contact_edits({rest_, space.kind(), handles_, best_.design, regions, direction_, space.centres()});
     if (static_cast<double>(edits.size()) > designs_left()) return std::nullopt;
     designs_ += static_cast<std::int64_t>(edits.size());
-    std::vector<std::optional<std::string>> refusals(edits.size());
+    std::vector<std::optional<Refusal>> refusals(edits.size());
     std::vector<double> reached(edits.size(), best_.measured.value);
     std::atomic<bool> cut_short = false;
     tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
@@ -165,7 +158,7 @@ class DiagnosisBuilder {
       }
       const DesignOutcome outcome = space.edited(best_.design, edits[k].edit, constraints);
       if (outcome.refusal)
-        refusals[k] = detail::without_amounts(outcome.refusal->reason);
+        refusals[k] = without_amounts(*outcome.refusal);
       else if (const auto better = checker_.measure_if_above(outcome.design.shape, direction_, reached[k]))
         reached[k] = std::max(reached[k], better->value);
     });
@@ -182,18 +175,21 @@ class DiagnosisBuilder {
     return trial;
   }
 
-  std::string reason_of(const Trial& trial) const {
-    if (trial.stopped && !helps(trial.best))
-      return "time was up before every edit that may separate it was tried";
-    if (trial.made == 0 && trial.refusals.empty())
-      return "no edit would separate it: symmetries and the height that is kept leave none";
-    if (trial.made > 0)
-      return helps(trial.best)
-                 ? "one more edit would give S = " + number(trial.best)
-                 : "edits separate it, but other contacts ask for as much, or it takes more than one edit";
-    const auto most = std::max_element(trial.refusals.begin(), trial.refusals.end(),
-                                       [](const auto& a, const auto& b) { return a.second < b.second; });
-    return "every edit that would separate it is refused, most because " + most->first;
+  void explain(Blocker& blocker, const Trial& trial) const {
+    blocker.best_stackability = trial.best;
+    if (trial.stopped && !helps(trial.best)) {
+      blocker.edits = Blocker::Edits::unfinished;
+    } else if (trial.made > 0) {
+      blocker.edits = helps(trial.best) ? Blocker::Edits::helpful : Blocker::Edits::unhelpful;
+    } else if (trial.refusals.empty()) {
+      blocker.edits = Blocker::Edits::none;
+    } else {
+      std::vector<ObstacleCount> counts;
+      for (const auto& [refusal, count] : trial.refusals) counts.push_back({refusal, count});
+      sort_by_count(counts, rest_.structure);
+      blocker.edits = Blocker::Edits::refused;
+      blocker.refusal = std::get<Refusal>(counts.front().obstacle);
+    }
   }
 
   void look_elsewhere() {
@@ -207,11 +203,7 @@ class DiagnosisBuilder {
     const Eigen::Vector3d direction = best_direction(rest, options).best.direction;
     const Stackability best = checker_.measure(rest_.shape, Direction(direction));
     if (!helps(best.value)) return;
-    add({Remedy::Kind::other_direction,
-         "stack " + direction_text(best.direction) + ", without any edit",
-         {},
-         best.direction,
-         best.value});
+    add({Remedy::Kind::other_direction, {}, best.direction, best.value});
   }
 
   /// Adds remedies that free blocking parts, one class of symmetric parts at a time.
@@ -230,7 +222,7 @@ class DiagnosisBuilder {
       std::erase_if(freed.kept_parts, [&](int part) { return contains(parts, part); });
       if (!freed.editable_parts.empty())
         freed.editable_parts.insert(freed.editable_parts.end(), parts.begin(), parts.end());
-      offer(Remedy::Kind::free_part, "let " + names(parts, rest_.shape) + " change", freed, parts);
+      offer(Remedy::Kind::free_part, freed, parts);
     }
   }
 
@@ -238,23 +230,21 @@ class DiagnosisBuilder {
     Requirements relaxed = checker_.requirements();
     if (relaxed.keep_height) {
       relaxed.keep_height = false;
-      offer(Remedy::Kind::relax, "let the height change", relaxed, {});
+      offer(Remedy::Kind::relax_height, relaxed, {});
     }
     relaxed = checker_.requirements();
     if (relaxed.box_tolerance) {
       relaxed.box_tolerance.reset();
-      offer(Remedy::Kind::relax, "let the box change", relaxed, {});
+      offer(Remedy::Kind::relax_box, relaxed, {});
     }
   }
 
   /// Adds a remedy if one edit helps under the requirements `instead` and not under those given.
-  void offer(Remedy::Kind kind, const std::string& what, const Requirements& instead,
-             const std::vector<int>& parts) {
+  void offer(Remedy::Kind kind, const Requirements& instead, const std::vector<int>& parts) {
     const std::optional<Trial> trial = tried(regions_, constraints(instead));
     if (!trial || !helps(trial->best)) return;
     const std::optional<double> as_asked = best_as_asked();
-    if (as_asked && trial->best > *as_asked + worth_saying)
-      add({kind, what, parts, best_.direction, trial->best});
+    if (as_asked && trial->best > *as_asked + worth_saying) add({kind, parts, best_.direction, trial->best});
   }
 
   std::optional<double> best_as_asked() {
@@ -275,8 +265,7 @@ class DiagnosisBuilder {
         return contains(checker_.requirements().kept_parts, part);
       });
       if (!all_may_go) continue;
-      add({Remedy::Kind::remove_part, "leave out " + names(removal.parts, rest_.shape), removal.parts,
-           removal.direction, removal.stackability});
+      add({Remedy::Kind::remove_part, removal.parts, removal.direction, removal.stackability});
       ++offered;
     }
   }
@@ -297,16 +286,6 @@ class DiagnosisBuilder {
   Diagnosis diagnosis_;
 };
 
-std::string sentence(const Blocker& blocker, const Shape& shape) {
-  const std::string above = names({blocker.lower_part}, shape), below = names({blocker.upper_part}, shape);
-  const char* how = blocker.type == ContactType::ring   ? " all around"
-                    : blocker.type == ContactType::line ? " along a line"
-                                                        : "";
-  return above + " of each copy comes down on " + below + " of the copy below" + how +
-         ". These two alone leave S = " + number(blocker.stackability) +
-         (blocker.reason.empty() ? "" : ": " + blocker.reason) + ".\n";
-}
-
 }  // namespace
 
 Diagnosis diagnose(const RequirementChecker& checker, const BestFirstResult& result,
@@ -314,17 +293,63 @@ Diagnosis diagnose(const RequirementChecker& checker, const BestFirstResult& res
   return DiagnosisBuilder(checker, result, options).run();
 }
 
-std::string text(const Diagnosis& diagnosis, const StructuredShape& rest) {
+std::string reason_of(const Blocker& blocker, const Structure& rest) {
+  switch (blocker.edits) {
+    case Blocker::Edits::untried:
+      return "";
+    case Blocker::Edits::unfinished:
+      return "time was up before every edit that may separate it was tried";
+    case Blocker::Edits::none:
+      return "no edit would separate it: symmetries and the height that is kept leave none";
+    case Blocker::Edits::helpful:
+      return "one more edit would give S = " + number(blocker.best_stackability);
+    case Blocker::Edits::unhelpful:
+      return "edits separate it, but other contacts ask for as much, or it takes more than one edit";
+    case Blocker::Edits::refused:
+      return "every edit that would separate it is refused, most because " + describe(blocker.refusal, rest);
+  }
+  return "";
+}
+
+std::string describe(const Blocker& blocker, const Structure& rest) {
+  const std::string above = names({blocker.lower_part}, rest), below = names({blocker.upper_part}, rest),
+                    reason = reason_of(blocker, rest);
+  const char* how = blocker.type == ContactType::ring   ? " all around"
+                    : blocker.type == ContactType::line ? " along a line"
+                                                        : "";
+  return above + " of each copy comes down on " + below + " of the copy below" + how +
+         ". These two alone leave S = " + number(blocker.stackability) +
+         (reason.empty() ? "" : ": " + reason) + ".";
+}
+
+std::string describe(const Remedy& remedy, const Structure& rest) {
+  switch (remedy.kind) {
+    case Remedy::Kind::other_direction:
+      return "stack " + direction_text(remedy.direction) + ", without any edit";
+    case Remedy::Kind::free_part:
+      return "let " + names(remedy.parts, rest) + " change";
+    case Remedy::Kind::remove_part:
+      return "leave out " + names(remedy.parts, rest);
+    case Remedy::Kind::relax_height:
+      return "let the height change";
+    case Remedy::Kind::relax_box:
+      return "let the box change";
+  }
+  return "";
+}
+
+std::string text(const Diagnosis& diagnosis, const Structure& rest) {
   std::string text = "S = " + number(diagnosis.target) + " was not reached; the best is S = " +
                      number_unlike(diagnosis.reached, diagnosis.target) + " " +
                      direction_text(diagnosis.direction) + ".\n";
-  for (const Blocker& blocker : diagnosis.blockers) text += sentence(blocker, rest.shape);
+  for (const Blocker& blocker : diagnosis.blockers) text += describe(blocker, rest) + "\n";
   if (!diagnosis.constraints.empty()) text += "What stood against edits most often:\n";
-  for (const std::string& constraint : diagnosis.constraints) text += "  " + constraint + "\n";
+  for (const ObstacleCount& constraint : diagnosis.constraints)
+    text += "  " + describe(constraint, rest) + "\n";
   if (diagnosis.remedies.empty()) return text + "No single change was found that would help.\n";
   text += "What would help:\n";
   for (const Remedy& remedy : diagnosis.remedies)
-    text += "  " + remedy.what + ": S = " + number(remedy.stackability) + "\n";
+    text += "  " + describe(remedy, rest) + ": S = " + number(remedy.stackability) + "\n";
   return text;
 }
 

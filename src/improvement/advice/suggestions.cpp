@@ -31,26 +31,24 @@ class SuggestionScorer {
   void scorer(Suggestion& suggestion, const Design& design) const {
     const DesignOutcome outcome = checker_.space().edited(design, suggestion.edit.edit, constraints_);
     if (outcome.refusal) {
-      suggestion.refusal = outcome.refusal->reason;
+      suggestion.refusal = *outcome.refusal;
       return;
     }
     const double moved = (outcome.design.shape.vertices - design.shape.vertices).cwiseAbs().maxCoeff();
     if (moved <= tolerance::relative * checker_.space().rest().structure.diagonal) {
-      suggestion.refusal = "nothing would change";
+      suggestion.refusal = Refusal{RefusalCause::unchanged};
       return;
     }
     const Assessment assessment = checker_.check(outcome.design, direction_);
     for (const Check& check : assessment.checks)
-      if (check.name == "target")
+      if (check.kind == CheckKind::target)
         suggestion.reaches_target = check.passed;
       else if (!check.passed && !suggestion.refusal)
-        suggestion.refusal = "the requirement '" + check.name + "' would not hold" +
-                             (check.note.empty() ? "" : ": " + check.note);
+        suggestion.refusal = check;
     if (suggestion.refusal) return;
     suggestion.measured = assessment.measured;
     suggestion.energy = energy(outcome.design, assessment.measured);
-    if (!std::isfinite(suggestion.energy.value))
-      suggestion.refusal = "stackability or distortion would be undefined";
+    if (!std::isfinite(suggestion.energy.value)) suggestion.refusal = Refusal{RefusalCause::undefined};
   }
 
  private:

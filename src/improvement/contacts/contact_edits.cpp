@@ -1,10 +1,12 @@
 #include "stackabilization/improvement/contact_edits.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <utility>
 
+#include "core/index.h"
 #include "improvement/contacts/contact_handles.h"
 #include "improvement/contacts/contact_symmetry.h"
 #include "stackabilization/core/errors.h"
@@ -83,19 +85,13 @@ class ContactEditor {
     }
   }
 
-  std::string name_of_other(const ContactSide& side) const {
-    return side.other == side.part
-               ? "the next copy"
-               : "'" + situation_.rest.shape.part_names[static_cast<std::size_t>(side.other)] + "'";
-  }
-
   void add(const ContactSide& side, const ContactHandle& handle, const Operation& operation,
-           const std::string& how) {
+           EditEffect effect, bool leaning = false) {
     ContactEdit edit{{handle.handle, operation, handle.falloff},
                      side.region.type,
                      side.row,
                      side.of_lower_copy,
-                     how + ", away from " + name_of_other(side)};
+                     {effect, leaning, side.other == side.part ? -1 : side.other}};
     const bool known = std::any_of(edits_.begin(), edits_.end(),
                                    [&](const ContactEdit& other) { return same(other.edit, edit.edit); });
     if (!known) edits_.push_back(std::move(edit));
@@ -132,7 +128,7 @@ class ContactEditor {
     std::vector<double> chosen = sizes(step, std::nullopt);
     if (extended_) chosen.insert(chosen.begin(), chosen.front() / 2);
     for (const double size : chosen)
-      add(side, handle, Move{size * *allowed}, side.of_lower_copy ? "down" : "up");
+      add(side, handle, Move{size * *allowed}, side.of_lower_copy ? EditEffect::down : EditEffect::up);
   }
 
   double extent(const Eigen::Vector3d& axis) const {
@@ -169,8 +165,7 @@ class ContactEditor {
           chosen = with_reserve(sizes(step, out), out);
       }
       for (const double size : chosen)
-        add(side, handle, Move{size * *allowed},
-            handle.falloff == Falloff::linear ? "leaning " + way.word : way.word);
+        add(side, handle, Move{size * *allowed}, way.effect, handle.falloff == Falloff::linear);
     }
   }
 
@@ -188,7 +183,7 @@ class ContactEditor {
     const double enough = innermost - handle.centre.dot(inwards) + options_.contacts.band * extent(inwards);
     const bool near = enough <= max_steps * step;
     for (const double size : near ? with_reserve(sizes(step, enough), enough) : sizes(step, std::nullopt))
-      add(side, handle, Move{size * *allowed}, "edge inwards");
+      add(side, handle, Move{size * *allowed}, EditEffect::edge_inwards);
   }
 
   /// Adds a size beyond `enough`: joints that yield undo part of an edit.
@@ -221,7 +216,7 @@ class ContactEditor {
       for (const double m : multiples_) {
         if ((bulge || (sign > 0 && !ring)) && m > multiples_.front()) break;
         add(side, handle, Scale{1 + sign * m * options_.scale_step, std::nullopt},
-            sign < 0 ? "narrower" : "wider");
+            sign < 0 ? EditEffect::narrower : EditEffect::wider);
       }
   }
 
@@ -238,8 +233,9 @@ class ContactEditor {
       return;
     const std::optional<double> enough = upright ? std::nullopt : enough_shrinking(side, whole, axis);
     for (const double size : sizes(options_.scale_step, enough))
-      add(side, whole, Scale{1 - size, *allowed}, upright ? "flatter" : "narrower");
-    if (!upright) add(side, whole, Scale{1 + multiples_.front() * options_.scale_step, *allowed}, "wider");
+      add(side, whole, Scale{1 - size, *allowed}, upright ? EditEffect::flatter : EditEffect::narrower);
+    if (!upright)
+      add(side, whole, Scale{1 + multiples_.front() * options_.scale_step, *allowed}, EditEffect::wider);
   }
 
   /// Returns the fraction by which a part must shrink along `axis` to clear the other part beside it.
@@ -274,15 +270,30 @@ std::vector<ContactEdit> gap_scalings(const ContactSituation& situation, const C
   std::vector<ContactEdit> edits;
   if (situation.regions.empty()) return edits;
   const Scale scale{1 - options.scale_step, situation.direction.unit()};
-  edits.push_back({{{HandleKind::shape, 0, 0}, scale},
-                   situation.regions.front().type,
-                   0,
-                   true,
-                   "everything below squashed upwards"});
+  edits.push_back(
+      {{{HandleKind::shape, 0, 0}, scale}, situation.regions.front().type, 0, true, {EditEffect::squash}});
   return edits;
 }
 
 }  // namespace
+
+std::string describe(const EditReason& reason, const std::vector<std::string>& part_names) {
+  constexpr std::array words = {"down",
+                                "up",
+                                "outwards",
+                                "inwards",
+                                "sideways",
+                                "edge inwards",
+                                "narrower",
+                                "wider",
+                                "flatter",
+                                "everything below squashed upwards",
+                                "makes up for the others"};
+  const std::string word = words.at(static_cast<std::size_t>(reason.effect));
+  if (reason.effect == EditEffect::squash || reason.effect == EditEffect::compensation) return word;
+  return (reason.leaning ? "leaning " : "") + word + ", away from " +
+         (reason.away_from < 0 ? "the next copy" : "'" + part_names.at(at(reason.away_from)) + "'");
+}
 
 std::vector<ContactEdit> contact_edits(const ContactSituation& situation, const ContactEditOptions& options) {
   check(options);

@@ -88,9 +88,9 @@ std::vector<ContactWay> ways_out(const ContactSide& side, const ContactFrame& fr
   for (const Eigen::Vector3d& axis : axes)
     for (const double sign : {1.0, -1.0}) {
       const double outwards = off_axis ? sign * axis.dot(radial) : 0;
-      ways.push_back({sign * axis, outwards > clearly    ? "outwards"
-                                   : outwards < -clearly ? "inwards"
-                                                         : "sideways"});
+      ways.push_back({sign * axis, outwards > clearly    ? EditEffect::outwards
+                                   : outwards < -clearly ? EditEffect::inwards
+                                                         : EditEffect::sideways});
     }
   return ways;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
 #include <vector>
 
 #include "stackabilization/improvement/contact_edits.h"
@@ -42,7 +41,7 @@ std::vector<ContactSide> contact_sides(const ContactSituation& situation, int ro
 /// A sideways direction away from a contact.
 struct ContactWay {
   Eigen::Vector3d along;  ///< unit vector
-  std::string word;       ///< "outwards", "inwards" or "sideways"
+  EditEffect effect;      ///< outwards, inwards or sideways
 };
 
 /// Returns the sideways directions for a side, each with its opposite: radially and along u and v; for lines

@@ -68,7 +68,7 @@ Design design_at(const DesignSpace& space, const History& history, int node) {
           throw InputError(place + error.what());
         }
       }();
-      if (outcome.refusal) throw InputError(place + outcome.refusal->reason);
+      if (outcome.refusal) throw InputError(place + describe(*outcome.refusal, space.rest().structure));
       design = std::move(outcome.design);
     }
   }

@@ -31,7 +31,8 @@ constexpr double passing_surplus = 0.02;
 /// Returns whether the deformation model leaves the check open; it guarantees extent, relations and box by
 /// itself.
 bool is_open(const Check& check) {
-  return check.name == "thickness" || check.name == "draft" || check.name == "standing";
+  return check.kind == CheckKind::thickness || check.kind == CheckKind::draft ||
+         check.kind == CheckKind::standing;
 }
 
 /// Returns the relative violation of a check, > 0 if it fails.

@@ -136,16 +136,16 @@ class MagnitudeRefiner {
   }
 
   Verdict judged(const Magnitudes& x) const {
-    std::vector<std::string> reasons;
+    std::vector<EditReason> reasons;
     for (std::size_t k = 0; k < edits_.size(); ++k)
       if (x[k] != 0)
         reasons.push_back(edits_[k].source && *edits_[k].source < start_.reasons.size()
                               ? start_.reasons[*edits_[k].source]
-                              : "makes up for the others");
+                              : EditReason{EditEffect::compensation});
     return judged(problem_.design(x).design, std::move(reasons));
   }
 
-  Verdict judged(Design design, std::vector<std::string> reasons) const {
+  Verdict judged(Design design, std::vector<EditReason> reasons) const {
     Verdict verdict;
     const Assessment assessment = checker_.check(design, direction_);
     Candidate& candidate = verdict.candidate;

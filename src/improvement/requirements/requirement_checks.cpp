@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <string>
 #include <utility>
 
 #include "improvement/requirements/draft.h"
@@ -17,18 +16,6 @@
 namespace stackabilization::detail {
 
 namespace {
-
-std::string quoted(const Structure& structure, int part) {
-  return "'" + structure.parts[static_cast<std::size_t>(part)].name + "'";
-}
-
-std::string words_for(const Relation& relation, const Structure& structure) {
-  std::string kind = name_of(relation.type);
-  std::replace(kind.begin(), kind.end(), '_', ' ');
-  std::string words = kind + " of " + quoted(structure, relation.parts.front());
-  if (relation.parts.size() > 1) words += " and " + quoted(structure, relation.parts.back());
-  return words;
-}
 
 /// Returns, per vertex, the parts whose triangles use it.
 std::vector<std::set<int>> owners_of(const Shape& shape) {
@@ -85,27 +72,27 @@ std::vector<Check> RequirementChecks::of(const CheckedDesign& checked) const {
 
 Check RequirementChecks::reached(const Stackability& measured) const {
   if (!requirements_.length_limit)
-    return {"target", measured.value, requirements_.target, measured.value >= requirements_.target, "", ""};
+    return {CheckKind::target, measured.value, requirements_.target, measured.value >= requirements_.target};
   const double length = stack_length(*requirements_.length_limit, measured),
                room = requirements_.length_limit->length;
-  return {"room", length, room, length <= room, "model units", ""};
+  return {CheckKind::room, length, room, length <= room};
 }
 
 Check RequirementChecks::height(const CheckedDesign& checked) const {
   const Eigen::Vector3d axis = checked.direction.unit();
   const double rest = range_along(space_.rest().shape, axis).length();
   const double change = std::abs(range_along(checked.design.shape, axis).length() - rest) / rest;
-  return {"height", change, tolerance::relative, change <= tolerance::relative, "of the height", ""};
+  return {CheckKind::height, change, tolerance::relative, change <= tolerance::relative};
 }
 
 Check RequirementChecks::relations(const CheckedDesign& checked) const {
-  const Structure& structure = space_.rest().structure;
-  const std::vector<double> residuals = relation_residuals(structure, checked.design.primitives);
-  Check check{"relations", 0, tolerance::relation, true, "of the diagonal", ""};
+  const std::vector<double> residuals =
+      relation_residuals(space_.rest().structure, checked.design.primitives);
+  Check check{CheckKind::relations, 0, tolerance::relation};
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     if (residuals[i] <= check.value || std::isnan(check.value)) continue;
     check.value = residuals[i];
-    check.note = words_for(structure.relations[i], structure);
+    check.where = static_cast<int>(i);
   }
   check.passed = check.value <= check.demanded;
   return check;
@@ -113,21 +100,21 @@ Check RequirementChecks::relations(const CheckedDesign& checked) const {
 
 Check RequirementChecks::proportions(const CheckedDesign& checked) const {
   const SizeRatio least = min_size_ratio(space_.rest(), checked.design);
-  Check check{"proportions", least.ratio, requirements_.min_size_ratio, true, "of the size at rest", ""};
+  Check check{CheckKind::proportions, least.ratio, requirements_.min_size_ratio};
   check.passed = least.ratio >= check.demanded - tolerance::relative;
-  if (least.part >= 0) check.note = quoted(space_.rest().structure, least.part);
+  check.where = least.part;
   return check;
 }
 
 Check RequirementChecks::box(const CheckedDesign& checked) const {
-  Check check{"box", 0, *requirements_.box_tolerance, true, "of a side", ""};
+  Check check{CheckKind::box, 0, *requirements_.box_tolerance};
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
     const double rest = range_along(space_.rest().shape, along).length();
     const double change = std::abs(range_along(checked.design.shape, along).length() - rest) / rest;
     if (change <= check.value) continue;
     check.value = change;
-    check.note = std::string("along ") + "xyz"[axis];
+    check.where = axis;
   }
   check.passed = check.value <= check.demanded + tolerance::relative;
   return check;
@@ -145,21 +132,20 @@ double RequirementChecks::displacement(const StayingPart& staying, const Design&
 }
 
 Check RequirementChecks::parts(const CheckedDesign& checked) const {
-  Check check{"parts", 0, tolerance::relative, true, "of the diagonal", ""};
+  Check check{CheckKind::parts, 0, tolerance::relative};
   for (const StayingPart& staying : staying_) {
     const double moved = displacement(staying, checked.design);
     if (moved <= check.value) continue;
     check.value = moved;
-    check.note = quoted(space_.rest().structure, staying.part);
+    check.where = staying.part;
   }
   check.passed = check.value <= check.demanded;
   return check;
 }
 
 Check RequirementChecks::thickness(const CheckedDesign& checked) const {
-  const Structure& structure = space_.rest().structure;
-  const double least = *requirements_.min_thickness, slack = tolerance::relative * structure.diagonal;
-  Check check{"thickness", 0, least, true, "model units", "nothing has a thickness"};
+  const double least = *requirements_.min_thickness;
+  Check check{CheckKind::thickness, 0, least, true};
   // `worst`: least excess over the required thickness, which decides. `thinnest`: least thickness, which is
   // reported.
   double worst = std::numeric_limits<double>::infinity(), thinnest = worst;
@@ -169,20 +155,18 @@ Check RequirementChecks::thickness(const CheckedDesign& checked) const {
     thinnest = std::min(thinnest, measured);
     if (excess >= worst) continue;
     worst = excess;
-    const auto triangle = static_cast<std::size_t>(probe.near_triangle);
-    check.note = quoted(structure, checked.design.shape.triangle_part[triangle]);
+    check.where = checked.design.shape.triangle_part[static_cast<std::size_t>(probe.near_triangle)];
   }
   if (probes_.empty()) return check;
   check.value = thinnest;
-  check.passed = worst >= -slack;
-  if (check.passed) check.note = thinnest < least - slack ? "nowhere thinner than at rest" : "";
+  check.passed = worst >= -tolerance::relative * space_.rest().structure.diagonal;
   return check;
 }
 
 Check RequirementChecks::draft(const CheckedDesign& checked) const {
   const double least = *requirements_.min_draft_degrees;
   const Shape& shape = checked.design.shape;
-  Check check{"draft", 90, least, true, "degrees", ""};
+  Check check{CheckKind::draft, 90, least, true};
   if (!checked.assessment.separation.blocked) return check;
   ContactOptions options;
   options.semantics = requirements_.measure.semantics;
@@ -196,11 +180,8 @@ Check RequirementChecks::draft(const CheckedDesign& checked) const {
 }
 
 Check RequirementChecks::standing(const CheckedDesign& checked) const {
-  Check check{"standing", 0, requirements_.min_tipping_degrees, false, "degrees", ""};
-  if (!checked.assessment.separation.blocked) {
-    check.note = "copies pass each other along the direction";
-    return check;
-  }
+  Check check{CheckKind::standing, 0, requirements_.min_tipping_degrees};
+  if (!checked.assessment.separation.blocked) return check;
   StaticStabilityOptions options;
   options.copies = *requirements_.standing_copies;
   options.semantics = requirements_.measure.semantics;
@@ -208,8 +189,8 @@ Check RequirementChecks::standing(const CheckedDesign& checked) const {
       stackabilization::static_stability(checked.design.shape, checked.direction, options);
   check.value = stack.tipping_degrees;
   check.passed = stack.stands && stack.tipping_degrees >= check.demanded * (1 - tolerance::relative);
-  check.note = "copy " + std::to_string(stack.weakest_copy + 1) + " of " + std::to_string(options.copies) +
-               " topples first";
+  check.where = stack.weakest_copy;
+  check.copies = options.copies;
   return check;
 }
 

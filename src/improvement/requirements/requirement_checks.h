@@ -27,7 +27,7 @@ class RequirementChecks {
   /// outlive this object.
   RequirementChecks(const DesignSpace& space, const Requirements& requirements, std::vector<int> stay);
 
-  /// Makes all required checks, in the order of Check::name.
+  /// Makes all required checks, in the order of CheckKind.
   std::vector<Check> of(const CheckedDesign& checked) const;
 
  private:

@@ -151,13 +151,11 @@ double RequirementChecker::required_stackability(const Stackability& measured) c
   return room ? stackability_within(measured, room->copies, room->length) : data_->requirements.target;
 }
 
-std::optional<std::string> RequirementChecker::size_ratio_violation(const Design& design) const {
+std::optional<Refusal> RequirementChecker::size_ratio_violation(const Design& design) const {
   if (data_->requirements.min_size_ratio == 0) return std::nullopt;
-  const StructuredShape& rest = data_->space.rest();
-  const SizeRatio size_ratio = min_size_ratio(rest, design);
+  const SizeRatio size_ratio = min_size_ratio(data_->space.rest(), design);
   if (size_ratio.ratio >= data_->requirements.min_size_ratio) return std::nullopt;
-  return "'" + rest.structure.parts[static_cast<std::size_t>(size_ratio.part)].name +
-         "' would lose its proportions";
+  return Refusal{.cause = RefusalCause::proportions, .part = size_ratio.part};
 }
 
 Assessment RequirementChecker::check(const Design& design, const Direction& direction) const {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "improvement/search/refusal_reason.h"
-
 namespace stackabilization::detail {
 
 namespace {
@@ -108,7 +106,7 @@ std::optional<SearchEnd> BestFirstSearch::step(int id) {
   state_.tree.turn_to(id, measured, tools_.energy(*design, measured));
   notice(state_.tree.node(id));
   if (verdict.state == NodeState::solution) solutions_.emplace_back(id, design);
-  for (const std::string& check : verdict.broken) ++state_.refusals[check];
+  for (const CheckKind check : verdict.broken) ++state_.refusals[Check{check}];
   add_successors(id, made);
   return std::nullopt;
 }
@@ -125,8 +123,7 @@ BestFirstSearch::Verdict BestFirstSearch::verdict(const Design& design, const St
   if (assessment.passed()) return {NodeState::solution, {}};
   Verdict verdict;
   for (const Check& check : assessment.checks)
-    if (!check.passed)
-      verdict.broken.push_back("a design that reaches the target fails its check of: " + check.name);
+    if (!check.passed) verdict.broken.push_back(check.kind);
   return verdict;
 }
 
@@ -144,7 +141,7 @@ void BestFirstSearch::add_successors(int parent, const std::vector<SuccessorNode
     node.parent = parent;
     node.queue = from.queue;
     node.edit = successor.suggestion.edit;
-    node.why = successor.suggestion.why;
+    node.reason = successor.suggestion.reason;
     node.direction = from.direction;
     node.measured = successor.measured;
     node.energy = successor.energy;
@@ -177,7 +174,7 @@ ImprovementProgress BestFirstSearch::progress() const {
 void BestFirstSearch::save() {
   if (!options().save) return;
   const auto start = std::chrono::steady_clock::now();
-  options().save(text_of(state_));
+  options().save(state_text());
   save_seconds_ = seconds_since(start);
   last_save_ = std::chrono::steady_clock::now();
 }
@@ -189,7 +186,7 @@ Candidate BestFirstSearch::candidate(int id) {
   candidate.direction = node.direction;
   candidate.measured = node.measured;
   candidate.energy = node.energy;
-  for (const int step : state_.tree.path(id)) candidate.reasons.push_back(state_.tree.node(step).why);
+  for (const int step : state_.tree.path(id)) candidate.reasons.push_back(state_.tree.node(step).reason);
   return candidate;
 }
 
@@ -216,11 +213,10 @@ std::vector<Candidate> BestFirstSearch::nearest() {
   return nearest;
 }
 
-std::vector<RefusalCount> BestFirstSearch::refusals() const {
-  std::vector<RefusalCount> counts;
-  for (const auto& [reason, count] : state_.refusals) counts.push_back({reason, count});
-  std::stable_sort(counts.begin(), counts.end(),
-                   [](const RefusalCount& a, const RefusalCount& b) { return a.count > b.count; });
+std::vector<ObstacleCount> BestFirstSearch::refusals() const {
+  std::vector<ObstacleCount> counts;
+  for (const auto& [obstacle, count] : state_.refusals) counts.push_back({obstacle, count});
+  sort_by_count(counts, checker().space().rest().structure);
   return counts;
 }
 

@@ -24,14 +24,13 @@ class BestFirstSearch {
   BestFirstSearch(const RequirementChecker& checker, const BestFirstOptions& options, SearchState state);
 
   BestFirstResult run();
-  std::string state_text() const { return text_of(state_); }
+  std::string state_text() const { return text_of(state_, checker().space().rest().shape.part_names); }
 
  private:
   /// Result of the checks of a candidate.
   struct Verdict {
     std::optional<NodeState> state;  ///< new state of the candidate; nothing: it has to be expanded
-    /// Checks that failed, one sentence each.
-    std::vector<std::string> broken;
+    std::vector<CheckKind> broken;   ///< checks that failed
   };
 
   const BestFirstOptions& options() const { return tools_.options; }
@@ -53,7 +52,7 @@ class BestFirstSearch {
   void save();
   Candidate candidate(int id);
   std::vector<Candidate> nearest();
-  std::vector<RefusalCount> refusals() const;
+  std::vector<ObstacleCount> refusals() const;
   BestFirstResult result(SearchEnd end);
 
   SearchTools tools_;

@@ -47,7 +47,8 @@ std::shared_ptr<const Design> DesignStore::of(int node) {
                                                      Direction(tree_.node(now.parent).direction));
     DesignOutcome outcome = space.edited(*design, now.edit, constraints);
     if (outcome.refusal)
-      throw InputError("an edit of the saved search is refused now: " + outcome.refusal->reason);
+      throw InputError("an edit of the saved search is refused now: " +
+                       describe(*outcome.refusal, space.rest().structure));
     design = keep(missing.back(), std::make_shared<const Design>(std::move(outcome.design)));
   }
   return design;

@@ -34,19 +34,17 @@ void make(SuccessorNode& successor, const SearchTools& tools, const ExpandedNode
   const auto constraints = deformation_constraints(tools.checker.requirements(), space.rest(), direction);
   DesignOutcome outcome = space.edited(from.design, successor.suggestion.edit, constraints);
   if (outcome.refusal) {
-    successor.refusal = outcome.refusal->reason;
+    successor.refusal = std::move(outcome.refusal);
     return;
   }
-  if (auto reason = tools.checker.size_ratio_violation(outcome.design)) {
-    successor.refusal = std::move(reason);
-    return;
-  }
+  successor.refusal = tools.checker.size_ratio_violation(outcome.design);
+  if (successor.refusal) return;
   successor.key = tools.keys.key(outcome.design);
   successor.known = tree.knows(from.queue, successor.key);
   if (successor.known) return;
   successor.measured = tools.checker.measure(outcome.design.shape, direction);
   successor.energy = tools.energy(outcome.design, successor.measured);
-  if (!std::isfinite(successor.energy.value)) successor.refusal = "stackability or distortion is undefined";
+  if (!std::isfinite(successor.energy.value)) successor.refusal = Refusal{RefusalCause::undefined};
   successor.design = std::move(outcome.design);
 }
 

@@ -109,7 +109,7 @@ class Pursuit {
     Candidate& next = made[*best]->candidate;
     next.direction = now_.candidate.direction;
     next.reasons = now_.candidate.reasons;
-    next.reasons.push_back(edits[*best].why);
+    next.reasons.push_back(edits[*best].reason);
     now_ = std::move(*made[*best]);
     return true;
   }

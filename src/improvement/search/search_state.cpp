@@ -1,47 +1,31 @@
 #include "improvement/search/search_state.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string_view>
 #include <utility>
 #include <variant>
 
-#include "io/formats/json_node.h"
+#include "improvement/design/edit_json.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization::detail {
 
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 
 constexpr std::string_view format_name = "stackabilization search";
-constexpr int format_version = 2;
+constexpr int format_version = 3;
 constexpr std::int64_t max_count = std::numeric_limits<std::int64_t>::max();
 
 const std::vector<std::string> state_names = {"queued", "expanded", "solution", "repeated"};
-const std::vector<std::string> handle_names = {"part", "face", "corner", "section", "point", "wire", "shape"};
-
-json json_of(const Eigen::Vector3d& vector) {
-  return json::array({vector.x(), vector.y(), vector.z()});
-}
-
-Eigen::Vector3d vector_of(const JsonNode& node) {
-  node.expect_size(3);
-  return {node[0].finite(), node[1].finite(), node[2].finite()};
-}
-
-Eigen::Vector3d direction_of(const JsonNode& node) {
-  const Eigen::Vector3d vector = vector_of(node);
-  try {
-    return Direction(vector).vector();
-  } catch (const UsageError& error) {
-    node.fail(error.what());
-  }
-}
+constexpr std::array axis_names = {"x", "y", "z"};
 
 /// Reads 64 bits from a text: JSON numbers of that size are not safe everywhere.
 std::uint64_t word_of(const JsonNode& node) {
@@ -57,72 +41,71 @@ int row_of(const JsonNode& node, int low, int high) {
   return static_cast<int>(node.integer(low, high));
 }
 
-json json_of(const Edit& edit) {
-  json text;
-  text["handle"] = {handle_names[static_cast<std::size_t>(edit.handle.kind)], edit.handle.part,
-                    edit.handle.index};
-  if (edit.falloff == Falloff::linear) text["falloff"] = "linear";
-  if (const auto* move = std::get_if<Move>(&edit.operation)) text["move"] = json_of(move->by);
-  if (const auto* turn = std::get_if<Rotate>(&edit.operation)) {
-    text["axis"] = json_of(turn->axis);
-    text["radians"] = turn->radians;
-  }
-  if (const auto* scale = std::get_if<Scale>(&edit.operation)) {
-    text["factor"] = scale->factor;
-    if (scale->along) text["along"] = json_of(*scale->along);
-  }
+/// The numbers of a refusal that are rows and indices, in the order in which they are saved.
+constexpr std::array rows_of_refusal = {&Refusal::part, &Refusal::relation, &Refusal::index, &Refusal::other,
+                                        &Refusal::symmetry};
+
+// Causes, checks and effects are saved as their numbers: whoever changes their order changes format_version.
+
+json json_of(const Obstacle& obstacle, std::int64_t count) {
+  if (const auto* check = std::get_if<Check>(&obstacle))
+    return {{"count", count}, {"check", static_cast<int>(check->kind)}};
+  const Refusal& refusal = std::get<Refusal>(obstacle);
+  json text = {{"count", count}, {"cause", static_cast<int>(refusal.cause)}};
+  for (const auto row : rows_of_refusal) text["rows"].push_back(refusal.*row);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (refusal.axis[k] != Refusal::untold) text[axis_names[k]] = refusal.axis[k];
   return text;
 }
 
-Edit edit_of(const JsonNode& node) {
-  constexpr int largest = std::numeric_limits<int>::max();
-  node.expect_keys({"handle", "falloff", "move", "axis", "radians", "factor", "along"}, 6);
-  Edit edit;
-  node["handle"].expect_size(3);
-  edit.handle = {static_cast<HandleKind>(node["handle"][0].one_of(handle_names)),
-                 row_of(node["handle"][1], 0, largest), row_of(node["handle"][2], 0, largest)};
-  if (node.has("falloff")) edit.falloff = Falloff::linear;
-  if (node.has("move")) {
-    edit.operation = Move{vector_of(node["move"])};
-  } else if (node.has("axis")) {
-    node.expect_keys({"handle", "axis", "radians", "falloff"}, 1);
-    edit.operation = Rotate{vector_of(node["axis"]), node["radians"].finite()};
-  } else {
-    node.expect_keys({"handle", "factor", "falloff", "along"}, 2);
-    Scale scale{node["factor"].finite(), std::nullopt};
-    if (node.has("along")) scale.along = vector_of(node["along"]);
-    edit.operation = scale;
+Obstacle obstacle_of(const JsonNode& node, const Structure& rest) {
+  if (node.has("check")) {
+    node.expect_keys({"count", "check"});
+    return Check{static_cast<CheckKind>(row_of(node["check"], 0, static_cast<int>(CheckKind::standing)))};
   }
+  node.expect_keys({"count", "cause", "rows", "x", "y", "z"}, 3);
+  Refusal refusal;
+  refusal.cause =
+      static_cast<RefusalCause>(row_of(node["cause"], 0, static_cast<int>(RefusalCause::undefined)));
+  node["rows"].expect_size(rows_of_refusal.size());
+  for (std::size_t k = 0; k < rows_of_refusal.size(); ++k)
+    refusal.*rows_of_refusal[k] = row_of(node["rows"][k], -1, std::numeric_limits<int>::max());
+  for (std::size_t k = 0; k < 3; ++k)
+    if (node.has(axis_names[k])) refusal.axis[k] = node[axis_names[k]].finite();
   try {
-    validate(edit);
-  } catch (const UsageError& error) {
-    node.fail(error.what());
+    describe(refusal, rest);
+  } catch (const std::out_of_range&) {
+    node["rows"].fail("expected parts and relations of this shape");
   }
-  return edit;
+  return refusal;
 }
 
-json json_of(const SearchNode& node) {
+json json_of(const EditReason& reason) {
+  return {static_cast<int>(reason.effect), reason.leaning, reason.away_from};
+}
+
+EditReason reason_of(const JsonNode& node, const StructuredShape& rest) {
+  node.expect_size(3);
+  return {static_cast<EditEffect>(row_of(node[0], 0, static_cast<int>(EditEffect::compensation))),
+          node[1].boolean(), row_of(node[2], -1, static_cast<int>(rest.shape.part_count()) - 1)};
+}
+
+json json_of(const SearchNode& node, const std::vector<std::string>& part_names) {
   const Stackability& at = node.measured;
   const Distortion& change = node.energy.distortion;
   json text = {{"parent", node.parent},
                {"queue", node.queue},
                {"state", state_names[static_cast<std::size_t>(node.state)]},
-               {"direction", json_of(node.direction)},
+               {"direction", to_json(node.direction)},
                {"measured", {at.f_max, at.extent, at.box_volume, at.base, at.value}},
                {"distortion", {change.volume, change.proximity, change.box, change.symmetry}},
                {"energy", {node.energy.gain, node.energy.value}},
                {"key", std::to_string(node.key)}};
   if (node.parent < 0) return text;
-  text["edit"] = json_of(node.edit);
-  text["why"] = node.why;
+  text["edit"] = to_json(node.edit, part_names);
+  text["reason"] = json_of(node.reason);
   return text;
 }
-
-/// What a candidate of a saved search is checked against.
-struct Expected {
-  int queues = 0;
-  const std::vector<Handle>& handles;
-};
 
 void read_measures(const JsonNode& node, SearchNode& result) {
   const JsonNode at = node["measured"], change = node["distortion"], energy = node["energy"];
@@ -137,30 +120,31 @@ void read_measures(const JsonNode& node, SearchNode& result) {
 }
 
 /// Reads candidate `id`. The roots come first, one per queue; every other candidate comes after its parent.
-SearchNode node_of(const JsonNode& node, int id, const Expected& expected) {
+SearchNode node_of(const JsonNode& node, int id, const SearchTask& task) {
   node.expect_keys(
-      {"parent", "queue", "state", "direction", "measured", "distortion", "energy", "key", "edit", "why"}, 2);
-  const bool is_root = id < expected.queues;
+      {"parent", "queue", "state", "direction", "measured", "distortion", "energy", "key", "edit", "reason"},
+      2);
+  const int queues = static_cast<int>(task.directions.size());
+  const bool is_root = id < queues;
   SearchNode result;
   result.parent = row_of(node["parent"], is_root ? -1 : 0, is_root ? -1 : id - 1);
-  result.queue = row_of(node["queue"], is_root ? id : 0, is_root ? id : expected.queues - 1);
+  result.queue = row_of(node["queue"], is_root ? id : 0, is_root ? id : queues - 1);
   result.state = static_cast<NodeState>(node["state"].one_of(state_names));
-  result.direction = direction_of(node["direction"]);
+  result.direction = direction_from_json(node["direction"]);
   read_measures(node, result);
   result.key = word_of(node["key"]);
   if (is_root) return result;
-  if (!node.has("edit") || !node.has("why")) node.fail("the key 'edit' or 'why' is missing");
-  result.edit = edit_of(node["edit"]);
-  if (std::find(expected.handles.begin(), expected.handles.end(), result.edit.handle) ==
-      expected.handles.end())
+  if (!node.has("edit") || !node.has("reason")) node.fail("the key 'edit' or 'reason' is missing");
+  result.edit = edit_from_json(node["edit"], task.rest, task.kind);
+  if (std::find(task.handles.begin(), task.handles.end(), result.edit.handle) == task.handles.end())
     node["edit"]["handle"].fail("expected something that can be edited in this shape");
-  result.why = node["why"].text();
+  result.reason = reason_of(node["reason"], task.rest);
   return result;
 }
 
 std::vector<Eigen::Vector3d> directions_at(const JsonNode& node) {
   std::vector<Eigen::Vector3d> directions;
-  for (std::size_t k = 0; k < node.list_size(); ++k) directions.push_back(direction_of(node[k]));
+  for (std::size_t k = 0; k < node.list_size(); ++k) directions.push_back(direction_from_json(node[k]));
   if (directions.empty()) node.fail_expected("at least one direction");
   return directions;
 }
@@ -176,11 +160,10 @@ JsonNode checked_root(const nlohmann::ordered_json& document, const std::string&
   return root;
 }
 
-std::map<std::string, std::int64_t> refusals_of(const nlohmann::ordered_json& document,
-                                                const JsonNode& node) {
-  std::map<std::string, std::int64_t> refusals;
-  if (!document.is_object()) node.fail_expected("an object");
-  for (const auto& [reason, count] : document.items()) refusals[reason] = node[reason].integer(0, max_count);
+std::map<Obstacle, std::int64_t> refusals_of(const JsonNode& node, const Structure& rest) {
+  std::map<Obstacle, std::int64_t> refusals;
+  for (std::size_t k = 0; k < node.list_size(); ++k)
+    refusals[obstacle_of(node[k], rest)] = node[k]["count"].integer(0, max_count);
   return refusals;
 }
 
@@ -190,14 +173,13 @@ SearchState state_of(const SavedSearch& saved, const SearchTask& task) {
   SearchState state(task.fingerprint, task.directions);
   if (word_of(root["task"]) != state.task || directions_at(root["directions"]) != task.directions)
     root.fail("the saved search belongs to another shape, other requirements or other options");
-  const Expected expected{static_cast<int>(task.directions.size()), task.handles};
   const JsonNode candidates = root["candidates"];
   if (candidates.list_size() < task.directions.size())
     candidates.fail_expected("a candidate for each direction");
   for (std::size_t id = 0; id < candidates.list_size(); ++id)
-    state.tree.add(node_of(candidates[id], static_cast<int>(id), expected));
-  state.tree.set_turn(row_of(root["turn"], 0, expected.queues - 1));
-  state.refusals = refusals_of(document.at("refusals"), root["refusals"]);
+    state.tree.add(node_of(candidates[id], static_cast<int>(id), task));
+  state.tree.set_turn(row_of(root["turn"], 0, static_cast<int>(task.directions.size()) - 1));
+  state.refusals = refusals_of(root["refusals"], task.rest.structure);
   state.expanded = root["expanded"].integer(0, max_count);
   state.evaluated = root["evaluated"].integer(0, max_count);
   state.trials = root["trials"].integer(0, max_count);
@@ -217,13 +199,16 @@ auto as_saved_search(const Read& read) {
 }  // namespace
 
 SearchTask search_task(const RequirementChecker& checker, const BestFirstOptions& options) {
-  return {task_fingerprint(checker, options), options.directions, checker.space().handles()};
+  const DesignSpace& space = checker.space();
+  return {task_fingerprint(checker, options), options.directions, space.handles(), space.rest(),
+          space.kind()};
 }
 
-std::string text_of(const SearchState& state) {
-  json candidates = json::array(), directions = json::array();
-  for (const SearchNode& node : state.tree.nodes()) candidates.push_back(json_of(node));
-  for (const Eigen::Vector3d& direction : state.directions) directions.push_back(json_of(direction));
+std::string text_of(const SearchState& state, const std::vector<std::string>& part_names) {
+  json candidates = json::array(), directions = json::array(), refusals = json::array();
+  for (const auto& [obstacle, count] : state.refusals) refusals.push_back(json_of(obstacle, count));
+  for (const SearchNode& node : state.tree.nodes()) candidates.push_back(json_of(node, part_names));
+  for (const Eigen::Vector3d& direction : state.directions) directions.push_back(to_json(direction));
   const json text = {{"format", format_name},
                      {"version", format_version},
                      {"task", std::to_string(state.task)},
@@ -232,7 +217,7 @@ std::string text_of(const SearchState& state) {
                      {"expanded", state.expanded},
                      {"evaluated", state.evaluated},
                      {"trials", state.trials},
-                     {"refusals", state.refusals},
+                     {"refusals", std::move(refusals)},
                      {"candidates", std::move(candidates)}};
   return text.dump(-1, ' ', false, json::error_handler_t::replace);
 }

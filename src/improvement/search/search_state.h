@@ -20,7 +20,7 @@ struct SearchState {
 
   std::uint64_t task;  ///< see task_fingerprint
   SearchTree tree;
-  std::map<std::string, std::int64_t> refusals;  ///< counts by reason
+  std::map<Obstacle, std::int64_t> refusals;  ///< counts, see ObstacleCount
   std::int64_t expanded = 0, evaluated = 0, trials = 0;
   std::vector<Eigen::Vector3d> directions;  ///< starting directions
 };
@@ -29,14 +29,17 @@ struct SearchState {
 /// limits are left out: a resumed search may have others.
 std::uint64_t task_fingerprint(const RequirementChecker& checker, const BestFirstOptions& options);
 
-/// Returns the state as JSON. Numbers round-trip; equal states give equal bytes.
-std::string text_of(const SearchState& state);
+/// Returns the state as JSON. Numbers round-trip; equal states give equal bytes. `part_names`: those of the
+/// shape at rest.
+std::string text_of(const SearchState& state, const std::vector<std::string>& part_names);
 
-/// Task to which a saved search must belong.
+/// Task to which a saved search must belong. `rest` must outlive it.
 struct SearchTask {
   std::uint64_t fingerprint;                ///< see task_fingerprint
   std::vector<Eigen::Vector3d> directions;  ///< starting directions
   std::vector<Handle> handles;              ///< handles that its edits may use
+  const StructuredShape& rest;              ///< shape at rest
+  DeformationKind kind;                     ///< deformation model
 };
 
 SearchTask search_task(const RequirementChecker& checker, const BestFirstOptions& options);

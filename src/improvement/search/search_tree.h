@@ -4,11 +4,11 @@
 #include <cstdint>
 #include <optional>
 #include <set>
-#include <string>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
+#include "stackabilization/improvement/contact_edits.h"
 #include "stackabilization/improvement/energy.h"
 #include "stackabilization/stacking/stackability.h"
 
@@ -29,7 +29,7 @@ struct SearchNode {
   int queue = 0;    ///< row of the starting direction
   /// Edit of the parent's design, under the constraints for the parent's direction; none for a root.
   Edit edit;
-  std::string why;                                       ///< see ContactEdit::why
+  EditReason reason;
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< r of the measures and for the successors
   Stackability measured;
   Energy energy;

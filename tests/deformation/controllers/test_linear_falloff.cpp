@@ -16,7 +16,7 @@ std::vector<Primitive> made(const StructuredShape& rest, const Handle& handle, c
   const ControllerModel model(rest);
   const EditOutcome outcome =
       model.edited(model.rest_primitives(), {handle, operation, Falloff::linear}, constraints);
-  if (outcome.refusal) FAIL(outcome.refusal->reason);
+  if (outcome.refusal) FAIL(describe(*outcome.refusal, rest.structure));
   for (const double residual : relation_residuals(rest.structure, outcome.primitives))
     CHECK(residual < 1e-12);
   return outcome.primitives;

@@ -171,7 +171,7 @@ TEST_CASE("a wall stays straight through a list of edits") {
   std::vector<Primitive> now = model.rest_primitives();
   for (const Edit& edit : edits) {
     const EditOutcome outcome = model.edited(now, edit, constraints);
-    if (outcome.refusal) FAIL(outcome.refusal->reason);
+    if (outcome.refusal) FAIL(describe(*outcome.refusal, model.rest().structure));
     now = outcome.primitives;
     const auto& body = std::get<GeneralizedCylinder>(now[0]);
     CHECK(bend(body.centres) < 1e-12 * 10);

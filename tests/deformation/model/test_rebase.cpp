@@ -94,7 +94,7 @@ TEST_CASE("joints go where their parts carry them, and turns are forgotten") {
 TEST_CASE("refused edits and results without primitives do not settle") {
   const StructuredShape rest = tower();
   DeformationResult result = moved_everywhere(rest, 1, {0, 0, 0});
-  result.refusal = Refusal{"a joint would open", 1, 0.1};
+  result.refusal = Refusal{RefusalCause::unchanged};
   CHECK_THROWS_AS(rebase(rest, result), UsageError);
   result.refusal.reset();
   result.primitives.clear();

@@ -44,7 +44,7 @@ TEST_CASE("a table has suggestions: possible ones by energy, then refused ones w
   REQUIRE(count > 0);
   for (std::size_t k = 0; k < list.size(); ++k) {
     CHECK(list[k].refusal.has_value() == (k >= count));
-    if (list[k].refusal) CHECK(!list[k].refusal->empty());
+    if (list[k].refusal) CHECK(!describe(*list[k].refusal, task.space->rest().structure).empty());
     if (k > 0 && k < count) CHECK(list[k - 1].energy.value <= list[k].energy.value);
   }
 }
@@ -127,7 +127,7 @@ TEST_CASE("suggestions do not depend on the number of threads") {
   const std::vector<Suggestion> one = run(1), four = run(4);
   REQUIRE(one.size() == four.size());
   for (std::size_t k = 0; k < one.size(); ++k) {
-    CHECK(one[k].edit.why == four[k].edit.why);
+    CHECK(one[k].edit.reason == four[k].edit.reason);
     CHECK(one[k].refusal == four[k].refusal);
     if (one[k].refusal) continue;
     CHECK(one[k].measured.value == four[k].measured.value);

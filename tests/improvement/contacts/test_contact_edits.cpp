@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/contact_edits.h"
@@ -357,6 +358,25 @@ TEST_CASE("contacts amid a leg lean it by its ends") {
   for (const ContactEdit& one : leaning) CHECK(one.edit.falloff == Falloff::linear);
 }
 
+TEST_CASE("every effect of an edit has its words") {
+  using enum EditEffect;
+  const std::vector<std::string> parts = {"leg", "seat"};
+  const std::vector<std::pair<EditEffect, std::string>> words = {
+      {down, "down, away from 'seat'"},         {up, "up, away from 'seat'"},
+      {outwards, "outwards, away from 'seat'"}, {inwards, "inwards, away from 'seat'"},
+      {sideways, "sideways, away from 'seat'"}, {edge_inwards, "edge inwards, away from 'seat'"},
+      {narrower, "narrower, away from 'seat'"}, {wider, "wider, away from 'seat'"},
+      {flatter, "flatter, away from 'seat'"},   {squash, "everything below squashed upwards"},
+      {compensation, "makes up for the others"}};
+  REQUIRE(words.size() == static_cast<std::size_t>(compensation) + 1);
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    CHECK(words[k].first == static_cast<EditEffect>(k));
+    CHECK(describe({words[k].first, false, 1}, parts) == words[k].second);
+  }
+  CHECK(describe({outwards, true}, parts) == "leaning outwards, away from the next copy");
+  CHECK_THROWS_AS(describe({down, false, 2}, parts), std::out_of_range);
+}
+
 TEST_CASE("suggestions are ordered, different, and the same every time") {
   const StructuredShape mug = structures::mug();
   const auto regions = regions_of(mug.shape, Direction(0.1, 0, 1));
@@ -367,7 +387,7 @@ TEST_CASE("suggestions are ordered, different, and the same every time") {
   const auto space = design_space(mug);
   for (std::size_t k = 0; k < edits.size(); ++k) {
     CHECK(nearly_same(edits[k].edit, again[k].edit));
-    CHECK(edits[k].why == again[k].why);
+    CHECK(edits[k].reason == again[k].reason);
     for (std::size_t l = 0; l < k; ++l) CHECK_FALSE(nearly_same(edits[k].edit, edits[l].edit));
     if (k > 0)
       CHECK(std::pair(edits[k - 1].region, !edits[k - 1].of_lower_copy) <=

@@ -113,7 +113,7 @@ TEST_CASE("edits made again from rest give the same bits as one after the other"
     Design now = space->at_rest();
     for (std::size_t k = 0; k < edits.size(); ++k) {
       const DesignOutcome outcome = space->edited(now, edits[k], {});
-      if (outcome.refusal) FAIL(outcome.refusal->reason);
+      if (outcome.refusal) FAIL(describe(*outcome.refusal, space->rest().structure));
       CHECK_FALSE(outcome.design.shape.vertices == now.shape.vertices);
       now = outcome.design;
       const DesignOutcome again = space->replayed({edits.begin(), edits.begin() + k + 1}, {});

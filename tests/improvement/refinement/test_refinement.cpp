@@ -22,6 +22,11 @@ namespace {
 
 constexpr double limit = 0.7;  // of the scale of the bottom, in spaces that refuse more
 
+/// The reason of the edit in row k of a start.
+EditReason reason(int k) {
+  return {EditEffect::narrower, false, k};
+}
+
 /// Cups of eight segments whose bottoms may have a least radius.
 class BoundedCups : public Cups {
  public:
@@ -31,7 +36,7 @@ class BoundedCups : public Cups {
                        const DeformationConstraints& constraints) const override {
     const DesignOutcome outcome = Cups::edited(now, edit, constraints);
     if (!outcome.refusal && cups::radii(outcome.design)[0] < min_bottom_)
-      return {Refusal{"the bottom would be too small", {}, 0}, now};
+      return {Refusal{.cause = RefusalCause::collapsed_radius, .part = 0, .index = 0}, now};
     return outcome;
   }
 
@@ -39,7 +44,7 @@ class BoundedCups : public Cups {
     Candidate result;
     result.design = replayed(edits, {}).design;
     result.measured = checker.measure(result.design.shape, Direction(0, 0, 1));
-    for (std::size_t k = 0; k < edits.size(); ++k) result.reasons.push_back("edit " + std::to_string(k));
+    for (std::size_t k = 0; k < edits.size(); ++k) result.reasons.push_back(reason(static_cast<int>(k)));
     return result;
   }
 
@@ -223,7 +228,7 @@ TEST_CASE("the least taper of a cup has a closed form") {
             Approx(-volume_change(bottom, 1) / 4).epsilon(1e-6));
       CHECK(result.evaluations <= 60);
       REQUIRE(result.candidate.design.edits.size() == 1);
-      CHECK(result.candidate.reasons == std::vector<std::string>{"edit 0"});
+      CHECK(result.candidate.reasons == std::vector<EditReason>{reason(0)});
     }
   }
 }
@@ -253,8 +258,8 @@ TEST_CASE("what one end takes away the other may give back") {
   REQUIRE(result.candidate.design.edits.size() == 2);
   CHECK(result.candidate.design.edits[1].handle == Handle{HandleKind::section, 0, 1});
   REQUIRE(result.candidate.reasons.size() == 2);
-  CHECK(result.candidate.reasons[0] == "edit 0");
-  CHECK(result.candidate.reasons[1] == "makes up for the others");
+  CHECK(result.candidate.reasons[0] == reason(0));
+  CHECK(result.candidate.reasons[1] == EditReason{EditEffect::compensation});
 }
 
 TEST_CASE("the displacement is least where no other cup that stacks as well is nearer") {

@@ -96,7 +96,7 @@ void check_same_search(const BestFirstResult& a, const BestFirstResult& b) {
   for (std::size_t k = 0; k < a.nearest.size(); ++k) check_same_candidate(a.nearest[k], b.nearest[k]);
   REQUIRE(a.refusals.size() == b.refusals.size());
   for (std::size_t k = 0; k < a.refusals.size(); ++k) {
-    CHECK(a.refusals[k].reason == b.refusals[k].reason);
+    CHECK(a.refusals[k].obstacle == b.refusals[k].obstacle);
     CHECK(a.refusals[k].count == b.refusals[k].count);
   }
 }
@@ -189,7 +189,7 @@ TEST_CASE("a search that may change nothing is exhausted and tells what forbids 
   REQUIRE(result.nearest.size() == 1);
   CHECK(result.nearest[0].design.edits.empty());
   REQUIRE(result.refusals.size() == 1);
-  CHECK(result.refusals[0].reason == "the part is fixed");
+  CHECK(result.refusals[0].obstacle == Obstacle(Refusal{.cause = RefusalCause::fixed_part, .part = 0}));
   CHECK(result.refusals[0].count >= 2);
 }
 
@@ -290,9 +290,14 @@ TEST_CASE("a damaged state is named with the place and what was expected there")
            {"\"turn\":0", "\"turn\":1", "/turn: expected an integer from 0 to 0, found 1"},
            {"\"directions\":[[0.0,0.0,1.0]]", "\"directions\":[]", "/directions: expected at least one"},
            {"\"directions\":[[0.0,0.0,1.0]]", "\"directions\":[[0.0,0.0,0.0]]", "/directions/0: a direction"},
-           {"\"version\":2", "\"version\":1", "/: this is no saved search of this version"},
-           {"\"refusals\":{}", "\"refusals\":{\"x\":-1}", "/refusals/x: expected an integer"},
-           {"\"refusals\":{}", "\"refusals\":[]", "/refusals: expected an object"}}) {
+           {"\"version\":3", "\"version\":2", "/: this is no saved search of this version"},
+           {"\"reason\":[", "\"reason\":[true,", "/reason: expected a list of 3"},
+           {"\"refusals\":[]", "\"refusals\":{}", "/refusals: expected a list"},
+           {"\"refusals\":[]", "\"refusals\":[3]", "/refusals/0: expected an object"},
+           {"\"refusals\":[]", "\"refusals\":[{\"count\":-1,\"check\":9}]", "/refusals/0/count: expected"},
+           {"\"refusals\":[]", "\"refusals\":[{\"count\":1,\"check\":10}]", "/refusals/0/check: expected"},
+           {"\"refusals\":[]", "\"refusals\":[{\"count\":1,\"cause\":0,\"rows\":[1,-1,-1,-1,-1]}]",
+            "/refusals/0/rows: expected parts and relations of this shape"}}) {
     INFO(damage.from << " -> " << damage.to);
     std::string damaged = state;
     const auto at = damaged.find(damage.from);

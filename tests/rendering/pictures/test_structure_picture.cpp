@@ -236,7 +236,7 @@ TEST_CASE("before and after share one scale, and edited handles are red") {
   for (const Handle& handle : {Handle{HandleKind::wire, 0, 4}, Handle{HandleKind::section, 0, 3},
                                Handle{HandleKind::face, 1, 2}, Handle{HandleKind::section, 1, 99}})
     CHECK_NOTHROW(deformation_picture(table, result, {handle}, options));
-  result.refusal = Refusal{"it would break", {}, 1};
+  result.refusal = Refusal{RefusalCause::unchanged};
   CHECK_THROWS_AS(deformation_picture(table, result, {}, options), UsageError);
 }
 

@@ -1,0 +1,105 @@
+#include "stackabilization/improvement/checks.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "core/index.h"
+#include "stackabilization/core/tolerances.h"
+
+namespace stackabilization {
+
+namespace {
+
+using detail::at;
+
+struct CheckWords {
+  const char *name, *unit;
+};
+
+/// In the order of CheckKind.
+constexpr std::array<CheckWords, 10> check_words = {{{"target", ""},
+                                                     {"room", "model units"},
+                                                     {"height", "of the height"},
+                                                     {"relations", "of the diagonal"},
+                                                     {"proportions", "of the size at rest"},
+                                                     {"box", "of a side"},
+                                                     {"parts", "of the diagonal"},
+                                                     {"thickness", "model units"},
+                                                     {"draft", "degrees"},
+                                                     {"standing", "degrees"}}};
+
+const CheckWords& words_for(CheckKind kind) {
+  return check_words.at(static_cast<std::size_t>(kind));
+}
+
+std::string quoted(const Structure& structure, int part) {
+  return "'" + structure.parts.at(at(part)).name + "'";
+}
+
+std::string relation_words(const Relation& relation, const Structure& structure) {
+  std::string words = name_of(relation.type);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  words += " of " + quoted(structure, relation.parts.front());
+  if (relation.parts.size() > 1) words += " and " + quoted(structure, relation.parts.back());
+  return words;
+}
+
+/// Returns the sentence of a counted obstacle.
+std::string sentence(const Obstacle& obstacle, const Structure& rest) {
+  if (const auto* refusal = std::get_if<Refusal>(&obstacle)) return describe(*refusal, rest);
+  return "a design that reaches the target fails its check of: " + name_of(std::get<Check>(obstacle).kind);
+}
+
+}  // namespace
+
+std::string name_of(CheckKind kind) {
+  return words_for(kind).name;
+}
+
+std::string unit_of(CheckKind kind) {
+  return words_for(kind).unit;
+}
+
+std::string note_of(const Check& check, const Structure& rest) {
+  if (check.where < 0)
+    return check.kind == CheckKind::thickness  ? "nothing has a thickness"
+           : check.kind == CheckKind::standing ? "copies pass each other along the direction"
+                                               : "";
+  if (check.kind == CheckKind::thickness && check.passed) {
+    const bool thinner = check.value < check.demanded - tolerance::relative * rest.diagonal;
+    return thinner ? "nowhere thinner than at rest" : "";
+  }
+  switch (check.kind) {
+    case CheckKind::relations:
+      return relation_words(rest.relations.at(at(check.where)), rest);
+    case CheckKind::box:
+      return std::string("along ") + std::string_view("xyz").at(at(check.where));
+    case CheckKind::standing:
+      return "copy " + std::to_string(check.where + 1) + " of " + std::to_string(check.copies) +
+             " topples first";
+    default:
+      return quoted(rest, check.where);
+  }
+}
+
+std::string describe(const Obstacle& obstacle, const Structure& rest) {
+  if (const auto* refusal = std::get_if<Refusal>(&obstacle)) return describe(*refusal, rest);
+  const Check& check = std::get<Check>(obstacle);
+  const std::string note = note_of(check, rest);
+  return "the requirement '" + name_of(check.kind) + "' would not hold" + (note.empty() ? "" : ": " + note);
+}
+
+std::string describe(const ObstacleCount& count, const Structure& rest) {
+  return sentence(count.obstacle, rest) + " (" + std::to_string(count.count) +
+         (count.count == 1 ? " edit)" : " edits)");
+}
+
+void sort_by_count(std::vector<ObstacleCount>& counts, const Structure& rest) {
+  std::sort(counts.begin(), counts.end(), [&](const ObstacleCount& a, const ObstacleCount& b) {
+    if (a.count != b.count) return a.count > b.count;
+    return sentence(a.obstacle, rest) < sentence(b.obstacle, rest);
+  });
+}
+
+}  // namespace stackabilization
