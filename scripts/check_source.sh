@@ -35,6 +35,10 @@ report "Public header that includes a private one" \
   "$(grep -rnE '#include "' include | grep -v '#include "stackabilization/' || true)"
 report "Output from the library" \
   "$(source_lines '(std::(cout|cerr|clog)|[^a-z_]f?printf *\(|[^a-z_]puts *\()' --include=*.h --include=*.cpp)"
+# docs/glossary.md has the words that took their place.
+report "Word that is not used any more" \
+  "$(grep -rnE '\b(least|most|fewest)_[a-z]|[Ii]dealis|[Cc]rumb|Not installed\.' --include=*.h --include=*.cpp \
+    src include apps || true)"
 report "Header without include guard" "$(grep -rLx '#pragma once' --include=*.h src include || true)"
 
 # A module may include only these modules: itself and those that it is built on.

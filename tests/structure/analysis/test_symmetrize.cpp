@@ -86,7 +86,7 @@ double largest_miss(const Structure& structure) {
   return most;
 }
 
-std::string refusal_to_idealise(Structure structure) {
+std::string refusal_to_symmetrize(Structure structure) {
   return message_of<InputError>([&] { symmetrize(structure); });
 }
 
@@ -230,7 +230,7 @@ TEST_CASE("the kind that fits better in sum wins for all symmetric parts") {
 TEST_CASE("relations that contradict each other are refused by name, and nothing is changed") {
   Structure structure = four_legs(leg_box, 0.01);
   structure.relations[2].symmetry.point.x() = 1;
-  const std::string message = refusal_to_idealise(structure);
+  const std::string message = refusal_to_symmetrize(structure);
   CHECK(message.find("contradict each other") != std::string::npos);
   for (const char* name : {"relation 0", "relation 3", "'leg_1'", "'leg_4'"})
     CHECK(message.find(name) != std::string::npos);
@@ -241,13 +241,13 @@ TEST_CASE("relations that contradict each other are refused by name, and nothing
   structure = four_legs(leg_box, 0.01);
   structure.relations.push_back(self(1, {.point = {-4, 0, 0}}));
   structure.relations.push_back(self(1, {.point = {-4.3, 0, 0}}));
-  CHECK(refusal_to_idealise(structure).find(
+  CHECK(refusal_to_symmetrize(structure).find(
             "relation 4 (self_symmetry of 'leg_2') and relation 5 (self_symmetry of 'leg_2') contradict") !=
         std::string::npos);
 
   structure = four_legs(leg_box, 0);
   structure.relations = {self(
       0, {.kind = SymmetryKind::rotation, .point = {4, 3, 3}, .axis = Eigen::Vector3d::UnitZ(), .order = 3})};
-  CHECK(refusal_to_idealise(structure).find("relation 0 (self_symmetry of 'leg_1') cannot hold exactly") !=
+  CHECK(refusal_to_symmetrize(structure).find("relation 0 (self_symmetry of 'leg_1') cannot hold exactly") !=
         std::string::npos);
 }

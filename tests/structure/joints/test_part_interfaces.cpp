@@ -7,7 +7,7 @@
 #include "support/messages.h"
 #include "support/symmetric_solids.h"
 
-namespace stackabilization::contact_spots_test {
+namespace stackabilization::part_interfaces_test {
 
 using detail::InterfaceOptions;
 using detail::part_interfaces;
@@ -140,4 +140,4 @@ TEST_CASE("a part without area is refused by its name") {
   CHECK(message_of<InputError>([&] { surface(needle); }) == "part 'part' has no triangle of positive area");
 }
 
-}  // namespace stackabilization::contact_spots_test
+}  // namespace stackabilization::part_interfaces_test
