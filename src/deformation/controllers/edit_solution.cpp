@@ -147,7 +147,7 @@ class EditSolution {
     bool held = false;
     for (std::size_t k = 0; k < extents_.bounds().size(); ++k)
       if (extents_.bounds()[k].level)
-        held |= extents_.hold(k, vertices, ActiveExtentConstraints::OnExchange::held);
+        held |= extents_.hold(k, vertices, ActiveExtentConstraints::OnExchange::keep);
     if (held) {
       const std::vector<Constraint> all = solve_held(constraints);
       if (largest_gap(rig_, all, state_) <= tolerance::relation * diagonal()) return true;
@@ -164,7 +164,7 @@ class EditSolution {
   /// a very small angle.
   void bound_extents(const std::vector<Constraint>& constraints) {
     using OnExchange = ActiveExtentConstraints::OnExchange;
-    for (const OnExchange on_exchange : {OnExchange::release, OnExchange::held})
+    for (const OnExchange on_exchange : {OnExchange::release, OnExchange::keep})
       for (int round = 0; round < extent_rounds; ++round) {
         const Points vertices = current_vertices();
         if (state_.levels.size() == 0) state_.levels = extents_.levels(vertices);

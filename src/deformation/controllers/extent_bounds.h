@@ -54,7 +54,7 @@ class ActiveExtentConstraints {
   Eigen::VectorXd levels(const Points& vertices) const;
 
   /// Treatment of the held vertices of a group when another vertex of the group becomes outermost.
-  enum class OnExchange { release, held };
+  enum class OnExchange { release, keep };
   /// Holds the extent at the violated bound: on either side, the outermost vertex of every group that reaches
   /// into the excess. Returns false when this adds no vertex to the held ones or, with Former::released, to
   /// those ever held.

@@ -154,7 +154,7 @@ TEST_CASE("a violated bound holds the outermost vertex of every group that reach
   Points points = table.shape.vertices;
   for (const int v : groups[0]) points(v, 2) += 0.25;
   CHECK(watch.excess(0, points) == Approx(0.25).epsilon(1e-14));
-  CHECK(watch.hold(0, points, ActiveExtentConstraints::OnExchange::held));
+  CHECK(watch.hold(0, points, ActiveExtentConstraints::OnExchange::keep));
   std::vector<Constraint> held = watch.constraints(transfer);
   REQUIRE(held.size() == 2);
   // In the order of sides: the lowest vertex of the legs at the level, the highest of the top 6 above.
@@ -173,18 +173,18 @@ TEST_CASE("a violated bound holds the outermost vertex of every group that reach
   CHECK(held[1].bound_points[0].part == 0);
 
   // The same again is nothing new, until it is forgotten.
-  CHECK_FALSE(watch.hold(0, points, ActiveExtentConstraints::OnExchange::held));
-  CHECK_FALSE(watch.hold(0, points, ActiveExtentConstraints::OnExchange::released));
+  CHECK_FALSE(watch.hold(0, points, ActiveExtentConstraints::OnExchange::keep));
+  CHECK_FALSE(watch.hold(0, points, ActiveExtentConstraints::OnExchange::release));
   watch.release();
   CHECK(watch.constraints(transfer).empty());
-  CHECK(watch.hold(0, points, ActiveExtentConstraints::OnExchange::released));
+  CHECK(watch.hold(0, points, ActiveExtentConstraints::OnExchange::release));
 
   // With the top 1 higher, legs that grow by 1 reach into the excess as well.
   watch.release();
   for (const int v : groups[0]) points(v, 2) += 0.75;
   for (const int v : groups[1])
     if (points(v, 2) == 5.5) points(v, 2) += 1;
-  CHECK(watch.hold(0, points, ActiveExtentConstraints::OnExchange::held));
+  CHECK(watch.hold(0, points, ActiveExtentConstraints::OnExchange::keep));
   CHECK(watch.constraints(transfer).size() == 3);
 }
 
@@ -201,13 +201,13 @@ TEST_CASE("another outermost vertex joins the held ones of its group, or takes t
   first(a, 2) += 0.5;
   second(b, 2) += 0.5;
   for (const auto on_exchange :
-       {ActiveExtentConstraints::OnExchange::held, ActiveExtentConstraints::OnExchange::released}) {
+       {ActiveExtentConstraints::OnExchange::keep, ActiveExtentConstraints::OnExchange::release}) {
     ActiveExtentConstraints watch(groups, extent_bounds(box.shape, keeping({0, 0, 1})));
     REQUIRE(watch.hold(0, first, on_exchange));
     CHECK(watch.constraints(transfer).size() == 2);
     REQUIRE(watch.hold(0, second, on_exchange));
     CHECK(watch.constraints(transfer).size() ==
-          (on_exchange == ActiveExtentConstraints::OnExchange::held ? 3 : 2));
+          (on_exchange == ActiveExtentConstraints::OnExchange::keep ? 3 : 2));
     // Back to the first: nothing that was not held before.
     CHECK_FALSE(watch.hold(0, first, on_exchange));
   }
@@ -222,7 +222,7 @@ TEST_CASE("fixed ends are held at their heights, without a level to choose") {
   Points points = box.shape.vertices;
   points.col(2) *= 1.5;
   CHECK(watch.excess(0, points) == Approx(0.5).epsilon(1e-14));
-  REQUIRE(watch.hold(0, points, ActiveExtentConstraints::OnExchange::held));
+  REQUIRE(watch.hold(0, points, ActiveExtentConstraints::OnExchange::keep));
   const std::vector<Constraint> held = watch.constraints(transfer);
   REQUIRE(held.size() == 2);
   CHECK(held[0].height == -1);
