@@ -162,8 +162,10 @@ JsonNode checked_root(const nlohmann::ordered_json& document, const std::string&
 
 std::map<Obstacle, std::int64_t> refusals_of(const JsonNode& node, const Structure& rest) {
   std::map<Obstacle, std::int64_t> refusals;
-  for (std::size_t k = 0; k < node.list_size(); ++k)
-    refusals[obstacle_of(node[k], rest)] = node[k]["count"].integer(0, max_count);
+  for (std::size_t k = 0; k < node.list_size(); ++k) {
+    const Obstacle obstacle = obstacle_of(node[k], rest);
+    refusals[obstacle] = node[k]["count"].integer(0, max_count);
+  }
   return refusals;
 }
 
