@@ -21,7 +21,7 @@ int main(int count, char** arguments) {
     const ImprovementTask task(analyse_structure(read_shape(arguments[1])), wish);
     const Improvement found = improve(task);
     if (found.solutions.empty()) {
-      if (found.diagnosis) std::cout << text(*found.diagnosis, task.rest());
+      if (found.diagnosis) std::cout << text(*found.diagnosis, task.rest().structure);
       return 1;
     }
     const Candidate& best = found.solutions.front();

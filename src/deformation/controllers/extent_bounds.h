@@ -56,8 +56,8 @@ class ActiveExtentConstraints {
   /// Treatment of the held vertices of a group when another vertex of the group becomes outermost.
   enum class OnExchange { release, keep };
   /// Holds the extent at the violated bound: on either side, the outermost vertex of every group that reaches
-  /// into the excess. Returns false when this adds no vertex to the held ones or, with OnExchange::release, to
-  /// those ever held.
+  /// into the excess. Returns false when this adds no vertex to the held ones or, with OnExchange::release,
+  /// to those ever held.
   bool hold(std::size_t k, const Points& vertices, OnExchange on_exchange);
   /// Returns the constraints that keep the held vertices at their heights.
   std::vector<Constraint> constraints(const MeshTransfer& transfer) const;
