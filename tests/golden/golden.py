@@ -56,7 +56,7 @@ def first_part(program, model):
     run = subprocess.run([program, "inspect", model.name, "--quiet", "--json", "-"], capture_output=True, text=True,
                          cwd=model.parent)
     try:
-        return json.loads(run.stdout)["parts"][0]["name"]
+        return json.loads(run.stdout)["part_names"][0]
     except (ValueError, KeyError, IndexError):
         return "shape"
 
