@@ -80,7 +80,9 @@ class BoundarySmoother {
   std::vector<std::int32_t> run() {
     std::set<std::pair<std::int32_t, std::int32_t>> pairs;
     for (const SurfaceLink& link : graph_.links)
-      if (const auto p = std::minmax(part_at(link.a), part_at(link.b)); p.first != p.second) pairs.insert(p);
+      if (const std::pair<std::int32_t, std::int32_t> p = std::minmax(part_at(link.a), part_at(link.b));
+          p.first != p.second)
+        pairs.insert(p);
     for (const auto& [a, b] : pairs) recut(a, b);
     return std::move(part_);
   }
