@@ -30,6 +30,7 @@ Command make_validate_command(CLI::App& program);
 Command make_structure_command(CLI::App& program);
 Command make_deform_command(CLI::App& program);
 Command make_suggest_command(CLI::App& program);
+Command make_compare_command(CLI::App& program);
 Command make_improve_command(CLI::App& program);
 
 }  // namespace stackabilization::apps

@@ -93,10 +93,10 @@ Json stackability_json(const Stackability& measured) {
 Json requirements_json(const Assessment& assessment, const Structure& rest) {
   Json list = Json::array();
   for (const Check& check : assessment.checks)
-    list.push_back({{"name", name_of(check.kind)},
+    list.push_back({{"name", name_of(check)},
                     {"value", check.value},
                     {"demanded", check.demanded},
-                    {"unit", unit_of(check.kind)},
+                    {"unit", unit_of(check)},
                     {"passed", check.passed},
                     {"note", note_of(check, rest)}});
   return list;

@@ -117,6 +117,13 @@ void check(const ImproveCommandOptions& options) {
                 {{}, analysis_inputs(options.analysis), {{"--output", improve_folder(options)}}});
 }
 
+Following following_of(const ImproveCommandOptions& options) {
+  const bool smooth = options.preset == ImprovementPreset::refined &&
+                      options.kind == DeformationKind::controllers && !options.requirements.any_quality &&
+                      !options.bends;
+  return smooth ? Following::smooth : Following::free;
+}
+
 ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) {
   ImprovementOptions improvement;
   improvement.preset = options.preset;
@@ -124,7 +131,10 @@ ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) 
   search.alpha = options.alpha.value_or(search.alpha);
   improvement.refinement.alpha = search.alpha;
   improvement.refinement.objective = options.objective;
-  if (options.preset == ImprovementPreset::paper) search.edits.family = EditFamily::paper;
+  if (options.preset == ImprovementPreset::paper)
+    search.edits.family = EditFamily::paper;
+  else if (following_of(options) == Following::smooth)
+    search.edits.family = EditFamily::smooth;
   search.edits.bends = options.bends;
   search.edits.contacts.semantics = options.measure.semantics;
   search.solutions = options.solutions;

@@ -45,5 +45,7 @@ void check(const ImproveCommandOptions& options);
 
 /// How the search goes; without directions, deadline and callbacks.
 ImprovementOptions improvement_options_of(const ImproveCommandOptions& options);
+/// How parts follow an edit: smoothly where the quality of designs is looked at, unless parts may bend.
+Following following_of(const ImproveCommandOptions& options);
 
 }  // namespace stackabilization::apps

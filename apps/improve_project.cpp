@@ -41,7 +41,10 @@ bool makes_again(const ImproveTask& task, const HistoryNode& node, const Design&
 
 Project improvement_project(const ImproveReport& report) {
   const ImproveTask& task = report.task;
-  Project project{task.rest(), {}, {task.task->space().kind(), Direction(task.task->directions().front())}};
+  Project project{task.rest(),
+                  {},
+                  {task.task->space().kind(), Direction(task.task->directions().front()),
+                   task.task->space().following()}};
   project.history.nodes.push_back(root(report));
   for (const SolutionReport* solution : report.shown()) {
     HistoryNode node = node_of(task, *solution);

@@ -143,8 +143,8 @@ std::string saving_text(const StackHeights& stack, Unit unit) {
 }
 
 std::string check_text(const Check& check, const Structure& rest) {
-  const std::string unit = unit_of(check.kind), note = note_of(check, rest);
-  std::string text = name_of(check.kind) + ": " + rounded(check.value);
+  const std::string unit = unit_of(check), note = note_of(check, rest);
+  std::string text = name_of(check) + ": " + rounded(check.value);
   if (!unit.empty()) text += " " + unit;
   text += ", asked for " + rounded(check.demanded);
   if (!check.passed) text += ", NOT met";

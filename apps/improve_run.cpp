@@ -33,6 +33,7 @@ ImprovementTaskOptions task_options(const ImproveCommandOptions& options,
                                     const std::optional<SavedSearch>& saved, const Stopwatch& watch) {
   ImprovementTaskOptions result;
   result.kind = options.kind;
+  result.following = following_of(options);
   result.directions = options.directions.empty() && saved ? directions_of(*saved) : options.directions;
   result.effort = improvement_options_of(options).effort;
   if (options.seconds)
@@ -74,7 +75,9 @@ ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& o
     StructuredShape rest = std::move(input.structured);
     if (!options.removed.empty())
       rest = without_parts(rest, parts_named("--remove", options.removed, rest.shape));
-    Requirements requirements = requirements_of(options.requirements, rest.shape, options.measure);
+    Requirements requirements = requirements_of(
+        options.requirements, rest.shape, options.measure,
+        options.preset == ImprovementPreset::paper ? QualityDefault::any : QualityDefault::limited);
     requirements.target = options.target.value_or(0);
     if (options.within) requirements.length_limit = {*options.copies, options.within->in(rest.shape.unit)};
     ProgressBar bar("Looking for directions");

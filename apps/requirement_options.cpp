@@ -7,6 +7,13 @@
 
 namespace stackabilization::apps {
 
+namespace {
+
+/// A larger limit of a measure of quality is a typing error: --relax NAME removes it.
+constexpr double max_quality_limit = 1000;
+
+}  // namespace
+
 Number target_option(const std::string& description) {
   // Copies without any height of their own have S = 1; below the other end nobody wishes for anything.
   return {.name = "--target", .description = description, .min = -1000, .max = 1, .open_max = true};
@@ -40,9 +47,48 @@ void add_requirement_options(CLI::App& command, RequirementArguments& arguments)
       command,
       {"--tilt-degrees", "... also on ground that is tilted by this angle (default: 0)", 0, max_degrees},
       arguments.tipping_degrees);
+  add_relax_option(command, arguments.relaxed);
+  command.add_flag("--any-quality", arguments.any_quality,
+                   "Do not look at the quality of designs, as the paper (default for --preset paper)");
+}
+
+void add_relax_option(CLI::App& command, std::vector<std::string>& relaxed) {
+  command
+      .add_option("--relax", relaxed,
+                  "Another limit for a measure of quality, as size=0.6, or none: size; repeatable")
+      ->type_name("NAME[=VALUE]");
+}
+
+QualityLimits quality_limits_of(const std::vector<std::string>& relaxed) {
+  QualityLimits limits;
+  for (const std::string& word : relaxed) {
+    const std::size_t sign = word.find('=');
+    const auto measure = quality_measure_of(word.substr(0, sign));
+    if (!measure) {
+      std::string names;
+      for (std::size_t k = 0; k < quality_measure_count; ++k)
+        names += (k == 0 ? "" : ", ") + name_of(static_cast<QualityMeasure>(k));
+      throw UsageError("--relax expects a measure of quality, found '" + word.substr(0, sign) +
+                       "'; there are " + names);
+    }
+    if (sign == std::string::npos) {
+      limits.relax(*measure);
+      continue;
+    }
+    const bool ratio = has_lower_limit(*measure);
+    const Number limit{.name = "--relax " + name_of(*measure),
+                       .description = "",
+                       .min = 0,
+                       .max = ratio ? 1 : max_quality_limit};
+    limits[*measure] = parse_number(limit, word.substr(sign + 1));
+  }
+  return limits;
 }
 
 void check(const RequirementArguments& arguments) {
+  if (arguments.any_quality && !arguments.relaxed.empty())
+    throw UsageError("--relax and --any-quality contradict each other");
+  quality_limits_of(arguments.relaxed);
   if (arguments.tipping_degrees && !arguments.standing)
     throw UsageError(
         "--tilt-degrees is the tilt at which the stack of --standing still stands: give that too");
@@ -52,7 +98,7 @@ void check(const RequirementArguments& arguments) {
 }
 
 Requirements requirements_of(const RequirementArguments& arguments, const Shape& rest,
-                             const StackabilityOptions& measure) {
+                             const StackabilityOptions& measure, QualityDefault quality) {
   const Unit unit = rest.unit;
   Requirements requirements;
   requirements.measure = measure;
@@ -66,6 +112,8 @@ Requirements requirements_of(const RequirementArguments& arguments, const Shape&
   requirements.min_draft_degrees = arguments.draft_degrees;
   requirements.standing_copies = arguments.standing;
   requirements.min_tipping_degrees = arguments.tipping_degrees.value_or(0);
+  if (!arguments.any_quality && (quality == QualityDefault::limited || !arguments.relaxed.empty()))
+    requirements.quality = quality_limits_of(arguments.relaxed);
   return requirements;
 }
 

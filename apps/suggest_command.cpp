@@ -62,7 +62,8 @@ void add_wishes(CLI::App& command, SuggestCommandOptions& options) {
                                           {"gap-scaling", DeformationKind::gap_scaling}};
   add_choice(command, "--model", options.kind, kinds,
              "What moves the mesh (default: that of the history, else controllers)");
-  const Choices<EditFamily> families = {{"paper", EditFamily::paper}, {"extended", EditFamily::extended}};
+  const Choices<EditFamily> families = {
+      {"paper", EditFamily::paper}, {"extended", EditFamily::extended}, {"smooth", EditFamily::smooth}};
   add_choice(command, "--edits", options.family, families,
              "Which edits contacts suggest: those of the paper, or further ones too (default: extended)");
   command.add_flag("--bend", options.bends,

@@ -80,7 +80,9 @@ SuggestRun run_suggest(const SuggestCommandOptions& options, const StructuredMod
   choose_model(options, run);
   const StructuredShape& rest = run.project.rest;
   run.space = named(input.model, [&] { return design_space(rest, run.project.space); });
-  Requirements requirements = requirements_of(options.requirements, rest.shape, options.measure);
+  Requirements requirements =
+      requirements_of(options.requirements, rest.shape, options.measure,
+                      options.family == EditFamily::paper ? QualityDefault::any : QualityDefault::limited);
   requirements.target = options.target.value_or(0);
   const RequirementChecker checker(*run.space, requirements);
   const auto measured = [&](const Design& design, const SuggestionOptions& how) {

@@ -65,7 +65,7 @@ declare -A parts=(
   [stacking]='measure direction stacks validation'
   [structure]='model fitting symmetry joints segmentation analysis project'
   [deformation]='model controllers arap iwires gap_scaling'
-  [improvement]='design requirements history contacts search advice refinement run'
+  [improvement]='design quality requirements history contacts search advice refinement run'
   [rendering]='gl drawing scene pictures'
 )
 for folder in src/*/ include/stackabilization/*/; do

@@ -18,20 +18,23 @@ using Corners = std::array<std::int32_t, 3>;
 /// Triangles with the same three corners.
 struct Sheaf {
   Corners corners;
-  std::int64_t count;
+  std::vector<std::int32_t> rows;
 };
 
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, const Sheaf*>;
 
 std::vector<Sheaf> sheaves_of(const Triangles& rows) {
-  std::vector<Corners> triangles;
-  for (const auto row : rows.rowwise()) triangles.push_back({row(0), row(1), row(2)});
-  for (Corners& corners : triangles) std::sort(corners.begin(), corners.end());
+  std::vector<std::pair<Corners, std::int32_t>> triangles;
+  for (std::int32_t t = 0; t < rows.rows(); ++t) {
+    Corners corners{rows(t, 0), rows(t, 1), rows(t, 2)};
+    std::sort(corners.begin(), corners.end());
+    triangles.emplace_back(corners, t);
+  }
   std::sort(triangles.begin(), triangles.end());
   std::vector<Sheaf> sheaves;
-  for (const Corners& corners : triangles) {
-    if (sheaves.empty() || sheaves.back().corners != corners) sheaves.push_back({corners, 0});
-    ++sheaves.back().count;
+  for (const auto& [corners, row] : triangles) {
+    if (sheaves.empty() || sheaves.back().corners != corners) sheaves.push_back({corners, {}});
+    sheaves.back().rows.push_back(row);
   }
   return sheaves;
 }
@@ -106,7 +109,11 @@ std::vector<std::int32_t> triangles_with_area(const Shape& shape) {
   return rows;
 }
 
-std::int64_t count_self_intersections(const Points& points, const Triangles& triangles) {
+namespace {
+
+/// Calls `found` with each pair of sheaves whose triangles intersect.
+template <class Found>
+void find_intersections(const Points& points, const Triangles& triangles, const Found& found) {
   std::vector<Point> exact_points;
   exact_points.reserve(static_cast<std::size_t>(points.rows()));
   for (const auto point : points.rowwise()) exact_points.push_back(point_of(point.transpose()));
@@ -123,12 +130,31 @@ std::int64_t count_self_intersections(const Points& points, const Triangles& tri
   std::vector<const Box*> pointers;
   for (const Box& box : boxes) pointers.push_back(&box);
 
-  std::int64_t count = 0;
   const PairTest test(exact_points);
   CGAL::box_self_intersection_d(pointers.begin(), pointers.end(), [&](const Box* a, const Box* b) {
-    if (test.intersect(a->info()->corners, b->info()->corners)) count += a->info()->count * b->info()->count;
+    if (test.intersect(a->info()->corners, b->info()->corners)) found(*a->info(), *b->info());
+  });
+}
+
+}  // namespace
+
+std::int64_t count_self_intersections(const Points& points, const Triangles& triangles) {
+  std::int64_t count = 0;
+  find_intersections(points, triangles, [&](const Sheaf& a, const Sheaf& b) {
+    count += static_cast<std::int64_t>(a.rows.size() * b.rows.size());
   });
   return count;
+}
+
+std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(const Points& points,
+                                                                      const Triangles& triangles) {
+  std::vector<std::pair<std::int32_t, std::int32_t>> pairs;
+  find_intersections(points, triangles, [&](const Sheaf& a, const Sheaf& b) {
+    for (const std::int32_t first : a.rows)
+      for (const std::int32_t second : b.rows) pairs.push_back(std::minmax({first, second}));
+  });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
 }
 
 }  // namespace stackabilization

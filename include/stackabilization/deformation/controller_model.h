@@ -17,6 +17,19 @@ struct EditOutcome {
   std::vector<Primitive> primitives;  ///< primitives of the configuration, one per part
 };
 
+/// How the parts that are not edited follow an edit.
+enum class Following {
+  /// Any way, cheap motions first: parts move, stretch and lean, generalized cylinders bend, single corners
+  /// of
+  /// cuboids move.
+  free,
+  /// Only by affine maps, and straight generalized cylinders also as members of a frame: they lean, stretch
+  /// and
+  /// change their radii linearly. Joints slide in the plane of plates and along straight members, where they
+  /// do not lie at the rim or the end (Relation::carrier). Edits that need more are refused.
+  smooth,
+};
+
 /// Limits on the size of a ControllerModel.
 struct ControllerLimits {
   /// Largest number of points at which parts are joined. Points that symmetries map onto each other count
@@ -37,7 +50,8 @@ class ControllerModel : public DeformationModel {
  public:
   /// Precomputes everything that depends on the rest pose alone. Throws InputError when `rest` is invalid,
   /// when its primitives do not satisfy its symmetry relations, or when it exceeds `limits`.
-  explicit ControllerModel(StructuredShape rest, const ControllerLimits& limits = {});
+  explicit ControllerModel(StructuredShape rest, const ControllerLimits& limits = {},
+                           Following following = Following::free);
   ControllerModel(ControllerModel&&) noexcept;
   ControllerModel& operator=(ControllerModel&&) noexcept;
   ~ControllerModel() override;

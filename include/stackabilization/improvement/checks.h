@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "stackabilization/deformation/refusal.h"
+#include "stackabilization/improvement/quality.h"
 
 namespace stackabilization {
 
@@ -22,6 +23,7 @@ enum class CheckKind {
   thickness,    ///< least thickness, model units
   draft,        ///< least draft angle, degrees
   standing,     ///< tilt at which the stack topples, degrees
+  quality,      ///< a measure of quality, in its unit
 };
 
 /// Result of one requirement for one design.
@@ -34,18 +36,24 @@ struct Check {
   /// box: the axis, 0 to 2; standing: the copy that topples first, from 0. -1 where nothing changed, nothing
   /// has a thickness, or copies pass each other.
   int where = -1;
-  int copies = 0;  ///< standing: number of copies in the stack
+  int copies = 0;                                              ///< standing: number of copies in the stack
+  QualityMeasure measure = QualityMeasure::self_intersection;  ///< quality: what was measured
+  int other = -1;                                              ///< quality: QualityValue::other
 
   /// Compares the members in their order.
   auto operator<=>(const Check&) const = default;
 };
 
-/// Returns the name of a requirement: that of its enumerator.
-std::string name_of(CheckKind kind);
+/// Returns the name of a requirement: that of its enumerator; for quality "quality: " and the name of the
+/// measure.
+std::string name_of(const Check& check);
 
 /// Returns the unit of Check::value: "", "model units", "degrees", "of the diagonal", "of the height", "of
-/// the size at rest" or "of a side".
-std::string unit_of(CheckKind kind);
+/// the size at rest" or "of a side"; for quality that of the measure.
+std::string unit_of(const Check& check);
+
+/// Returns how far a check is violated, on a scale that all kinds share: > 0 if it fails, <= 0 if not.
+double violation(const Check& check);
 
 /// Returns where and why a check has its value, one clause; may be empty. `rest`: structure of the shape at
 /// rest.
@@ -56,6 +64,9 @@ using Obstacle = std::variant<Refusal, Check>;
 
 /// Returns an obstacle to an edit as one sentence without a full stop.
 std::string describe(const Obstacle& obstacle, const Structure& rest);
+
+/// Returns an obstacle without its amounts, for counting: of a check only what is checked.
+Obstacle without_amounts(const Obstacle& obstacle);
 
 /// How often an obstacle was met in a search: how many edits were refused for it, or how many designs that
 /// reach the target failed the check.

@@ -13,7 +13,14 @@ namespace stackabilization {
 enum class EditFamily {
   paper,     ///< section 4.2 of the paper: faces, corners and cross-sections, one step
   extended,  ///< also ends of parts (with Falloff::linear) and whole parts, and larger steps
+  smooth,    ///< the extended family without edits that bend, bulge or slant a part: see `is_smooth`
 };
+
+/// Returns whether an edit of a part with this primitive keeps straight members straight, flat faces flat and
+/// profiles even: all edits of whole parts; edits of the ends of a generalized cylinder with Falloff::linear;
+/// moves of a face of a cuboid along its normal, and all edits of the two ends of a cuboid that is at least 3
+/// times as long as wide. Other models than controllers have no smooth edits.
+bool is_smooth(const Edit& edit, const Primitive& primitive);
 
 /// Options of `contact_edits`.
 struct ContactEditOptions {

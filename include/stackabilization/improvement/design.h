@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "stackabilization/core/direction.h"
+#include "stackabilization/deformation/controller_model.h"
 #include "stackabilization/deformation/deformation_model.h"
 #include "stackabilization/structure/structure.h"
 
@@ -46,6 +47,8 @@ class DesignSpace {
   virtual const StructuredShape& rest() const = 0;
   /// Returns which deformation model this is.
   virtual DeformationKind kind() const = 0;
+  /// Returns how parts follow an edit; free for models other than controllers.
+  virtual Following following() const { return Following::free; }
   /// Returns everything that can be edited.
   virtual std::vector<Handle> handles() const = 0;
   /// Returns the centres of `handles` at rest, in the same order, model units. Empty for controllers: their
@@ -69,6 +72,7 @@ struct DesignSpaceOptions {
   DeformationKind kind = DeformationKind::controllers;  ///< the model
   /// Direction along which gap scaling compresses, and main axis of the slices of the surface model.
   Direction direction{0, 0, 1};
+  Following following = Following::free;  ///< controllers: how parts follow an edit
 };
 
 /// Largest number of parts of a shape that can be edited. A search makes hundreds of edits, and every energy

@@ -25,11 +25,11 @@ struct Blocker {
     none,        ///< there are no such edits
     helpful,     ///< one of them raises S to `best_stackability`
     unhelpful,   ///< none of them raises S
-    refused,     ///< all of them are refused, most for `refusal`
+    refused,     ///< all of them are refused, most for `obstacle`
   };
   Edits edits = Edits::untried;  ///< see Edits
   double best_stackability = 0;  ///< S after the best of the edits; at least that of the design
-  Refusal refusal;               ///< most frequent refusal, without amounts; refused only
+  Obstacle obstacle;             ///< most frequent obstacle, without amounts; refused only
 };
 
 /// Returns why a pair still blocks, one clause: what became of the edits that would separate it. Empty where
@@ -49,13 +49,15 @@ struct Remedy {
     remove_part,      ///< leave parts out
     relax_height,     ///< let the height change
     relax_box,        ///< let the box change
+    relax_quality,    ///< leave a measure of quality without a limit
   };
   Kind kind = Kind::relax_height;  ///< kind of the change
   std::vector<int> parts;          ///< parts to be freed or left out; rows of Structure::parts
+  QualityMeasure measure = QualityMeasure::self_intersection;  ///< relax_quality: the measure
   /// r along which `stackability` is measured; the new direction for other_direction.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
   /// S(M, r) with the change. other_direction and remove_part: of the shape at rest, without further edits.
-  /// free_part and relax: after the best single edit of the design that the change allows.
+  /// free_part, relax_...: after the best single edit of the design that the change allows.
   double stackability = 0;
 };
 
@@ -83,9 +85,9 @@ struct DiagnosisOptions {
 };
 
 /// Explains why a search did not reach its target, for the candidate of largest S. Finds the blocking pairs,
-/// and changes that would help: another direction, freeing a part that had to stay, relaxing the height or
-/// the box, leaving out a part (removal.h). Blocking pairs are always determined; reasons and remedies only
-/// within the limits of the options. Precondition: `result.nearest` is not empty.
+/// and changes that would help: another direction, freeing a part that had to stay, relaxing the height, the
+/// box or a measure of quality, leaving out a part (removal.h). Blocking pairs are always determined; reasons
+/// and remedies only within the limits of the options. Precondition: `result.nearest` is not empty.
 Diagnosis diagnose(const RequirementChecker& checker, const BestFirstResult& result,
                    const DiagnosisOptions& options = {});
 

@@ -9,11 +9,15 @@
 
 namespace stackabilization {
 
+/// Smallest number of designs with which a refinement is of use.
+inline constexpr int min_refinement_evaluations = 10;
+
 /// Options of `refine_candidate`.
 struct RefinementOptions {
   int max_added_edits = 12;                       ///< edits added per round, chosen by reduced cost, >= 0
   ChangeMeasure objective = ChangeMeasure::both;  ///< objective to minimise
-  /// Largest number of designs measured, >= 10. The test of which edits can be dropped may exceed it.
+  /// Largest number of designs measured, >= min_refinement_evaluations. The test of which edits can be
+  /// dropped may exceed it.
   int evaluations = 800;
   double alpha = 0.2;  ///< weight of D in Eq. 5, for the energies reported
   /// Bound of the magnitudes, > 0: they lie in [-reach, max(reach, 1)] times those given.
@@ -21,6 +25,7 @@ struct RefinementOptions {
   /// Drop edits whose removal loses less than this fraction of the total gain in S, if the other edits can
   /// make up for it; >= 0.
   double drop_threshold = 0.02;
+  EditFamily family = EditFamily::extended;  ///< family of the edits added
   std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends with the best so far
 };
 
@@ -55,7 +60,8 @@ struct RefinementResult {
 /// tried first) stop before they get there.
 ///
 /// Steps: if the given edits do not reach the target, magnitudes of largest S are searched first. Edits that
-/// are of no use are removed. With controllers further edits are added (moves and scalings of parts, faces
+/// are of no use are removed. If none are feasible, all edits that could be added are tried with them, as
+/// long as the evaluations last. With controllers further edits are added (moves and scalings of parts, faces
 /// and ends), those of the largest reduced cost according to the multipliers of the model. A root search on
 /// the segment to the shape at rest comes last.
 ///

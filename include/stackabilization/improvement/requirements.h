@@ -6,6 +6,7 @@
 
 #include "stackabilization/improvement/checks.h"
 #include "stackabilization/improvement/design.h"
+#include "stackabilization/improvement/quality.h"
 #include "stackabilization/stacking/stackability.h"
 
 namespace stackabilization {
@@ -38,10 +39,19 @@ struct Requirements {
   std::optional<double> min_draft_degrees;
   std::optional<int> standing_copies;  ///< number of copies whose stack must stand
   double min_tipping_degrees = 0;      ///< least tilt at which that stack topples, degrees, in [0, 90]
+  /// Limits of what a person looks at, with z upwards. Not looked at if empty.
+  std::optional<QualityLimits> quality;
+};
+
+/// Measures of quality that a check takes.
+enum class QualityScope {
+  all,    ///< all measures: QualityMeter::measure
+  parts,  ///< the fast ones: QualityMeter::measure_parts
 };
 
 /// Throws UsageError for a target >= 1, a room out of range, negative lengths, fractions or angles, air of
-/// more than a million diagonals, angles above 90 degrees, fewer than one standing copy, a tilt without
+/// more than a million diagonals, angles above 90 degrees, limits of quality out of
+/// range, fewer than one standing copy, a tilt without
 /// standing copies, parts that do not exist, numbers that are not finite, and options that measure flat
 /// shapes.
 void validate(const Requirements& requirements, const StructuredShape& rest);
@@ -83,8 +93,9 @@ class RequirementChecker {
   /// Returns the least S for which `meets_target` holds, up to rounding, for a design with the extent and
   /// boxes of `measured`.
   double required_stackability(const Stackability& measured) const;
-  /// Returns the refusal of a design that violates the proportions. Cheap.
-  std::optional<Refusal> size_ratio_violation(const Design& design) const;
+  /// Returns what stands against the form of a design: its proportions, or the first measure of quality of
+  /// QualityScope::parts beyond its limit. Cheap.
+  std::optional<Obstacle> form_obstacle(const Design& design) const;
   /// Checks every requirement that was made, in the order of CheckKind. The target is compared without
   /// slack, from exact separations. The other quantities are computed in double precision and compared within
   /// tolerance::relative.
@@ -94,8 +105,10 @@ class RequirementChecker {
   ///   change, controllers let the surface between them follow; there the primitive has not moved;
   /// * thickness: every probe is at least as thick as required or, where the shape at rest is thinner, as at
   ///   rest;
-  /// * draft: at the contacts of the copies without clearance and play.
-  Assessment check(const Design& design, const Direction& direction) const;
+  /// * draft: at the contacts of the copies without clearance and play;
+  /// * quality: one check per measure that has a limit, and is in the scope.
+  Assessment check(const Design& design, const Direction& direction,
+                   QualityScope scope = QualityScope::all) const;
 
  private:
   struct Data;

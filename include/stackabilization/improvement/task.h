@@ -13,6 +13,7 @@ namespace stackabilization {
 /// Options of ImprovementTask.
 struct ImprovementTaskOptions {
   DeformationKind kind = DeformationKind::controllers;  ///< deformation model
+  Following following = Following::free;                ///< controllers: how parts follow an edit
   /// Starting directions, the preferred one first. If empty, the task chooses them.
   std::vector<Eigen::Vector3d> directions;
   /// Work for the choice of directions: a share of an effort (see effort.h), > 0.

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "stackabilization/core/shape.h"
@@ -19,5 +20,9 @@ std::vector<std::int32_t> triangles_with_area(const Shape& shape);
 /// three corners do not count. Precondition: `points` are pairwise different. Cost: O(m log^2 m + pairs of
 /// intersecting boxes); triangles with the same three corners have one box.
 std::int64_t count_self_intersections(const Points& points, const Triangles& triangles);
+
+/// Returns those pairs of rows of `triangles`, the smaller row first, ascending. Same conditions and cost.
+std::vector<std::pair<std::int32_t, std::int32_t>> self_intersections(const Points& points,
+                                                                      const Triangles& triangles);
 
 }  // namespace stackabilization

@@ -39,6 +39,9 @@ struct Relation {
   Points points;
   /// Distance by which the surfaces at rest violate the relation, fraction of Structure::diagonal.
   double residual = 0;
+  /// Part on which a joint may slide: in the plane of a plate, or along a straight member. -1: it is fixed to
+  /// both parts. The analysis makes fixed joints; Following::smooth lets them slide.
+  int carrier = -1;
 };
 
 /// Parts, primitives and relations of one shape at rest.

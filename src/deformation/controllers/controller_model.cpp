@@ -6,21 +6,27 @@
 
 #include "deformation/controllers/edit_solution.h"
 #include "deformation/controllers/part_edit.h"
+#include "deformation/model/joint_slides.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization {
 
 struct ControllerModel::Data {
-  Data(StructuredShape structured, const ControllerLimits& limits)
-      : rest(std::move(structured)),
-        rig(within(limits, rest.structure)),
+  Data(StructuredShape structured, const ControllerLimits& limits, Following following)
+      : rest(sliding(std::move(structured), following)),
+        rig(within(limits, rest.structure, following)),
         mesh{detail::MeshTransfer(rest.shape, rig), detail::vertices_by_class(rest.shape, rig),
              SurfaceIndex(rest.shape)} {
     for (const Part& part : rest.structure.parts) primitives.push_back(part.primitive);
   }
 
-  static detail::Rig within(const ControllerLimits& limits, const Structure& structure) {
-    detail::Rig rig(structure);
+  static StructuredShape sliding(StructuredShape structured, Following following) {
+    if (following == Following::smooth) detail::let_joints_slide(structured.structure);
+    return structured;
+  }
+
+  static detail::Rig within(const ControllerLimits& limits, const Structure& structure, Following following) {
+    detail::Rig rig(structure, following);
     if (rig.distinct_joints.size() > limits.max_joint_points)
       throw InputError("its parts are joined at " + std::to_string(rig.distinct_joints.size()) +
                        " points that no symmetry makes the same, and edits keep at most " +
@@ -60,8 +66,8 @@ StructuredShape validated(StructuredShape structured) {
 
 }  // namespace
 
-ControllerModel::ControllerModel(StructuredShape rest, const ControllerLimits& limits)
-    : data_(std::make_unique<const Data>(validated(std::move(rest)), limits)) {}
+ControllerModel::ControllerModel(StructuredShape rest, const ControllerLimits& limits, Following following)
+    : data_(std::make_unique<const Data>(validated(std::move(rest)), limits, following)) {}
 ControllerModel::ControllerModel(ControllerModel&&) noexcept = default;
 ControllerModel& ControllerModel::operator=(ControllerModel&&) noexcept = default;
 ControllerModel::~ControllerModel() = default;

@@ -53,8 +53,16 @@ Eigen::MatrixXd affine_functions(const GeneralizedCylinder& cylinder) {
   return functions;
 }
 
-Eigen::MatrixXd basis_of(const GeneralizedCylinder& cylinder) {
+Eigen::MatrixXd basis_of(const GeneralizedCylinder& cylinder, Following following) {
   const Eigen::Index n = cylinder.centres.rows();
+  if (following == Following::smooth) {
+    const Eigen::MatrixXd affine = affine_functions(cylinder);
+    Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(4 * n, 3 * affine.cols() + 1);
+    Eigen::Index column = 0;
+    append_moves(affine, 1, basis, column);
+    basis.bottomRightCorner(n, 1) = radius_scale * cylinder.radii / cylinder.radii.mean();
+    return basis;
+  }
   const Eigen::MatrixXd affine = affine_functions(cylinder), smooth = smooth_functions(cylinder);
   const Eigen::Index moves = 3 * (affine.cols() + smooth.cols());
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(4 * n, moves + smooth.cols());
@@ -68,7 +76,7 @@ Eigen::MatrixXd basis_of(const GeneralizedCylinder& cylinder) {
 /// The functions of a cuboid are products of the signs of the three coordinates of a corner: 1, x, y, z are
 /// affine; xy, yz, zx and xyz are not. Equal strains have equal costs: changing the thickness of a plate by
 /// half costs as much as changing its length by half.
-Eigen::MatrixXd basis_of(const Cuboid& cuboid) {
+Eigen::MatrixXd basis_of(const Cuboid& cuboid, Following following) {
   Eigen::Vector3d sides;
   for (int axis = 0; axis < 3; ++axis)
     sides(axis) = (cuboid.corners.row(1 << axis) - cuboid.corners.row(0)).norm();
@@ -82,6 +90,7 @@ Eigen::MatrixXd basis_of(const Cuboid& cuboid) {
   Eigen::MatrixXd basis = Eigen::MatrixXd::Zero(24, 24);
   Eigen::Index column = 0;
   append_moves(affine, 1, basis, column);
+  if (following == Following::smooth) return basis.leftCols(column);
   append_moves(bent, corner_scale, basis, column);
   return basis;
 }
@@ -130,8 +139,9 @@ Eigen::MatrixXd edit_kernel(const Primitive& rest) {
   return kernel;
 }
 
-Eigen::MatrixXd reduced_basis(const Primitive& rest, double strain) {
-  Eigen::MatrixXd basis = std::visit([](const auto& primitive) { return basis_of(primitive); }, rest);
+Eigen::MatrixXd reduced_basis(const Primitive& rest, double strain, Following following) {
+  Eigen::MatrixXd basis =
+      std::visit([&](const auto& primitive) { return basis_of(primitive, following); }, rest);
   basis.rightCols(basis.cols() - 3) *= strain;
   return basis;
 }

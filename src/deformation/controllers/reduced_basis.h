@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "stackabilization/deformation/controller_model.h"
 #include "stackabilization/structure/primitive.h"
 
 namespace stackabilization::detail {
@@ -42,8 +43,10 @@ Eigen::MatrixXd edit_kernel(const Primitive& rest);
 /// * smooth bending of a generalized cylinder;
 /// * non-affine moves of single corners of a cuboid, and changes of radii.
 ///
+/// With Following::smooth, only affine motions, and one change of all radii in proportion.
+///
 /// All columns except translations are multiplied by `strain`, see strain_scale.
-Eigen::MatrixXd reduced_basis(const Primitive& rest, double strain);
+Eigen::MatrixXd reduced_basis(const Primitive& rest, double strain, Following following = Following::free);
 
 /// Computes the 3 x 3n matrix that maps small displacements of the n centres to the rotation vector of the
 /// nearest rigid motion. Components that the centres leave undetermined, such as rotation about a straight

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/index.h"
+#include "deformation/model/joint_slides.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {
@@ -80,7 +81,7 @@ Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints,
       all(row) = constraint.normal->dot(sum) - constraint.height -
                  (constraint.level ? state.levels(*constraint.level) : 0);
     else
-      all.segment<3>(row) = sum;
+      all.segment<3>(row) = constraint.carrier ? held_directions(now[at(*constraint.carrier)]) * sum : sum;
     row += rows_of(constraint);
   }
   return all;
@@ -133,6 +134,8 @@ class Solver {
         auto block = all.block(row, offsets_[at(c)], rows_of(constraint), slope.cols());
         if (constraint.normal)
           block += constraint.normal->transpose() * slope;
+        else if (constraint.carrier)
+          block += held_directions(now_[at(*constraint.carrier)]) * slope;
         else
           block += slope;
       }
@@ -214,6 +217,8 @@ std::vector<Constraint> joint_constraints(const Rig& rig) {
     Constraint constraint;
     constraint.bound_points = {{joint.parts[0], joint.bindings[0], 1},
                                {joint.parts[1], joint.bindings[1], -1}};
+    const int carrier = rig.rest.relations[at(joint.relation)].carrier;
+    if (carrier >= 0) constraint.carrier = carrier;
     constraints.push_back(std::move(constraint));
   }
   return constraints;

@@ -27,7 +27,7 @@ Eigen::MatrixXd invariant_basis(const ControlSpace& space, int of_class, const E
 
 }  // namespace
 
-Rig::Rig(const Structure& structure) : rest(structure), space(structure) {
+Rig::Rig(const Structure& structure, Following following) : rest(structure), space(structure) {
   for (const Part& part : rest.parts) primitive_bindings.emplace_back(part.primitive);
   for (std::size_t k = 0; k < rest.relations.size(); ++k) {
     const Relation& relation = rest.relations[k];
@@ -46,7 +46,7 @@ Rig::Rig(const Structure& structure) : rest(structure), space(structure) {
     const Eigen::MatrixXd half = space.invariant_columns(c, edit_kernel(first));
     edit_kernels.push_back(space.invariant_columns(c, half.transpose()));
     strains.push_back(strain_scale(first, rest.diagonal));
-    bases.push_back(invariant_basis(space, c, reduced_basis(first, strains.back())));
+    bases.push_back(invariant_basis(space, c, reduced_basis(first, strains.back(), following)));
     const auto* cylinder = std::get_if<GeneralizedCylinder>(&first);
     slides.push_back(cylinder && !cylinder->closed ? slide_functions(*cylinder) : Eigen::MatrixXd());
     turnings.push_back(cylinder ? turning(*cylinder) : Eigen::MatrixXd());

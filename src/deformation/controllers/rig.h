@@ -6,6 +6,7 @@
 
 #include "deformation/controllers/control_space.h"
 #include "deformation/model/binding.h"
+#include "stackabilization/deformation/controller_model.h"
 #include "stackabilization/structure/structure.h"
 
 namespace stackabilization::detail {
@@ -21,7 +22,7 @@ struct JointPoint {
 /// share between threads.
 struct Rig {
   /// Throws InputError under the conditions of ControlSpace.
-  explicit Rig(const Structure& rest);
+  explicit Rig(const Structure& rest, Following following = Following::free);
 
   Structure rest;
   ControlSpace space;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "deformation/model/joint_slides.h"
 #include "deformation/model/transfer.h"
 #include "stackabilization/core/errors.h"
 #include "structure/model/correspondence.h"
@@ -45,7 +46,12 @@ double joint_gap(const Relation& relation, const Structure& rest, const std::vec
       const auto k = static_cast<std::size_t>(part);
       return deform_point(rest.parts[k].primitive, deformed[k], relation.points.row(i).transpose());
     };
-    widen(gap, (place(relation.parts[0]) - place(relation.parts[1])).norm());
+    const Eigen::Vector3d apart = place(relation.parts[0]) - place(relation.parts[1]);
+    widen(
+        gap,
+        relation.carrier < 0
+            ? apart.norm()
+            : (detail::held_directions(deformed[static_cast<std::size_t>(relation.carrier)]) * apart).norm());
   }
   return gap;
 }

@@ -60,7 +60,7 @@ std::int64_t whole_directions(double count) {
 /// Result of trying the edits that would separate some regions.
 struct Trial {
   double best = 0;  ///< largest S after one edit, at least the S before
-  std::map<Refusal, std::int64_t> refusals;
+  std::map<Obstacle, std::int64_t> refusals;
   int made = 0;
   bool stopped = false;  ///< whether the trial ended before all edits were tried
 };
@@ -130,25 +130,22 @@ class DiagnosisBuilder {
     const Separation apart = separation(below, above, direction_, options);
     blocker.f = apart.blocked ? apart.length : measured.f_max;
     blocker.stackability = measured.value_at(blocker.f);
-    if (const auto trial = tried({region}, constraints(checker_.requirements()))) explain(blocker, *trial);
+    if (const auto trial = tried({region}, checker_)) explain(blocker, *trial);
     return blocker;
-  }
-
-  DeformationConstraints constraints(const Requirements& requirements) const {
-    return deformation_constraints(requirements, rest_, direction_);
   }
 
   /// Tries every edit that these regions suggest, each by itself. Nothing if they are more designs than are
   /// left, or when stopped.
-  std::optional<Trial> tried(const std::vector<ContactRegion>& regions,
-                             const DeformationConstraints& constraints) {
+  std::optional<Trial> tried(const std::vector<ContactRegion>& regions, const RequirementChecker& checker) {
     if (stopped()) return std::nullopt;
     const DesignSpace& space = checker_.space();
+    const DeformationConstraints constraints =
+        deformation_constraints(checker.requirements(), rest_, direction_);
     const std::vector<ContactEdit> edits =
         contact_edits({rest_, space.kind(), handles_, best_.design, regions, direction_, space.centres()});
     if (static_cast<double>(edits.size()) > designs_left()) return std::nullopt;
     designs_ += static_cast<std::int64_t>(edits.size());
-    std::vector<std::optional<Refusal>> refusals(edits.size());
+    std::vector<std::optional<Obstacle>> refusals(edits.size());
     std::vector<double> reached(edits.size(), best_.measured.value);
     std::atomic<bool> cut_short = false;
     tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
@@ -159,6 +156,8 @@ class DiagnosisBuilder {
       const DesignOutcome outcome = space.edited(best_.design, edits[k].edit, constraints);
       if (outcome.refusal)
         refusals[k] = without_amounts(*outcome.refusal);
+      else if (const auto obstacle = checker.form_obstacle(outcome.design))
+        refusals[k] = without_amounts(*obstacle);
       else if (const auto better = checker_.measure_if_above(outcome.design.shape, direction_, reached[k]))
         reached[k] = std::max(reached[k], better->value);
     });
@@ -188,7 +187,7 @@ class DiagnosisBuilder {
       for (const auto& [refusal, count] : trial.refusals) counts.push_back({refusal, count});
       sort_by_count(counts, rest_.structure);
       blocker.edits = Blocker::Edits::refused;
-      blocker.refusal = std::get<Refusal>(counts.front().obstacle);
+      blocker.obstacle = counts.front().obstacle;
     }
   }
 
@@ -203,7 +202,7 @@ class DiagnosisBuilder {
     const Eigen::Vector3d direction = best_direction(rest, options).best.direction;
     const Stackability best = checker_.measure(rest_.shape, Direction(direction));
     if (!helps(best.value)) return;
-    add({Remedy::Kind::other_direction, {}, best.direction, best.value});
+    add({Remedy::Kind::other_direction, {}, {}, best.direction, best.value});
   }
 
   /// Adds remedies that free blocking parts, one class of symmetric parts at a time.
@@ -237,19 +236,37 @@ class DiagnosisBuilder {
       relaxed.box_tolerance.reset();
       offer(Remedy::Kind::relax_box, relaxed, {});
     }
+    if (!checker_.requirements().quality) return;
+    for (std::size_t k = 0; k < quality_measure_count; ++k) {
+      relaxed = checker_.requirements();
+      const auto measure = static_cast<QualityMeasure>(k);
+      relaxed.quality->relax(measure);
+      if (*relaxed.quality != *checker_.requirements().quality && stood_in_the_way(measure))
+        offer(Remedy::Kind::relax_quality, relaxed, {}, measure);
+    }
+  }
+
+  /// Returns whether a design of the search had this measure of quality beyond its limit.
+  bool stood_in_the_way(QualityMeasure measure) const {
+    return std::any_of(result_.refusals.begin(), result_.refusals.end(), [&](const ObstacleCount& count) {
+      const auto* check = std::get_if<Check>(&count.obstacle);
+      return check && check->kind == CheckKind::quality && check->measure == measure;
+    });
   }
 
   /// Adds a remedy if one edit helps under the requirements `instead` and not under those given.
-  void offer(Remedy::Kind kind, const Requirements& instead, const std::vector<int>& parts) {
-    const std::optional<Trial> trial = tried(regions_, constraints(instead));
+  void offer(Remedy::Kind kind, const Requirements& instead, const std::vector<int>& parts,
+             QualityMeasure measure = {}) {
+    const std::optional<Trial> trial = tried(regions_, {checker_.space(), instead});
     if (!trial || !helps(trial->best)) return;
     const std::optional<double> as_asked = best_as_asked();
-    if (as_asked && trial->best > *as_asked + worth_saying) add({kind, parts, best_.direction, trial->best});
+    if (as_asked && trial->best > *as_asked + worth_saying)
+      add({kind, parts, measure, best_.direction, trial->best});
   }
 
   std::optional<double> best_as_asked() {
     if (!as_asked_)
-      if (const auto trial = tried(regions_, constraints(checker_.requirements()))) as_asked_ = trial->best;
+      if (const auto trial = tried(regions_, checker_)) as_asked_ = trial->best;
     return as_asked_;
   }
 
@@ -265,7 +282,7 @@ class DiagnosisBuilder {
         return contains(checker_.requirements().kept_parts, part);
       });
       if (!all_may_go) continue;
-      add({Remedy::Kind::remove_part, removal.parts, removal.direction, removal.stackability});
+      add({Remedy::Kind::remove_part, removal.parts, {}, removal.direction, removal.stackability});
       ++offered;
     }
   }
@@ -306,7 +323,7 @@ std::string reason_of(const Blocker& blocker, const Structure& rest) {
     case Blocker::Edits::unhelpful:
       return "edits separate it, but other contacts ask for as much, or it takes more than one edit";
     case Blocker::Edits::refused:
-      return "every edit that would separate it is refused, most because " + describe(blocker.refusal, rest);
+      return "every edit that would separate it is refused, most because " + describe(blocker.obstacle, rest);
   }
   return "";
 }
@@ -334,6 +351,8 @@ std::string describe(const Remedy& remedy, const Structure& rest) {
       return "let the height change";
     case Remedy::Kind::relax_box:
       return "let the box change";
+    case Remedy::Kind::relax_quality:
+      return "--relax " + name_of(remedy.measure);
   }
   return "";
 }

@@ -11,6 +11,7 @@
 #include "improvement/contacts/contact_symmetry.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
+#include "structure/model/nearest_box.h"
 
 namespace stackabilization {
 
@@ -18,6 +19,9 @@ namespace {
 
 using namespace detail;
 using Role = ContactHandle::Role;
+
+/// Ratio of length to width from which on a cuboid is a straight member.
+constexpr double member_aspect = 3;
 
 /// A contact is off the centre of a handle beyond this fraction of the way from the centre to the outside.
 constexpr double off_centre = 0.25;
@@ -50,7 +54,7 @@ class ContactEditor {
         options_(options),
         frame_(contact_frame(situation, std::max(options.contacts.band, tolerance::relative))),
         symmetry_(symmetric_structure(situation)),
-        extended_(options.family == EditFamily::extended),
+        extended_(options.family != EditFamily::paper),
         multiples_(extended_ ? options.multiples : std::vector<double>{1}),
         diagonal_(situation.rest.structure.diagonal) {
     std::sort(multiples_.begin(), multiples_.end());
@@ -92,6 +96,9 @@ class ContactEditor {
                      side.row,
                      side.of_lower_copy,
                      {effect, leaning, side.other == side.part ? -1 : side.other}};
+    if (options_.family == EditFamily::smooth &&
+        !is_smooth(edit.edit, situation_.design.primitives[detail::at(side.part)]))
+      return;
     const bool known = std::any_of(edits_.begin(), edits_.end(),
                                    [&](const ContactEdit& other) { return same(other.edit, edit.edit); });
     if (!known) edits_.push_back(std::move(edit));
@@ -276,6 +283,21 @@ std::vector<ContactEdit> gap_scalings(const ContactSituation& situation, const C
 }
 
 }  // namespace
+
+bool is_smooth(const Edit& edit, const Primitive& primitive) {
+  const Handle& handle = edit.handle;
+  if (handle.kind == HandleKind::part) return true;
+  if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&primitive))
+    return handle.kind == HandleKind::section && !cylinder->closed && edit.falloff == Falloff::linear &&
+           (handle.index == 0 || handle.index == cylinder->centres.rows() - 1);
+  if (handle.kind != HandleKind::face) return false;
+  const OrientedBox box = nearest_box(std::get<Cuboid>(primitive));
+  const Eigen::Index axis = handle.index / 2;
+  const double width = std::max(box.half_extents((axis + 1) % 3), box.half_extents((axis + 2) % 3));
+  if (box.half_extents(axis) >= member_aspect * width) return true;
+  const auto* move = std::get_if<Move>(&edit.operation);
+  return move && move->by.cross(box.axes.col(axis)).norm() <= tolerance::same_symmetry * move->by.norm();
+}
 
 std::string describe(const EditReason& reason, const std::vector<std::string>& part_names) {
   constexpr std::array words = {"down",

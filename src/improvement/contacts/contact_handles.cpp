@@ -96,7 +96,7 @@ void add_cuboid_handles(std::vector<ContactHandle>& handles, const Cuboid& cuboi
 
   const Eigen::Vector3d at = box.local(side.centre);
   const int across = nearest / 2;
-  if (family == EditFamily::extended && box.is_plate(across)) {
+  if (family != EditFamily::paper && box.is_plate(across)) {
     handles.back().of_plate = true;
     for (const int axis : {(across + 1) % 3, (across + 2) % 3}) {
       handles.push_back(

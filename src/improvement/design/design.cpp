@@ -19,10 +19,12 @@ std::vector<Edit> with(std::vector<Edit> edits, const Edit& edit) {
 /// Designs of controllers. An edit starts from the primitives of the design.
 class ControllerDesigns : public DesignSpace {
  public:
-  explicit ControllerDesigns(StructuredShape rest) : model_(std::move(rest), {max_design_joint_points}) {}
+  ControllerDesigns(StructuredShape rest, Following following)
+      : model_(std::move(rest), {max_design_joint_points}, following), following_(following) {}
 
   const StructuredShape& rest() const override { return model_.rest(); }
   DeformationKind kind() const override { return DeformationKind::controllers; }
+  Following following() const override { return following_; }
   std::vector<Handle> handles() const override { return model_.handles(); }
   Design at_rest() const override { return {{}, model_.rest_primitives(), model_.rest().shape}; }
 
@@ -54,6 +56,7 @@ class ControllerDesigns : public DesignSpace {
 
  private:
   ControllerModel model_;
+  Following following_;
 };
 
 /// Designs of models without primitives. Every design is made from rest, with all of its edits.
@@ -140,7 +143,7 @@ std::unique_ptr<DesignSpace> design_space(StructuredShape rest, const DesignSpac
     throw InputError("it has " + std::to_string(rest.structure.parts.size()) +
                      " parts, and designs are made of at most " + std::to_string(max_design_parts));
   if (options.kind == DeformationKind::controllers)
-    return std::make_unique<ControllerDesigns>(std::move(rest));
+    return std::make_unique<ControllerDesigns>(std::move(rest), options.following);
   validate(rest);
   std::unique_ptr<DeformationModel> model = primitiveless_model(rest, options);
   return std::make_unique<CarriedDesigns>(std::move(rest), options.kind, std::move(model));

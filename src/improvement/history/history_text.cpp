@@ -32,6 +32,7 @@ class HistoryWriter {
   std::string text() const {
     std::string text = "{\"model\": \"" + name_of(project_.space.kind) +
                        "\", \"model_direction\": " + to_json(project_.space.direction.vector()).dump() +
+                       (project_.space.following == Following::smooth ? ", \"following\": \"smooth\"" : "") +
                        ", \"current\": " + std::to_string(project_.history.current) + ", \"nodes\": [";
     for (const HistoryNode& node : project_.history.nodes) {
       text += (&node == &project_.history.nodes.front() ? "\n    " : ",\n    ");
@@ -77,11 +78,15 @@ class HistoryReader {
 
   /// Reads the project except for the shape at rest.
   Project read() {
-    root_.expect_keys({"model", "model_direction", "current", "nodes"});
+    root_.expect_keys({"model", "model_direction", "current", "nodes", "following"}, 4);
     std::vector<std::string> names;
     for (const DeformationKind kind : model_kinds) names.push_back(name_of(kind));
     project_.space.kind = model_kinds[root_["model"].one_of(names)];
     project_.space.direction = Direction(direction_from_json(root_["model_direction"]));
+    if (root_.has("following")) {
+      root_["following"].one_of({"smooth"});
+      project_.space.following = Following::smooth;
+    }
     const JsonNode nodes = root_["nodes"];
     if (nodes.list_size() == 0) nodes.fail_expected("at least one node");
     for (std::size_t k = 0; k < nodes.list_size(); ++k)

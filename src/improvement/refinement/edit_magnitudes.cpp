@@ -146,7 +146,7 @@ std::vector<MagnitudeEdit> merge_magnitude_edits(
 }
 
 std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edits, const DesignSpace& space,
-                                          const Direction& direction) {
+                                          const Direction& direction, EditFamily family) {
   if (space.kind() != DeformationKind::controllers) return {};
   const StructuredShape& rest = space.rest();
   const std::vector<Handle> handles = space.handles();
@@ -160,8 +160,10 @@ std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edit
   for (const Handle& handle : handles) {
     if (handle.kind == HandleKind::shape || !stands_for_others[static_cast<std::size_t>(handle.part)])
       continue;
+    const Primitive& primitive = rest.structure.parts[static_cast<std::size_t>(handle.part)].primitive;
     for (const Edit& edit : edits_of(handle, rest, frame))
-      if (std::none_of(edits.begin(), edits.end(),
+      if ((family != EditFamily::smooth || is_smooth(edit, primitive)) &&
+          std::none_of(edits.begin(), edits.end(),
                        [&](const MagnitudeEdit& there) { return merge(there.edit, edit).has_value(); }))
         result.push_back({edit, std::nullopt});
   }

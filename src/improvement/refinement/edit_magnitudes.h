@@ -28,8 +28,9 @@ std::vector<MagnitudeEdit> merge_magnitude_edits(
 ///   ends.
 ///
 /// A class of symmetric parts is represented by its first part. A part that reaches an end of the extent
-/// along r gets no edit along r. No edit repeats what one of `edits` does.
+/// along r gets no edit along r. Of the smooth family only edits that are smooth. No edit repeats what one of
+/// `edits` does.
 std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edits, const DesignSpace& space,
-                                          const Direction& direction);
+                                          const Direction& direction, EditFamily family);
 
 }  // namespace stackabilization::detail

@@ -32,14 +32,7 @@ constexpr double passing_surplus = 0.02;
 /// itself.
 bool is_open(const Check& check) {
   return check.kind == CheckKind::thickness || check.kind == CheckKind::draft ||
-         check.kind == CheckKind::standing;
-}
-
-/// Returns the relative violation of a check, > 0 if it fails.
-double violation(const Check& check) {
-  const double lack = check.demanded - check.value;
-  if (!std::isfinite(lack)) return check.passed ? -1 : 1;
-  return check.demanded > 0 ? lack / check.demanded : lack;
+         check.kind == CheckKind::standing || check.kind == CheckKind::quality;
 }
 
 /// Returns the signed changes whose absolute values add up to D.
@@ -72,7 +65,7 @@ MagnitudeProblem::MagnitudeProblem(const RequirementChecker& checker, std::vecto
       meter_(checker.space().rest(), checker.requirements().measure.boxes),
       blocks_(checker.space().rest().shape, direction, checker.requirements().measure.semantics) {
   const Requirements& asked = checker.requirements();
-  checks_ = asked.min_thickness || asked.min_draft_degrees || asked.standing_copies;
+  checks_ = asked.min_thickness || asked.min_draft_degrees || asked.standing_copies || asked.quality;
 }
 
 double MagnitudeProblem::target_offset(const Stackability& measured) const {
@@ -145,7 +138,7 @@ MagnitudeProblem::Measured MagnitudeProblem::measured(const Magnitudes& x) const
   }
   Assessment assessment;
   if (checks_) {
-    assessment = checker_.check(outcome.design, direction_);
+    assessment = checker_.check(outcome.design, direction_, QualityScope::parts);
   } else {
     assessment.measured = checker_.measure(outcome.design.shape, direction_);
   }

@@ -24,10 +24,8 @@ constexpr double pricing_radius = 0.1;
 constexpr double min_reduced_cost = 0.01;
 constexpr double min_gain = 0.01;
 
-/// Largest number of times that a result with fewer edits is refined again, and the fewest evaluations of a
-/// refinement.
+/// Largest number of times that a result with fewer edits is refined again.
 constexpr int max_restarts = 3;
-constexpr int min_evaluations = 10;
 
 /// A candidate with all checks made.
 struct Verdict {
@@ -175,13 +173,18 @@ struct Offer {
   int evaluations = 0;
 };
 
-Offer offered(const RequirementChecker& checker, const Candidate& candidate,
-              const RefinementOptions& options) {
+/// Returns all edits that can be added to a candidate.
+std::vector<MagnitudeEdit> every_edit(const RequirementChecker& checker, const Candidate& candidate,
+                                      const RefinementOptions& options) {
   std::vector<MagnitudeEdit> given;
   for (std::size_t k = 0; k < candidate.design.edits.size(); ++k)
     given.push_back({candidate.design.edits[k], k});
-  MagnitudeRefiner all(checker, candidate, options,
-                       possible_edits(given, checker.space(), Direction(candidate.direction)));
+  return possible_edits(given, checker.space(), Direction(candidate.direction), options.family);
+}
+
+Offer offered(const RequirementChecker& checker, const Candidate& candidate,
+              const RefinementOptions& options) {
+  MagnitudeRefiner all(checker, candidate, options, every_edit(checker, candidate, options));
   Offer offer;
   offer.edits = all.promising(static_cast<std::size_t>(options.max_added_edits));
   offer.evaluations = all.evaluations();
@@ -192,8 +195,9 @@ Offer offered(const RequirementChecker& checker, const Candidate& candidate,
 
 RefinementResult refine_candidate(const RequirementChecker& checker, const Candidate& start,
                                   const RefinementOptions& options) {
-  if (options.evaluations < min_evaluations)
-    throw UsageError("a refinement needs at least " + std::to_string(min_evaluations) + " evaluations");
+  if (options.evaluations < min_refinement_evaluations)
+    throw UsageError("a refinement needs at least " + std::to_string(min_refinement_evaluations) +
+                     " evaluations");
   if (!(options.magnitude_bound > 0) || !std::isfinite(options.magnitude_bound))
     throw UsageError("the reach of a refinement must be a positive number");
   if (options.max_added_edits < 0) throw UsageError("the number of edits that join must not be negative");
@@ -205,14 +209,17 @@ RefinementResult refine_candidate(const RequirementChecker& checker, const Candi
     return left;
   };
   const auto goes_on = [&] {
-    return result.reached && options_left().evaluations >= min_evaluations &&
+    return result.reached && options_left().evaluations >= min_refinement_evaluations &&
            !(options.cancelled && options.cancelled());
   };
   const auto take = [&](RefinementResult next) {
     next.evaluations += result.evaluations;
     result = std::move(next);
   };
-  std::size_t edits = start.design.edits.size();
+  if (!result.reached && options.max_added_edits > 0 &&
+      options_left().evaluations >= min_refinement_evaluations)
+    take(MagnitudeRefiner(checker, start, options_left(), every_edit(checker, start, options)).result());
+  std::size_t edits = result.candidate.design.edits.size() + 1;
   for (int restart = 0; restart < max_restarts && goes_on(); ++restart) {
     if (result.candidate.design.edits.size() >= edits) break;
     edits = result.candidate.design.edits.size();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "core/index.h"
@@ -18,7 +19,7 @@ struct CheckWords {
 };
 
 /// In the order of CheckKind.
-constexpr std::array<CheckWords, 10> check_words = {{{"target", ""},
+constexpr std::array<CheckWords, 11> check_words = {{{"target", ""},
                                                      {"room", "model units"},
                                                      {"height", "of the height"},
                                                      {"relations", "of the diagonal"},
@@ -27,7 +28,12 @@ constexpr std::array<CheckWords, 10> check_words = {{{"target", ""},
                                                      {"parts", "of the diagonal"},
                                                      {"thickness", "model units"},
                                                      {"draft", "degrees"},
-                                                     {"standing", "degrees"}}};
+                                                     {"standing", "degrees"},
+                                                     {"quality", ""}}};
+
+/// Violation of a measure of quality at twice its limit. S, which other violations are compared with, changes
+/// by some tenths.
+constexpr double quality_scale = 0.1;
 
 const CheckWords& words_for(CheckKind kind) {
   return check_words.at(static_cast<std::size_t>(kind));
@@ -48,17 +54,29 @@ std::string relation_words(const Relation& relation, const Structure& structure)
 /// Returns the sentence of a counted obstacle.
 std::string sentence(const Obstacle& obstacle, const Structure& rest) {
   if (const auto* refusal = std::get_if<Refusal>(&obstacle)) return describe(*refusal, rest);
-  return "a design that reaches the target fails its check of: " + name_of(std::get<Check>(obstacle).kind);
+  return "a design that reaches the target fails its check of: " + name_of(std::get<Check>(obstacle));
 }
 
 }  // namespace
 
-std::string name_of(CheckKind kind) {
-  return words_for(kind).name;
+std::string name_of(const Check& check) {
+  const std::string name = words_for(check.kind).name;
+  return check.kind == CheckKind::quality ? name + ": " + name_of(check.measure) : name;
 }
 
-std::string unit_of(CheckKind kind) {
-  return words_for(kind).unit;
+std::string unit_of(const Check& check) {
+  return check.kind == CheckKind::quality ? unit_of(check.measure) : words_for(check.kind).unit;
+}
+
+double violation(const Check& check) {
+  if (check.kind == CheckKind::quality) {
+    QualityLimits limits;
+    limits[check.measure] = check.demanded;
+    return quality_scale * (share_of_limit({check.measure, check.value}, limits) - 1);
+  }
+  const double lack = check.demanded - check.value;
+  if (!std::isfinite(lack)) return check.passed ? -1 : 1;
+  return check.demanded > 0 ? lack / check.demanded : lack;
 }
 
 std::string note_of(const Check& check, const Structure& rest) {
@@ -79,7 +97,7 @@ std::string note_of(const Check& check, const Structure& rest) {
       return "copy " + std::to_string(check.where + 1) + " of " + std::to_string(check.copies) +
              " topples first";
     default:
-      return quoted(rest, check.where);
+      return quoted(rest, check.where) + (check.other < 0 ? "" : " and " + quoted(rest, check.other));
   }
 }
 
@@ -87,7 +105,14 @@ std::string describe(const Obstacle& obstacle, const Structure& rest) {
   if (const auto* refusal = std::get_if<Refusal>(&obstacle)) return describe(*refusal, rest);
   const Check& check = std::get<Check>(obstacle);
   const std::string note = note_of(check, rest);
-  return "the requirement '" + name_of(check.kind) + "' would not hold" + (note.empty() ? "" : ": " + note);
+  return "the requirement '" + name_of(check) + "' would not hold" + (note.empty() ? "" : ": " + note);
+}
+
+Obstacle without_amounts(const Obstacle& obstacle) {
+  if (const auto* refusal = std::get_if<Refusal>(&obstacle)) return without_amounts(*refusal);
+  Check check{std::get<Check>(obstacle).kind};
+  check.measure = std::get<Check>(obstacle).measure;
+  return check;
 }
 
 std::string describe(const ObstacleCount& count, const Structure& rest) {

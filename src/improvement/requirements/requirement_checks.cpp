@@ -55,9 +55,10 @@ RequirementChecks::RequirementChecks(const DesignSpace& space, const Requirement
     staying_.push_back(std::move(entry));
   }
   if (requirements.min_thickness) probes_ = thickness_probes(rest);
+  if (requirements.quality) meter_.emplace(space.rest());
 }
 
-std::vector<Check> RequirementChecks::of(const CheckedDesign& checked) const {
+std::vector<Check> RequirementChecks::of(const CheckedDesign& checked, QualityScope scope) const {
   std::vector<Check> checks = {reached(checked.assessment.measured)};
   if (requirements_.keep_height) checks.push_back(height(checked));
   if (space_.kind() == DeformationKind::controllers) checks.push_back(relations(checked));
@@ -67,6 +68,23 @@ std::vector<Check> RequirementChecks::of(const CheckedDesign& checked) const {
   if (requirements_.min_thickness) checks.push_back(thickness(checked));
   if (requirements_.min_draft_degrees) checks.push_back(draft(checked));
   if (requirements_.standing_copies) checks.push_back(standing(checked));
+  for (const Check& check : quality(checked.design, scope)) checks.push_back(check);
+  return checks;
+}
+
+std::vector<Check> RequirementChecks::quality(const Design& design, QualityScope scope) const {
+  std::vector<Check> checks;
+  if (!requirements_.quality) return checks;
+  const QualityLimits& limits = *requirements_.quality;
+  const std::vector<QualityValue> values =
+      scope == QualityScope::all ? meter_->measure(design.shape) : meter_->measure_parts(design.shape);
+  for (const QualityValue& value : values) {
+    if (!limits.is_limited(value.measure)) continue;
+    Check check{CheckKind::quality, value.value, limits[value.measure], is_within(value, limits), value.part};
+    check.measure = value.measure;
+    check.other = value.other;
+    checks.push_back(check);
+  }
   return checks;
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
-#include "improvement/requirements/thickness.h"
+#include "improvement/quality/thickness.h"
 #include "stackabilization/improvement/requirements.h"
 
 namespace stackabilization::detail {
@@ -28,7 +29,9 @@ class RequirementChecks {
   RequirementChecks(const DesignSpace& space, const Requirements& requirements, std::vector<int> stay);
 
   /// Makes all required checks, in the order of CheckKind.
-  std::vector<Check> of(const CheckedDesign& checked) const;
+  std::vector<Check> of(const CheckedDesign& checked, QualityScope scope) const;
+  /// Checks the quality alone; nothing if it is not looked at.
+  std::vector<Check> quality(const Design& design, QualityScope scope) const;
 
  private:
   struct StayingPart {
@@ -54,6 +57,7 @@ class RequirementChecks {
   const Requirements& requirements_;
   std::vector<StayingPart> staying_;
   std::vector<ThicknessProbe> probes_;
+  std::optional<QualityMeter> meter_;
 };
 
 }  // namespace stackabilization::detail

@@ -83,6 +83,7 @@ void validate(const Requirements& requirements, const StructuredShape& rest) {
   require_at_least_zero(requirements.min_thickness.value_or(0), "thickness");
   require_angle(requirements.min_draft_degrees.value_or(0), "draft angle");
   require_angle(requirements.min_tipping_degrees, "tilt");
+  if (requirements.quality) validate(*requirements.quality);
   if (requirements.standing_copies.value_or(1) < 1)
     throw UsageError("a stack that stands needs at least one copy");
   if (requirements.min_tipping_degrees > 0 && !requirements.standing_copies)
@@ -151,14 +152,19 @@ double RequirementChecker::required_stackability(const Stackability& measured) c
   return room ? stackability_within(measured, room->copies, room->length) : data_->requirements.target;
 }
 
-std::optional<Refusal> RequirementChecker::size_ratio_violation(const Design& design) const {
-  if (data_->requirements.min_size_ratio == 0) return std::nullopt;
-  const SizeRatio size_ratio = min_size_ratio(data_->space.rest(), design);
-  if (size_ratio.ratio >= data_->requirements.min_size_ratio) return std::nullopt;
-  return Refusal{.cause = RefusalCause::proportions, .part = size_ratio.part};
+std::optional<Obstacle> RequirementChecker::form_obstacle(const Design& design) const {
+  if (data_->requirements.min_size_ratio > 0) {
+    const SizeRatio size_ratio = min_size_ratio(data_->space.rest(), design);
+    if (size_ratio.ratio < data_->requirements.min_size_ratio)
+      return Refusal{.cause = RefusalCause::proportions, .part = size_ratio.part};
+  }
+  for (const Check& check : data_->checks.quality(design, QualityScope::parts))
+    if (!check.passed) return check;
+  return std::nullopt;
 }
 
-Assessment RequirementChecker::check(const Design& design, const Direction& direction) const {
+Assessment RequirementChecker::check(const Design& design, const Direction& direction,
+                                     QualityScope scope) const {
   detail::require_match(design, data_->primitives, data_->space.rest().shape.vertex_count());
   validate(design.shape);
   const SeparationTree tree(design.shape);
@@ -166,7 +172,7 @@ Assessment RequirementChecker::check(const Design& design, const Direction& dire
   Assessment assessment;
   assessment.measured = exact.stackability;
   assessment.separation = exact.separation;
-  assessment.checks = data_->checks.of({design, tree, direction, assessment});
+  assessment.checks = data_->checks.of({design, tree, direction, assessment}, scope);
   return assessment;
 }
 

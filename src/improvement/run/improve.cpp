@@ -27,9 +27,8 @@ constexpr double min_search = 0.05;
 /// Without a solution refinement ends at this share. The rest is for the diagnosis.
 constexpr double diagnosis_begin = 0.85;
 
-/// Largest number of designs measured to refine one list of edits, and the fewest that are useful.
+/// Largest number of designs measured to refine one list of edits.
 constexpr int first_evaluations = 300;
-constexpr std::int64_t min_evaluations = 10;
 
 /// The best solution is not known before refinement. So at least min_solutions are searched, and
 /// more_extended solutions more than wanted are refined with added edits.
@@ -58,6 +57,7 @@ class Refinements {
         }),
         distinct_(checker.space().rest()) {
     options_.alpha = options.search.alpha;
+    options_.family = options.search.edits.family;
     options_.cancelled = [this, cancelled = options.search.cancelled] {
       return budget_.late(share_) || (cancelled && cancelled());
     };
@@ -80,7 +80,9 @@ class Refinements {
     for (const Candidate& near : found.nearest) {
       if (solutions_.size() >= std::max<std::size_t>(wanted_, min_solutions) || at_end()) break;
       add(near);
+      starts.push_back(near);
     }
+    rescue(starts);
     extend();
     return std::move(solutions_);
   }
@@ -89,7 +91,9 @@ class Refinements {
 
  private:
   /// Returns whether the current phase has no work left.
-  bool at_end() const { return budget_.designs_until(share_) < min_evaluations || options_.cancelled(); }
+  bool at_end() const {
+    return budget_.designs_until(share_) < min_refinement_evaluations || options_.cancelled();
+  }
 
   RefinementResult refinement(const Candidate& start, RefinementOptions options) {
     options.evaluations =
@@ -111,6 +115,18 @@ class Refinements {
       keep(std::move(result.candidate));
     } else if (!nearest_ || result.candidate.measured.value > nearest_->measured.value) {
       nearest_ = std::move(result.candidate);
+    }
+  }
+
+  /// Without a solution: refines the starts with added edits, until one reaches the target.
+  void rescue(const std::vector<Candidate>& starts) {
+    for (const Candidate& start : starts) {
+      if (!solutions_.empty() || at_end()) return;
+      RefinementResult result = refinement(start, options_);
+      if (result.reached)
+        keep(std::move(result.candidate));
+      else if (!nearest_ || result.candidate.measured.value > nearest_->measured.value)
+        nearest_ = std::move(result.candidate);
     }
   }
 
@@ -184,6 +200,8 @@ class ImprovementRun {
     std::vector<Candidate> starts;
     if (refines_) {
       starts = pursuits(search);
+    }
+    if (refines_ && !checker_.requirements().quality) {
       BestFirstOptions paper = search;
       paper.edits.family = EditFamily::paper;
       paper.save = {};

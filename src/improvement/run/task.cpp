@@ -94,7 +94,7 @@ ImprovementTask::ImprovementTask(StructuredShape rest, Requirements requirements
   const Direction first(directions_.front());
   if (requirements.length_limit)
     requirements.target = target_of(*requirements.length_limit, rest, first, requirements.measure);
-  space_ = design_space(std::move(rest), {options.kind, first});
+  space_ = design_space(std::move(rest), {options.kind, first, options.following});
   checker_ = std::make_unique<RequirementChecker>(*space_, std::move(requirements));
 }
 

@@ -106,7 +106,7 @@ std::optional<SearchEnd> BestFirstSearch::step(int id) {
   state_.tree.turn_to(id, measured, tools_.energy(*design, measured));
   notice(state_.tree.node(id));
   if (verdict.state == NodeState::solution) solutions_.emplace_back(id, design);
-  for (const CheckKind check : verdict.broken) ++state_.refusals[Check{check}];
+  for (const Check& check : verdict.broken) ++state_.refusals[without_amounts(Obstacle(check))];
   add_successors(id, made);
   return std::nullopt;
 }
@@ -123,7 +123,7 @@ BestFirstSearch::Verdict BestFirstSearch::verdict(const Design& design, const St
   if (assessment.passed()) return {NodeState::solution, {}};
   Verdict verdict;
   for (const Check& check : assessment.checks)
-    if (!check.passed) verdict.broken.push_back(check.kind);
+    if (!check.passed) verdict.broken.push_back(check);
   return verdict;
 }
 

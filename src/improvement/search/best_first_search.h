@@ -30,7 +30,7 @@ class BestFirstSearch {
   /// Result of the checks of a candidate.
   struct Verdict {
     std::optional<NodeState> state;  ///< new state of the candidate; nothing: it has to be expanded
-    std::vector<CheckKind> broken;   ///< checks that failed
+    std::vector<Check> broken;       ///< checks that failed
   };
 
   const BestFirstOptions& options() const { return tools_.options; }

@@ -37,7 +37,7 @@ void make(SuccessorNode& successor, const SearchTools& tools, const ExpandedNode
     successor.refusal = std::move(outcome.refusal);
     return;
   }
-  successor.refusal = tools.checker.size_ratio_violation(outcome.design);
+  successor.refusal = tools.checker.form_obstacle(outcome.design);
   if (successor.refusal) return;
   successor.key = tools.keys.key(outcome.design);
   successor.known = tree.knows(from.queue, successor.key);

@@ -13,7 +13,7 @@ namespace stackabilization::detail {
 /// Result of one suggested edit.
 struct SuccessorNode {
   ContactEdit suggestion;
-  std::optional<Refusal> refusal;  ///< if set, the fields below are meaningless
+  std::optional<Obstacle> refusal;  ///< if set, the fields below are meaningless
   bool known = false;  ///< whether its configuration is in the visited set; if so, only `key` is set
   std::uint64_t key = 0;
   Stackability measured;

@@ -83,7 +83,7 @@ class Pursuit {
 
   std::optional<State> after(const ContactEdit& suggestion) const {
     DesignOutcome outcome = checker_.space().edited(now_.candidate.design, suggestion.edit, constraints_);
-    if (outcome.refusal || checker_.size_ratio_violation(outcome.design)) return std::nullopt;
+    if (outcome.refusal || checker_.form_obstacle(outcome.design)) return std::nullopt;
     State state;
     state.candidate.measured = checker_.measure(outcome.design.shape, direction_);
     state.candidate.energy = meter_.energy(outcome.design, state.candidate.measured.value - at_rest_);

@@ -21,7 +21,7 @@ namespace {
 using json = nlohmann::ordered_json;
 
 constexpr std::string_view format_name = "stackabilization search";
-constexpr int format_version = 3;
+constexpr int format_version = 4;
 constexpr std::int64_t max_count = std::numeric_limits<std::int64_t>::max();
 
 const std::vector<std::string> state_names = {"queued", "expanded", "solution", "repeated"};
@@ -49,7 +49,9 @@ constexpr std::array rows_of_refusal = {&Refusal::part, &Refusal::relation, &Ref
 
 json json_of(const Obstacle& obstacle, std::int64_t count) {
   if (const auto* check = std::get_if<Check>(&obstacle))
-    return {{"count", count}, {"check", static_cast<int>(check->kind)}};
+    return {{"count", count},
+            {"check", static_cast<int>(check->kind)},
+            {"measure", static_cast<int>(check->measure)}};
   const Refusal& refusal = std::get<Refusal>(obstacle);
   json text = {{"count", count}, {"cause", static_cast<int>(refusal.cause)}};
   for (const auto row : rows_of_refusal) text["rows"].push_back(refusal.*row);
@@ -60,8 +62,11 @@ json json_of(const Obstacle& obstacle, std::int64_t count) {
 
 Obstacle obstacle_of(const JsonNode& node, const Structure& rest) {
   if (node.has("check")) {
-    node.expect_keys({"count", "check"});
-    return Check{static_cast<CheckKind>(row_of(node["check"], 0, static_cast<int>(CheckKind::standing)))};
+    node.expect_keys({"count", "check", "measure"});
+    Check check{static_cast<CheckKind>(row_of(node["check"], 0, static_cast<int>(CheckKind::quality)))};
+    check.measure =
+        static_cast<QualityMeasure>(row_of(node["measure"], 0, static_cast<int>(quality_measure_count) - 1));
+    return check;
   }
   node.expect_keys({"count", "cause", "rows", "x", "y", "z"}, 3);
   Refusal refusal;

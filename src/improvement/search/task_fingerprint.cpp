@@ -97,6 +97,7 @@ void add(Fingerprint& print, const ContactEditOptions& options) {
 std::uint64_t task_fingerprint(const RequirementChecker& checker, const BestFirstOptions& options) {
   Fingerprint print;
   add_integer(print, static_cast<int>(checker.space().kind()));
+  add_integer(print, static_cast<int>(checker.space().following()));
   add(print, checker.space().rest());
   add(print, checker.requirements());
   print.add(options.alpha);

@@ -54,7 +54,7 @@ TEST_CASE("parts that must stay are what is in the way, and freeing the legs is 
   CHECK(blocker.f == Approx(6));
   CHECK(blocker.stackability == Approx(0).margin(1e-9));
   CHECK(blocker.edits == Blocker::Edits::refused);
-  CHECK(blocker.refusal.cause == RefusalCause::fixed_part);
+  CHECK(std::get<Refusal>(blocker.obstacle).cause == RefusalCause::fixed_part);
   REQUIRE(diagnosis.constraints.size() == 2);
   CHECK(describe(diagnosis.constraints[1], table.structure) ==
         "the edit would change the side of the box along z by ... of the diagonal (1 edit)");
@@ -91,7 +91,7 @@ TEST_CASE("every outcome of the edits against a blocker, and every remedy, has i
   REQUIRE(reasons.size() == static_cast<std::size_t>(Blocker::Edits::refused) + 1);
   for (const auto& [edits, words] : reasons) {
     const Blocker blocker{
-        .upper_part = 0, .lower_part = 0, .edits = edits, .best_stackability = 0.6129, .refusal = refusal};
+        .upper_part = 0, .lower_part = 0, .edits = edits, .best_stackability = 0.6129, .obstacle = refusal};
     CHECK(reason_of(blocker, table) == words);
     CHECK(mentions(describe(blocker, table), "leave S = 0.000" + (words.empty() ? "." : ": " + words + ".")));
   }
@@ -100,13 +100,14 @@ TEST_CASE("every outcome of the edits against a blocker, and every remedy, has i
       {Remedy::Kind::free_part, "let 'leg_1', 'leg_2' and 'top' change"},
       {Remedy::Kind::remove_part, "leave out 'leg_1', 'leg_2' and 'top'"},
       {Remedy::Kind::relax_height, "let the height change"},
-      {Remedy::Kind::relax_box, "let the box change"}};
-  REQUIRE(remedies.size() == static_cast<std::size_t>(Remedy::Kind::relax_box) + 1);
+      {Remedy::Kind::relax_box, "let the box change"},
+      {Remedy::Kind::relax_quality, "--relax size"}};
+  REQUIRE(remedies.size() == static_cast<std::size_t>(Remedy::Kind::relax_quality) + 1);
   std::vector<int> parts;
   for (const char* name : {"leg_1", "leg_2", "top"})
     parts.push_back(structures::part_named(structures::table(), name));
   for (const auto& [kind, words] : remedies)
-    CHECK(describe(Remedy{kind, parts, Eigen::Vector3d::UnitX(), 0}, table) == words);
+    CHECK(describe(Remedy{kind, parts, QualityMeasure::size, Eigen::Vector3d::UnitX(), 0}, table) == words);
 }
 
 TEST_CASE("freeing the legs is what lets a table sink deeper") {

@@ -35,13 +35,14 @@ TEST_CASE("every requirement has its name, its unit and a note") {
                                   {parts, "parts", "of the diagonal", "'seat'"},
                                   {thickness, "thickness", "model units", "'seat'"},
                                   {draft, "draft", "degrees", ""},
-                                  {standing, "standing", "degrees", "copy 2 of 5 topples first"}};
-  REQUIRE(all.size() == static_cast<std::size_t>(standing) + 1);
+                                  {standing, "standing", "degrees", "copy 2 of 5 topples first"},
+                                  {quality, "quality: self-intersection", "pairs of triangles", "'seat'"}};
+  REQUIRE(all.size() == static_cast<std::size_t>(quality) + 1);
   for (std::size_t k = 0; k < all.size(); ++k) {
     INFO(all[k].name);
     CHECK(all[k].kind == static_cast<CheckKind>(k));
-    CHECK(name_of(all[k].kind) == all[k].name);
-    CHECK(unit_of(all[k].kind) == all[k].unit);
+    CHECK(name_of(Check{all[k].kind}) == all[k].name);
+    CHECK(unit_of(Check{all[k].kind}) == all[k].unit);
     CHECK(note(all[k].kind, all[k].note.empty() ? -1 : 1) == all[k].note);
   }
   CHECK(note(relations, 0) == "line joint of 'leg' and 'seat'");

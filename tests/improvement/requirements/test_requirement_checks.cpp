@@ -33,7 +33,7 @@ Check check_of(const DesignSpace& space, const Requirements& requirements, const
                CheckKind kind) {
   for (const Check& check : RequirementChecker(space, requirements).check(design, upwards).checks)
     if (check.kind == kind) return check;
-  FAIL("there is no check of the " + name_of(kind));
+  FAIL("there is no check of the " + name_of(Check{kind}));
   return {};
 }
 
@@ -135,15 +135,15 @@ TEST_CASE("Parts keep their proportions", "[requirements]") {
   const RequirementChecker checker(space, requirements);
   for (const double factor : {0.401, 1.0, 2.49}) {
     CHECK(check_of(space, requirements, stretched(factor), CheckKind::proportions).passed);
-    CHECK_FALSE(checker.size_ratio_violation(stretched(factor)));
+    CHECK_FALSE(checker.form_obstacle(stretched(factor)));
   }
   for (const double factor : {0.399, 2.51}) {
     CHECK_FALSE(check_of(space, requirements, stretched(factor), CheckKind::proportions).passed);
-    CHECK(checker.size_ratio_violation(stretched(factor)) ==
-          Refusal{.cause = RefusalCause::proportions, .part = 1});
+    CHECK(checker.form_obstacle(stretched(factor)) ==
+          Obstacle(Refusal{.cause = RefusalCause::proportions, .part = 1}));
   }
   requirements.min_size_ratio = 0;
-  CHECK_FALSE(RequirementChecker(space, requirements).size_ratio_violation(stretched(0.1)));
+  CHECK_FALSE(RequirementChecker(space, requirements).form_obstacle(stretched(0.1)));
   for (const Check& check : RequirementChecker(space, requirements).check(stretched(0.1), upwards).checks)
     CHECK(check.kind != CheckKind::proportions);
 }

@@ -72,7 +72,7 @@ TEST_CASE("a pursuit frees every contact of one height, where one edit alone wou
   CHECK(found.design.edits.size() > 1);
   CHECK(found.reasons.size() == found.design.edits.size());
   CHECK(found.energy.gain == Approx(found.measured.value - start.measured.value).margin(1e-12));
-  CHECK_FALSE(checker.size_ratio_violation(found.design));
+  CHECK_FALSE(checker.form_obstacle(found.design));
   // What it says is what its edits make.
   const auto constraints =
       deformation_constraints(wanted, space->rest(), Direction(Eigen::Vector3d::UnitZ()));

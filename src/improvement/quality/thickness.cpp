@@ -1,4 +1,4 @@
-#include "improvement/requirements/thickness.h"
+#include "improvement/quality/thickness.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <tbb/parallel_for.h>

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "improvement/requirements/thickness.h"
+#include "improvement/quality/thickness.h"
 #include "stackabilization/core/errors.h"
 #include "support/catch.h"
 #include "support/solids.h"

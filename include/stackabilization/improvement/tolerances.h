@@ -1,0 +1,53 @@
+#pragma once
+
+/// Small literals of measuring the quality of a design. docs/quality.md gives the reasons for the limits.
+namespace stackabilization::tolerance::quality {
+
+/// Extent of points along an axis below which they are flat along it, fraction of their longest extent.
+inline constexpr double flat = 1e-4;
+
+/// Ratio of the second moments of a cross-section, as a ratio of widths, from which on it is round.
+inline constexpr double round = 0.95;
+
+/// Angle between triangles of one flat face, and between parallel faces at rest, radians: one degree.
+inline constexpr double coplanar = 0.0175;
+
+/// Distance at which parts, and triangles of one part, touch at rest, fraction of the diagonal.
+inline constexpr double touching = 0.002;
+
+/// Share of the area of a part that a flat face has at least.
+inline constexpr double face_share = 0.04;
+
+/// Share of the footprint of the object that a seat or table top has at least.
+inline constexpr double seat_share = 0.1;
+
+/// Height of a seat above the ground, at least, fraction of the height.
+inline constexpr double seat_height = 0.05;
+
+/// Height of the slab at the bottom whose vertices are feet, fraction of the height.
+inline constexpr double foot_slab = 0.01;
+
+/// Diagonal of a small part, at most, fraction of the diagonal of the object.
+inline constexpr double small_part = 0.08;
+
+/// Default limits, in the order of QualityMeasure.
+inline constexpr double max_self_intersection = 0;
+inline constexpr double max_collision = 0;
+inline constexpr double max_piercing = 0.005;
+inline constexpr double max_joints = 0.002;
+inline constexpr double max_symmetry = 0.001;
+inline constexpr double max_straightness = 0.005;
+inline constexpr double max_bending = 10;
+inline constexpr double max_section = 0.06;
+inline constexpr double max_profile = 0.04;
+inline constexpr double max_flatness = 0.005;
+inline constexpr double max_parallelism = 2;
+inline constexpr double min_size = 0.8;
+inline constexpr double min_small_part = 0.95;
+inline constexpr double min_thickness = 0.9;
+inline constexpr double min_seat = 0.9;
+inline constexpr double max_tilt = 2;
+inline constexpr double max_height = 0.001;
+inline constexpr double max_feet = 0.002;
+
+}  // namespace stackabilization::tolerance::quality

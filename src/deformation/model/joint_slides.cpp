@@ -1,0 +1,102 @@
+#include "deformation/model/joint_slides.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "core/index.h"
+#include "structure/model/nearest_box.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Ratio of length to width of a member, and of width to thickness of a plate, at least.
+constexpr double slender = 3;
+/// A joint is at the rim or the end beyond this fraction of the way from the centre.
+constexpr double rim = 0.97;
+
+/// Returns the axes of a box along which joints may slide: one of a member, two of a plate, else none.
+std::vector<int> sliding_axes(const OrientedBox& box) {
+  std::vector<int> order{0, 1, 2};
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return box.half_extents(a) > box.half_extents(b); });
+  const double longest = box.half_extents(order[0]), middle = box.half_extents(order[1]),
+               shortest = box.half_extents(order[2]);
+  if (longest >= slender * middle) return {order[0]};
+  if (middle >= slender * shortest) return {order[0], order[1]};
+  return {};
+}
+
+Eigen::Vector3d chord(const GeneralizedCylinder& cylinder) {
+  return (cylinder.centres.row(cylinder.centres.rows() - 1) - cylinder.centres.row(0)).transpose();
+}
+
+bool is_disc(const GeneralizedCylinder& cylinder) {
+  return !cylinder.closed && chord(cylinder).norm() < cylinder.radii.mean();
+}
+
+/// Returns how far from the centre of the carrier the farthest joint point is, 1 at its rim or end. Nothing
+/// if joints cannot slide on it.
+std::optional<double> place_on(const Primitive& carrier, const Points& points) {
+  double farthest = 0;
+  if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
+    if (!is_disc(*cylinder)) return std::nullopt;
+    const Eigen::Vector3d axis = chord(*cylinder).normalized();
+    for (const auto point : points.rowwise()) {
+      const Eigen::Vector3d offset = (point - cylinder->centres.row(0)).transpose();
+      farthest = std::max(farthest, (offset - offset.dot(axis) * axis).norm() / cylinder->radii.maxCoeff());
+    }
+    return farthest;
+  }
+  const OrientedBox box = nearest_box(std::get<Cuboid>(carrier));
+  const std::vector<int> axes = sliding_axes(box);
+  if (axes.empty()) return std::nullopt;
+  for (const auto point : points.rowwise())
+    for (const int axis : axes)
+      farthest = std::max(farthest, std::abs((point.transpose() - box.centre).dot(box.axes.col(axis))) /
+                                        box.half_extents(axis));
+  return farthest;
+}
+
+}  // namespace
+
+void let_joints_slide(Structure& structure) {
+  for (Relation& relation : structure.relations) {
+    if (relation.type != RelationType::point_joint && relation.type != RelationType::line_joint) continue;
+    double nearest = rim;
+    for (const int part : relation.parts) {
+      const auto place = place_on(structure.parts[at(part)].primitive, relation.points);
+      if (!place || !(*place < nearest)) continue;
+      nearest = *place;
+      relation.carrier = part;
+    }
+  }
+}
+
+Eigen::Matrix3d held_directions(const Primitive& carrier) {
+  const Eigen::Matrix3d all = Eigen::Matrix3d::Identity();
+  if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
+    if (cylinder->closed) return all;
+    const Eigen::Vector3d normal = chord(*cylinder).stableNormalized();
+    return normal * normal.transpose();
+  }
+  const auto& corners = std::get<Cuboid>(carrier).corners;
+  Eigen::Matrix3d edges = Eigen::Matrix3d::Zero();
+  for (int corner = 0; corner < 8; ++corner)
+    for (int axis = 0; axis < 3; ++axis)
+      edges.col(axis) += ((corner >> axis & 1) != 0 ? 1 : -1) * corners.row(corner).transpose();
+  const std::vector<int> axes =
+      sliding_axes({Eigen::Vector3d::Zero(), all, edges.colwise().norm().transpose()});
+  if (axes.empty()) return all;
+  if (axes.size() == 1) {
+    const Eigen::Vector3d along = edges.col(axes[0]).stableNormalized();
+    return all - along * along.transpose();
+  }
+  const Eigen::Vector3d normal = edges.col(axes[0]).cross(edges.col(axes[1])).stableNormalized();
+  return normal * normal.transpose();
+}
+
+}  // namespace stackabilization::detail

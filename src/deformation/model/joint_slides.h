@@ -1,0 +1,19 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "stackabilization/structure/structure.h"
+
+namespace stackabilization::detail {
+
+/// Sets Relation::carrier of every joint that can slide without a visible change: on a plate (a cuboid at
+/// most a third as thick as wide, or a flat generalized cylinder) anywhere in its plane, on a straight cuboid
+/// at least 3 times as long as wide along it. Joints at the rim of a plate or at the end of a member stay
+/// fixed. Where both parts can carry the joint, the one with the joint farther from its rim or end does.
+void let_joints_slide(Structure& structure);
+
+/// Returns the projector onto the directions in which a joint is held on a carrier: the normal of a plate,
+/// the plane across a member, all directions for other primitives.
+Eigen::Matrix3d held_directions(const Primitive& carrier);
+
+}  // namespace stackabilization::detail

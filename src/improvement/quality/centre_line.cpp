@@ -1,0 +1,225 @@
+#include "improvement/quality/centre_line.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+
+#include "deformation/controllers/straightness.h"
+#include "stackabilization/improvement/tolerances.h"
+#include "structure/model/nearest_box.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Number of stations of a line, the fewest pieces of a station, and the most pieces of a part.
+constexpr int station_count = 12;
+constexpr std::size_t pieces_per_station = 6;
+constexpr std::size_t max_pieces = 4000;
+/// Ratio of length to width from which on a cuboid is elongated.
+constexpr double elongated = 3;
+
+/// Curve along which a part is elongated.
+struct PartCurve {
+  Points points;
+  bool closed = false;
+  bool straight = false;
+
+  double length() const {
+    double sum = 0;
+    for (Eigen::Index k = 1; k < points.rows(); ++k) sum += (points.row(k) - points.row(k - 1)).norm();
+    return closed ? sum + (points.row(0) - points.row(points.rows() - 1)).norm() : sum;
+  }
+};
+
+std::optional<PartCurve> curve_of(const Primitive& primitive) {
+  if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&primitive)) {
+    const Eigen::VectorXd lengths = section_arc_lengths(*cylinder);
+    if (lengths(lengths.size() - 1) < cylinder->radii.mean()) return std::nullopt;
+    return PartCurve{cylinder->centres, cylinder->closed, detail::is_straight(*cylinder)};
+  }
+  const OrientedBox box = nearest_box(std::get<Cuboid>(primitive));
+  Eigen::Index longest = 0;
+  const double length = box.half_extents.maxCoeff(&longest);
+  const double width = std::max(box.half_extents((longest + 1) % 3), box.half_extents((longest + 2) % 3));
+  if (length < elongated * width) return std::nullopt;
+  PartCurve curve{Points(2, 3), false, true};
+  const Eigen::Vector3d half = length * box.axes.col(longest);
+  curve.points << (box.centre - half).transpose(), (box.centre + half).transpose();
+  return curve;
+}
+
+/// Returns the arc length from the first point to the point of the curve nearest to `p`, over the length.
+double position_on(const PartCurve& curve, const Eigen::Vector3d& p) {
+  double nearest = std::numeric_limits<double>::infinity(), position = 0, length = 0;
+  const Eigen::Index segments = curve.points.rows() - (curve.closed ? 0 : 1);
+  for (Eigen::Index k = 0; k < segments; ++k) {
+    const Eigen::Vector3d from = curve.points.row(k).transpose(),
+                          side = curve.points.row((k + 1) % curve.points.rows()).transpose() - from;
+    const double t = std::clamp((p - from).dot(side) / side.squaredNorm(), 0.0, 1.0);
+    const double distance = (from + t * side - p).squaredNorm();
+    if (distance < nearest) {
+      nearest = distance;
+      position = length + t * side.norm();
+    }
+    length += side.norm();
+  }
+  return position / length;
+}
+
+/// Returns the largest distance of a point from the line through the first and the last one.
+double distance_from_chord(const Points& points) {
+  const Eigen::RowVector3d chord = (points.row(points.rows() - 1) - points.row(0)).stableNormalized();
+  const Points offsets = points.rowwise() - points.row(0);
+  return (offsets - (offsets * chord.transpose()) * chord).rowwise().norm().maxCoeff();
+}
+
+/// Returns the places of points along the way from the first to the last one, 0 to 1.
+Eigen::VectorXd shares_of_line(const Points& points) {
+  const Eigen::RowVector3d chord = points.row(points.rows() - 1) - points.row(0);
+  return (points.rowwise() - points.row(0)) * chord.transpose() / chord.squaredNorm();
+}
+
+/// Returns the angle by which a line turns at `middle`, radians.
+double turn(const Eigen::RowVector3d& before, const Eigen::RowVector3d& middle,
+            const Eigen::RowVector3d& after) {
+  const Eigen::RowVector3d a = middle - before, b = after - middle;
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+}  // namespace
+
+std::optional<CentreLine> CentreLine::of(const Primitive& primitive, const Shape& rest,
+                                         const std::vector<std::int32_t>& triangles) {
+  const std::optional<PartCurve> curve = curve_of(primitive);
+  if (!curve) return std::nullopt;
+  CentreLine line;
+  line.closed_ = curve->closed;
+  line.straight_ = curve->straight;
+  line.marks_ = pieces_of(rest, triangles, curve->length() / station_count, max_pieces);
+  const Points marks = line.marks_.on(rest);
+  const int last = line.closed_ ? station_count : station_count - 1;
+  line.stations_.resize(station_count);
+  for (Eigen::Index mark = 0; mark < marks.rows(); ++mark) {
+    const double position = position_on(*curve, marks.row(mark).transpose()) * last;
+    const double area = line.marks_.areas[static_cast<std::size_t>(mark)];
+    const int low = std::min(static_cast<int>(position), last - 1);
+    const double share = position - low;
+    if (share < 1) line.stations_[static_cast<std::size_t>(low)].push_back({mark, area * (1 - share)});
+    if (share > 0)
+      line.stations_[static_cast<std::size_t>((low + 1) % station_count)].push_back({mark, area * share});
+  }
+  const bool sparse = std::any_of(line.stations_.begin(), line.stations_.end(), [](const auto& station) {
+    double area = 0;
+    for (const Share& share : station) area += share.weight;
+    return station.size() < pieces_per_station || !(area > 0);
+  });
+  if (sparse) return std::nullopt;
+  line.rest_ = line.centres(marks);
+  for (int k = 1; k < station_count; ++k) line.length_ += (line.rest_.row(k) - line.rest_.row(k - 1)).norm();
+  if (!(line.length_ > 0)) return std::nullopt;
+  line.sections_ = line.sections(marks, line.rest_);
+  if (!line.straight_) return line;
+  line.deviation_ = distance_from_chord(line.rest_) / line.length_;
+  line.shares_ = shares_of_line(line.rest_);
+  for (int k = 1; k < station_count; ++k)
+    if (!(line.shares_(k) > line.shares_(k - 1))) return std::nullopt;
+  return line;
+}
+
+Eigen::Vector3d CentreLine::direction() const {
+  return (rest_.row(station_count - 1) - rest_.row(0)).transpose().stableNormalized();
+}
+
+Points CentreLine::centres(const Points& marks) const {
+  Points result(station_count, 3);
+  for (std::size_t k = 0; k < stations_.size(); ++k) {
+    Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
+    double weight = 0;
+    for (const Share& share : stations_[k]) {
+      sum += share.weight * marks.row(share.mark);
+      weight += share.weight;
+    }
+    result.row(static_cast<Eigen::Index>(k)) = sum / weight;
+  }
+  return result;
+}
+
+std::vector<CentreLine::Section> CentreLine::sections(const Points& marks, const Points& centres) const {
+  std::vector<Section> result;
+  for (int k = 0; k < station_count; ++k) {
+    const int before = closed_ ? (k + station_count - 1) % station_count : std::max(k - 1, 0);
+    const int after = closed_ ? (k + 1) % station_count : std::min(k + 1, station_count - 1);
+    const Eigen::Vector3d along = (centres.row(after) - centres.row(before)).transpose().stableNormalized();
+    double sum = 0, weight = 0;
+    Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+    for (const Share& share : stations_[static_cast<std::size_t>(k)]) {
+      Eigen::Vector3d across = (marks.row(share.mark) - centres.row(k)).transpose();
+      across -= across.dot(along) * along;
+      sum += share.weight * across.norm();
+      moments += share.weight * across * across.transpose();
+      weight += share.weight;
+    }
+    // The smallest eigenvalue belongs to the line itself.
+    const Eigen::Vector3d squares =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments, Eigen::EigenvaluesOnly).eigenvalues();
+    result.push_back({sum / weight, squares(2) > 0 ? std::sqrt(std::max(squares(1), 0.0) / squares(2)) : 1});
+  }
+  return result;
+}
+
+double CentreLine::radius_at_rest(double share) const {
+  Eigen::Index low = 0;
+  while (low + 2 < shares_.size() && share > shares_(low + 1)) ++low;
+  const double part = std::clamp((share - shares_(low)) / (shares_(low + 1) - shares_(low)), 0.0, 1.0);
+  const auto row = static_cast<std::size_t>(low);
+  return (1 - part) * sections_[row].radius + part * sections_[row + 1].radius;
+}
+
+CentreLineChange CentreLine::change(const Shape& now, const AffineMap& affine) const {
+  CentreLineChange result;
+  const Points marks = marks_.on(now);
+  const Points centres = this->centres(marks);
+  const std::vector<Section> sections = this->sections(marks, centres);
+  // A straight part may slide within itself, as under a joint that moves along it: what counts is the radius
+  // at a place.
+  Eigen::VectorXd ratios(station_count), places = Eigen::VectorXd::LinSpaced(station_count, -1, 1);
+  if (straight_) {
+    const Eigen::RowVector3d chord = centres.row(station_count - 1) - centres.row(0);
+    const double squared = chord.squaredNorm();
+    if (!(squared > 0)) return {1, 0, 1, 1, 0};
+    result.straightness = std::max(0.0, distance_from_chord(centres) / std::sqrt(squared) - deviation_);
+    result.length = std::sqrt(squared) / (rest_.row(station_count - 1) - rest_.row(0)).norm();
+    places = shares_of_line(centres);
+    for (int k = 0; k < station_count; ++k)
+      ratios(k) = sections[static_cast<std::size_t>(k)].radius / radius_at_rest(places(k));
+  } else {
+    Points image(station_count, 3);
+    for (int k = 0; k < station_count; ++k) image.row(k) = affine(rest_.row(k).transpose()).transpose();
+    for (int k = closed_ ? 0 : 1; k < (closed_ ? station_count : station_count - 1); ++k) {
+      const int before = (k + station_count - 1) % station_count, after = (k + 1) % station_count;
+      const double change = turn(centres.row(before), centres.row(k), centres.row(after)) -
+                            turn(image.row(before), image.row(k), image.row(after));
+      result.bending = std::max(result.bending, std::abs(change) * 180 / std::numbers::pi);
+    }
+    for (int k = 0; k < station_count; ++k)
+      ratios(k) =
+          sections[static_cast<std::size_t>(k)].radius / sections_[static_cast<std::size_t>(k)].radius;
+  }
+  for (std::size_t k = 0; k < sections.size(); ++k)
+    if (sections_[k].roundness >= tolerance::quality::round)
+      result.section = std::max(result.section, sections_[k].roundness - sections[k].roundness);
+  // The best affine function of the place; for a loop, the mean.
+  Eigen::MatrixXd functions = Eigen::MatrixXd::Ones(station_count, closed_ ? 1 : 2);
+  if (!closed_) functions.col(1) = places;
+  const Eigen::VectorXd even = functions * functions.colPivHouseholderQr().solve(ratios);
+  result.profile = (ratios - even).cwiseAbs().maxCoeff() / ratios.mean();
+  return result;
+}
+
+}  // namespace stackabilization::detail

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "improvement/quality/affine_fit.h"
+#include "improvement/quality/surface_marks.h"
+#include "stackabilization/structure/primitive.h"
+
+namespace stackabilization::detail {
+
+/// Changes of an elongated part against rest.
+struct CentreLineChange {
+  double straightness = 0;  ///< distance of the line from its chord, of its length; straight lines only
+  double bending = 0;       ///< largest change of turn at a station against the affine image, degrees
+  double section = 0;       ///< largest loss of roundness of a round section, of its width
+  double profile = 0;       ///< unevenness of the change of the radii, of the radius
+  double length = 1;        ///< length over that at rest
+};
+
+/// Centre line and cross-sections of an elongated part, from pieces of its surface. Each piece belongs to the
+/// two stations of the line between which it lies, weighted linearly and by area. The centre of a station is
+/// the mean of its pieces, its radius their mean distance from the line.
+class CentreLine {
+ public:
+  /// Returns the centre line of a part at rest along the curve of its primitive: the sections of a cylinder
+  /// that is at least as long as its radius, or the longest axis of a cuboid if it is at least 3 times as
+  /// long as wide. Nothing for other parts and where a station has too few pieces.
+  static std::optional<CentreLine> of(const Primitive& primitive, const Shape& rest,
+                                      const std::vector<std::int32_t>& triangles);
+
+  /// Compares the part, now, with rest. `affine`: map of the part.
+  CentreLineChange change(const Shape& now, const AffineMap& affine) const;
+  /// Returns whether the line is straight at rest.
+  bool is_straight() const { return straight_; }
+  /// Returns the direction from end to end at rest, unit.
+  Eigen::Vector3d direction() const;
+
+ private:
+  struct Share {
+    Eigen::Index mark;
+    double weight;
+  };
+  struct Section {
+    double radius = 0;     ///< model units
+    double roundness = 1;  ///< square root of the ratio of the second moments across the line, at most 1
+  };
+
+  Points centres(const Points& marks) const;
+  std::vector<Section> sections(const Points& marks, const Points& centres) const;
+  /// Returns the radius at rest at a place along the chord, from 0 to 1, interpolated linearly.
+  double radius_at_rest(double share) const;
+
+  SurfaceMarks marks_;
+  std::vector<std::vector<Share>> stations_;  ///< the marks of every station
+  bool closed_ = false, straight_ = false;
+  double length_ = 0;       ///< at rest, model units
+  double deviation_ = 0;    ///< distance from the chord at rest, of the length
+  Points rest_;             ///< centres at rest
+  Eigen::VectorXd shares_;  ///< places of the centres at rest along the chord, 0 to 1; straight lines only
+  std::vector<Section> sections_;
+};
+
+}  // namespace stackabilization::detail

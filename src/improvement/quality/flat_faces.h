@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "mesh/welded_mesh.h"
+#include "stackabilization/core/shape.h"
+
+namespace stackabilization::detail {
+
+/// A flat face of a part: connected triangles in one plane.
+struct FlatFace {
+  std::vector<std::int32_t> triangles;  ///< ascending
+  std::vector<double> sides;            ///< per triangle, 1 if it faces as the first one, else -1
+  std::vector<Eigen::Index> vertices;   ///< different corners, rows of Shape::vertices
+  double area = 0;                      ///< model units squared
+  double deviation = 0;                 ///< distance of a corner from the plane at rest, over the width
+
+  /// Returns the sum of the vector areas of the triangles on `shape`, all facing as the first one at rest,
+  /// model units squared.
+  Eigen::Vector3d area_vector(const Shape& shape) const;
+  /// Returns the largest distance of a corner from the best plane on `shape`, over the width of the face at
+  /// rest, which is the root of its area.
+  double deviation_on(const Shape& shape) const;
+};
+
+/// Returns the flat faces of the triangles of one part with an area of at least `min_share` of that part,
+/// largest first. `mesh`: the welded shape. Triangles within tolerance::quality::coplanar of the first one of
+/// a face belong to it.
+std::vector<FlatFace> flat_faces(const Shape& shape, const WeldedMesh& mesh,
+                                 const std::vector<std::int32_t>& triangles, double min_share);
+
+/// Returns the pairs of faces of one part that are parallel, with the angle between them, radians.
+struct ParallelFaces {
+  std::size_t first = 0, second = 0;
+  double angle = 0;  ///< at rest, radians
+};
+std::vector<ParallelFaces> parallel_faces(const Shape& shape, const std::vector<FlatFace>& faces);
+
+/// Returns the angle between two planes from their normals of any length, radians, in [0, pi / 2].
+double angle_between_planes(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
+}  // namespace stackabilization::detail

@@ -1,0 +1,130 @@
+#include "improvement/quality/part_forms.h"
+
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/index.h"
+#include "mesh/surface_moments.h"
+#include "stackabilization/improvement/tolerances.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+constexpr int marks_per_form = 240;
+constexpr int thickness_samples = 1500;
+/// Largest angle between the sheets of a wall, as a cosine.
+constexpr double opposite = 0.9;
+constexpr double degrees_per_radian = 180 / std::numbers::pi;
+
+/// Replaces a value by a worse one: a larger one, or a smaller one where the limit is a lower one.
+void worsen(QualityValue& worst, double value, int part) {
+  if (has_lower_limit(worst.measure) ? value < worst.value : value > worst.value) {
+    worst.value = value;
+    worst.part = part;
+  }
+}
+
+Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix) {
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues();
+}
+
+}  // namespace
+
+PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded) : rest_(rest) {
+  const Shape& shape = rest.shape;
+  const std::vector<std::vector<std::int32_t>> rows = triangles_of_parts(shape);
+  for (std::size_t part = 0; part < rows.size(); ++part) {
+    Form form;
+    form.marks = marks_on(shape, rows[part], marks_per_form);
+    if (form.marks.size() > 0) {
+      const Points places = form.marks.on(shape);
+      form.fit.emplace(places);
+      form.line = CentreLine::of(rest.structure.parts[part].primitive, shape, rows[part]);
+    }
+    Eigen::AlignedBox3d box;
+    for (const std::int32_t t : rows[part])
+      for (int k = 0; k < 3; ++k) box.extend(shape.corner(t, k));
+    form.small =
+        !box.isEmpty() && box.diagonal().norm() < tolerance::quality::small_part * rest.structure.diagonal;
+    form.faces = flat_faces(shape, welded, rows[part], tolerance::quality::face_share);
+    form.parallel = parallel_faces(shape, form.faces);
+    forms_.push_back(std::move(form));
+  }
+  ThicknessOptions options;
+  options.probes = thickness_samples;
+  for (ThicknessProbe& probe : thickness_probes(shape, options))
+    if (std::abs(unit_normal(shape, probe.near_triangle).dot(unit_normal(shape, probe.far_triangle))) >=
+        opposite)
+      probes_.push_back(std::move(probe));
+}
+
+/// Returns the stretches of a part: along and across a straight one, so that leaning is none; along the main
+/// axes of the map otherwise.
+std::vector<double> PartForms::stretches(const Form& form, const AffineMap& map, double length) {
+  std::vector<double> result;
+  const auto append = [&](const Eigen::VectorXd& values) {
+    result.insert(result.end(), values.begin(), values.end());
+  };
+  if (form.line && form.line->is_straight() && form.fit->rank() == 3) {
+    const Eigen::Vector3d along = form.line->direction(), image = map.linear * along;
+    result.push_back(length);
+    const Eigen::Vector3d now = image.stableNormalized();
+    Eigen::Matrix<double, 3, 2> across;
+    across.col(0) = along.unitOrthogonal();
+    across.col(1) = along.cross(across.col(0));
+    const Eigen::Matrix<double, 3, 2> images = map.linear * across;
+    append(singular_values(images - now * (now.transpose() * images)));
+  } else {
+    append(singular_values(map.linear * form.fit->axes().leftCols(form.fit->rank())));
+  }
+  return result;
+}
+
+void PartForms::measure_faces(const Shape& now, int part, std::vector<QualityValue>& values) const {
+  const Form& form = forms_[at(part)];
+  QualityValue &flatness = values[4], &parallelism = values[5];
+  for (const FlatFace& face : form.faces) worsen(flatness, face.deviation_on(now) - face.deviation, part);
+  for (const ParallelFaces& pair : form.parallel) {
+    const double angle = angle_between_planes(form.faces[pair.first].area_vector(now),
+                                              form.faces[pair.second].area_vector(now));
+    worsen(parallelism, (angle - pair.angle) * degrees_per_radian, part);
+  }
+}
+
+std::vector<QualityValue> PartForms::measure(const Shape& now) const {
+  std::vector<QualityValue> values;
+  for (const QualityMeasure measure :
+       {QualityMeasure::straightness, QualityMeasure::bending, QualityMeasure::section,
+        QualityMeasure::profile, QualityMeasure::flatness, QualityMeasure::parallelism, QualityMeasure::size,
+        QualityMeasure::small_part, QualityMeasure::thickness})
+    values.push_back({measure, ideal_value(measure)});
+  QualityValue &size = values[6], &small_part = values[7], &thinnest = values[8];
+  for (int part = 0; part < static_cast<int>(forms_.size()); ++part) {
+    const Form& form = forms_[at(part)];
+    if (!form.fit || form.fit->rank() == 0) continue;
+    const Points places = form.marks.on(now);
+    const AffineMap map = form.fit->map(places);
+    CentreLineChange change;
+    if (form.line) change = form.line->change(now, map);
+    const std::vector<double> stretched = stretches(form, map, change.length);
+    const auto [least, most] = std::minmax_element(stretched.begin(), stretched.end());
+    worsen(size, std::min(*least, 1 / *most), part);
+    if (form.small) worsen(small_part, *least / *most, part);
+    if (form.line && !form.small) {
+      worsen(values[0], change.straightness, part);
+      worsen(values[1], change.bending, part);
+      worsen(values[2], change.section, part);
+      worsen(values[3], change.profile, part);
+    }
+    measure_faces(now, part, values);
+  }
+  for (const ThicknessProbe& probe : probes_)
+    worsen(thinnest, stackabilization::thickness(probe, now) / probe.at_rest,
+           now.triangle_part[at(probe.near_triangle)]);
+  return values;
+}
+
+}  // namespace stackabilization::detail

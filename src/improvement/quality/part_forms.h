@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "improvement/quality/affine_fit.h"
+#include "improvement/quality/centre_line.h"
+#include "improvement/quality/flat_faces.h"
+#include "improvement/quality/surface_marks.h"
+#include "improvement/quality/thickness.h"
+#include "mesh/welded_mesh.h"
+#include "stackabilization/improvement/quality.h"
+
+namespace stackabilization::detail {
+
+/// The form of each part by itself: the measures straightness, bending, section, profile, flatness,
+/// parallelism, size, small_part and thickness.
+class PartForms {
+ public:
+  /// Prepares what depends on the object at rest. `rest` must outlive this object.
+  PartForms(const StructuredShape& rest, const WeldedMesh& welded);
+
+  /// Takes the nine measures, in their order.
+  std::vector<QualityValue> measure(const Shape& now) const;
+  /// Returns the flat faces of a part, largest first.
+  const std::vector<FlatFace>& faces(int part) const { return forms_[static_cast<std::size_t>(part)].faces; }
+
+ private:
+  struct Form {
+    SurfaceMarks marks;
+    std::optional<AffineFit> fit;  ///< empty for a part without area
+    std::optional<CentreLine> line;
+    bool small = false;
+    std::vector<FlatFace> faces;
+    std::vector<ParallelFaces> parallel;
+  };
+
+  static std::vector<double> stretches(const Form& form, const AffineMap& map, double length);
+  void measure_faces(const Shape& now, int part, std::vector<QualityValue>& values) const;
+
+  const StructuredShape& rest_;
+  std::vector<Form> forms_;  ///< per part
+  std::vector<ThicknessProbe> probes_;
+};
+
+}  // namespace stackabilization::detail

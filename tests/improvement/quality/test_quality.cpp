@@ -1,0 +1,268 @@
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+#include "stackabilization/core/errors.h"
+#include "stackabilization/improvement/quality.h"
+#include "stackabilization/structure/analysis.h"
+#include "support/catch.h"
+#include "support/solids.h"
+#include "support/still_designs.h"
+#include "support/structures.h"
+#include "support/symmetric_solids.h"
+
+using namespace stackabilization;
+
+namespace {
+
+using Map = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
+
+Shape mapped(Shape shape, const Map& map) {
+  for (Eigen::Index v = 0; v < shape.vertex_count(); ++v)
+    shape.vertices.row(v) = map(shape.vertices.row(v).transpose()).transpose();
+  return shape;
+}
+
+/// Moves the vertices of one part.
+Shape with_part_moved(Shape shape, int part, const Eigen::Vector3d& by) {
+  std::vector<bool> moves(static_cast<std::size_t>(shape.vertex_count()));
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    if (shape.triangle_part[static_cast<std::size_t>(t)] == part)
+      for (int k = 0; k < 3; ++k) moves[static_cast<std::size_t>(shape.triangles(t, k))] = true;
+  for (Eigen::Index v = 0; v < shape.vertex_count(); ++v)
+    if (moves[static_cast<std::size_t>(v)]) shape.vertices.row(v) += by.transpose();
+  return shape;
+}
+
+double measured(const std::vector<QualityValue>& values, QualityMeasure measure) {
+  for (const QualityValue& value : values)
+    if (value.measure == measure) return value.value;
+  FAIL("not measured: " + name_of(measure));
+  return 0;
+}
+
+double measured(const StructuredShape& rest, const Shape& now, QualityMeasure measure) {
+  return measured(QualityMeter(rest).measure(now), measure);
+}
+
+/// An upright tube of length 10 and radius 1, with rings of vertices along it.
+StructuredShape upright_tube() {
+  return structures::tube_alone(structures::straight_cylinder({0, 0, 0}, {0, 0, 10}, 1, 21), 32);
+}
+
+/// A plate of 10 x 8 x 1, with many vertices.
+StructuredShape plate() {
+  return structures::box_alone({10, 8, 1});
+}
+
+/// Two boxes joined end to end: [0, 4] and [4, 8] along x.
+StructuredShape joined_boxes(double gap = 0) {
+  return analyse_structure(
+      concatenate(solids::box({0, 0, 0}, {4, 1, 1}), solids::box({4 + gap, 0, 0}, {8 + gap, 1, 1})));
+}
+
+}  // namespace
+
+TEST_CASE("An unchanged object has ideal values, whatever it is", "[quality]") {
+  for (const StructuredShape& rest :
+       {upright_tube(), plate(), structures::table(), structures::mug(), structures::rough_stool()})
+    for (const QualityValue& value : QualityMeter(rest).measure(rest.shape)) {
+      CAPTURE(name_of(value.measure));
+      CHECK(value.value == Approx(ideal_value(value.measure)).margin(1e-9));
+      CHECK(is_within(value, QualityLimits()));
+    }
+}
+
+TEST_CASE("A pose and a scale change no measure but those of fixed places", "[quality]") {
+  const StructuredShape rest = structures::table();
+  const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d::UnitZ());
+  const QualityMeter meter(rest);
+  const Shape bad = mapped(rest.shape, [](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x() * (1 + 0.1 * p.z()), p.y(), p.z() + 0.05 * p.x() * p.x());
+  });
+  const std::vector<QualityValue> before = meter.measure(bad);
+  const std::vector<QualityValue> after = meter.measure(
+      mapped(bad, [&](const Eigen::Vector3d& p) { return turn * p + Eigen::Vector3d(1, 2, 3); }));
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    if (before[k].measure == QualityMeasure::symmetry) continue;
+    CAPTURE(name_of(before[k].measure));
+    CHECK(after[k].value == Approx(before[k].value).margin(1e-9));
+  }
+}
+
+TEST_CASE("A straight tube that is bent to an arc is as far from straight as the arc", "[quality]") {
+  const StructuredShape rest = upright_tube();
+  const double radius = 40;
+  const Shape bent = mapped(rest.shape, [&](const Eigen::Vector3d& p) {
+    const double angle = p.z() / radius, r = radius - p.x();
+    return Eigen::Vector3d(radius - r * std::cos(angle), p.y(), r * std::sin(angle));
+  });
+  // The rise of the arc over the best line is between two thirds of its rise over the chord and all of it.
+  const double rise = radius * (1 - std::cos(10 / radius / 2)) / 10;
+  const double found = measured(rest, bent, QualityMeasure::straightness);
+  CHECK(found > 0.55 * rise);
+  CHECK(found < rise);
+  CHECK(found > QualityLimits()[QualityMeasure::straightness]);
+}
+
+TEST_CASE("A leaning or longer tube stays straight, and its length and width are its sizes", "[quality]") {
+  const StructuredShape rest = upright_tube();
+  const Shape leaning = mapped(rest.shape, [](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x() + 0.2 * p.z(), p.y(), p.z());
+  });
+  CHECK(measured(rest, leaning, QualityMeasure::straightness) == Approx(0).margin(1e-9));
+  CHECK(measured(rest, leaning, QualityMeasure::size) == Approx(1 / std::sqrt(1.04)).epsilon(1e-3));
+  CHECK(measured(rest, leaning, QualityMeasure::section) == Approx(1 - 1 / std::sqrt(1.04)).epsilon(0.05));
+  const Shape longer =
+      mapped(rest.shape, [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), p.y(), 1.3 * p.z()); });
+  CHECK(measured(rest, longer, QualityMeasure::size) == Approx(1 / 1.3));
+  CHECK(measured(rest, longer, QualityMeasure::height) == Approx(0.3));
+}
+
+TEST_CASE("A kink in a line that was smooth is its angle", "[quality]") {
+  const solids::Torus torus{.ring_radius = 5, .tube_radius = 0.5};
+  const Shape ring = solids::torus(torus);
+  GeneralizedCylinder curve;
+  curve.closed = true;
+  curve.centres.resize(24, 3);
+  curve.radii = Eigen::VectorXd::Constant(24, 0.5);
+  for (int k = 0; k < 24; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 24;
+    curve.centres.row(k) << 5 * std::cos(angle), 5 * std::sin(angle), 0;
+  }
+  const StructuredShape rest = designs::alone(ring, curve);
+  // A fold about the x axis by 40 degrees.
+  const double fold = 40 * std::numbers::pi / 180;
+  const Shape folded = mapped(ring, [&](const Eigen::Vector3d& p) {
+    return p.y() < 0 ? p
+                     : Eigen::Vector3d(p.x(), p.y() * std::cos(fold) - p.z() * std::sin(fold),
+                                       p.y() * std::sin(fold) + p.z() * std::cos(fold));
+  });
+  CHECK(measured(rest, folded, QualityMeasure::bending) > 10);
+  const Shape oval =
+      mapped(ring, [](const Eigen::Vector3d& p) { return Eigen::Vector3d(1.1 * p.x(), p.y(), p.z()); });
+  CHECK(measured(rest, oval, QualityMeasure::bending) == Approx(0).margin(1e-6));
+}
+
+TEST_CASE("A round section that is squashed loses roundness, and a bulge is a profile", "[quality]") {
+  const StructuredShape rest = upright_tube();
+  const Shape oval =
+      mapped(rest.shape, [](const Eigen::Vector3d& p) { return Eigen::Vector3d(0.9 * p.x(), p.y(), p.z()); });
+  CHECK(measured(rest, oval, QualityMeasure::section) == Approx(0.1).epsilon(0.02));
+  const Shape cone = mapped(rest.shape, [](const Eigen::Vector3d& p) {
+    const double r = 0.8 + 0.04 * p.z();
+    return Eigen::Vector3d(r * p.x(), r * p.y(), p.z());
+  });
+  CHECK(measured(rest, cone, QualityMeasure::profile) < 0.02);
+  const Shape bulging = mapped(rest.shape, [](const Eigen::Vector3d& p) {
+    const double r = 1 + 0.2 * std::sin(std::numbers::pi * p.z() / 10);
+    return Eigen::Vector3d(r * p.x(), r * p.y(), p.z());
+  });
+  // A half wave of amplitude a departs from its mean by up to 2 a / pi.
+  CHECK(measured(rest, bulging, QualityMeasure::profile) > 0.2 * (1 - 2 / std::numbers::pi) * 0.8);
+  CHECK(measured(rest, bulging, QualityMeasure::profile) < 0.2 * 2 / std::numbers::pi * 1.1);
+}
+
+TEST_CASE("A wedge has the angle between its faces, and a dent is no plane", "[quality]") {
+  const StructuredShape rest = plate();
+  const double degrees = 5, slope = std::tan(degrees * std::numbers::pi / 180);
+  const Shape wedge = mapped(rest.shape, [&](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x(), p.y(), p.z() > 0.5 ? p.z() + slope * p.x() : p.z());
+  });
+  CHECK(measured(rest, wedge, QualityMeasure::parallelism) == Approx(degrees));
+  CHECK(measured(rest, wedge, QualityMeasure::flatness) == Approx(0).margin(1e-9));
+  const Shape twisted = mapped(rest.shape, [](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x(), p.y(), p.z() + 0.02 * (p.x() - 5) * (p.y() - 4));
+  });
+  // The corners leave the plane of 10 x 8 by 0.02 * 5 * 4.
+  CHECK(measured(rest, twisted, QualityMeasure::flatness) == Approx(0.4 / std::sqrt(80)).epsilon(0.05));
+}
+
+TEST_CASE("A plate pressed to half its thickness has half of it", "[quality]") {
+  const StructuredShape rest = plate();
+  const Shape thin =
+      mapped(rest.shape, [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), p.y(), p.z() / 2); });
+  CHECK(measured(rest, thin, QualityMeasure::thickness) == Approx(0.5));
+  CHECK(measured(rest, thin, QualityMeasure::size) == Approx(0.5));
+}
+
+TEST_CASE("A bar taken from its neighbour floats, one pushed into it pierces", "[quality]") {
+  const StructuredShape rest = joined_boxes();
+  const double diagonal = rest.structure.diagonal;
+  const Shape apart = with_part_moved(rest.shape, 1, {0.5, 0, 0});
+  CHECK(measured(rest, apart, QualityMeasure::joints) == Approx(0.5 / diagonal));
+  const Shape inside = with_part_moved(rest.shape, 1, {-0.5, 0.01, 0.01});
+  // As deep as the nearest face of either box is away.
+  CHECK(measured(rest, inside, QualityMeasure::piercing) > 0.2 / diagonal);
+  CHECK(measured(rest, inside, QualityMeasure::piercing) <= 0.51 / diagonal);
+  CHECK(measured(rest, inside, QualityMeasure::joints) == Approx(0).margin(1e-9));
+}
+
+TEST_CASE("Parts that were apart collide where they meet", "[quality]") {
+  const StructuredShape rest = joined_boxes(1);
+  CHECK(measured(rest, with_part_moved(rest.shape, 1, {-0.9, 0, 0}), QualityMeasure::collision) == 0);
+  CHECK(measured(rest, with_part_moved(rest.shape, 1, {-1.1, 0.01, 0.01}), QualityMeasure::collision) == 1);
+  // Wholly inside, without a common point of the surfaces.
+  const Shape within = mapped(rest.shape, [](const Eigen::Vector3d& p) {
+    return p.x() < 4.5 ? p : Eigen::Vector3d((p.x() - 5) / 4 + 1, p.y() / 2 + 0.25, p.z() / 2 + 0.25);
+  });
+  CHECK(measured(rest, within, QualityMeasure::collision) == 1);
+}
+
+TEST_CASE("A tube folded through itself intersects itself", "[quality]") {
+  const StructuredShape rest = upright_tube();
+  const Shape folded = mapped(rest.shape, [](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x() * (p.z() > 4.9 && p.z() < 5.1 ? -0.5 : 1), p.y(), p.z());
+  });
+  CHECK(measured(rest, folded, QualityMeasure::self_intersection) > 0);
+}
+
+TEST_CASE("A leg that leaves its mirror image breaks the symmetry by its way", "[quality]") {
+  const StructuredShape rest = structures::table();
+  REQUIRE_FALSE(rest.structure.symmetries.empty());
+  const Shape one_leg = with_part_moved(rest.shape, 1, {0.1, 0, 0});
+  const double found = measured(rest, one_leg, QualityMeasure::symmetry);
+  CHECK(found == Approx(0.1 / rest.structure.diagonal).epsilon(1e-6));
+}
+
+TEST_CASE("A foot off the ground, and a top that is lower, smaller or tilted", "[quality]") {
+  const StructuredShape rest = structures::table();
+  const Shape lifted = with_part_moved(rest.shape, 1, {0, 0, 0.05});
+  CHECK(measured(rest, lifted, QualityMeasure::feet) == Approx(0.05 / rest.structure.diagonal));
+  const Shape smaller =
+      mapped(rest.shape, [](const Eigen::Vector3d& p) { return Eigen::Vector3d(0.8 * p.x(), p.y(), p.z()); });
+  CHECK(measured(rest, smaller, QualityMeasure::seat) == Approx(0.8));
+  const double degrees = 3, slope = std::tan(degrees * std::numbers::pi / 180);
+  const Shape tilted = mapped(rest.shape, [&](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x(), p.y(), p.z() + slope * p.x());
+  });
+  CHECK(measured(rest, tilted, QualityMeasure::tilt) == Approx(degrees));
+}
+
+TEST_CASE("Limits are relaxed by name, and shares of them are fractions", "[quality]") {
+  for (std::size_t k = 0; k < quality_measure_count; ++k) {
+    const auto measure = static_cast<QualityMeasure>(k);
+    CHECK(quality_measure_of(name_of(measure)) == measure);
+    QualityLimits limits;
+    CHECK(limits.is_limited(measure));
+    CHECK(share_of_limit({measure, ideal_value(measure)}, limits) == 0);
+    CHECK(share_of_limit({measure, limits[measure]}, limits) ==
+          Approx(ideal_value(measure) == limits[measure] ? 0 : 1));
+    limits.relax(measure);
+    CHECK_FALSE(limits.is_limited(measure));
+    CHECK(is_within({measure, has_lower_limit(measure) ? 0 : 1e9}, limits));
+  }
+  CHECK_FALSE(quality_measure_of("beauty"));
+  QualityLimits limits;
+  limits[QualityMeasure::size] = 1.5;
+  CHECK_THROWS_AS(validate(limits), UsageError);
+  limits[QualityMeasure::size] = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_AS(validate(limits), UsageError);
+}
+
+TEST_CASE("Another mesh is refused", "[quality]") {
+  const QualityMeter meter(plate());
+  CHECK_THROWS_AS(meter.measure(structures::table().shape), UsageError);
+}
