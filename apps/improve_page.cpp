@@ -32,6 +32,9 @@ ul, ol { margin: .2rem 0; padding-left: 1.4rem; overflow-wrap: anywhere; }
 pre { white-space: pre-wrap; font: inherit; margin: 0; }
 )";
 
+/// Measures of quality that use less than half of their limit are in the JSON only; see `violation`.
+constexpr double near_limit = -0.05;
+
 /// `text` as the content of an element.
 std::string element(const std::string& name, const std::string& text) {
   return "<" + name + ">" + escaped(text) + "</" + name.substr(0, name.find(' ')) + ">";
@@ -98,7 +101,8 @@ std::string checks(const ImproveReport& report, const SolutionReport& solution) 
     text += element(good ? "li" : "li class=\"bad\"", words) + "\n";
   };
   for (const Check& check : solution.assessment.checks)
-    line(check.passed, check_text(check, report.task.rest().structure));
+    if (check.kind != CheckKind::quality || violation(check) > near_limit)
+      line(check.passed, check_text(check, report.task.rest().structure));
   for (const WrittenCheck& check : solution.written) {
     const bool agrees = check.verdict != WrittenCheck::Verdict::disagrees;
     line(agrees, "written mesh, " + check.name + (agrees ? ": " : " DISAGREES: ") + check.note);

@@ -25,6 +25,10 @@ struct RefinementOptions {
   /// Drop edits whose removal loses less than this fraction of the total gain in S, if the other edits can
   /// make up for it; >= 0.
   double drop_threshold = 0.02;
+  /// Price of an edit: fraction of the change by which it may grow for each edit dropped, >= 0.
+  double edit_price = 0;
+  /// Whether all edits that can be added are tried with those given, if these do not reach the target.
+  bool reach_with_added = false;
   EditFamily family = EditFamily::extended;  ///< family of the edits added
   std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends with the best so far
 };
@@ -60,8 +64,7 @@ struct RefinementResult {
 /// tried first) stop before they get there.
 ///
 /// Steps: if the given edits do not reach the target, magnitudes of largest S are searched first. Edits that
-/// are of no use are removed. If none are feasible, all edits that could be added are tried with them, as
-/// long as the evaluations last. With controllers further edits are added (moves and scalings of parts, faces
+/// are of no use are removed. With controllers further edits are added (moves and scalings of parts, faces
 /// and ends), those of the largest reduced cost according to the multipliers of the model. A root search on
 /// the segment to the shape at rest comes last.
 ///

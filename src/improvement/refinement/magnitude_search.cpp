@@ -4,6 +4,7 @@
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 #include <utility>
 
 #include "improvement/refinement/magnitude_optimiser.h"
@@ -42,6 +43,8 @@ constexpr double steep = 1000;
 constexpr double make_up[] = {
     0, 1. / (1 << 20), 1. / (1 << 16), 1. / (1 << 12), 1. / (1 << 8), 1. / (1 << 6)};
 constexpr double spare_change = 0.005;
+/// Further enlargements tried if edits have a price.
+constexpr double more_make_up[] = {1. / 32, 1. / 16, 1. / 8, 1. / 4};
 
 Magnitudes scaled(Magnitudes x, double factor) {
   for (double& magnitude : x) magnitude *= factor;
@@ -188,21 +191,27 @@ class MagnitudeSearch {
   /// Runs even when the time is up: a solution should not have many edits that do next to nothing.
   void leave_out() {
     const Magnitudes best = *problem_.best();
-    const double allowed = problem_.best_change() * (1 + spare_change);
+    const double change = problem_.best_change();
+    const auto allowed = [&](std::size_t dropped) {
+      return change * (1 + spare_change + options_.edit_price * static_cast<double>(dropped));
+    };
+    std::vector<double> enlargements(std::begin(make_up), std::end(make_up));
+    if (options_.edit_price > 0)
+      enlargements.insert(enlargements.end(), std::begin(more_make_up), std::end(more_make_up));
     const double gained = problem_.target() - problem_.at(Magnitudes(best.size(), 0)).stackability;
     std::vector<std::pair<double, std::size_t>> little;
     for (const auto& [k, sample] : each_left_out(best))
-      if (sample.passes && sample.change <= allowed &&
+      if (sample.passes && sample.change <= allowed(1) &&
           problem_.target() - sample.stackability <= options_.drop_threshold * gained)
         little.emplace_back(-sample.stackability, k);
     std::sort(little.begin(), little.end());
     const auto goes_without = [&](std::size_t count) {
       Magnitudes fewer = best;
       for (std::size_t i = 0; i < count; ++i) fewer[little[i].second] = 0;
-      for (const double more : make_up) {
+      for (const double more : enlargements) {
         const Magnitudes x = scaled(fewer, 1 + more);
         if (!problem_.at(x).feasible) continue;
-        if (problem_.at(x).change > allowed) return false;
+        if (problem_.at(x).change > allowed(count)) return false;
         problem_.prefer(x);
         return true;
       }

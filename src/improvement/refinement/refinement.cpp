@@ -23,6 +23,8 @@ constexpr int max_rounds = 4;
 constexpr double pricing_radius = 0.1;
 constexpr double min_reduced_cost = 0.01;
 constexpr double min_gain = 0.01;
+/// Two edits move the surface alike if the cosine between their displacements is above this.
+constexpr double same_motion = 0.9;
 
 /// Largest number of times that a result with fewer edits is refined again.
 constexpr int max_restarts = 3;
@@ -68,6 +70,7 @@ class MagnitudeRefiner {
         ranked.emplace_back(-reduced_costs, k);
     }
     std::sort(ranked.begin(), ranked.end());
+    if (options_.edit_price > 0) leave_out_likes(ranked, slopes.gram);
     if (ranked.size() > most) ranked.resize(most);
     std::vector<MagnitudeEdit> result;
     for (const auto& [reduced_costs, k] : ranked) result.push_back(edits_[k]);
@@ -91,6 +94,26 @@ class MagnitudeRefiner {
   }
 
  private:
+  /// Leaves out edits that move the surface like one before them, or like a given one: both faces of a part
+  /// that is symmetric to itself, for instance.
+  void leave_out_likes(std::vector<std::pair<double, std::size_t>>& ranked,
+                       const Eigen::MatrixXd& gram) const {
+    if (gram.size() == 0) return;
+    std::vector<std::size_t> chosen;
+    for (std::size_t k = 0; k < edits_.size(); ++k)
+      if (edits_[k].source) chosen.push_back(k);
+    const auto product = [&](std::size_t a, std::size_t b) {
+      return gram(static_cast<Eigen::Index>(a) + 1, static_cast<Eigen::Index>(b) + 1);
+    };
+    std::erase_if(ranked, [&](const auto& entry) {
+      const std::size_t k = entry.second;
+      const bool like = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
+        return std::abs(product(k, other)) > same_motion * std::sqrt(product(k, k) * product(other, other));
+      });
+      if (!like) chosen.push_back(k);
+      return like;
+    });
+  }
   /// Returns the given edits and the added ones. Given edits are merged unless the merged list is refused.
   static std::vector<MagnitudeEdit> variables(const RequirementChecker& checker, const Candidate& start,
                                               const RefinementOptions& options,
@@ -201,6 +224,7 @@ RefinementResult refine_candidate(const RequirementChecker& checker, const Candi
   if (!(options.magnitude_bound > 0) || !std::isfinite(options.magnitude_bound))
     throw UsageError("the reach of a refinement must be a positive number");
   if (options.max_added_edits < 0) throw UsageError("the number of edits that join must not be negative");
+  if (!(options.edit_price >= 0)) throw UsageError("the price of an edit must not be negative");
   if (!(options.drop_threshold >= 0)) throw UsageError("the negligible magnitude must not be negative");
   RefinementResult result = MagnitudeRefiner(checker, start, options).result();
   const auto options_left = [&] {
@@ -216,8 +240,7 @@ RefinementResult refine_candidate(const RequirementChecker& checker, const Candi
     next.evaluations += result.evaluations;
     result = std::move(next);
   };
-  if (!result.reached && options.max_added_edits > 0 &&
-      options_left().evaluations >= min_refinement_evaluations)
+  if (!result.reached && options.reach_with_added && options_left().evaluations >= min_refinement_evaluations)
     take(MagnitudeRefiner(checker, start, options_left(), every_edit(checker, start, options)).result());
   std::size_t edits = result.candidate.design.edits.size() + 1;
   for (int restart = 0; restart < max_restarts && goes_on(); ++restart) {

@@ -82,7 +82,7 @@ class Refinements {
       add(near);
       starts.push_back(near);
     }
-    rescue(starts);
+    if (checker_.requirements().quality) rescue(starts);
     extend();
     return std::move(solutions_);
   }
@@ -122,7 +122,9 @@ class Refinements {
   void rescue(const std::vector<Candidate>& starts) {
     for (const Candidate& start : starts) {
       if (!solutions_.empty() || at_end()) return;
-      RefinementResult result = refinement(start, options_);
+      RefinementOptions all = options_;
+      all.reach_with_added = true;
+      RefinementResult result = refinement(start, all);
       if (result.reached)
         keep(std::move(result.candidate));
       else if (!nearest_ || result.candidate.measured.value > nearest_->measured.value)

@@ -290,12 +290,14 @@ TEST_CASE("a damaged state is named with the place and what was expected there")
            {"\"turn\":0", "\"turn\":1", "/turn: expected an integer from 0 to 0, found 1"},
            {"\"directions\":[[0.0,0.0,1.0]]", "\"directions\":[]", "/directions: expected at least one"},
            {"\"directions\":[[0.0,0.0,1.0]]", "\"directions\":[[0.0,0.0,0.0]]", "/directions/0: a direction"},
-           {"\"version\":3", "\"version\":2", "/: this is no saved search of this version"},
+           {"\"version\":4", "\"version\":3", "/: this is no saved search of this version"},
            {"\"reason\":[", "\"reason\":[true,", "/reason: expected a list of 3"},
            {"\"refusals\":[]", "\"refusals\":{}", "/refusals: expected a list"},
            {"\"refusals\":[]", "\"refusals\":[3]", "/refusals/0: expected an object"},
-           {"\"refusals\":[]", "\"refusals\":[{\"count\":-1,\"check\":9}]", "/refusals/0/count: expected"},
-           {"\"refusals\":[]", "\"refusals\":[{\"count\":1,\"check\":10}]", "/refusals/0/check: expected"},
+           {"\"refusals\":[]", "\"refusals\":[{\"count\":-1,\"check\":9,\"measure\":0}]",
+            "/refusals/0/count: expected"},
+           {"\"refusals\":[]", "\"refusals\":[{\"count\":1,\"check\":11,\"measure\":0}]",
+            "/refusals/0/check: expected"},
            {"\"refusals\":[]", "\"refusals\":[{\"count\":1,\"cause\":0,\"rows\":[1,-1,-1,-1,-1]}]",
             "/refusals/0/rows: expected parts and relations of this shape"}}) {
     INFO(damage.from << " -> " << damage.to);
