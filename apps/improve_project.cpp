@@ -31,7 +31,7 @@ HistoryNode node_of(const ImproveTask& task, const SolutionReport& solution) {
 }
 
 bool makes_again(const ImproveTask& task, const HistoryNode& node, const Design& design) {
-  const DesignOutcome outcome = task.task->space().replayed(node.edits, node.constraints);
+  const DeformationResult outcome = task.task->space().deformed(node.edits, node.constraints);
   if (outcome.refusal) return false;
   const double most = tolerance::relative * task.rest().structure.diagonal;
   return (outcome.design.shape.vertices - design.shape.vertices).cwiseAbs().maxCoeff() <= most;
@@ -41,7 +41,8 @@ bool makes_again(const ImproveTask& task, const HistoryNode& node, const Design&
 
 Project improvement_project(const ImproveReport& report) {
   const ImproveTask& task = report.task;
-  Project project{task.rest(), {}, {task.task->space().kind(), Direction(task.task->directions().front())}};
+  Project project{
+      task.rest(), {}, {task.task->space().kind(), Direction(task.task->directions().front()), {}}};
   project.history.nodes.push_back(root(report));
   for (const SolutionReport* solution : report.shown()) {
     HistoryNode node = node_of(task, *solution);
