@@ -2,7 +2,6 @@
 
 #include "apps/command.h"
 #include "apps/deform_run.h"
-#include "apps/deformation_models.h"
 #include "apps/output.h"
 #include "apps/rendering.h"
 #include "apps/values.h"
@@ -25,17 +24,17 @@ void check_deform_options(const DeformCommandOptions& options) {
     throw UsageError("--list-handles changes nothing, so it does not go with --edit");
   if (options.list_handles && (options.output || options.picture || options.save))
     throw UsageError("--list-handles changes nothing, so there is nothing to write");
-  if (options.direction && options.kind != ModelKind::gap_scaling)
+  if (options.direction && !capabilities_of(options.kind).edits_along_one_direction)
     throw UsageError("--direction is that of --model gap-scaling: the others have none");
   if (options.extent_ends && !options.keep_extent)
     throw UsageError("--extent-ends says where the extent of --keep-extent begins and ends: give that too");
-  if (options.save && options.kind != ModelKind::controllers)
+  if (options.save && !capabilities_of(options.kind).edits_primitives)
     throw UsageError("--save needs --model controllers: the others move no primitives");
 }
 
 int list_handles(const CLI::App& command, const DeformCommandOptions& options, const Stopwatch& watch) {
   const StructuredModel input = load_structured(command, options.common, options.analysis, bounds_of_deform);
-  const auto model = make_deformation_model(options, input.structured);
+  const auto model = model_for_edits(options, input.structured);
   Json document = document_head(command, input.model);
   document["deformation"] = name_of(options.kind);
   document["handles"] = handles_json(*model, input.structured.shape);
@@ -45,11 +44,11 @@ int list_handles(const CLI::App& command, const DeformCommandOptions& options, c
 }
 
 void write_result(const DeformCommandOptions& options, const DeformRun& run, const Model& model) {
-  if (options.output) write_mesh_output(options.common, *options.output, run.result.shape);
-  if (options.save) write_output(*options.save, project_text(rebase(run.rest, run.result)));
+  if (options.output) write_mesh_output(options.common, *options.output, run.result.design.shape);
+  if (options.save) write_output(*options.save, project_text(rebase(run.rest, run.result.design)));
   if (options.picture)
     write_deformation_picture({*options.picture, title_of(model)},
-                              {run.rest, run.result, run.edits, run.curves, deformation_notes(run)});
+                              {run.rest, run.result.design, run.edits, run.curves, deformation_notes(run)});
 }
 
 int run_deform_command(const CLI::App& command, const DeformCommandOptions& options) {
@@ -67,7 +66,7 @@ int run_deform_command(const CLI::App& command, const DeformCommandOptions& opti
   if (!refused) write_result(options, run, input.model);
   const std::string essential =
       refused ? "refused\n"
-              : exact_digits(displacement(run.rest.shape, run.result.shape).root_mean_square) + "\n";
+              : exact_digits(displacement(run.rest.shape, run.result.design.shape).root_mean_square) + "\n";
   deliver(options.common, document,
           options.save == "-"    ? ""
           : options.common.quiet ? essential
@@ -108,11 +107,8 @@ Command make_deform_command(CLI::App& program) {
       ->type_size(1)
       ->allow_extra_args(false)
       ->type_name("EDIT");
-  const Choices<ModelKind> kinds = {{"controllers", ModelKind::controllers},
-                                    {"surface", ModelKind::surface},
-                                    {"iwires", ModelKind::iwires},
-                                    {"gap-scaling", ModelKind::gap_scaling}};
-  add_choice(*command, "--model", options->kind, kinds, "What moves the mesh (default: controllers)");
+  add_choice(*command, "--model", options->kind, deformation_choices(),
+             "What moves the mesh (default: controllers)");
   add_direction(*command, "--direction", options->direction,
                 "Direction of --model gap-scaling, along which the gap is scaled (default: 0 0 1)");
   add_constraint_options(*command, *options);

@@ -63,9 +63,9 @@ Json relations_after_json(const DeformRun& run) {
 
 Json primitives_after_json(const DeformRun& run) {
   Json list = Json::array();
-  for (std::size_t i = 0; i < run.result.primitives.size(); ++i) {
+  for (std::size_t i = 0; i < run.result.design.primitives.size(); ++i) {
     Json primitive = {{"part", run.rest.shape.part_names[i]}};
-    primitive.update(to_json(run.result.primitives[i]));
+    primitive.update(to_json(run.result.design.primitives[i]));
     list.push_back(std::move(primitive));
   }
   return list;
@@ -81,20 +81,6 @@ void add_residual_lines(TextTable& table, const DeformRun& run) {
 
 }  // namespace
 
-std::string name_of(ModelKind kind) {
-  switch (kind) {
-    case ModelKind::controllers:
-      return "controllers";
-    case ModelKind::surface:
-      return "surface";
-    case ModelKind::iwires:
-      return "iwires";
-    case ModelKind::gap_scaling:
-      return "gap-scaling";
-  }
-  return "";
-}
-
 void add_deformation(Json& document, const DeformRun& run) {
   const Shape& before = run.rest.shape;
   document["deformation"] = name_of(run.kind);
@@ -105,10 +91,10 @@ void add_deformation(Json& document, const DeformRun& run) {
   if (run.constraints.keep_extent)
     document["extent_before"] = extent_along(before, *run.constraints.keep_extent);
   if (run.result.refusal) return;
-  document["size_after"] = to_json(extents(run.result.shape));
+  document["size_after"] = to_json(extents(run.result.design.shape));
   if (run.constraints.keep_extent)
-    document["extent_after"] = extent_along(run.result.shape, *run.constraints.keep_extent);
-  const Displacement moved = displacement(before, run.result.shape);
+    document["extent_after"] = extent_along(run.result.design.shape, *run.constraints.keep_extent);
+  const Displacement moved = displacement(before, run.result.design.shape);
   const LargestResiduals largest = largest_residuals(run);
   document["displacement"] = {{"root_mean_square", moved.root_mean_square}, {"largest", moved.largest}};
   document["residuals"] = {{"joint", to_json(largest.joint)}, {"symmetry", to_json(largest.symmetry)}};
@@ -131,7 +117,7 @@ std::string deformation_text(const DeformRun& run, const Model& model) {
     }
     return table.text() + "Refused: " + describe(*refusal, structure) + "\n";
   }
-  const Shape& after = run.result.shape;
+  const Shape& after = run.result.design.shape;
   const Displacement moved = displacement(before, after);
   table.add("Moved", quantity(moved.root_mean_square, before.unit),
             "root mean square over the vertices; " + quantity(moved.largest, before.unit) + " at most");
@@ -146,7 +132,7 @@ std::string deformation_text(const DeformRun& run, const Model& model) {
 
 std::vector<std::string> deformation_notes(const DeformRun& run) {
   const std::string edits = joined(edit_texts(run.edits, run.rest.shape.part_names), ";  ");
-  const Displacement moved = displacement(run.rest.shape, run.result.shape);
+  const Displacement moved = displacement(run.rest.shape, run.result.design.shape);
   return {edits, name_of(run.kind) + ": vertices moved by " +
                      quantity(moved.root_mean_square, run.rest.shape.unit) + " (root mean square)"};
 }

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
+#include <utility>
 
-#include "apps/deformation_models.h"
 #include "apps/edit_grammar.h"
 #include "stackabilization/core/errors.h"
-#include "stackabilization/deformation/relation_residual.h"
+#include "stackabilization/deformation/controller_model.h"
+#include "stackabilization/deformation/factory.h"
 
 namespace stackabilization::apps {
 
@@ -31,6 +33,13 @@ DeformationConstraints constraints_of(const DeformCommandOptions& options, const
 
 }  // namespace
 
+std::unique_ptr<DeformationModel> model_for_edits(const DeformCommandOptions& options, StructuredShape rest) {
+  DeformationModelOptions model{options.kind, {}, {}};
+  if (options.direction) model.direction = Direction(*options.direction);
+  model.limits = {std::numeric_limits<std::size_t>::max(), ControllerLimits().max_joint_points};
+  return deformation_model(std::move(rest), model);
+}
+
 DeformRun run_deform(const DeformCommandOptions& options, const StructuredModel& input) {
   DeformRun run;
   run.kind = options.kind;
@@ -38,11 +47,13 @@ DeformRun run_deform(const DeformCommandOptions& options, const StructuredModel&
   for (const std::string& text : options.edits)
     run.edits.push_back(parse_edit(text, run.rest.shape.part_names, run.rest.structure.diagonal));
   run.constraints = constraints_of(options, run.rest.shape);
-  const std::unique_ptr<DeformationModel> model = make_deformation_model(options, run.rest);
+  const std::unique_ptr<DeformationModel> model = model_for_edits(options, run.rest);
   run.result = model->deformed(run.edits, run.constraints);
-  run.curves = edited_curves(*model, run.edits);
-  if (!run.result.refusal && !run.result.primitives.empty())
-    run.residuals = relation_residuals(run.rest.structure, run.result.primitives);
+  for (const Edit& edit : run.edits)
+    if (std::vector<std::int32_t> curve = model->curve(edit.handle); !curve.empty())
+      run.curves.push_back(std::move(curve));
+  if (!run.result.refusal) run.residuals = model->relation_residuals(run.result.design);
+  if (!model->capabilities().edits_primitives) run.result.design.primitives.clear();  // nobody edited them
   return run;
 }
 

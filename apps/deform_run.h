@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,17 +13,11 @@
 
 namespace stackabilization::apps {
 
-/// What moves the mesh.
-enum class ModelKind { controllers, surface, iwires, gap_scaling };
-
-/// Spelling on the command line.
-std::string name_of(ModelKind kind);
-
 /// Options of `stackabilize deform` as typed.
 struct DeformCommandOptions {
   CommonOptions common;
   AnalysisArguments analysis;
-  ModelKind kind = ModelKind::controllers;
+  DeformationKind kind = DeformationKind::controllers;
   std::optional<Eigen::Vector3d> direction;  ///< of gap scaling; default 0 0 1
   std::vector<std::string> edits;
   std::vector<std::string> fixed_parts;
@@ -36,15 +31,17 @@ struct DeformCommandOptions {
 
 /// Edits of one shape at rest, and what became of it.
 struct DeformRun {
-  ModelKind kind = ModelKind::controllers;
+  DeformationKind kind = DeformationKind::controllers;
   StructuredShape rest;
   std::vector<Edit> edits;
   DeformationConstraints constraints;
   DeformationResult result;
   std::vector<std::vector<std::int32_t>> curves;  ///< vertices along the feature curves that were edited
-  std::vector<double>
-      residuals;  ///< of the relations, recomputed from the primitives; empty without primitives
+  std::vector<double> residuals;                  ///< of the relations, recomputed from the result
 };
+
+/// The model that `options` ask for, for a shape at rest. Throws as its constructor does.
+std::unique_ptr<DeformationModel> model_for_edits(const DeformCommandOptions& options, StructuredShape rest);
 
 DeformRun run_deform(const DeformCommandOptions& options, const StructuredModel& input);
 

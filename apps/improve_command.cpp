@@ -64,10 +64,7 @@ class Writer {
     const std::string mesh = solution.name + ".obj";
     write_mesh(mesh, design.shape);
     write_mesh(solution.name + ".3mf", design.shape);
-    DeformationResult result;
-    result.shape = design.shape;
-    result.primitives = design.primitives;
-    write(solution.name + std::string(project_suffix), project_text(rebase(report_.task.rest(), result)));
+    write(solution.name + std::string(project_suffix), project_text(rebase(report_.task.rest(), design)));
     solution.written = check_written(folder_ / mesh, report_.task, solution);
   }
 

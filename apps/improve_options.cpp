@@ -30,7 +30,7 @@ void check_wish(const ImproveCommandOptions& options) {
 
 /// The gaps are measured once, along one direction.
 void check_gap_scaling(const ImproveCommandOptions& options) {
-  if (options.kind != DeformationKind::gap_scaling) return;
+  if (!capabilities_of(options.kind).edits_along_one_direction) return;
   refuse_option(options.cone_degrees && *options.cone_degrees > 0, "--cone-degrees",
                 "does not go with --model gap-scaling, which keeps the direction that it scales along");
   refuse_option(options.directions.size() > 1, "--direction",
@@ -53,11 +53,8 @@ void add_wish_options(CLI::App& command, ImproveCommandOptions& options) {
 void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
   add_count(command, {"--solutions", "Different solutions to look for (default: 3)", 1, max_solutions},
             options.solutions);
-  const Choices<DeformationKind> kinds = {{"controllers", DeformationKind::controllers},
-                                          {"surface", DeformationKind::surface},
-                                          {"iwires", DeformationKind::iwires},
-                                          {"gap-scaling", DeformationKind::gap_scaling}};
-  add_choice(command, "--model", options.kind, kinds, "What moves the mesh (default: controllers)");
+  add_choice(command, "--model", options.kind, deformation_choices(),
+             "What moves the mesh (default: controllers)");
   const Choices<ImprovementPreset> presets = {{"paper", ImprovementPreset::paper},
                                               {"refined", ImprovementPreset::refined}};
   add_choice(command, "--preset", options.preset, presets,
@@ -150,8 +147,8 @@ ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) 
   search.expansions = options.expansions.value_or(search.expansions);
   improvement.effort = options.effort.value_or(improvement.effort);
   // A direction that is given is kept. So is that of a room, and gap scaling knows no other than its own.
-  const bool is_free =
-      options.directions.empty() && !options.copies && options.kind != DeformationKind::gap_scaling;
+  const bool is_free = options.directions.empty() && !options.copies &&
+                       !capabilities_of(options.kind).edits_along_one_direction;
   search.cone_degrees = options.cone_degrees.value_or(is_free ? free_cone_degrees : 0);
   return improvement;
 }

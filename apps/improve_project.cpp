@@ -31,7 +31,7 @@ HistoryNode node_of(const ImproveTask& task, const SolutionReport& solution) {
 }
 
 bool makes_again(const ImproveTask& task, const HistoryNode& node, const Design& design) {
-  const DesignOutcome outcome = task.task->space().replayed(node.edits, node.constraints);
+  const DeformationResult outcome = task.task->space().deformed(node.edits, node.constraints);
   if (outcome.refusal) return false;
   const double most = tolerance::relative * task.rest().structure.diagonal;
   return (outcome.design.shape.vertices - design.shape.vertices).cwiseAbs().maxCoeff() <= most;
@@ -43,7 +43,7 @@ Project improvement_project(const ImproveReport& report) {
   const ImproveTask& task = report.task;
   Project project{task.rest(),
                   {},
-                  {task.task->space().kind(), Direction(task.task->directions().front()),
+                  {task.task->space().kind(), Direction(task.task->directions().front()), {},
                    task.task->space().following()}};
   project.history.nodes.push_back(root(report));
   for (const SolutionReport* solution : report.shown()) {

@@ -9,7 +9,6 @@
 #include "stackabilization/deformation/deformation_model.h"
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/envelope/height_field.h"
-#include "stackabilization/improvement/design.h"
 #include "stackabilization/stacking/map.h"
 #include "stackabilization/stacking/validation.h"
 
@@ -54,10 +53,10 @@ struct PlacedCopies {
 };
 void write_stack_picture(const PictureFile& file, const PlacedCopies& stack);
 void write_structure_picture(const PictureFile& file, const StructuredShape& structured);
-/// A shape before and after edits that were not refused; `notes` are lines below the heading.
+/// A shape before and after edits; `notes` are lines below the heading.
 struct EditedShape {
   const StructuredShape& rest;
-  const DeformationResult& result;
+  const Design& design;
   const std::vector<Edit>& edits;
   const std::vector<std::vector<std::int32_t>>& curves;  ///< vertices along edited feature curves
   std::vector<std::string> notes;

@@ -72,7 +72,7 @@ void write_deformation_picture(const PictureFile& file, const EditedShape& edite
   options.curves = edited.curves;
   std::vector<Handle> handles;
   for (const Edit& edit : edited.edits) handles.push_back(edit.handle);
-  write_picture(file, deformation_picture(edited.rest, edited.result, handles, options));
+  write_picture(file, deformation_picture(edited.rest, edited.design, handles, options));
 }
 
 void write_design_sheet(const PictureFile& file, const DesignSheet& sheet) {

@@ -128,6 +128,12 @@ StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& a
 
 }  // namespace
 
+Choices<DeformationKind> deformation_choices() {
+  Choices<DeformationKind> choices;
+  for (const DeformationKind kind : deformation_kinds()) choices.emplace_back(name_of(kind), kind);
+  return choices;
+}
+
 void add_analysis_options(CLI::App& command, AnalysisArguments& arguments) {
   add_segmentation_options(command, arguments);
   const auto take = [&arguments](const std::vector<std::string>& texts) {

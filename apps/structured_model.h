@@ -6,11 +6,15 @@
 
 #include "apps/model.h"
 #include "apps/output.h"
-#include "stackabilization/improvement/design.h"
+#include "apps/values.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/history.h"
 #include "stackabilization/structure/analysis.h"
 
 namespace stackabilization::apps {
+
+/// Choices of --model.
+Choices<DeformationKind> deformation_choices();
 
 /// How a mesh becomes a structure, as typed.
 struct AnalysisArguments {
@@ -35,14 +39,15 @@ struct PartBounds {
   std::size_t max_parts;
   std::size_t max_pairs;
 };
-inline constexpr PartBounds bounds_of_deform{2000, 20'000}, bounds_of_designs{max_design_parts, 2000};
+inline constexpr PartBounds bounds_of_deform{2000, 20'000},
+    bounds_of_designs{DeformationLimits().max_parts, 2000};
 
 /// A model with its structure; `structured.shape` is `model.shape`.
 struct StructuredModel {
   Model model;
   StructuredShape structured;
-  History history;           ///< of the project file; no nodes where there is none
-  DesignSpaceOptions space;  ///< what made the designs of the history
+  History history;                ///< of the project file; no nodes where there is none
+  DeformationModelOptions space;  ///< what made the designs of the history
 };
 
 /// Is it the name of a project file, which ends in .json?

@@ -56,11 +56,7 @@ void add_wishes(CLI::App& command, SuggestCommandOptions& options) {
                 "Direction along which copies are stacked (default: that of the current node, else 0 0 1)");
   add_semantics_option(command, options.measure.semantics);
   add_boxes_option(command, options.measure.boxes);
-  const Choices<DeformationKind> kinds = {{"controllers", DeformationKind::controllers},
-                                          {"surface", DeformationKind::surface},
-                                          {"iwires", DeformationKind::iwires},
-                                          {"gap-scaling", DeformationKind::gap_scaling}};
-  add_choice(command, "--model", options.kind, kinds,
+  add_choice(command, "--model", options.kind, deformation_choices(),
              "What moves the mesh (default: that of the history, else controllers)");
   const Choices<EditFamily> families = {
       {"paper", EditFamily::paper}, {"extended", EditFamily::extended}, {"smooth", EditFamily::smooth}};

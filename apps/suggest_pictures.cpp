@@ -67,10 +67,9 @@ void write_suggestion_pictures(const SuggestRun& run, const SuggestCommandOption
     Design after = run.space->edited(run.design, edit, run.constraints).design;
     const std::string number = std::to_string(k + 1), words = describe(edit, names),
                       why = describe(one.edit.reason, names), values = values_text(one.measured, one.energy);
-    const DeformationResult result{std::nullopt, after.shape, after.primitives};
     write_deformation_picture(
         {(folder.path() / files[k + 1]).string(), title_of(model) + ", suggestion " + number},
-        {before, result, {edit}, {}, {words, values + "   " + why}});
+        {before, after, {edit}, {}, {words, values + "   " + why}});
     sheet.tiles.push_back({std::move(after), edit.handle, {}, {number + ": " + values, words, why}});
   }
   write_design_sheet({(folder.path() / sheet_name).string(), title_of(model)}, sheet);

@@ -2,6 +2,7 @@
 
 #include "apps/text.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/structure/project_file.h"
 
 namespace stackabilization::apps {
@@ -31,9 +32,9 @@ Direction direction_of(const SuggestCommandOptions& options, const History& hist
 
 /// The model that made the history; where there is none yet, the one that is asked for.
 void choose_model(const SuggestCommandOptions& options, SuggestRun& run) {
-  DesignSpaceOptions& space = run.project.space;
+  DeformationModelOptions& space = run.project.space;
   if (run.project.history.nodes.empty())
-    space = {options.kind.value_or(DeformationKind::controllers), run.direction};
+    space = {options.kind.value_or(DeformationKind::controllers), run.direction, {}};
   else if (options.kind && *options.kind != space.kind)
     throw UsageError("--model " + name_of(*options.kind) + " does not fit the history, which was made with " +
                      name_of(space.kind));
@@ -79,7 +80,7 @@ SuggestRun run_suggest(const SuggestCommandOptions& options, const StructuredMod
   run.direction = direction_of(options, history);
   choose_model(options, run);
   const StructuredShape& rest = run.project.rest;
-  run.space = named(input.model, [&] { return design_space(rest, run.project.space); });
+  run.space = named(input.model, [&] { return deformation_model(rest, run.project.space); });
   Requirements requirements =
       requirements_of(options.requirements, rest.shape, options.measure,
                       options.family == EditFamily::paper ? QualityDefault::any : QualityDefault::limited);

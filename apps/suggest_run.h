@@ -38,7 +38,7 @@ struct SuggestCommandOptions {
 struct SuggestRun {
   Project project;  ///< as it is to be written: with the node that was applied
   Direction direction{0, 0, 1};
-  std::unique_ptr<DesignSpace> space;
+  std::unique_ptr<DeformationModel> space;
   DeformationConstraints constraints;
   Design design;                        ///< the current one, before anything is applied
   int node = 0;                         ///< its row in the history

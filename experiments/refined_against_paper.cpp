@@ -23,6 +23,7 @@
 #include "stackabilization/core/direction_text.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/improve.h"
 #include "stackabilization/improvement/shape_change.h"
 #include "stackabilization/io/read.h"
@@ -81,7 +82,7 @@ struct Run {
   }
 };
 
-Run run(const DesignSpace& space, ImprovementPreset preset, double target, const Settings& settings) {
+Run run(const DeformationModel& space, ImprovementPreset preset, double target, const Settings& settings) {
   Requirements requirements;
   requirements.target = target;
   requirements.measure.boxes = settings.boxes;
@@ -109,12 +110,12 @@ Table& table_of(Report& report) {
 class Rows {
  public:
   Rows(const std::string& model, Table& table)
-      : space_(design_space(structured(model))),
+      : space_(deformation_model(structured(model))),
         name_(model.substr(model.rfind('/') + 1)),
         hash_(file_hash(model)),
         table_(table) {}
 
-  const DesignSpace& space() const { return *space_; }
+  const DeformationModel& space() const { return *space_; }
 
   void add(const Run& run) {
     const Candidate& best = run.best();
@@ -128,7 +129,7 @@ class Rows {
   }
 
  private:
-  std::unique_ptr<DesignSpace> space_;
+  std::unique_ptr<DeformationModel> space_;
   std::string name_, hash_;
   Table& table_;
 };
@@ -139,7 +140,7 @@ double safely(double reached) {
 }
 
 /// Half of the way to the best that the paper's preset meets.
-double target_in_reach(const DesignSpace& space, const Settings& settings) {
+double target_in_reach(const DeformationModel& space, const Settings& settings) {
   constexpr double out_of_reach = 0.99;
   const Run paper = run(space, ImprovementPreset::paper, out_of_reach, settings);
   return safely((paper.improvement.before.measured.value + paper.best().measured.value) / 2);

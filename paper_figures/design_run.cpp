@@ -87,7 +87,7 @@ DesignRun design_run(StructuredShape rest, const DesignTask& task) {
   requirements.kept_parts = parts_named(rest.shape, task.kept);
   ImprovementTaskOptions options;
   options.kind = task.space.kind;
-  options.directions = {task.space.direction.vector()};
+  options.directions = {task.space.direction->vector()};
   DesignRun run;
   run.task = std::make_unique<const ImprovementTask>(std::move(rest), std::move(requirements), options);
   run.result = improve(*run.task, task.options);

@@ -21,7 +21,7 @@ struct DesignTask {
   std::vector<std::string> cuboids;    ///< names of parts that become cuboids; others: the better fit
   std::vector<std::string> cylinders;  ///< names of parts that become generalized cylinders
   SegmentationMethod segmentation = SegmentationMethod::automatic;
-  DesignSpaceOptions space;
+  DeformationModelOptions space;
   Requirements requirements;
   ImprovementOptions options;
 };

@@ -33,10 +33,10 @@ Figure06Options read_figure_06(const Fields& fields) {
 class GapScaling {
  public:
   GapScaling(const Shape& rest, const Figure06Options& options)
-      : direction_(options.task.space.direction),
+      : direction_(*options.task.space.direction),
         measure_(options.task.requirements.measure),
         rest_(refine(rest, {options.max_edge_length})),
-        model_(gap_scaling(rest_, direction_)) {}
+        model_(gap_scaling(unstructured(rest_), direction_)) {}
 
   /// `factor`: what the gap was scaled by in the end.
   MeasuredShape as_compact_as(const Stackability& wanted, double& factor) const {
@@ -56,7 +56,7 @@ class GapScaling {
     const Edit edit{{HandleKind::shape, 0, 0}, Scale{factor, direction_.unit()}};
     const DeformationResult result = model_->deformed({edit});
     if (result.refusal) throw InputError("gap scaling is refused: " + describe(*result.refusal, {}));
-    return result.shape;
+    return result.design.shape;
   }
 
   Direction direction_;
@@ -125,7 +125,7 @@ FigureResult make_figure_06(const Figure06Options& options, const ModelFolder& m
     result.numbers.push_back({shown.name + ": S", measured.value});
   }
   result.numbers.push_back({"factor of the gap function", factor});
-  const PanelRow plot{{{compared_gap_plot(shapes, options.task.space.direction), "", {}, 1}}, 0.34};
+  const PanelRow plot{{{compared_gap_plot(shapes, *options.task.space.direction), "", {}, 1}}, 0.34};
   result.drawing = panel_sheet({plot, row});
   const double before = ours.before.measured.extent;
   result.claims = {{"both solutions are equally compact: a further copy adds the same height to the stack",

@@ -55,7 +55,7 @@ std::vector<State> path(const DesignRun& run, int count) {
   for (std::size_t k = 0; k < shown.size(); ++k) {
     State state;
     state.edits = shown[k];
-    state.design = run.task->space().replayed({edits.begin(), edits.begin() + shown[k]}, constraints).design;
+    state.design = run.task->space().deformed({edits.begin(), edits.begin() + shown[k]}, constraints).design;
     state.measured = measured_shape(state.design.shape, direction, requirements.measure);
     if (k + 1 < shown.size()) state.next.assign(edits.begin() + shown[k], edits.begin() + shown[k + 1]);
     states.push_back(std::move(state));

@@ -64,7 +64,7 @@ declare -A parts=(
   [envelope]='separation height_field contacts'
   [stacking]='measure direction stacks validation'
   [structure]='model fitting symmetry joints segmentation analysis project'
-  [deformation]='model controllers arap iwires gap_scaling'
+  [deformation]='model controllers carried arap iwires gap_scaling factory'
   [improvement]='design quality requirements history contacts search advice refinement run'
   [rendering]='gl drawing scene pictures'
 )

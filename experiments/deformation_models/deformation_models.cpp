@@ -50,7 +50,7 @@ std::vector<Task> tasks(const Subject& subject, const Settings& settings, Improv
 /// Controllers in both presets, everything else in the refined one.
 std::vector<Task> tasks_of(const Variant& variant, const Subject& subject, const Settings& settings) {
   std::vector<Task> all;
-  if (variant.kind == DeformationKind::controllers)
+  if (capabilities_of(variant.kind).edits_primitives)
     all = tasks(subject, settings, ImprovementPreset::paper, common_alpha);
   for (const Task& task : tasks(subject, settings, ImprovementPreset::refined, common_alpha))
     all.push_back(task);

@@ -5,6 +5,7 @@
 
 #include "common/clock.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/carried_design.h"
 #include "stackabilization/structure/analysis.h"
 
@@ -89,7 +90,7 @@ const std::vector<Variant>& variants() {
 
 const Variant& mixed_variant() {
   return *std::find_if(variants().begin(), variants().end(), [](const Variant& variant) {
-    return variant.kind == DeformationKind::controllers && !variant.primitives;
+    return capabilities_of(variant.kind).edits_primitives && !variant.primitives;
   });
 }
 
@@ -129,8 +130,8 @@ std::vector<Trial> Subject::trials(const Variant& variant, const std::vector<Tas
                                    const Limits& limits) const {
   std::vector<Trial> trials;
   try {
-    const auto space = design_space(variant.primitives ? analysed(rest_.shape, variant.primitives) : rest_,
-                                    {variant.kind, upwards});
+    const auto space = deformation_model(
+        variant.primitives ? analysed(rest_.shape, variant.primitives) : rest_, {variant.kind, upwards});
     for (const Task& task : tasks)
       trials.push_back(trial({*space, requirements_of(variant, task.target)}, task, limits));
   } catch (const Error& error) {

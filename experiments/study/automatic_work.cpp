@@ -8,38 +8,37 @@ namespace stackabilization::experiments {
 namespace {
 
 /// Counts the designs that are made of another space.
-class CountedSpace : public DesignSpace {
+class CountedSpace : public DeformationModel {
  public:
-  explicit CountedSpace(const DesignSpace& space) : space_(space) {}
+  explicit CountedSpace(const DeformationModel& space) : space_(space) {}
 
   std::int64_t made() const { return made_; }
 
   const StructuredShape& rest() const override { return space_.rest(); }
   DeformationKind kind() const override { return space_.kind(); }
   std::vector<Handle> handles() const override { return space_.handles(); }
-  std::vector<Eigen::Vector3d> centres() const override { return space_.centres(); }
-  Design at_rest() const override { return space_.at_rest(); }
+  Eigen::Vector3d centre(const Handle& handle) const override { return space_.centre(handle); }
 
-  DesignOutcome edited(const Design& now, const Edit& edit,
-                       const DeformationConstraints& constraints) const override {
+  DeformationResult edited(const Design& now, const Edit& edit,
+                           const DeformationConstraints& constraints) const override {
     ++made_;
     return space_.edited(now, edit, constraints);
   }
 
-  DesignOutcome replayed(const std::vector<Edit>& edits,
-                         const DeformationConstraints& constraints) const override {
+  DeformationResult deformed(const std::vector<Edit>& edits,
+                             const DeformationConstraints& constraints) const override {
     ++made_;
-    return space_.replayed(edits, constraints);
+    return space_.deformed(edits, constraints);
   }
 
  private:
-  const DesignSpace& space_;
+  const DeformationModel& space_;
   mutable std::atomic<std::int64_t> made_ = 0;
 };
 
 }  // namespace
 
-AutomaticWork automatic_work(const DesignSpace& space, const StudyTask& task,
+AutomaticWork automatic_work(const DeformationModel& space, const StudyTask& task,
                              const ImprovementOptions& options) {
   ImprovementOptions limited = options;
   limited.effort = std::numeric_limits<double>::infinity();

@@ -14,7 +14,7 @@ struct AutomaticWork {
 
 /// `improve` along the direction of the task, and no other, ended by its number of expansions and not by a
 /// clock.
-AutomaticWork automatic_work(const DesignSpace& space, const StudyTask& task,
+AutomaticWork automatic_work(const DeformationModel& space, const StudyTask& task,
                              const ImprovementOptions& options);
 
 }  // namespace stackabilization::experiments

@@ -111,7 +111,7 @@ std::vector<Handle> ManualTool::touching_handles(const Candidate& now) const {
 }
 
 std::optional<Candidate> ManualTool::edited(const Candidate& now, const Edit& edit) const {
-  DesignOutcome outcome = checker_.space().edited(now.design, edit, constraints_);
+  DeformationResult outcome = checker_.space().edited(now.design, edit, constraints_);
   if (outcome.refusal || checker_.size_ratio_violation(outcome.design)) return std::nullopt;
   return measured(std::move(outcome.design));
 }

@@ -21,6 +21,7 @@
 #include "common/clock.h"
 #include "common/experiment.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/shape_change.h"
 #include "study/automatic_work.h"
 #include "study/manual_work.h"
@@ -43,7 +44,7 @@ class TaskStudy {
       : task_(task),
         settings_(settings),
         hash_(file_hash(task.model.path)),
-        space_(design_space(structured_shape(task))),
+        space_(deformation_model(structured_shape(task))),
         checker_(*space_, task.requirements),
         tool_(checker_, task.direction) {}
 
@@ -106,7 +107,7 @@ class TaskStudy {
   const StudyTask& task_;
   const Settings& settings_;
   std::string hash_;
-  std::unique_ptr<DesignSpace> space_;
+  std::unique_ptr<DeformationModel> space_;
   RequirementChecker checker_;
   ManualTool tool_;
 };

@@ -83,7 +83,7 @@ TEST_CASE("every model makes the edits it is for") {
         deformed({folder.project, "--model", model, "--edit", "shape scale 0.5 along 0 0 1"});
     CHECK(document["deformation"] == model);
     CHECK((vector_of(document["size_after"]) - Eigen::Vector3d(8, 8, 3)).norm() < 1e-9);
-    CHECK(document["residuals"]["joint"].is_null());
+    CHECK(document["residuals"]["joint"].get<double>() < 1e-9);
     CHECK(document["primitives"].empty());
   }
   const json sideways = deformed({folder.project, "--model", "gap-scaling", "--direction", "1", "0", "0",

@@ -1,7 +1,7 @@
 #include <sstream>
 
 #include "apps/run_program.h"
-#include "stackabilization/improvement/design.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
 #include "support/solids.h"
@@ -36,7 +36,8 @@ TEST_CASE("more parts than a command takes are refused before the work, with the
   const AnalysisOptions limits;
   const std::string apart_20001 = folder.file("apart_20001.obj", cubes(limits.max_parts + 1, {2, 0, 0})),
                     apart_2001 = folder.file("apart_2001.obj", cubes(2001, {2, 0, 0})),
-                    apart_501 = folder.file("apart_501.obj", cubes(max_design_parts + 1, {2, 0, 0})),
+                    apart_501 =
+                        folder.file("apart_501.obj", cubes(DeformationLimits().max_parts + 1, {2, 0, 0})),
                     together = folder.file("together.obj", cubes(700, {0, 0, 0}));
   check_refused(folder, {"structure", apart_20001}, 3,
                 "apart_20001.obj: it has 20001 parts, and the structure of at most 20000 is analysed");
@@ -54,7 +55,7 @@ TEST_CASE("more parts than a command takes are refused before the work, with the
 
 TEST_CASE("a project file of more parts than designs are made of is refused") {
   const TemporaryFolder folder;
-  const std::string mesh = folder.file("apart.obj", cubes(max_design_parts + 1, {2, 0, 0}));
+  const std::string mesh = folder.file("apart.obj", cubes(DeformationLimits().max_parts + 1, {2, 0, 0}));
   const std::string project = folder / "apart.json";
   REQUIRE(run_program({"structure", mesh, "--save", project, "--quiet"}).status == 0);
   check_refused(folder, {"suggest", project}, 3,

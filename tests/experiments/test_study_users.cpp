@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/factory.h"
 #include "study/manual_work.h"
 #include "support/catch.h"
 #include "support/cups.h"
@@ -21,18 +22,18 @@ const Habit habits[] = {Habit::random, Habit::greedy, Habit::careful};
 
 /// A design space, a target, and a tool to reach it with.
 struct Task {
-  Task(std::unique_ptr<DesignSpace> designs, double target)
+  Task(std::unique_ptr<DeformationModel> designs, double target)
       : space(std::move(designs)),
         checker(*space, designs::frame_requirements(target)),
         tool(checker, {0, 0, 1}) {}
 
-  std::unique_ptr<DesignSpace> space;
+  std::unique_ptr<DeformationModel> space;
   RequirementChecker checker;
   ManualTool tool;
 };
 
 Task table(double target = out_of_reach) {
-  return {design_space(structures::table()), target};
+  return {deformation_model(structures::table()), target};
 }
 
 Task cup(double target = out_of_reach) {
@@ -70,7 +71,7 @@ TEST_CASE("what a user ends with is what the edits make, and it holds all requir
   for (const Habit habit : habits) {
     const Candidate result = worked(task.tool, {habit, 3, 60, 6}).result;
     REQUIRE_FALSE(result.design.edits.empty());
-    const DesignOutcome again = task.space->replayed(
+    const DeformationResult again = task.space->deformed(
         result.design.edits,
         deformation_constraints(task.checker.requirements(), task.space->rest(), Direction(0, 0, 1)));
     REQUIRE_FALSE(again.refusal);

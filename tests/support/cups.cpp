@@ -35,12 +35,12 @@ std::vector<Handle> Cups::handles() const {
   return {{HandleKind::section, 0, 0}, {HandleKind::section, 0, 1}};
 }
 
-Design Cups::at_rest() const {
-  return {{}, {primitive(1, 1)}, rest_.shape};
+Eigen::Vector3d Cups::centre(const Handle& handle) const {
+  return {0, 0, handle.index * height};
 }
 
-DesignOutcome Cups::edited(const Design& now, const Edit& edit,
-                           const DeformationConstraints& constraints) const {
+DeformationResult Cups::edited(const Design& now, const Edit& edit,
+                               const DeformationConstraints& constraints) const {
   const auto* scaling = std::get_if<Scale>(&edit.operation);
   if (!constraints.fixed_parts.empty()) return {Refusal{.cause = RefusalCause::fixed_part, .part = 0}, now};
   if (scaling == nullptr || edit.handle.kind != HandleKind::section)

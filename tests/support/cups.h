@@ -10,7 +10,7 @@ namespace stackabilization::cups {
 ///
 /// Where the inner wall reaches the rim, f = height wall top / (top - bottom) for cups that open upwards, so
 /// that S = 1 - wall top / (top - bottom) in `frame` boxes, as long as the bottom goes into the mouth.
-class Cups : public DesignSpace {
+class Cups : public DeformationModel {
  public:
   static constexpr double wall = 0.1, height = 4;
 
@@ -19,10 +19,10 @@ class Cups : public DesignSpace {
   const StructuredShape& rest() const override { return rest_; }
   DeformationKind kind() const override { return DeformationKind::controllers; }
   std::vector<Handle> handles() const override;
-  Design at_rest() const override;
+  Eigen::Vector3d centre(const Handle& handle) const override;
   /// Refuses what is no scaling of a section, and fixed parts.
-  DesignOutcome edited(const Design& now, const Edit& edit,
-                       const DeformationConstraints& constraints) const override;
+  DeformationResult edited(const Design& now, const Edit& edit,
+                           const DeformationConstraints& constraints) const override;
 
  private:
   int segments_;

@@ -17,7 +17,9 @@ namespace {
 class RandomEdits {
  public:
   RandomEdits(const ControllerModel& model, std::uint64_t seed)
-      : by_kind_(model.rest_primitives().size()), diagonal_(model.rest().structure.diagonal), random_(seed) {
+      : by_kind_(model.rest().structure.parts.size()),
+        diagonal_(model.rest().structure.diagonal),
+        random_(seed) {
     for (const Handle& handle : model.handles()) {
       auto& of_part = by_kind_[static_cast<std::size_t>(handle.part)];
       if (of_part.empty() || of_part.back().front().kind != handle.kind) of_part.emplace_back();
@@ -88,20 +90,20 @@ double smallest_corner_ratio(const Cuboid& rest, const Cuboid& now) {
 }
 
 /// Everything that must hold of an accepted edit, checked from the result alone.
-void check_accepted(const ControllerModel& model, const EditOutcome& outcome,
+void check_accepted(const ControllerModel& model, const Design& design,
                     const DeformationConstraints& constraints) {
   const StructuredShape& rest = model.rest();
-  for (const double residual : relation_residuals(rest.structure, outcome.primitives))
+  for (const double residual : relation_residuals(rest.structure, design.primitives))
     REQUIRE(residual <= 1e-6);
-  for (std::size_t part = 0; part < outcome.primitives.size(); ++part) {
-    if (const auto* cuboid = std::get_if<Cuboid>(&outcome.primitives[part])) {
+  for (std::size_t part = 0; part < design.primitives.size(); ++part) {
+    if (const auto* cuboid = std::get_if<Cuboid>(&design.primitives[part])) {
       if (volume(rest.structure.parts[part].primitive) > 1e-12 * std::pow(rest.structure.diagonal, 3))
         REQUIRE(smallest_corner_ratio(std::get<Cuboid>(rest.structure.parts[part].primitive), *cuboid) > 0);
     } else {
-      REQUIRE(std::get<GeneralizedCylinder>(outcome.primitives[part]).radii.minCoeff() > 0);
+      REQUIRE(std::get<GeneralizedCylinder>(design.primitives[part]).radii.minCoeff() > 0);
     }
   }
-  const Shape shape = model.shape_of(outcome.primitives);
+  const Shape& shape = design.shape;
   REQUIRE(shape.vertices.allFinite());
   if (constraints.keep_extent) {
     const Eigen::Vector3d r = constraints.keep_extent->unit();
@@ -122,13 +124,13 @@ void check_accepted(const ControllerModel& model, const EditOutcome& outcome,
 std::map<std::string, Tally> run(const ControllerModel& model, int count, std::uint64_t seed) {
   std::map<std::string, Tally> tallies;
   RandomEdits edits(model, seed);
-  std::vector<Primitive> now = model.rest_primitives();
+  Design now = model.at_rest();
   for (int i = 0; i < count; ++i) {
-    if (i % 5 == 0) now = model.rest_primitives();
+    if (i % 5 == 0) now = model.at_rest();
     const Edit edit = edits.next();
     // A bounded edit of something that is out of bounds already says little.
     const DeformationConstraints constraints = i % 5 == 0 ? edits.constraints() : DeformationConstraints();
-    const EditOutcome outcome = model.edited(now, edit, constraints);
+    const DeformationResult outcome = model.edited(now, edit, constraints);
     Tally& tally = tallies[kind_of(edit, constraints)];
     if (outcome.refusal) {
       REQUIRE_FALSE(describe(*outcome.refusal, model.rest().structure).empty());
@@ -139,8 +141,8 @@ std::map<std::string, Tally> run(const ControllerModel& model, int count, std::u
       continue;
     }
     ++tally.accepted;
-    check_accepted(model, outcome, constraints);
-    now = outcome.primitives;
+    check_accepted(model, outcome.design, constraints);
+    now = outcome.design;
   }
   return tallies;
 }

@@ -9,7 +9,7 @@
 namespace stackabilization::designs {
 
 /// A rest and nothing else: designs are made by hand.
-class Still : public DesignSpace {
+class Still : public DeformationModel {
  public:
   explicit Still(StructuredShape rest, DeformationKind kind = DeformationKind::controllers)
       : rest_(std::move(rest)), kind_(kind) {}
@@ -17,13 +17,8 @@ class Still : public DesignSpace {
   const StructuredShape& rest() const override { return rest_; }
   DeformationKind kind() const override { return kind_; }
   std::vector<Handle> handles() const override { return {}; }
-  Design at_rest() const override {
-    Design design;
-    design.shape = rest_.shape;
-    for (const Part& part : rest_.structure.parts) design.primitives.push_back(part.primitive);
-    return design;
-  }
-  DesignOutcome edited(const Design& now, const Edit&, const DeformationConstraints&) const override {
+  Eigen::Vector3d centre(const Handle&) const override { return Eigen::Vector3d::Zero(); }
+  DeformationResult edited(const Design& now, const Edit&, const DeformationConstraints&) const override {
     return {std::nullopt, now};
   }
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "stackabilization/deformation/deformation_model.h"
+#include "stackabilization/deformation/carried_model.h"
 
 namespace stackabilization {
 
@@ -25,8 +25,8 @@ namespace stackabilization {
 ///
 /// Squashing changes the extent along the direction. When the extent must be kept, the model stretches the
 /// result back (vertex_constraints.h), which undoes the gain. Fixed vertices must lie on the upper envelope.
-/// centre() returns the centre of the shape's axis-aligned box. The model does not refer to the storage of
-/// `shape`. Throws InputError when `shape` is invalid.
-std::unique_ptr<DeformationModel> gap_scaling(const Shape& shape, const Direction& direction);
+/// centre() returns the centre of the shape's axis-aligned box. The structure of `rest` is carried along
+/// (carried_model.h); it may be that of `unstructured`. Throws InputError when the shape is invalid.
+std::unique_ptr<DeformationModel> gap_scaling(StructuredShape rest, const Direction& direction);
 
 }  // namespace stackabilization

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "stackabilization/deformation/deformation_model.h"
+#include "stackabilization/deformation/carried_model.h"
 #include "stackabilization/deformation/wire_analysis.h"
 
 namespace stackabilization {
@@ -43,11 +43,12 @@ struct IWiresOptions {
 /// wire or turns it inside out, and an edit that violates DeformationConstraints. The refusal names the wire
 /// and the amount. To keep an extent, the model holds the wires that define it. When this is impossible, the
 /// model stretches the result back along the direction, including the wires (vertex_constraints.h).
-class IWiresModel final : public DeformationModel {
+class IWiresModel final : public CarriedModel {
  public:
-  /// Throws InputError when the shape is invalid or has no feature curve (smooth closed surfaces), and
-  /// UsageError for options out of range.
-  explicit IWiresModel(Shape rest, const IWiresOptions& options = {});
+  /// The structure of `rest` is carried along; it may be that of `unstructured`. Throws InputError when the
+  /// shape is invalid or has no feature curve (smooth closed surfaces), and UsageError for options out of
+  /// range.
+  explicit IWiresModel(StructuredShape rest, const IWiresOptions& options = {});
   IWiresModel(IWiresModel&&) noexcept;
   IWiresModel& operator=(IWiresModel&&) noexcept;
   ~IWiresModel() override;
@@ -55,12 +56,15 @@ class IWiresModel final : public DeformationModel {
   /// Returns the wires at rest and the relations between them.
   const WireStructure& wires() const;
 
+  DeformationKind kind() const override { return DeformationKind::iwires; }
   std::vector<Handle> handles() const override;
   Eigen::Vector3d centre(const Handle& handle) const override;
-  DeformationResult deformed(const std::vector<Edit>& edits,
-                             const DeformationConstraints& constraints = {}) const override;
+  std::vector<std::int32_t> curve(const Handle& handle) const override;
 
  private:
+  MovedVertices moved(const std::vector<Edit>& edits,
+                      const DeformationConstraints& constraints) const override;
+
   struct Data;
   std::unique_ptr<const Data> data_;
 };

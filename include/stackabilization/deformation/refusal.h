@@ -48,6 +48,8 @@ enum class RefusalCause {
   proportions,  ///< `part` would lose its proportions
   unchanged,    ///< nothing would change
   undefined,    ///< stackability or distortion would be undefined
+  // Models without primitives. Last: saved searches hold the numbers of causes.
+  collapsed_triangle,  ///< triangle `index` would lose a side
 };
 
 /// Why an edit was refused. The cause says which of the other members are set.

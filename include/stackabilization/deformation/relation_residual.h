@@ -19,4 +19,19 @@ namespace stackabilization {
 /// symmetric primitives of `rest` differ in kind or in their number of cross-sections.
 std::vector<double> relation_residuals(const Structure& rest, const std::vector<Primitive>& deformed);
 
+/// Computes the residual of each relation of `rest` on a deformed mesh, for models whose edits do not move
+/// primitives; fraction of Structure::diagonal, one number per row of Structure::relations:
+///
+/// * symmetry, self_symmetry: the largest distance between the image of a vertex of one part and the point of
+///   the other part that was nearest to that image at rest;
+/// * joints: the distance between the two points at which the surfaces of the parts met next to a joint point
+///   at rest, or came nearest to each other.
+///
+/// Two places that are apart at rest may be twice as far apart: gaps and irregularities of the mesh stretch
+/// with their parts. Only what is beyond that counts.
+///
+/// The function uses the vertices alone. Precondition: `deformed` has the triangles of `rest`. Throws
+/// InputError when a part of a relation has no triangle of positive area.
+std::vector<double> mesh_relation_residuals(const StructuredShape& rest, const Shape& deformed);
+
 }  // namespace stackabilization

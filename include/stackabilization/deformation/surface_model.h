@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "stackabilization/deformation/as_rigid_as_possible.h"
-#include "stackabilization/deformation/deformation_model.h"
+#include "stackabilization/deformation/carried_model.h"
 
 namespace stackabilization {
 
@@ -51,8 +51,10 @@ struct SurfaceModelOptions {
 /// and points hold their vertices against any handle: the model refuses edits that move them. The model
 /// checks the box.
 ///
-/// Rigid motions of the whole shape are exact up to rounding. The model does not refer to the storage of
-/// `shape`. Throws InputError when `shape` is invalid, and UsageError for options out of range.
-std::unique_ptr<DeformationModel> surface_model(const Shape& shape, const SurfaceModelOptions& options = {});
+/// Rigid motions of the whole shape are exact up to rounding. The structure of `rest` is carried along
+/// (carried_model.h); it may be that of `unstructured`. Throws InputError when the shape is invalid, and
+/// UsageError for options out of range.
+std::unique_ptr<DeformationModel> surface_model(StructuredShape rest,
+                                                const SurfaceModelOptions& options = {});
 
 }  // namespace stackabilization

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "stackabilization/core/direction.h"
+#include "stackabilization/deformation/deformation_model.h"
 #include "stackabilization/envelope/contacts.h"
-#include "stackabilization/improvement/design.h"
 
 namespace stackabilization {
 
@@ -77,14 +77,14 @@ struct ContactEdit {
 
 /// A design stacked on itself, with its contacts.
 struct ContactSituation {
-  const StructuredShape& rest;                ///< shape at rest of the design space
-  DeformationKind kind;                       ///< deformation model of the design space
-  const std::vector<Handle>& handles;         ///< handles of the design space
+  const StructuredShape& rest;                ///< shape at rest of the deformation model
+  DeformationCapabilities capabilities;       ///< those of the deformation model
+  const std::vector<Handle>& handles;         ///< handles of the deformation model
   const Design& design;                       ///< design that is stacked
   const std::vector<ContactRegion>& regions;  ///< contact regions of the design along `direction`
   const Direction& direction;                 ///< r, from the copy below to the copy above
-  /// DesignSpace::centres, for models without primitives. If empty, only points are used as handles, no wires
-  /// and no slices.
+  /// DeformationModel::centres, for models that do not edit primitives. If empty, only points are used as
+  /// handles, no wires and no slices.
   std::vector<Eigen::Vector3d> centres = {};
 };
 
@@ -100,7 +100,7 @@ struct ContactSituation {
 /// | --- | --- |
 /// | nearest | cuboid: the nearest face, and the nearest corner if the contact is near one |
 /// | | generalized cylinder: the nearest cross-section, or the nearest end if it has to stay straight |
-/// | | models without primitives: the nearest point, wire and slice |
+/// | | models that do not edit primitives: the nearest point, wire and slice |
 /// | end (E) | cuboid: the faces across r; generalized cylinder: both end sections, with Falloff::linear |
 /// | whole (E) | the part |
 ///

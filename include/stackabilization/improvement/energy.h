@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 
-#include "stackabilization/improvement/design.h"
+#include "stackabilization/deformation/deformation_model.h"
 #include "stackabilization/stacking/stackability.h"
 #include "stackabilization/structure/structure.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "stackabilization/improvement/design.h"
+#include "stackabilization/deformation/factory.h"
 
 namespace stackabilization {
 
@@ -41,14 +41,14 @@ History roll_back(History history, int node);
 /// Makes the design of a node again: each step's edits under that step's constraints. Equal calls give equal
 /// designs, to the bit. Throws UsageError when there is no such node. Throws InputError naming the node when
 /// an edit is refused or does not belong to this space.
-Design design_at(const DesignSpace& space, const History& history, int node);
+Design design_at(const DeformationModel& space, const History& history, int node);
 
 /// A structured shape with the history of its designs: the document of `suggest` and of an interactive
 /// editor.
 struct Project {
-  StructuredShape rest;      ///< the shape without edits
-  History history;           ///< its designs; no nodes before the first step
-  DesignSpaceOptions space;  ///< deformation model that makes the designs
+  StructuredShape rest;           ///< the shape without edits
+  History history;                ///< its designs; no nodes before the first step
+  DeformationModelOptions space;  ///< deformation model that makes the designs
 };
 
 /// Returns the project file of the shape at rest (structure/project_file.h). The history is its last entry,
@@ -64,8 +64,9 @@ struct Project {
 ///
 /// Handles: kind "part" has a part; "face", "corner" and "section" have part and index; "point" and "wire"
 /// have an index; "shape" has neither. An operation is "move": [x, y, z], "rotate": {"axis": [x, y, z],
-/// "radians": a} or "scale": {"factor": f, "along": [x, y, z]}. Optional: `along`, `falloff` (default
-/// "gaussian"), `extent_ends` (default "free") and every constraint. Numbers read back as the same doubles.
+/// "radians": a} or "scale": {"factor": f, "along": [x, y, z]}. Optional: `model_direction`, `along`,
+/// `falloff` (default "gaussian"), `extent_ends` (default "free") and every constraint. Numbers read back as
+/// the same doubles.
 ///
 /// Throws InputError when the shape is invalid, or when the history could not be read back.
 std::string project_text(const Project& project);

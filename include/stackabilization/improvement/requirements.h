@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "stackabilization/deformation/deformation_model.h"
 #include "stackabilization/improvement/checks.h"
-#include "stackabilization/improvement/design.h"
 #include "stackabilization/improvement/quality.h"
 #include "stackabilization/stacking/stackability.h"
 
@@ -76,10 +76,10 @@ struct Assessment {
 class RequirementChecker {
  public:
   /// Throws as `validate`.
-  RequirementChecker(const DesignSpace& space, Requirements requirements);
+  RequirementChecker(const DeformationModel& space, Requirements requirements);
 
   const Requirements& requirements() const;  ///< the requirements given
-  const DesignSpace& space() const;          ///< the space given; it must still exist
+  const DeformationModel& space() const;     ///< the space given; it must still exist
   /// Returns S(M, r) with the required clearance and play: the only measure that a search needs for every
   /// candidate. Within 1e-12 of the value that `check` compares with the target. Throws InputError for a
   /// shape without volume.
@@ -100,9 +100,10 @@ class RequirementChecker {
   /// slack, from exact separations. The other quantities are computed in double precision and compared within
   /// tolerance::relative.
   ///
-  /// * relations: only for controllers, recomputed from the primitives;
+  /// * relations: recomputed, see DeformationModel::relation_residuals;
   /// * parts: no vertex of a part that stays has moved. Where such a part shares vertices with one that may
-  ///   change, controllers let the surface between them follow; there the primitive has not moved;
+  ///   change, models that edit primitives let the surface between them follow; there the primitive has not
+  ///   moved;
   /// * thickness: every probe is at least as thick as required or, where the shape at rest is thinner, as at
   ///   rest;
   /// * draft: at the contacts of the copies without clearance and play;

@@ -32,13 +32,13 @@ struct ImprovementTaskOptions {
 /// rest (plan_stack).
 class ImprovementTask {
  public:
-  /// Throws as `design_space`, `validate` of the requirements and `best_direction`. Throws UsageError when
-  /// the length limit leaves no room for the copies, however well they stack.
+  /// Throws as `deformation_model`, `validate` of the requirements and `best_direction`. Throws UsageError
+  /// when the length limit leaves no room for the copies, however well they stack.
   ImprovementTask(StructuredShape rest, Requirements requirements,
                   const ImprovementTaskOptions& options = {});
 
   const StructuredShape& rest() const { return space_->rest(); }   ///< the shape given
-  const DesignSpace& space() const { return *space_; }             ///< designs of the shape
+  const DeformationModel& space() const { return *space_; }        ///< designs of the shape
   const RequirementChecker& checker() const { return *checker_; }  ///< checks designs of that space
   const std::vector<Eigen::Vector3d>& directions() const { return directions_; }  ///< starting directions
   /// Returns whether `cancelled` ended the search for directions; only up is a starting direction then.
@@ -47,7 +47,7 @@ class ImprovementTask {
  private:
   std::vector<Eigen::Vector3d> directions_;
   bool cancelled_ = false;
-  std::unique_ptr<const DesignSpace> space_;
+  std::unique_ptr<const DeformationModel> space_;
   std::unique_ptr<const RequirementChecker> checker_;
 };
 

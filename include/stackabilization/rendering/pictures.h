@@ -6,7 +6,7 @@
 
 #include "stackabilization/core/direction.h"
 #include "stackabilization/core/shape.h"
-#include "stackabilization/deformation/deformation_model.h"
+#include "stackabilization/deformation/design.h"
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/envelope/height_field.h"
 #include "stackabilization/rendering/drawing.h"
@@ -78,9 +78,10 @@ struct DeformationPictureOptions {
 };
 
 /// Draws a shape before (yellow) and after (green) edits, side by side from one viewpoint and in one scale.
-/// Edited handles are red where they can be shown. z points up. Throws UsageError when the edits were
-/// refused, and RenderError when there is no OpenGL context. Precondition: `result` comes from `rest`.
-Drawing deformation_picture(const StructuredShape& rest, const DeformationResult& result,
+/// Edited handles are red where they can be shown. z points up. Throws RenderError when there is
+/// no OpenGL context. Precondition: `design` was made of `rest`; without primitives, handles of primitives
+/// are not shown.
+Drawing deformation_picture(const StructuredShape& rest, const Design& design,
                             const std::vector<Handle>& handles,
                             const DeformationPictureOptions& options = {});
 

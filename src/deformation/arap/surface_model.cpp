@@ -121,27 +121,29 @@ RigidMotion motion_at(const Shape& rest, const SurfacePoint& point, const Rotate
   return motion;
 }
 
-class SurfaceModel : public DeformationModel {
+class SurfaceModel : public CarriedModel {
  public:
-  SurfaceModel(const Shape& shape, const SurfaceModelOptions& options)
-      : shape_(shape),
-        places_(detail::weld(shape)),
-        handles_(shape, places_, options),
+  SurfaceModel(StructuredShape structured, const SurfaceModelOptions& options)
+      : CarriedModel(std::move(structured)),
+        places_(detail::weld(shape())),
+        handles_(shape(), places_, options),
         options_(options),
         diagonal_((places_.points.colwise().maxCoeff() - places_.points.colwise().minCoeff()).norm()),
         ties_(detail::stitching_edges(places_, RigidSurface(places_.points, places_.triangles).shells(),
                                       options.reach * diagonal_)),
         surface_(places_.points, places_.triangles, ties_) {}
 
+  DeformationKind kind() const override { return DeformationKind::surface; }
   std::vector<Handle> handles() const override { return handles_.all(); }
   Eigen::Vector3d centre(const Handle& handle) const override {
     const detail::HeldSurface held = handles_.held(handle);
     return places_.points(held.places, Eigen::all).transpose() * held.weights;
   }
-  DeformationResult deformed(const std::vector<Edit>& edits,
-                             const DeformationConstraints& constraints) const override;
 
  private:
+  MovedVertices moved(const std::vector<Edit>& edits,
+                      const DeformationConstraints& constraints) const override;
+  const Shape& shape() const { return rest().shape; }
   Targets targets(const std::vector<Edit>& edits) const;
   /// Holds the places that stay: fixed ones, and those beyond the influence of the held ones. Returns which
   /// places stay.
@@ -151,7 +153,6 @@ class SurfaceModel : public DeformationModel {
   std::vector<SurfacePoint> nearest_leaders(const Shape& leaders, const std::vector<bool>& led) const;
   std::vector<std::int32_t> vertices_at(const std::vector<bool>& places) const;
 
-  Shape shape_;
   detail::WeldedMesh places_;
   detail::SurfaceHandles handles_;
   SurfaceModelOptions options_;
@@ -265,9 +266,9 @@ std::vector<std::int32_t> SurfaceModel::vertices_at(const std::vector<bool>& pla
   return rows;
 }
 
-DeformationResult SurfaceModel::deformed(const std::vector<Edit>& edits,
-                                         const DeformationConstraints& constraints) const {
-  const std::vector<std::int32_t> fixed = fixed_vertices(shape_, constraints);
+MovedVertices SurfaceModel::moved(const std::vector<Edit>& edits,
+                                  const DeformationConstraints& constraints) const {
+  const std::vector<std::int32_t> fixed = fixed_vertices(shape(), constraints);
   Targets targets = this->targets(edits);
   Points places = targets.held.points;
   std::vector<bool> stays(targets.is_held.size());
@@ -279,26 +280,24 @@ DeformationResult SurfaceModel::deformed(const std::vector<Edit>& edits,
     follow(now, targets);
     places = std::move(now.points);
   }
-  DeformationResult result{{}, shape_, {}};
+  Points vertices = shape().vertices;
   for (std::size_t v = 0; v < places_.of_vertex.size(); ++v)
     if (places_.of_vertex[v] >= 0)
-      result.shape.vertices.row(static_cast<Eigen::Index>(v)) = places.row(places_.of_vertex[v]);
+      vertices.row(static_cast<Eigen::Index>(v)) = places.row(places_.of_vertex[v]);
 
-  ConstrainedVertices kept = constrain(shape_, result.shape.vertices, constraints, fixed);
+  MovedVertices kept = constrain(shape(), vertices, constraints, fixed);
   if (constraints.keep_extent && !targets.whole) {
-    ConstrainedVertices local = constrain(shape_, result.shape.vertices, constraints, vertices_at(stays));
+    MovedVertices local = constrain(shape(), vertices, constraints, vertices_at(stays));
     if (!local.refusal) kept = std::move(local);
   }
-  result.shape.vertices = std::move(kept.vertices);
-  result.refusal = std::move(kept.refusal);
-  return result;
+  return kept;
 }
 
 }  // namespace
 
-std::unique_ptr<DeformationModel> surface_model(const Shape& shape, const SurfaceModelOptions& options) {
-  validate(shape);
-  return std::make_unique<SurfaceModel>(shape, options);
+std::unique_ptr<DeformationModel> surface_model(StructuredShape rest, const SurfaceModelOptions& options) {
+  validate(rest.shape);
+  return std::make_unique<SurfaceModel>(std::move(rest), options);
 }
 
 }  // namespace stackabilization

@@ -12,8 +12,9 @@
 namespace stackabilization {
 
 struct ControllerModel::Data {
-  Data(StructuredShape structured, const ControllerLimits& limits, Following following)
-      : rest(sliding(std::move(structured), following)),
+  Data(StructuredShape structured, const ControllerLimits& limits, Following how)
+      : following(how),
+        rest(sliding(std::move(structured), following)),
         rig(within(limits, rest.structure, following)),
         mesh{detail::MeshTransfer(rest.shape, rig), detail::vertices_by_class(rest.shape, rig),
              SurfaceIndex(rest.shape)} {
@@ -46,9 +47,25 @@ struct ControllerModel::Data {
     for (std::size_t k = 0; same && k < now.size(); ++k)
       same = now[k].index() == primitives[k].index() &&
              control_points(now[k]).rows() == control_points(primitives[k]).rows();
-    if (!same) throw UsageError("the configuration does not have the primitives of the shape");
+    if (!same) throw UsageError("the design does not have the primitives of the shape");
   }
 
+  detail::EditOutcome edited(const std::vector<Primitive>& now, const Edit& edit,
+                             const DeformationConstraints& constraints) const {
+    validate(edit, rest.structure.diagonal);
+    validate(constraints, rest.shape);
+    check(now);
+    detail::EditTask task{rest.shape, now, {}, constraints};
+    if (edit.handle.kind == HandleKind::shape) {
+      task.wanted = detail::edit_handle(now, edit.operation);
+    } else {
+      const Part& edited = part(edit.handle);
+      task.wanted = {detail::edit_handle(now[static_cast<std::size_t>(edit.handle.part)], edit, edited.name)};
+    }
+    return detail::solve_edit(rig, mesh, task);
+  }
+
+  Following following;
   StructuredShape rest;
   std::vector<Primitive> primitives;
   detail::Rig rig;
@@ -72,12 +89,12 @@ ControllerModel::ControllerModel(ControllerModel&&) noexcept = default;
 ControllerModel& ControllerModel::operator=(ControllerModel&&) noexcept = default;
 ControllerModel::~ControllerModel() = default;
 
-const StructuredShape& ControllerModel::rest() const {
-  return data_->rest;
+Following ControllerModel::following() const {
+  return data_->following;
 }
 
-const std::vector<Primitive>& ControllerModel::rest_primitives() const {
-  return data_->primitives;
+const StructuredShape& ControllerModel::rest() const {
+  return data_->rest;
 }
 
 std::vector<Handle> ControllerModel::handles() const {
@@ -94,41 +111,38 @@ Eigen::Vector3d ControllerModel::centre(const Handle& handle) const {
   return detail::handle_centre(part.primitive, handle, part.name);
 }
 
-EditOutcome ControllerModel::edited(const std::vector<Primitive>& now, const Edit& edit,
-                                    const DeformationConstraints& constraints) const {
-  validate(edit, data_->rest.structure.diagonal);
-  validate(constraints, data_->rest.shape);
-  data_->check(now);
-  detail::EditTask task{data_->rest.shape, now, {}, constraints};
-  if (edit.handle.kind == HandleKind::shape) {
-    task.wanted = detail::edit_handle(now, edit.operation);
-  } else {
-    const Part& part = data_->part(edit.handle);
-    task.wanted = {detail::edit_handle(now[static_cast<std::size_t>(edit.handle.part)], edit, part.name)};
-  }
-  return detail::solve_edit(data_->rig, data_->mesh, task);
-}
-
-Shape ControllerModel::shape_of(const std::vector<Primitive>& now) const {
-  data_->check(now);
-  Shape shape = data_->rest.shape;
-  shape.vertices = data_->mesh.transfer.vertices(data_->rig, now);
-  return shape;
+DeformationResult ControllerModel::edited(const Design& now, const Edit& edit,
+                                          const DeformationConstraints& constraints) const {
+  detail::EditOutcome outcome = data_->edited(now.primitives, edit, constraints);
+  if (outcome.refusal) return {std::move(outcome.refusal), now};
+  Design design{now.edits, std::move(outcome.primitives), {}};
+  design.edits.push_back(edit);
+  design.shape = shape_of(design.primitives);
+  return {std::nullopt, std::move(design)};
 }
 
 DeformationResult ControllerModel::deformed(const std::vector<Edit>& edits,
                                             const DeformationConstraints& constraints) const {
-  DeformationResult result{std::nullopt, {}, data_->primitives};
+  DeformationResult result{std::nullopt, {{}, data_->primitives, {}}};
+  Design& design = result.design;
   for (const Edit& edit : edits) {
-    EditOutcome outcome = edited(result.primitives, edit, constraints);
-    result.primitives = std::move(outcome.primitives);
+    detail::EditOutcome outcome = data_->edited(design.primitives, edit, constraints);
     if (outcome.refusal) {
-      result = {std::move(outcome.refusal), {}, data_->primitives};
+      result.refusal = std::move(outcome.refusal);
       break;
     }
+    design.primitives = std::move(outcome.primitives);
+    design.edits.push_back(edit);
   }
-  result.shape = shape_of(result.primitives);
+  design.shape = design.edits.empty() ? data_->rest.shape : shape_of(design.primitives);
   return result;
+}
+
+Shape ControllerModel::shape_of(const std::vector<Primitive>& primitives) const {
+  data_->check(primitives);
+  Shape shape = data_->rest.shape;
+  shape.vertices = data_->mesh.transfer.vertices(data_->rig, primitives);
+  return shape;
 }
 
 }  // namespace stackabilization

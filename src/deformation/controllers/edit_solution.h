@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "deformation/controllers/extent_bounds.h"
@@ -7,8 +8,8 @@
 #include "deformation/controllers/part_edit.h"
 #include "deformation/controllers/rig.h"
 #include "mesh/surface_index.h"
-#include "stackabilization/deformation/controller_model.h"
 #include "stackabilization/deformation/edit.h"
+#include "stackabilization/deformation/refusal.h"
 
 namespace stackabilization::detail {
 
@@ -25,6 +26,13 @@ struct EditTask {
   const std::vector<Primitive>& now;  ///< primitives before the edit
   std::vector<PartEdit> wanted;       ///< one edit of one part, or one edit of every part in order
   const DeformationConstraints& constraints;
+};
+
+/// Result of an edit: the primitives after it, or the reason for the refusal.
+struct EditOutcome {
+  /// Set when the edit was refused; `primitives` are then those before the edit.
+  std::optional<Refusal> refusal;
+  std::vector<Primitive> primitives;  ///< one per part
 };
 
 /// Applies the edit subject to all relations and constraints, or returns the reason for the refusal. The

@@ -86,34 +86,36 @@ class Columns {
   Tree tree_;
 };
 
-class GapScaling : public DeformationModel {
+class GapScaling : public CarriedModel {
  public:
-  GapScaling(const Shape& shape, const Direction& direction);
+  GapScaling(StructuredShape structured, const Direction& direction);
 
+  DeformationKind kind() const override { return DeformationKind::gap_scaling; }
   std::vector<Handle> handles() const override { return {{HandleKind::shape, 0, 0}}; }
   Eigen::Vector3d centre(const Handle& handle) const override {
     require_shape(handle);
     return centre_;
   }
-  DeformationResult deformed(const std::vector<Edit>& edits,
-                             const DeformationConstraints& constraints) const override;
 
  private:
+  MovedVertices moved(const std::vector<Edit>& edits,
+                      const DeformationConstraints& constraints) const override;
   static void require_shape(const Handle& handle) {
     if (handle.kind != HandleKind::shape)
       throw UsageError("the gap function can be scaled for the shape as a whole only");
   }
   double factor_of(const Edit& edit) const;
 
-  Shape shape_;
   Eigen::Vector3d up_, centre_;
   /// Depth of each vertex below the upper envelope, model units; 0 for vertices that no triangle uses.
   Eigen::VectorXd depth_;
 };
 
-GapScaling::GapScaling(const Shape& shape, const Direction& direction)
-    : shape_(shape), up_(direction.unit()), depth_(Eigen::VectorXd::Zero(shape.vertex_count())) {
-  const detail::WeldedMesh places = detail::weld(shape);
+GapScaling::GapScaling(StructuredShape structured, const Direction& direction)
+    : CarriedModel(std::move(structured)),
+      up_(direction.unit()),
+      depth_(Eigen::VectorXd::Zero(rest().shape.vertex_count())) {
+  const detail::WeldedMesh places = detail::weld(rest().shape);
   const OrientedBox box = axis_aligned_box(places.points);
   centre_ = box.centre;
   const Frame frame = frame_of(direction);
@@ -142,26 +144,22 @@ double GapScaling::factor_of(const Edit& edit) const {
   return scale->factor;
 }
 
-DeformationResult GapScaling::deformed(const std::vector<Edit>& edits,
-                                       const DeformationConstraints& constraints) const {
+MovedVertices GapScaling::moved(const std::vector<Edit>& edits,
+                                const DeformationConstraints& constraints) const {
   double factor = 1;
   for (const Edit& edit : edits) factor *= factor_of(edit);
-  DeformationResult result{{}, shape_, {}};
-  Points vertices = shape_.vertices;
+  const Shape& shape = rest().shape;
+  Points vertices = shape.vertices;
   for (Eigen::Index v = 0; v < vertices.rows(); ++v)
     if (depth_(v) > 0) vertices.row(v) += (1 - factor) * depth_(v) * up_.transpose();
-  ConstrainedVertices kept =
-      constrain(shape_, std::move(vertices), constraints, fixed_vertices(shape_, constraints));
-  result.shape.vertices = std::move(kept.vertices);
-  result.refusal = std::move(kept.refusal);
-  return result;
+  return constrain(shape, std::move(vertices), constraints, fixed_vertices(shape, constraints));
 }
 
 }  // namespace
 
-std::unique_ptr<DeformationModel> gap_scaling(const Shape& shape, const Direction& direction) {
-  validate(shape);
-  return std::make_unique<GapScaling>(shape, direction);
+std::unique_ptr<DeformationModel> gap_scaling(StructuredShape rest, const Direction& direction) {
+  validate(rest.shape);
+  return std::make_unique<GapScaling>(std::move(rest), direction);
 }
 
 }  // namespace stackabilization

@@ -38,9 +38,9 @@ WireStructure wires_of(const Shape& shape, const IWiresOptions& options) {
   return analysed_wires(shape, curves, options.relations);
 }
 
-Shape validated(Shape shape) {
-  validate(shape);
-  return shape;
+StructuredShape validated(StructuredShape rest) {
+  validate(rest.shape);
+  return rest;
 }
 
 Eigen::AlignedBox3d box_of(const Shape& shape) {
@@ -106,15 +106,13 @@ std::vector<double> wire_symmetry_residuals(const Shape& rest, const WireStructu
 }
 
 struct IWiresModel::Data {
-  Shape rest;
   double diagonal;
   WireNetwork network;
   WireSurface surface;
   Eigen::Vector3d centre;
 
-  Data(Shape shape, const IWiresOptions& options)
-      : rest(validated(std::move(shape))),
-        diagonal(box_of(rest).diagonal().norm()),
+  Data(const Shape& rest, const IWiresOptions& options)
+      : diagonal(box_of(rest).diagonal().norm()),
         network(detail::wire_network(rest, wires_of(rest, options), options.link_distance * diagonal,
                                      options.relations.distance_tolerance * diagonal)),
         surface(rest, network, {}),
@@ -241,8 +239,9 @@ std::optional<Refusal> broken_symmetry(const Shape& rest, const WireStructure& s
 
 }  // namespace
 
-IWiresModel::IWiresModel(Shape rest, const IWiresOptions& options)
-    : data_(std::make_unique<const Data>(std::move(rest), options)) {}
+IWiresModel::IWiresModel(StructuredShape rest, const IWiresOptions& options)
+    : CarriedModel(validated(std::move(rest))),
+      data_(std::make_unique<const Data>(this->rest().shape, options)) {}
 IWiresModel::IWiresModel(IWiresModel&&) noexcept = default;
 IWiresModel& IWiresModel::operator=(IWiresModel&&) noexcept = default;
 IWiresModel::~IWiresModel() = default;
@@ -264,36 +263,40 @@ Eigen::Vector3d IWiresModel::centre(const Handle& handle) const {
   return data_->network.structure.wires[static_cast<std::size_t>(handle.index)].centre;
 }
 
-DeformationResult IWiresModel::deformed(const std::vector<Edit>& edits,
-                                        const DeformationConstraints& constraints) const {
+std::vector<std::int32_t> IWiresModel::curve(const Handle& handle) const {
+  data_->check(handle);
+  if (handle.kind != HandleKind::wire) return {};
+  const FeatureCurve& curve = wires().wires[static_cast<std::size_t>(handle.index)].curve;
+  std::vector<std::int32_t> vertices(curve.vertices.begin(), curve.vertices.end());
+  if (curve.closed) vertices.push_back(vertices.front());
+  return vertices;
+}
+
+MovedVertices IWiresModel::moved(const std::vector<Edit>& edits,
+                                 const DeformationConstraints& constraints) const {
   for (const Edit& edit : edits) data_->check(edit);
-  const std::vector<std::int32_t> fixed = fixed_vertices(data_->rest, constraints);
+  const Shape& shape = rest().shape;
+  const std::vector<std::int32_t> fixed = fixed_vertices(shape, constraints);
   Editing state(data_->network, fixed, constraints);
-  DeformationResult result{{}, data_->rest, {}};
   bool wires_moved = false;
   for (const Edit& edit : edits) {
     const bool whole = edit.handle.kind == HandleKind::shape;
     wires_moved = wires_moved || !whole;
-    result.refusal = whole ? state.edit_shape(edit.operation, data_->centre)
-                           : state.edit_wire(edit.handle.index, edit.operation);
-    if (result.refusal) return result;
+    std::optional<Refusal> refusal = whole ? state.edit_shape(edit.operation, data_->centre)
+                                           : state.edit_wire(edit.handle.index, edit.operation);
+    if (refusal) return {std::move(refusal), {}};
   }
-  Points vertices = data_->rest.vertices;
+  Points vertices = shape.vertices;
   if (wires_moved)
     vertices = fixed.empty() ? data_->surface.deformed(state.nodes())
-                             : WireSurface(data_->rest, data_->network, fixed).deformed(state.nodes());
+                             : WireSurface(shape, data_->network, fixed).deformed(state.nodes());
   const Eigen::Affine3d& whole = state.whole();
-  vertices = detail::transformed(vertices, whole);
-  ConstrainedVertices kept = constrain(data_->rest, std::move(vertices), constraints, fixed);
-  if (kept.refusal) {
-    result.refusal = kept.refusal;
-    return result;
-  }
+  MovedVertices kept = constrain(shape, detail::transformed(vertices, whole), constraints, fixed);
+  if (kept.refusal) return kept;
   const Eigen::Affine3d back = whole.inverse();
   const Points before = detail::transformed(kept.vertices, back);
-  result.refusal = broken_symmetry(data_->rest, data_->network.structure, before, data_->network.diagonal);
-  if (!result.refusal) result.shape.vertices = std::move(kept.vertices);
-  return result;
+  kept.refusal = broken_symmetry(shape, data_->network.structure, before, data_->network.diagonal);
+  return kept;
 }
 
 }  // namespace stackabilization

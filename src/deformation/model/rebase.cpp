@@ -23,23 +23,20 @@ Points settled_points(const Relation& joint, const Structure& rest,
 
 }  // namespace
 
-StructuredShape rebase(const StructuredShape& rest, const DeformationResult& result) {
-  if (result.refusal)
-    throw UsageError("edits that were refused leave nothing to settle: " +
-                     describe(*result.refusal, rest.structure));
-  if (result.primitives.size() != rest.structure.parts.size())
+StructuredShape rebase(const StructuredShape& rest, const Design& design) {
+  if (design.primitives.size() != rest.structure.parts.size())
     throw UsageError("a deformation without primitives has no new structure");
-  StructuredShape now{result.shape, rest.structure};
+  StructuredShape now{design.shape, rest.structure};
   for (std::size_t part = 0; part < now.structure.parts.size(); ++part) {
     Primitive& primitive = now.structure.parts[part].primitive;
-    primitive = result.primitives[part];
+    primitive = design.primitives[part];
     if (auto* const cylinder = std::get_if<GeneralizedCylinder>(&primitive))
       cylinder->rotation = Eigen::Quaterniond::Identity();
   }
   for (Relation& relation : now.structure.relations)
     if (relation.points.rows() > 0)
-      relation.points = settled_points(relation, rest.structure, result.primitives);
-  const auto length = [&](const Eigen::Vector3d& axis) { return range_along(result.shape, axis).length(); };
+      relation.points = settled_points(relation, rest.structure, design.primitives);
+  const auto length = [&](const Eigen::Vector3d& axis) { return range_along(design.shape, axis).length(); };
   now.structure.diagonal = Eigen::Vector3d(length(Eigen::Vector3d::UnitX()), length(Eigen::Vector3d::UnitY()),
                                            length(Eigen::Vector3d::UnitZ()))
                                .norm();

@@ -182,8 +182,8 @@ std::vector<std::int32_t> fixed_vertices(const Shape& rest, const DeformationCon
   return rows;
 }
 
-ConstrainedVertices constrain(const Shape& rest, Points vertices, const DeformationConstraints& constraints,
-                              const std::vector<std::int32_t>& fixed) {
+MovedVertices constrain(const Shape& rest, Points vertices, const DeformationConstraints& constraints,
+                        const std::vector<std::int32_t>& fixed) {
   validate(constraints, rest);
   const Check check(rest, constraints, fixed);
   std::optional<Refusal> refusal = check.finite(vertices);

@@ -8,7 +8,7 @@
 
 namespace stackabilization {
 
-// DeformationConstraints for models that move vertices without primitives. Vertices that no triangle uses are
+// DeformationConstraints for models that move vertices, not primitives. Vertices that no triangle uses are
 // ignored.
 
 /// Returns the ascending rows of the vertices of `rest` that `constraints` fix:
@@ -22,13 +22,6 @@ namespace stackabilization {
 /// fixed on a shape without area.
 std::vector<std::int32_t> fixed_vertices(const Shape& rest, const DeformationConstraints& constraints);
 
-/// Vertices that satisfy constraints, or the reason for the refusal.
-struct ConstrainedVertices {
-  /// Set when the constraints cannot hold; `vertices` are then those at rest.
-  std::optional<Refusal> refusal;
-  Points vertices;  ///< n x 3 vertices, model units
-};
-
 /// Changes the vertices of a deformed shape as little as necessary to satisfy `constraints`. `vertices`: n x
 /// 3, rows as in `rest`, model units. `fixed`: the result of fixed_vertices.
 ///
@@ -41,7 +34,7 @@ struct ConstrainedVertices {
 /// Refuses when a fixed vertex has moved, the box has changed too much, a vertex is not finite, the shape is
 /// flat along r, or the fixed vertices leave no room for the extent. Extent and box hold up to rounding,
 /// fixed vertices exactly. Throws UsageError under the conditions of `validate(constraints, rest)`.
-ConstrainedVertices constrain(const Shape& rest, Points vertices, const DeformationConstraints& constraints,
-                              const std::vector<std::int32_t>& fixed);
+MovedVertices constrain(const Shape& rest, Points vertices, const DeformationConstraints& constraints,
+                        const std::vector<std::int32_t>& fixed);
 
 }  // namespace stackabilization

@@ -76,6 +76,7 @@ class DiagnosisBuilder {
         rest_(checker.space().rest()),
         direction_(best_.direction),
         handles_(checker.space().handles()),
+        centres_(checker.space().centres()),
         solver_(best_.design.shape, checker.requirements().measure) {}
 
   Diagnosis run() {
@@ -83,7 +84,7 @@ class DiagnosisBuilder {
     diagnosis_.reached = best_.measured.value;
     diagnosis_.direction = best_.direction;
     find_blockers();
-    diagnosis_.constraints = result_.refusals;
+    diagnosis_.constraints = obstacles();
     if (diagnosis_.constraints.size() > max_constraints) diagnosis_.constraints.resize(max_constraints);
     if (!stopped()) free_parts();
     if (!stopped()) relax();
@@ -100,6 +101,24 @@ class DiagnosisBuilder {
   bool stopped() const { return designs_left() <= 0 || (options_.cancelled && options_.cancelled()); }
 
   bool helps(double stackability) const { return stackability > diagnosis_.reached + worth_saying; }
+
+  /// Returns the obstacles of the search. Checks that stand against the best design alone, which reaches the
+  /// target, come first: nothing else keeps it from being a solution.
+  std::vector<ObstacleCount> obstacles() const {
+    std::vector<ObstacleCount> all = result_.refusals;
+    if (!checker_.meets_target(best_.measured)) return all;
+    std::vector<ObstacleCount> own;
+    for (const Check& check : checker_.check(best_.design, direction_).checks) {
+      if (check.passed) continue;
+      const Obstacle obstacle = Check{check.kind};
+      const auto known = std::find_if(all.begin(), all.end(),
+                                      [&](const ObstacleCount& other) { return other.obstacle == obstacle; });
+      own.push_back(known == all.end() ? ObstacleCount{obstacle, 1} : *known);
+      if (known != all.end()) all.erase(known);
+    }
+    all.insert(all.begin(), own.begin(), own.end());
+    return all;
+  }
 
   void find_blockers() {
     const Separation separation = solver_.separation(direction_);
@@ -138,11 +157,11 @@ class DiagnosisBuilder {
   /// left, or when stopped.
   std::optional<Trial> tried(const std::vector<ContactRegion>& regions, const RequirementChecker& checker) {
     if (stopped()) return std::nullopt;
-    const DesignSpace& space = checker_.space();
+    const DeformationModel& space = checker_.space();
     const DeformationConstraints constraints =
         deformation_constraints(checker.requirements(), rest_, direction_);
     const std::vector<ContactEdit> edits =
-        contact_edits({rest_, space.kind(), handles_, best_.design, regions, direction_, space.centres()});
+        contact_edits({rest_, space.capabilities(), handles_, best_.design, regions, direction_, centres_});
     if (static_cast<double>(edits.size()) > designs_left()) return std::nullopt;
     designs_ += static_cast<std::int64_t>(edits.size());
     std::vector<std::optional<Obstacle>> refusals(edits.size());
@@ -153,7 +172,7 @@ class DiagnosisBuilder {
         cut_short = true;
         return;
       }
-      const DesignOutcome outcome = space.edited(best_.design, edits[k].edit, constraints);
+      const DeformationResult outcome = space.edited(best_.design, edits[k].edit, constraints);
       if (outcome.refusal)
         refusals[k] = without_amounts(*outcome.refusal);
       else if (const auto obstacle = checker.form_obstacle(outcome.design))
@@ -296,6 +315,7 @@ class DiagnosisBuilder {
   const StructuredShape& rest_;
   Direction direction_;
   std::vector<Handle> handles_;
+  std::vector<Eigen::Vector3d> centres_;  ///< of the handles, at rest
   StackabilitySolver solver_;
   std::vector<ContactRegion> regions_;  ///< one region per class of symmetric regions
   std::optional<double> as_asked_;      ///< largest S after one edit under the requirements given

@@ -29,7 +29,7 @@ class SuggestionScorer {
 
   /// Fills in the effect of `suggestion.edit` on `design`.
   void scorer(Suggestion& suggestion, const Design& design) const {
-    const DesignOutcome outcome = checker_.space().edited(design, suggestion.edit.edit, constraints_);
+    const DeformationResult outcome = checker_.space().edited(design, suggestion.edit.edit, constraints_);
     if (outcome.refusal) {
       suggestion.refusal = *outcome.refusal;
       return;
@@ -72,12 +72,13 @@ Situation situation(const RequirementChecker& checker, const Design& design, con
 
 std::vector<Suggestion> suggestions(const RequirementChecker& checker, const Design& design,
                                     const Direction& direction, const SuggestionOptions& options) {
-  const DesignSpace& space = checker.space();
+  const DeformationModel& space = checker.space();
   const std::vector<ContactRegion> regions =
       detail::contacts_of(checker, design.shape, direction, options.edits.contacts);
   const std::vector<Handle> handles = space.handles();
   const std::vector<ContactEdit> edits = contact_edits(
-      {space.rest(), space.kind(), handles, design, regions, direction, space.centres()}, options.edits);
+      {space.rest(), space.capabilities(), handles, design, regions, direction, space.centres()},
+      options.edits);
   const SuggestionScorer scorer(checker, direction, options.alpha);
   std::vector<Suggestion> result(edits.size());
   tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {

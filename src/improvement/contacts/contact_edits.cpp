@@ -69,7 +69,7 @@ class ContactEditor {
  private:
   static Structure symmetric_structure(const ContactSituation& situation) {
     Structure structure = situation.rest.structure;
-    if (situation.kind == DeformationKind::surface) structure.relations.clear();
+    if (!situation.capabilities.edits_symmetric_parts) structure.relations.clear();
     return structure;
   }
 
@@ -217,8 +217,7 @@ class ContactEditor {
               : (handle.points.rowwise() - handle.centre.transpose()).rowwise().norm().minCoeff();
       if (!is_off(across, reach)) return;
     }
-    const bool bulge = situation_.kind == DeformationKind::controllers && handle.radius > 0 &&
-                       handle.falloff == Falloff::gaussian;
+    const bool bulge = handle.radius > 0 && handle.falloff == Falloff::gaussian;
     for (const double sign : {-1.0, 1.0})
       for (const double m : multiples_) {
         if ((bulge || (sign > 0 && !ring)) && m > multiples_.front()) break;
@@ -319,7 +318,7 @@ std::string describe(const EditReason& reason, const std::vector<std::string>& p
 
 std::vector<ContactEdit> contact_edits(const ContactSituation& situation, const ContactEditOptions& options) {
   check(options);
-  if (situation.kind == DeformationKind::gap_scaling) return gap_scalings(situation, options);
+  if (situation.capabilities.edits_along_one_direction) return gap_scalings(situation, options);
   return ContactEditor(situation, options).run();
 }
 

@@ -154,8 +154,8 @@ void add_cylinder_handles(std::vector<ContactHandle>& handles, const Generalized
                    [](const ContactHandle& a, const ContactHandle& b) { return a.role < b.role; });
 }
 
-/// Returns where the contact lies on the shape at rest. Models without primitives know their handles at rest
-/// only.
+/// Returns where the contact lies on the shape at rest. Models that do not edit primitives know their handles
+/// at rest only.
 Eigen::Vector3d centre_at_rest(const ContactSituation& situation, const ContactSide& side) {
   const Shape &now = situation.design.shape, &rest = situation.rest.shape;
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
@@ -215,7 +215,7 @@ Range ContactHandle::range(const Eigen::Vector3d& axis) const {
 
 std::vector<ContactHandle> contact_handles(const ContactSituation& situation, const ContactSide& side,
                                            const ContactFrame& frame, const ContactEditOptions& options) {
-  if (situation.kind != DeformationKind::controllers) return surface_handles(situation, side);
+  if (!situation.capabilities.edits_primitives) return surface_handles(situation, side);
   std::vector<ContactHandle> handles;
   const Primitive& primitive = situation.design.primitives[static_cast<std::size_t>(side.part)];
   if (const auto* cuboid = std::get_if<Cuboid>(&primitive))

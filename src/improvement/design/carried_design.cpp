@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "improvement/design/carried_primitives.h"
+#include "deformation/carried/carried_primitives.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization {

@@ -36,14 +36,14 @@ void add(Fingerprint& print, const Primitive& now, const Primitive& rest, const 
 
 }  // namespace
 
-ConfigurationKeys::ConfigurationKeys(const DesignSpace& space)
+ConfigurationKeys::ConfigurationKeys(const DeformationModel& space)
     : space_(space),
       rest_(space.at_rest()),
       grid_(tolerance::same_design * space.rest().structure.diagonal) {}
 
 std::uint64_t ConfigurationKeys::key(const Design& design) const {
   Fingerprint print;
-  if (space_.kind() != DeformationKind::controllers) {
+  if (!space_.capabilities().edits_primitives) {
     const Points &now = design.shape.vertices, &rest = rest_.shape.vertices;
     add_points(print, now, rest, {now.row(0) - rest.row(0), grid_});
     return print.value();

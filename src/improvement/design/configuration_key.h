@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "stackabilization/improvement/design.h"
+#include "stackabilization/deformation/deformation_model.h"
 
 namespace stackabilization::detail {
 
@@ -12,12 +12,12 @@ namespace stackabilization::detail {
 /// lies in the middle of a cell.
 class ConfigurationKeys {
  public:
-  explicit ConfigurationKeys(const DesignSpace& space);
+  explicit ConfigurationKeys(const DeformationModel& space);
 
   std::uint64_t key(const Design& design) const;
 
  private:
-  const DesignSpace& space_;
+  const DeformationModel& space_;
   Design rest_;
   double grid_;  ///< grid step, model units
 };

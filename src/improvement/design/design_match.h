@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "stackabilization/improvement/design.h"
+#include "stackabilization/deformation/deformation_model.h"
 
 namespace stackabilization::detail {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "stackabilization/improvement/design.h"
+#include "stackabilization/deformation/deformation_model.h"
 
 namespace stackabilization::detail {
 

@@ -25,9 +25,9 @@ bool has_index(HandleKind kind) {
 
 /// Returns the largest index of a handle of this kind and part.
 std::int64_t max_index(const JsonNode& node, const Handle& handle, const StructuredShape& rest,
-                       DeformationKind kind) {
+                       const DeformationCapabilities& capabilities) {
   if (handle.kind == HandleKind::point) return rest.shape.vertex_count() - 1;
-  if (handle.kind == HandleKind::wire || kind != DeformationKind::controllers)
+  if (handle.kind == HandleKind::wire || !capabilities.edits_primitives)
     return std::numeric_limits<int>::max();
   const Part& part = rest.structure.parts[at(handle.part)];
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&part.primitive)) {
@@ -40,7 +40,8 @@ std::int64_t max_index(const JsonNode& node, const Handle& handle, const Structu
   return handle.kind == HandleKind::face ? 5 : 7;
 }
 
-Handle handle_from_json(const JsonNode& node, const StructuredShape& rest, DeformationKind kind) {
+Handle handle_from_json(const JsonNode& node, const StructuredShape& rest,
+                        const DeformationCapabilities& capabilities) {
   node.expect_keys({"kind", "part", "index"}, 2);
   Handle handle;
   handle.kind = static_cast<HandleKind>(node["kind"].one_of(handle_kind_names()));
@@ -50,7 +51,7 @@ Handle handle_from_json(const JsonNode& node, const StructuredShape& rest, Defor
   node.expect_keys(keys);
   if (has_part(handle.kind)) handle.part = static_cast<int>(node["part"].one_of(rest.shape.part_names));
   if (has_index(handle.kind))
-    handle.index = static_cast<int>(node["index"].integer(0, max_index(node, handle, rest, kind)));
+    handle.index = static_cast<int>(node["index"].integer(0, max_index(node, handle, rest, capabilities)));
   return handle;
 }
 
@@ -110,12 +111,13 @@ Eigen::Vector3d direction_from_json(const JsonNode& node) {
   }
 }
 
-Edit edit_from_json(const JsonNode& node, const StructuredShape& rest, DeformationKind kind) {
+Edit edit_from_json(const JsonNode& node, const StructuredShape& rest,
+                    const DeformationCapabilities& capabilities) {
   node.expect_keys({"handle", "move", "rotate", "scale", "falloff"}, 4);
   if (int{node.has("move")} + int{node.has("rotate")} + int{node.has("scale")} != 1)
     node.fail("expected one of the keys 'move', 'rotate' and 'scale'");
   Edit edit;
-  edit.handle = handle_from_json(node["handle"], rest, kind);
+  edit.handle = handle_from_json(node["handle"], rest, capabilities);
   edit.operation = operation_from_json(node);
   if (node.has("falloff"))
     edit.falloff = std::array{Falloff::gaussian, Falloff::linear}[node["falloff"].one_of(falloffs)];

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/formats/json_node.h"
-#include "stackabilization/improvement/design.h"
+#include "stackabilization/deformation/deformation_model.h"
 
 // The JSON form of edits, in histories and in saved searches; history.h describes it.
 namespace stackabilization::detail {
@@ -21,9 +21,10 @@ const std::string& name_of_part(int part, const std::vector<std::string>& part_n
 /// Reads a vector that a Direction accepts. Throws InputError naming the place.
 Eigen::Vector3d direction_from_json(const JsonNode& node);
 
-/// Reads an edit of the shape `rest` with a model of this kind. Throws InputError naming the place, for parts
-/// and handles that the shape does not have and under the conditions of `validate`. How many wires there are
-/// is not known here.
-Edit edit_from_json(const JsonNode& node, const StructuredShape& rest, DeformationKind kind);
+/// Reads an edit of the shape `rest` with a model that is able to do this. Throws InputError naming the
+/// place, for parts and handles that the shape does not have and under the conditions of `validate`. How many
+/// wires there are is not known here.
+Edit edit_from_json(const JsonNode& node, const StructuredShape& rest,
+                    const DeformationCapabilities& capabilities);
 
 }  // namespace stackabilization::detail

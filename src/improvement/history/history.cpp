@@ -55,13 +55,13 @@ History roll_back(History history, int node) {
   return history;
 }
 
-Design design_at(const DesignSpace& space, const History& history, int node) {
+Design design_at(const DeformationModel& space, const History& history, int node) {
   Design design = space.at_rest();
   for (const int row : path_to(history, node)) {
     const HistoryNode& step = history.nodes[static_cast<std::size_t>(row)];
     const std::string place = "node " + std::to_string(row) + " of the history cannot be made again: ";
     for (const Edit& edit : step.edits) {
-      DesignOutcome outcome = [&] {
+      DeformationResult outcome = [&] {
         try {
           return space.edited(design, edit, step.constraints);
         } catch (const UsageError& error) {

@@ -20,8 +20,6 @@ using detail::to_json;
 using Json = nlohmann::ordered_json;
 
 const std::vector<std::string> extent_ends = {"free", "fixed"};
-constexpr std::array model_kinds = {DeformationKind::controllers, DeformationKind::surface,
-                                    DeformationKind::iwires, DeformationKind::gap_scaling};
 
 /// Writes a history as JSON. Reading the text back, before it is used, checks the input.
 class HistoryWriter {
@@ -30,10 +28,11 @@ class HistoryWriter {
 
   /// Returns the JSON text, one node per line.
   std::string text() const {
-    std::string text = "{\"model\": \"" + name_of(project_.space.kind) +
-                       "\", \"model_direction\": " + to_json(project_.space.direction.vector()).dump() +
-                       (project_.space.following == Following::smooth ? ", \"following\": \"smooth\"" : "") +
-                       ", \"current\": " + std::to_string(project_.history.current) + ", \"nodes\": [";
+    std::string text = "{\"model\": \"" + name_of(project_.space.kind) + "\", ";
+    if (project_.space.direction)
+      text += "\"model_direction\": " + to_json(project_.space.direction->vector()).dump() + ", ";
+    if (project_.space.following == Following::smooth) text += "\"following\": \"smooth\", ";
+    text += "\"current\": " + std::to_string(project_.history.current) + ", \"nodes\": [";
     for (const HistoryNode& node : project_.history.nodes) {
       text += (&node == &project_.history.nodes.front() ? "\n    " : ",\n    ");
       text += json(node).dump();
@@ -78,11 +77,12 @@ class HistoryReader {
 
   /// Reads the project except for the shape at rest.
   Project read() {
-    root_.expect_keys({"model", "model_direction", "current", "nodes", "following"}, 4);
+    root_.expect_keys({"model", "current", "nodes", "model_direction", "following"}, 2);
     std::vector<std::string> names;
-    for (const DeformationKind kind : model_kinds) names.push_back(name_of(kind));
-    project_.space.kind = model_kinds[root_["model"].one_of(names)];
-    project_.space.direction = Direction(direction_from_json(root_["model_direction"]));
+    for (const DeformationKind kind : deformation_kinds()) names.push_back(name_of(kind));
+    project_.space.kind = deformation_kinds()[root_["model"].one_of(names)];
+    if (root_.has("model_direction"))
+      project_.space.direction = Direction(direction_from_json(root_["model_direction"]));
     if (root_.has("following")) {
       root_["following"].one_of({"smooth"});
       project_.space.following = Following::smooth;
@@ -111,7 +111,7 @@ class HistoryReader {
     if (row == 0 && node.has("edits")) node["edits"].fail("expected no edits in the shape at rest");
     if (node.has("edits"))
       for (std::size_t k = 0; k < node["edits"].list_size(); ++k)
-        result.edits.push_back(edit_from_json(node["edits"][k], rest_, project_.space.kind));
+        result.edits.push_back(edit_from_json(node["edits"][k], rest_, capabilities_of(project_.space.kind)));
     if (node.has("constraints")) result.constraints = constraints(node["constraints"]);
     return result;
   }

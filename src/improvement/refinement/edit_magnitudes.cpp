@@ -145,14 +145,15 @@ std::vector<MagnitudeEdit> merge_magnitude_edits(
   return result;
 }
 
-std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edits, const DesignSpace& space,
-                                          const Direction& direction, EditFamily family) {
-  if (space.kind() != DeformationKind::controllers) return {};
+std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edits,
+                                          const DeformationModel& space, const Direction& direction,
+                                          EditFamily family) {
+  if (!space.capabilities().edits_primitives) return {};
   const StructuredShape& rest = space.rest();
   const std::vector<Handle> handles = space.handles();
   const Design design = space.at_rest();
   const ContactFrame frame =
-      contact_frame({rest, space.kind(), handles, design, {}, direction}, tolerance::relative);
+      contact_frame({rest, space.capabilities(), handles, design, {}, direction}, tolerance::relative);
   std::vector<bool> stands_for_others(rest.structure.parts.size());
   for (const std::vector<int>& members : symmetric_classes(rest.structure))
     stands_for_others[static_cast<std::size_t>(members.front())] = true;

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "stackabilization/improvement/design.h"
+#include "stackabilization/deformation/deformation_model.h"
 
 namespace stackabilization::detail {
 
@@ -19,7 +19,7 @@ struct MagnitudeEdit {
 std::vector<MagnitudeEdit> merge_magnitude_edits(
     const std::vector<Edit>& edits, const std::function<bool(const std::vector<MagnitudeEdit>&)>& acceptable);
 
-/// Returns small edits that could be added to `edits`, for controllers only:
+/// Returns small edits that could be added to `edits`, only for models that edit primitives:
 ///
 /// * parts: moves and scalings along the axes of the contact frame;
 /// * faces of cuboids: moves along their normals;
@@ -30,7 +30,8 @@ std::vector<MagnitudeEdit> merge_magnitude_edits(
 /// A class of symmetric parts is represented by its first part. A part that reaches an end of the extent
 /// along r gets no edit along r. Of the smooth family only edits that are smooth. No edit repeats what one of
 /// `edits` does.
-std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edits, const DesignSpace& space,
-                                          const Direction& direction, EditFamily family);
+std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edits,
+                                          const DeformationModel& space, const Direction& direction,
+                                          EditFamily family);
 
 }  // namespace stackabilization::detail

@@ -87,8 +87,8 @@ std::vector<Edit> MagnitudeProblem::edits(const Magnitudes& x) const {
   return result;
 }
 
-DesignOutcome MagnitudeProblem::design(const Magnitudes& x) const {
-  return checker_.space().replayed(edits(x), constraints_);
+DeformationResult MagnitudeProblem::design(const Magnitudes& x) const {
+  return checker_.space().deformed(edits(x), constraints_);
 }
 
 void MagnitudeProblem::constrain_pairs(const Magnitudes& x) {
@@ -122,7 +122,7 @@ void MagnitudeProblem::measure_blocks(const Design& design, const Stackability& 
 MagnitudeProblem::Measured MagnitudeProblem::measured(const Magnitudes& x) const {
   Measured result;
   MagnitudeSample& sample = result.sample;
-  const DesignOutcome outcome = design(x);
+  const DeformationResult outcome = design(x);
   if (outcome.refusal) return result;
   sample.made = true;
   if (limits_.measure != ChangeMeasure::displacement) {

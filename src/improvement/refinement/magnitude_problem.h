@@ -79,7 +79,7 @@ class MagnitudeProblem {
   /// Returns the edits with magnitudes `x`, without those of magnitude 0.
   std::vector<Edit> edits(const Magnitudes& x) const;
   /// Makes the design with magnitudes `x`.
-  DesignOutcome design(const Magnitudes& x) const;
+  DeformationResult design(const Magnitudes& x) const;
 
   /// best(): the feasible sample of least change so far, if any. nearest(): of the samples that pass all
   /// checks but the target, the one of largest S.

@@ -54,7 +54,7 @@ class MagnitudeRefiner {
   /// Returns the added edits of largest reduced cost at the start, at most `most`.
   std::vector<MagnitudeEdit> promising(std::size_t most) {
     const Magnitudes x = found();
-    if (!problem_.at(x).made) return {};
+    if (x.empty() || !problem_.at(x).made) return {};
     problem_.constrain_pairs(x);
     const MagnitudeSlopes slopes = problem_.slopes(x);
     const MagnitudeModel model(MagnitudeGoal::min_change, x, problem_.at(x), slopes);
@@ -123,7 +123,7 @@ class MagnitudeRefiner {
     std::vector<MagnitudeEdit> edits =
         merge_magnitude_edits(start.design.edits, [&](const std::vector<MagnitudeEdit>& fewer) {
           const bool late = options.cancelled && options.cancelled();  // replaying long lists is slow
-          return !late && !checker.space().replayed(plain(fewer), constraints).refusal;
+          return !late && !checker.space().deformed(plain(fewer), constraints).refusal;
         });
     edits.insert(edits.end(), added.begin(), added.end());
     return edits;

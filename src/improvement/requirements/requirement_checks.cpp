@@ -9,7 +9,6 @@
 #include "improvement/requirements/draft.h"
 #include "improvement/requirements/size_ratios.h"
 #include "stackabilization/core/tolerances.h"
-#include "stackabilization/deformation/relation_residual.h"
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/stacking/static_stability.h"
 
@@ -37,7 +36,7 @@ double primitive_displacement(const Primitive& rest, const Primitive& now) {
 
 }  // namespace
 
-RequirementChecks::RequirementChecks(const DesignSpace& space, const Requirements& requirements,
+RequirementChecks::RequirementChecks(const DeformationModel& space, const Requirements& requirements,
                                      std::vector<int> stay)
     : space_(space), requirements_(requirements) {
   const Shape& rest = space.rest().shape;
@@ -49,7 +48,7 @@ RequirementChecks::RequirementChecks(const DesignSpace& space, const Requirement
       if (!owners[v].contains(part)) continue;
       entry.vertices.push_back(static_cast<Eigen::Index>(v));
       const bool seam = !std::includes(staying.begin(), staying.end(), owners[v].begin(), owners[v].end());
-      if (seam && space.kind() == DeformationKind::controllers) entry.by_primitive = true;
+      if (seam && space.capabilities().edits_primitives) entry.by_primitive = true;
     }
     if (entry.by_primitive) entry.vertices.clear();
     staying_.push_back(std::move(entry));
@@ -61,7 +60,7 @@ RequirementChecks::RequirementChecks(const DesignSpace& space, const Requirement
 std::vector<Check> RequirementChecks::of(const CheckedDesign& checked, QualityScope scope) const {
   std::vector<Check> checks = {reached(checked.assessment.measured)};
   if (requirements_.keep_height) checks.push_back(height(checked));
-  if (space_.kind() == DeformationKind::controllers) checks.push_back(relations(checked));
+  checks.push_back(relations(checked));
   if (requirements_.min_size_ratio > 0) checks.push_back(proportions(checked));
   if (requirements_.box_tolerance) checks.push_back(box(checked));
   if (!staying_.empty()) checks.push_back(parts(checked));
@@ -104,8 +103,7 @@ Check RequirementChecks::height(const CheckedDesign& checked) const {
 }
 
 Check RequirementChecks::relations(const CheckedDesign& checked) const {
-  const std::vector<double> residuals =
-      relation_residuals(space_.rest().structure, checked.design.primitives);
+  const std::vector<double> residuals = space_.relation_residuals(checked.design);
   Check check{CheckKind::relations, 0, tolerance::relation};
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     if (residuals[i] <= check.value || std::isnan(check.value)) continue;

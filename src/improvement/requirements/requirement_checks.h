@@ -26,7 +26,7 @@ class RequirementChecks {
  public:
   /// `stay`: parts that may not change, ascending. Preconditions: the requirements are valid; both references
   /// outlive this object.
-  RequirementChecks(const DesignSpace& space, const Requirements& requirements, std::vector<int> stay);
+  RequirementChecks(const DeformationModel& space, const Requirements& requirements, std::vector<int> stay);
 
   /// Makes all required checks, in the order of CheckKind.
   std::vector<Check> of(const CheckedDesign& checked, QualityScope scope) const;
@@ -53,7 +53,7 @@ class RequirementChecks {
   Check standing(const CheckedDesign& checked) const;
   double displacement(const StayingPart& staying, const Design& design) const;
 
-  const DesignSpace& space_;
+  const DeformationModel& space_;
   const Requirements& requirements_;
   std::vector<StayingPart> staying_;
   std::vector<ThicknessProbe> probes_;

@@ -107,26 +107,26 @@ bool Assessment::passed() const {
 }
 
 struct RequirementChecker::Data {
-  Data(const DesignSpace& designs, Requirements required)
+  Data(const DeformationModel& designs, Requirements required)
       : space(designs),
         requirements(validated(std::move(required), designs.rest())),
         primitives(detail::primitives_of(designs.rest().structure)),
         checks(designs, requirements, parts_that_stay(requirements, designs.rest().structure)) {}
 
-  const DesignSpace& space;
+  const DeformationModel& space;
   Requirements requirements;
   std::vector<Primitive> primitives;  ///< at rest
   detail::RequirementChecks checks;
 };
 
-RequirementChecker::RequirementChecker(const DesignSpace& space, Requirements requirements)
+RequirementChecker::RequirementChecker(const DeformationModel& space, Requirements requirements)
     : data_(std::make_shared<const Data>(space, std::move(requirements))) {}
 
 const Requirements& RequirementChecker::requirements() const {
   return data_->requirements;
 }
 
-const DesignSpace& RequirementChecker::space() const {
+const DeformationModel& RequirementChecker::space() const {
   return data_->space;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "stackabilization/improvement/design.h"
+#include "stackabilization/deformation/deformation_model.h"
 
 namespace stackabilization {
 

@@ -8,6 +8,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/number_text.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/effort.h"
 #include "stackabilization/stacking/plan.h"
 #include "stackabilization/stacking/search.h"
@@ -79,7 +80,7 @@ ImprovementTask::ImprovementTask(StructuredShape rest, Requirements requirements
     const StackabilitySolver solver(rest.shape, measure);
     const Stackability up = measure_up(solver, rest.structure);
     directions_ = {up.direction};
-    if (!requirements.length_limit && options.kind != DeformationKind::gap_scaling) {
+    if (!requirements.length_limit && !capabilities_of(options.kind).edits_along_one_direction) {
       SearchOptions search;
       search.max_directions = directions_of_effort(directions_share * options.effort, rest.shape);
       search.progress = options.progress;
@@ -94,7 +95,7 @@ ImprovementTask::ImprovementTask(StructuredShape rest, Requirements requirements
   const Direction first(directions_.front());
   if (requirements.length_limit)
     requirements.target = target_of(*requirements.length_limit, rest, first, requirements.measure);
-  space_ = design_space(std::move(rest), {options.kind, first, options.following});
+  space_ = deformation_model(std::move(rest), {options.kind, first, {}, options.following});
   checker_ = std::make_unique<RequirementChecker>(*space_, std::move(requirements));
 }
 

@@ -15,7 +15,7 @@ void validate(const RequirementChecker& checker, const BestFirstOptions& options
   if (!(options.seconds > 0)) throw UsageError("the deadline of a search must be positive");
   if (!(options.cone_degrees >= 0) || options.cone_degrees > 90)
     throw UsageError("the cone in which a direction is searched again must be within 0 and 90 degrees");
-  if (options.cone_degrees > 0 && checker.space().kind() == DeformationKind::gap_scaling)
+  if (options.cone_degrees > 0 && checker.space().capabilities().edits_along_one_direction)
     throw UsageError("gap scaling keeps the direction that it scales along: its cone is one of 0 degrees");
   if (options.directions.empty()) throw UsageError("a search needs a direction to start from");
   for (const Eigen::Vector3d& direction : options.directions) static_cast<void>(Direction(direction));

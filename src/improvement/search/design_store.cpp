@@ -34,7 +34,7 @@ std::shared_ptr<const Design> DesignStore::of(int node) {
   std::vector<int> missing = {node};
   while (tree_.node(missing.back()).parent >= 0 && !rows_.contains(tree_.node(missing.back()).parent))
     missing.push_back(tree_.node(missing.back()).parent);
-  const DesignSpace& space = checker_.space();
+  const DeformationModel& space = checker_.space();
   std::shared_ptr<const Design> design;
   if (const int ancestor = tree_.node(missing.back()).parent; ancestor >= 0) design = of(ancestor);
   for (; !missing.empty(); missing.pop_back()) {
@@ -45,7 +45,7 @@ std::shared_ptr<const Design> DesignStore::of(int node) {
     }
     const auto constraints = deformation_constraints(checker_.requirements(), space.rest(),
                                                      Direction(tree_.node(now.parent).direction));
-    DesignOutcome outcome = space.edited(*design, now.edit, constraints);
+    DeformationResult outcome = space.edited(*design, now.edit, constraints);
     if (outcome.refusal)
       throw InputError("an edit of the saved search is refused now: " +
                        describe(*outcome.refusal, space.rest().structure));

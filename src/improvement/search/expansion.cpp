@@ -29,10 +29,10 @@ bool takes_back(const Edit& edit, const Edit& earlier) {
 
 void make(SuccessorNode& successor, const SearchTools& tools, const ExpandedNode& from,
           const SearchTree& tree) {
-  const DesignSpace& space = tools.checker.space();
+  const DeformationModel& space = tools.checker.space();
   const Direction direction(from.direction);
   const auto constraints = deformation_constraints(tools.checker.requirements(), space.rest(), direction);
-  DesignOutcome outcome = space.edited(from.design, successor.suggestion.edit, constraints);
+  DeformationResult outcome = space.edited(from.design, successor.suggestion.edit, constraints);
   if (outcome.refusal) {
     successor.refusal = std::move(outcome.refusal);
     return;
@@ -56,16 +56,17 @@ SearchTools::SearchTools(const RequirementChecker& the_checker, const BestFirstO
       meter(the_checker.space().rest(), the_checker.requirements().measure.boxes, the_options.alpha),
       keys(the_checker.space()),
       handles(the_checker.space().handles()),
+      centres(the_checker.space().centres()),
       at_rest(the_checker.measure(the_checker.space().rest().shape, Direction(the_options.directions.front()))
                   .value) {}
 
 std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const ExpandedNode& from) {
-  const DesignSpace& space = tools.checker.space();
+  const DeformationModel& space = tools.checker.space();
   const Direction direction(from.direction);
   const std::vector<ContactRegion> regions =
       contacts_of(tools.checker, from.design.shape, direction, tools.options.edits.contacts);
   std::vector<ContactEdit> edits = contact_edits(
-      {space.rest(), space.kind(), tools.handles, from.design, regions, direction, space.centres()},
+      {space.rest(), space.capabilities(), tools.handles, from.design, regions, direction, tools.centres},
       tools.options.edits);
   // Undoing an edit leads to designs that steps of the same kind reach as well, or come near to.
   std::erase_if(edits, [&](const ContactEdit& suggestion) {

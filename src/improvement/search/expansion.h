@@ -28,7 +28,8 @@ struct SearchTools {
   EnergyMeter meter;
   ConfigurationKeys keys;
   std::vector<Handle> handles;
-  double at_rest = 0;  ///< S(M0) along the first starting direction
+  std::vector<Eigen::Vector3d> centres;  ///< of the handles, at rest
+  double at_rest = 0;                    ///< S(M0) along the first starting direction
 
   SearchTools(const RequirementChecker& checker, const BestFirstOptions& options);
 

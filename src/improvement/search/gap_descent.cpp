@@ -31,6 +31,7 @@ class Pursuit {
         constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction_)),
         meter_(checker.space().rest(), checker.requirements().measure.boxes, options.alpha),
         handles_(checker.space().handles()),
+        centres_(checker.space().centres()),
         blocks_(checker.space().rest().shape, direction_, checker.requirements().measure.semantics, 1),
         at_rest_(start.measured.value - start.energy.gain) {
     now_.candidate = start;
@@ -76,13 +77,13 @@ class Pursuit {
     contacts.band = std::max(contacts.band, std::min({lack, 1.0, 1 / (density * density)}));
     const std::vector<ContactRegion> regions =
         detail::contacts_of(checker_, from.design.shape, direction_, contacts);
-    return contact_edits({checker_.space().rest(), checker_.space().kind(), handles_, from.design, regions,
-                          direction_, checker_.space().centres()},
+    return contact_edits({checker_.space().rest(), checker_.space().capabilities(), handles_, from.design,
+                          regions, direction_, centres_},
                          options_.edits);
   }
 
   std::optional<State> after(const ContactEdit& suggestion) const {
-    DesignOutcome outcome = checker_.space().edited(now_.candidate.design, suggestion.edit, constraints_);
+    DeformationResult outcome = checker_.space().edited(now_.candidate.design, suggestion.edit, constraints_);
     if (outcome.refusal || checker_.form_obstacle(outcome.design)) return std::nullopt;
     State state;
     state.candidate.measured = checker_.measure(outcome.design.shape, direction_);
@@ -122,6 +123,7 @@ class Pursuit {
   DeformationConstraints constraints_;
   EnergyMeter meter_;
   std::vector<Handle> handles_;
+  std::vector<Eigen::Vector3d> centres_;  ///< of the handles, at rest
   detail::BlockSeparations blocks_;
   double at_rest_;
   State now_;

@@ -71,7 +71,7 @@ Obstacle obstacle_of(const JsonNode& node, const Structure& rest) {
   node.expect_keys({"count", "cause", "rows", "x", "y", "z"}, 3);
   Refusal refusal;
   refusal.cause =
-      static_cast<RefusalCause>(row_of(node["cause"], 0, static_cast<int>(RefusalCause::undefined)));
+      static_cast<RefusalCause>(row_of(node["cause"], 0, static_cast<int>(RefusalCause::collapsed_triangle)));
   node["rows"].expect_size(rows_of_refusal.size());
   for (std::size_t k = 0; k < rows_of_refusal.size(); ++k)
     refusal.*rows_of_refusal[k] = row_of(node["rows"][k], -1, std::numeric_limits<int>::max());
@@ -140,7 +140,7 @@ SearchNode node_of(const JsonNode& node, int id, const SearchTask& task) {
   result.key = word_of(node["key"]);
   if (is_root) return result;
   if (!node.has("edit") || !node.has("reason")) node.fail("the key 'edit' or 'reason' is missing");
-  result.edit = edit_from_json(node["edit"], task.rest, task.kind);
+  result.edit = edit_from_json(node["edit"], task.rest, task.capabilities);
   if (std::find(task.handles.begin(), task.handles.end(), result.edit.handle) == task.handles.end())
     node["edit"]["handle"].fail("expected something that can be edited in this shape");
   result.reason = reason_of(node["reason"], task.rest);
@@ -206,9 +206,9 @@ auto as_saved_search(const Read& read) {
 }  // namespace
 
 SearchTask search_task(const RequirementChecker& checker, const BestFirstOptions& options) {
-  const DesignSpace& space = checker.space();
+  const DeformationModel& space = checker.space();
   return {task_fingerprint(checker, options), options.directions, space.handles(), space.rest(),
-          space.kind()};
+          space.capabilities()};
 }
 
 std::string text_of(const SearchState& state, const std::vector<std::string>& part_names) {

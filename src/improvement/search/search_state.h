@@ -39,7 +39,7 @@ struct SearchTask {
   std::vector<Eigen::Vector3d> directions;  ///< starting directions
   std::vector<Handle> handles;              ///< handles that its edits may use
   const StructuredShape& rest;              ///< shape at rest
-  DeformationKind kind;                     ///< deformation model
+  DeformationCapabilities capabilities;     ///< those of the deformation model
 };
 
 SearchTask search_task(const RequirementChecker& checker, const BestFirstOptions& options);

@@ -6,7 +6,6 @@
 #include "rendering/drawing/plot_parts.h"
 #include "rendering/pictures/handle_marks.h"
 #include "rendering/scene/structure_scene.h"
-#include "stackabilization/core/errors.h"
 #include "stackabilization/rendering/pictures.h"
 
 namespace stackabilization {
@@ -34,14 +33,13 @@ std::vector<Points> lines_of(const Edited& edited, const DeformationSide& side) 
 
 }  // namespace
 
-Drawing deformation_picture(const StructuredShape& rest, const DeformationResult& result,
+Drawing deformation_picture(const StructuredShape& rest, const Design& design,
                             const std::vector<Handle>& handles, const DeformationPictureOptions& options) {
-  if (result.refusal) throw UsageError("an edit that was refused has no picture");
   std::vector<Primitive> at_rest;
-  if (!result.primitives.empty())  // else the handles are not those of primitives
+  if (!design.primitives.empty())  // else the handles are not those of primitives
     for (const Part& part : rest.structure.parts) at_rest.push_back(part.primitive);
   const std::array<DeformationSide, 2> sides{{{rest.shape, at_rest, palette::input, "before"},
-                                              {result.shape, result.primitives, palette::output, "after"}}};
+                                              {design.shape, design.primitives, palette::output, "after"}}};
   const Edited edited{handles, options.curves};
   const double size = options.width / 60.0, margin = 1.5 * size;
   Drawing drawing{options.width, options.height, {}};

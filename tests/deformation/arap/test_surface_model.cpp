@@ -49,7 +49,7 @@ Shape deformed(const DeformationModel& model, const std::vector<Edit>& edits,
                const DeformationConstraints& constraints = {}) {
   const DeformationResult result = model.deformed(edits, constraints);
   REQUIRE_FALSE(result.refusal);
-  return result.shape;
+  return result.design.shape;
 }
 
 std::vector<int> vertices_between(const Shape& shape, double low, double high) {
@@ -63,7 +63,7 @@ std::vector<int> vertices_between(const Shape& shape, double low, double high) {
 
 TEST_CASE("surface: edits that change nothing leave every vertex to the bit") {
   const Shape shape = model("bottle");
-  const auto surface = surface_model(shape);
+  const auto surface = surface_model(unstructured(shape));
   CHECK(deformed(*surface, {}).vertices == shape.vertices);
   const Handle ring{HandleKind::section, 0, 0}, point{HandleKind::point, 0, 100},
       part{HandleKind::part, 1, 0};
@@ -79,7 +79,7 @@ TEST_CASE("surface: edits that change nothing leave every vertex to the bit") {
 
 TEST_CASE("surface: the whole shape is moved, turned and scaled exactly") {
   const Shape shape = tube();
-  const auto surface = surface_model(shape);
+  const auto surface = surface_model(unstructured(shape));
   const Eigen::Vector3d centre = surface->centre(whole_shape);
   CHECK((centre - Eigen::Vector3d(0, 0, 3)).norm() < 1e-12);
   const Eigen::Matrix3d turn =
@@ -101,7 +101,7 @@ TEST_CASE("surface: where nothing stays, a handle takes everything with it rigid
   options.influence = std::numeric_limits<double>::infinity();
   options.handle_radius = 0.1;
   const Shape shape = tube();
-  const auto surface = surface_model(shape, options);
+  const auto surface = surface_model(unstructured(shape), options);
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(2.5, Eigen::Vector3d(0, 3, 1).normalized()).toRotationMatrix();
   for (const Handle& handle : {Handle{HandleKind::point, 0, 17}, Handle{HandleKind::section, 0, 6}}) {
@@ -115,7 +115,7 @@ TEST_CASE("surface: where nothing stays, a handle takes everything with it rigid
 
 TEST_CASE("surface: edits of the whole and of handles commute where they should") {
   const Shape shape = tube();
-  const auto surface = surface_model(shape);
+  const auto surface = surface_model(unstructured(shape));
   const Handle ring{HandleKind::section, 0, 3}, point{HandleKind::point, 0, 200};
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(0.9, Eigen::Vector3d(2, 0, 1).normalized()).toRotationMatrix();
@@ -139,9 +139,11 @@ TEST_CASE("surface: a handle that comes back to a fixed place keeps it") {
   constraints.fixed_points = {{1, 0, 0}};
   constraints.keep_extent = Direction(0, 0, 1);
   const Handle ring{HandleKind::section, 0, 0}, other{HandleKind::section, 0, 23};
-  const Shape now =
-      deformed(*surface_model(shape),
-               {{ring, Move{{0, 0, -1}}}, {other, Move{{0, 0, 2}}}, {ring, Move{{0, 0, 1}}}}, constraints);
+  const auto surface = surface_model(unstructured(shape));
+  const Edit away{ring, Move{{0, 0, -1}}}, back{ring, Move{{0, 0, 1}}};
+  CHECK(surface->deformed({away}, constraints).refusal);
+  const Design without = surface->deformed({away, {other, Move{{0, 0, 2}}}}).design;
+  const Shape now = surface->edited(without, back, constraints).design.shape;
   const double h = range_along(now, {0, 0, 1}).length();
   CHECK(h == Approx(6).epsilon(1e-12));
   for (const std::int32_t v : fixed_vertices(shape, constraints))
@@ -152,7 +154,7 @@ TEST_CASE("surface: beyond the influence nothing moves, to the bit") {
   const Shape shape = tube();
   SurfaceModelOptions options;
   options.influence = 0.25;
-  const auto surface = surface_model(shape, options);
+  const auto surface = surface_model(unstructured(shape), options);
   const double reach = 0.25 * diagonal(shape);
   const Shape now = deformed(*surface, {{{HandleKind::section, 0, 0}, Scale{0.5, {}}}});
   for (const int v : vertices_between(shape, 1.001 * reach, 7))
@@ -174,7 +176,7 @@ TEST_CASE("surface: beyond the influence nothing moves, to the bit") {
 TEST_CASE("surface: a thick slice is scaled across the axis only, also when it has been turned") {
   const Shape shape = tube();
   const auto surface =
-      surface_model(shape, with(&SurfaceModelOptions::sections, 4));  // the first one below 1.5
+      surface_model(unstructured(shape), with(&SurfaceModelOptions::sections, 4));  // the first one below 1.5
   const Handle slice{HandleKind::section, 0, 0};
   const Shape wide = deformed(*surface, {{slice, Scale{1.5, {}}}});
   for (const int v : vertices_between(shape, 0, 1)) {
@@ -189,7 +191,8 @@ TEST_CASE("surface: a thick slice is scaled across the axis only, also when it h
 TEST_CASE("surface: a symmetric edit gives a symmetric shape") {
   // cylinder(…, 12) is its own image under a turn by 30 degrees.
   const Shape shape = tube();
-  const Shape now = deformed(*surface_model(shape), {{{HandleKind::section, 0, 3}, Scale{1.4, {}}}});
+  const Shape now =
+      deformed(*surface_model(unstructured(shape)), {{{HandleKind::section, 0, 3}, Scale{1.4, {}}}});
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(std::numbers::pi / 6, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   double worst = 0;
@@ -223,7 +226,7 @@ TEST_CASE("surface: equal vertices stay equal, sheets that meet in an edge do no
       }
   }
   const Shape shape = make_shape(soup, triangles);
-  const auto surface = surface_model(shape);
+  const auto surface = surface_model(unstructured(shape));
   solids::Random random(3);
   for (int k = 0; k < 20; ++k) {
     const int vertex = static_cast<int>(random.below(static_cast<std::uint64_t>(soup.rows())));
@@ -250,7 +253,7 @@ WithKnob with_knob(double reach) {
   const Shape body = tube(), knob = solids::subdivided(solids::box({1.05, -0.1, 0.1}, {1.25, 0.1, 0.3}));
   const Shape shape = concatenate(body, knob);
   const Handle ring{HandleKind::section, 0, 3};
-  const auto surface = surface_model(shape, with(&SurfaceModelOptions::reach, reach));
+  const auto surface = surface_model(unstructured(shape), with(&SurfaceModelOptions::reach, reach));
   return {shape, deformed(*surface, {{ring, Scale{1.5, {}}}, {ring, Rotate{{0, 1, 0}, 0.2}}}),
           body.vertex_count()};
 }
@@ -291,7 +294,8 @@ TEST_CASE("surface: shells that nearly touch deform together") {
 
   // The collar stays around the neck of the bottle when the mouth is pulled aside.
   const Shape shape = model("bottle");
-  const Shape now = deformed(*surface_model(shape), {{{HandleKind::point, 0, 1200}, Move{{0.03, 0, 0}}}});
+  const Shape now =
+      deformed(*surface_model(unstructured(shape)), {{{HandleKind::point, 0, 1200}, Move{{0.03, 0, 0}}}});
   const SurfaceIndex before(extract_part(shape, 0)), after(extract_part(now, 0));
   const Points collar = extract_part(shape, 1).vertices, moved = extract_part(now, 1).vertices;
   double worst = 0;
@@ -312,7 +316,7 @@ TEST_CASE("surface: triangles without area and vertices without triangles do no 
   triangles << shape.triangles, 0, 0, static_cast<int>(n), 5, 5, 5;
   shape.triangles = triangles;
   shape.triangle_part.resize(static_cast<std::size_t>(triangles.rows()), 0);
-  const auto surface = surface_model(shape);
+  const auto surface = surface_model(unstructured(shape));
   const Shape now = deformed(*surface, {{{HandleKind::point, 0, 0}, Move{{0.1, 0, 0.2}}}});
   CHECK(now.vertices.topRows(n + 1).allFinite());
   CHECK(std::isnan(now.vertices(n + 1, 0)));
@@ -324,7 +328,7 @@ TEST_CASE("surface: fixed parts and points stay to the bit, or the edit is refus
   const Shape shape = model("bottle");
   SurfaceModelOptions options;
   options.influence = std::numeric_limits<double>::infinity();
-  const auto surface = surface_model(shape, options);
+  const auto surface = surface_model(unstructured(shape), options);
   DeformationConstraints constraints;
   constraints.fixed_parts = {1};
   constraints.fixed_points = {{0.038, 0, 0.1}};
@@ -339,13 +343,13 @@ TEST_CASE("surface: fixed parts and points stay to the bit, or the edit is refus
       surface->deformed({{{HandleKind::part, 1, 0}, Move{{0, 0, 0.01}}}}, constraints);
   REQUIRE(refused.refusal);
   CHECK(refused.refusal->amount == Approx(0.01 / diagonal(shape)));
-  CHECK(refused.shape.vertices == shape.vertices);
+  CHECK(refused.design.shape.vertices == shape.vertices);
   CHECK(surface->deformed({{whole_shape, Scale{1.1, {}}}}, constraints).refusal);
 }
 
 TEST_CASE("surface: with the extent kept, the base goes in and the upper half does not move") {
   const Shape shape = model("bottle");
-  const auto surface = surface_model(shape);
+  const auto surface = surface_model(unstructured(shape));
   DeformationConstraints constraints;
   constraints.keep_extent = Direction(0, 0, 1);
   const Shape now = deformed(
@@ -360,7 +364,7 @@ TEST_CASE("surface: with the extent kept, the base goes in and the upper half do
 
 TEST_CASE("surface: handles are what it says they are") {
   const Shape shape = model("bottle");
-  const auto surface = surface_model(shape);
+  const auto surface = surface_model(unstructured(shape));
   int sections = 0, parts = 0, points = 0;
   for (const Handle& handle : surface->handles()) {
     CHECK(surface->centre(handle).allFinite());
@@ -376,14 +380,15 @@ TEST_CASE("surface: handles are what it says they are") {
   CHECK(sections >= 12);
   CHECK(points > 2000);
   // A wide bowl has the axis of its rings as well, not its longest side.
-  const auto bowl = surface_model(solids::cylinder(4, 1, 32), with(&SurfaceModelOptions::sections, 2));
+  const auto bowl =
+      surface_model(unstructured(solids::cylinder(4, 1, 32)), with(&SurfaceModelOptions::sections, 2));
   CHECK((bowl->centre({HandleKind::section, 0, 0}) - Eigen::Vector3d(0, 0, 0)).norm() < 1e-12);
   CHECK((bowl->centre({HandleKind::section, 0, 1}) - Eigen::Vector3d(0, 0, 1)).norm() < 1e-12);
 }
 
 TEST_CASE("surface: what it cannot do is said") {
   const Shape shape = tube();
-  const auto surface = surface_model(shape);
+  const auto surface = surface_model(unstructured(shape));
   const auto refuses = [&](const Edit& edit) { CHECK_THROWS_AS(surface->deformed({edit}), UsageError); };
   refuses({{HandleKind::part, 1, 0}, Move{}});
   refuses({{HandleKind::section, 0, 24}, Move{}});
@@ -393,18 +398,22 @@ TEST_CASE("surface: what it cannot do is said") {
   refuses({{HandleKind::wire, 0, 0}, Move{}});
   refuses({{HandleKind::section, 0, 0}, Scale{2, Eigen::Vector3d(0, 0, 1)}});
   refuses({whole_shape, Scale{-1, {}}});
-  CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::handle_radius, -1.0)), UsageError);
-  CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::influence, std::nan(""))), UsageError);
-  CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::sections, 0)), UsageError);
-  CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::reach, -1.0)), UsageError);
+  CHECK_THROWS_AS(surface_model(unstructured(shape), with(&SurfaceModelOptions::handle_radius, -1.0)),
+                  UsageError);
+  CHECK_THROWS_AS(surface_model(unstructured(shape), with(&SurfaceModelOptions::influence, std::nan(""))),
+                  UsageError);
+  CHECK_THROWS_AS(surface_model(unstructured(shape), with(&SurfaceModelOptions::sections, 0)), UsageError);
+  CHECK_THROWS_AS(surface_model(unstructured(shape), with(&SurfaceModelOptions::reach, -1.0)), UsageError);
+  CHECK_THROWS_AS(surface_model(unstructured(shape),
+                                with(&SurfaceModelOptions::axis, std::optional(Eigen::Vector3d(0, 0, 0)))),
+                  UsageError);
   CHECK_THROWS_AS(
-      surface_model(shape, with(&SurfaceModelOptions::axis, std::optional(Eigen::Vector3d(0, 0, 0)))),
+      surface_model(unstructured(shape), with(&SurfaceModelOptions::rigidity, RigidityOptions{0, 0})),
       UsageError);
-  CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::rigidity, RigidityOptions{0, 0})),
-                  UsageError);
-  CHECK_THROWS_AS(surface_model(shape, with(&SurfaceModelOptions::rigidity, RigidityOptions{1, -1})),
-                  UsageError);
-  CHECK_THROWS_AS(surface_model(Shape{}), InputError);
+  CHECK_THROWS_AS(
+      surface_model(unstructured(shape), with(&SurfaceModelOptions::rigidity, RigidityOptions{1, -1})),
+      UsageError);
+  CHECK_THROWS_AS(surface_model(unstructured(Shape{})), InputError);
   // Numbers that run away are refused, not computed with.
   refuses({{HandleKind::point, 0, 0}, Move{{1e200, 0, 0}}});
   CHECK(surface->deformed(std::vector<Edit>(11, {whole_shape, Scale{edit_limits::max_scale, {}}})).refusal);
@@ -413,7 +422,8 @@ TEST_CASE("surface: what it cannot do is said") {
 TEST_CASE("surface: 1000 random edits each keep the extent and give finite vertices") {
   const std::string name = GENERATE(as<std::string>{}, "bottle", "cup", "stool", "basket");
   const Shape shape = model(name);
-  const auto surface = surface_model(shape, with(&SurfaceModelOptions::rigidity, RigidityOptions{2, 0}));
+  const auto surface =
+      surface_model(unstructured(shape), with(&SurfaceModelOptions::rigidity, RigidityOptions{2, 0}));
   const std::vector<Handle> handles = surface->handles();
   const double d = diagonal(shape);
   solids::Random random(11);
@@ -443,9 +453,9 @@ TEST_CASE("surface: 1000 random edits each keep the extent and give finite verti
     }
     const DeformationResult result = surface->deformed(edits, constraints);
     refusals += result.refusal.has_value();
-    finite = finite && result.shape.vertices.allFinite();
+    finite = finite && result.design.shape.vertices.allFinite();
     const double h = range_along(shape, r.unit()).length();
-    worst = std::max(worst, std::abs(range_along(result.shape, r.unit()).length() - h) / h);
+    worst = std::max(worst, std::abs(range_along(result.design.shape, r.unit()).length() - h) / h);
   }
   CHECK(finite);
   CHECK(worst < 1e-9);

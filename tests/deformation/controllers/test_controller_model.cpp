@@ -39,11 +39,11 @@ TEST_CASE("no edit changes no bit, and neither does an edit by nothing") {
   for (const StructuredShape& rest :
        {structures::table(1), structures::mug(), structures::post_with_ring()}) {
     const ControllerModel model(rest);
-    CHECK(model.deformed({}).shape.vertices == rest.shape.vertices);
+    CHECK(model.deformed({}).design.shape.vertices == rest.shape.vertices);
     for (const Handle& handle : model.handles()) {
       const DeformationResult moved = model.deformed({{handle, Move{}}});
       CHECK_FALSE(moved.refusal);
-      CHECK(moved.shape.vertices == rest.shape.vertices);
+      CHECK(moved.design.shape.vertices == rest.shape.vertices);
     }
   }
 }
@@ -54,23 +54,24 @@ TEST_CASE("a cuboid alone takes affine edits exactly") {
   const Points& before = rest.shape.vertices;
   const double diagonal = rest.structure.diagonal;
   const DeformationResult moved = model.deformed({{kWhole, Move{{1, 2, 3}}}});
-  CHECK(largest_distance(moved.shape.vertices, before.rowwise() + Eigen::RowVector3d(1, 2, 3)) <
+  CHECK(largest_distance(moved.design.shape.vertices, before.rowwise() + Eigen::RowVector3d(1, 2, 3)) <
         1e-12 * diagonal);
   const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, -1).normalized();
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, axis).toRotationMatrix();
-  CHECK(largest_distance(model.deformed({{kWhole, Rotate{axis, 0.7}}}).shape.vertices,
+  CHECK(largest_distance(model.deformed({{kWhole, Rotate{axis, 0.7}}}).design.shape.vertices,
                          before * turn.transpose()) < 1e-12 * diagonal);
   const Eigen::Matrix3d stretch = Eigen::Matrix3d::Identity() + 0.5 * axis * axis.transpose();
-  CHECK(largest_distance(model.deformed({{kWhole, Scale{1.5, Eigen::Vector3d(1, 2, -1)}}}).shape.vertices,
-                         before * stretch) < 1e-12 * diagonal);
+  CHECK(largest_distance(
+            model.deformed({{kWhole, Scale{1.5, Eigen::Vector3d(1, 2, -1)}}}).design.shape.vertices,
+            before * stretch) < 1e-12 * diagonal);
   // A face moved along its normal stretches the box.
   Points longer = before;
   longer.col(0) = (before.col(0).array() + 2) * 1.25 - 2;
-  CHECK(largest_distance(model.deformed({{{HandleKind::face, 0, 1}, Move{{1, 0, 0}}}}).shape.vertices,
+  CHECK(largest_distance(model.deformed({{{HandleKind::face, 0, 1}, Move{{1, 0, 0}}}}).design.shape.vertices,
                          longer) < 1e-12 * diagonal);
   // Edits follow one another.
   const DeformationResult twice = model.deformed({{kWhole, Scale{2, {}}}, {kWhole, Scale{0.5, {}}}});
-  CHECK(largest_distance(twice.shape.vertices, before) < 1e-12 * diagonal);
+  CHECK(largest_distance(twice.design.shape.vertices, before) < 1e-12 * diagonal);
 }
 
 TEST_CASE("generalized cylinders alone take rigid motions and uniform scalings exactly") {
@@ -89,7 +90,7 @@ TEST_CASE("generalized cylinders alone take rigid motions and uniform scalings e
     const Points expected =
         ((1.3 * (before.rowwise() - centre) * turn.transpose()).rowwise() + centre).rowwise() +
         Eigen::RowVector3d(1, 0, 0);
-    CHECK(largest_distance(result.shape.vertices, expected) < 1e-12 * rest.structure.diagonal);
+    CHECK(largest_distance(result.design.shape.vertices, expected) < 1e-12 * rest.structure.diagonal);
   }
 }
 
@@ -97,8 +98,10 @@ TEST_CASE("cross-sections move and scale with their neighbours, by a Gaussian ov
   const GeneralizedCylinder curve = structures::straight_cylinder({0, 0, 0}, {0, 0, 10}, 1, 11);
   const ControllerModel model(structures::tube_alone(curve, 8));
   const Handle section{HandleKind::section, 0, 3};
-  const GeneralizedCylinder moved = cylinder(model.deformed({{section, Move{{0.5, 0, 0}}}}).primitives, 0);
-  const GeneralizedCylinder wider = cylinder(model.deformed({{section, Scale{1.4, {}}}}).primitives, 0);
+  const GeneralizedCylinder moved =
+      cylinder(model.deformed({{section, Move{{0.5, 0, 0}}}}).design.primitives, 0);
+  const GeneralizedCylinder wider =
+      cylinder(model.deformed({{section, Scale{1.4, {}}}}).design.primitives, 0);
   for (int i = 0; i < 11; ++i) {
     const double spread = std::exp(-(i - 3.0) * (i - 3) / (2 * 2 * 2));
     CHECK(moved.centres(i, 0) == Approx(0.5 * spread).margin(1e-14));
@@ -108,7 +111,7 @@ TEST_CASE("cross-sections move and scale with their neighbours, by a Gaussian ov
   // Around a loop the neighbours on both sides follow alike.
   const ControllerModel ring(structures::tube_alone(structures::ring_cylinder(2, 0.3, 12), 8));
   const GeneralizedCylinder pulled =
-      cylinder(ring.deformed({{{HandleKind::section, 0, 0}, Move{{0, 0, 0.3}}}}).primitives, 0);
+      cylinder(ring.deformed({{{HandleKind::section, 0, 0}, Move{{0, 0, 0.3}}}}).design.primitives, 0);
   for (int i = 1; i < 6; ++i) CHECK(pulled.centres(i, 2) == Approx(pulled.centres(12 - i, 2)));
   CHECK(pulled.centres(0, 2) == Approx(0.3));
 }
@@ -117,27 +120,27 @@ TEST_CASE("moving the foot of one leg outwards splays all four, and every joint 
   const ControllerModel model(structures::table(1));
   const DeformationResult result = model.deformed({{{HandleKind::face, kLeg1, 4}, Move{{-0.5, -0.5, 0}}}});
   REQUIRE_FALSE(result.refusal);
-  CHECK(largest_residual(model, result.primitives) < 1e-9);
-  const Cuboid& rest = std::get<Cuboid>(model.rest_primitives()[kLeg1]);
+  CHECK(largest_residual(model, result.design.primitives) < 1e-9);
+  const Cuboid& rest = std::get<Cuboid>(model.rest().structure.parts[kLeg1].primitive);
   for (int k = 0; k < 4; ++k) {
-    const Eigen::RowVector3d corner = cuboid(result.primitives, kLeg1).corners.row(k);
+    const Eigen::RowVector3d corner = cuboid(result.design.primitives, kLeg1).corners.row(k);
     CHECK((corner - rest.corners.row(k) - Eigen::RowVector3d(-0.5, -0.5, 0)).norm() < 1e-14);
     // Corner k of leg 1 is seen in the mirrors as the corners with bit 0 or bit 1 changed.
-    CHECK((cuboid(result.primitives, kLeg2).corners.row(k ^ 1) -
+    CHECK((cuboid(result.design.primitives, kLeg2).corners.row(k ^ 1) -
            corner.cwiseProduct(Eigen::RowVector3d(-1, 1, 1)))
               .norm() < 1e-14);
-    CHECK((cuboid(result.primitives, kLeg4).corners.row(k ^ 2) -
+    CHECK((cuboid(result.design.primitives, kLeg4).corners.row(k ^ 2) -
            corner.cwiseProduct(Eigen::RowVector3d(1, -1, 1)))
               .norm() < 1e-14);
-    CHECK((cuboid(result.primitives, kLeg3).corners.row(k ^ 3) -
+    CHECK((cuboid(result.design.primitives, kLeg3).corners.row(k ^ 3) -
            corner.cwiseProduct(Eigen::RowVector3d(-1, -1, 1)))
               .norm() < 1e-14);
   }
   // The bars got longer by what the legs spread at their height, not more; the top stayed nearly as it was.
-  const Cuboid bar = cuboid(result.primitives, kBar1);
+  const Cuboid bar = cuboid(result.design.primitives, kBar1);
   CHECK((bar.corners.row(1) - bar.corners.row(0)).norm() > 6.2 + 0.3);
-  CHECK(largest_distance(cuboid(result.primitives, kTop).corners,
-                         cuboid(model.rest_primitives(), kTop).corners) < 0.1);
+  CHECK(largest_distance(cuboid(result.design.primitives, kTop).corners,
+                         cuboid(model.at_rest().primitives, kTop).corners) < 0.1);
 }
 
 TEST_CASE("a moved leg takes along its mirror images and what is joined to them") {
@@ -145,13 +148,13 @@ TEST_CASE("a moved leg takes along its mirror images and what is joined to them"
     const ControllerModel model(rest);
     const DeformationResult result = model.deformed({{{HandleKind::part, kLeg3, 0}, Move{{0.4, 0.2, 0}}}});
     REQUIRE_FALSE(result.refusal);
-    CHECK(largest_residual(model, result.primitives) < 1e-9);
+    CHECK(largest_residual(model, result.design.primitives) < 1e-9);
     CHECK(largest_distance(
-              cuboid(result.primitives, kLeg3).corners,
-              (cuboid(model.rest_primitives(), kLeg3).corners.rowwise() + Eigen::RowVector3d(0.4, 0.2, 0))
+              cuboid(result.design.primitives, kLeg3).corners,
+              (cuboid(model.at_rest().primitives, kLeg3).corners.rowwise() + Eigen::RowVector3d(0.4, 0.2, 0))
                   .eval()) < 1e-14);
-    const Eigen::RowVector3d size =
-        cuboid(result.primitives, kTop).corners.row(7) - cuboid(result.primitives, kTop).corners.row(0);
+    const Eigen::RowVector3d size = cuboid(result.design.primitives, kTop).corners.row(7) -
+                                    cuboid(result.design.primitives, kTop).corners.row(0);
     CHECK(size.x() == Approx(8 * 3.9 / 3.5).epsilon(0.05));
     CHECK(size.y() == Approx(8 * 3.7 / 3.5).epsilon(0.05));
   }
@@ -162,13 +165,13 @@ TEST_CASE("widening a cross-section of the body keeps the handle of a mug attach
   for (const int section : {0, 2, 5, 8}) {
     const DeformationResult result = model.deformed({{{HandleKind::section, 0, section}, Scale{1.1, {}}}});
     REQUIRE_FALSE(result.refusal);
-    CHECK(largest_residual(model, result.primitives) < 1e-9);
-    CHECK(cylinder(result.primitives, 0).radii(section) == Approx(4.4).epsilon(1e-12));
-    CHECK(cylinder(result.primitives, 1).centres.col(1).cwiseAbs().maxCoeff() < 1e-14);
+    CHECK(largest_residual(model, result.design.primitives) < 1e-9);
+    CHECK(cylinder(result.design.primitives, 0).radii(section) == Approx(4.4).epsilon(1e-12));
+    CHECK(cylinder(result.design.primitives, 1).centres.col(1).cwiseAbs().maxCoeff() < 1e-14);
   }
   const DeformationResult pulled = model.deformed({{{HandleKind::section, 1, 6}, Move{{0.5, 0, 0}}}});
   REQUIRE_FALSE(pulled.refusal);
-  CHECK(largest_residual(model, pulled.primitives) < 1e-9);
+  CHECK(largest_residual(model, pulled.design.primitives) < 1e-9);
 }
 
 TEST_CASE("what contradicts a symmetry is refused with the relation, not projected away") {
@@ -179,7 +182,7 @@ TEST_CASE("what contradicts a symmetry is refused with the relation, not project
   CHECK(aside.refusal->cause == RefusalCause::symmetry);
   CHECK(aside.refusal->part == kTop);
   CHECK(aside.refusal->amount == Approx(0.1 / model.rest().structure.diagonal));
-  CHECK(aside.shape.vertices == model.rest().shape.vertices);
+  CHECK(aside.design.shape.vertices == model.rest().shape.vertices);
   CHECK(model.deformed({{{HandleKind::part, kTop, 0}, Move{{0, 0.1, 0}}}}).refusal->relation == 1);
   CHECK(model.deformed({{{HandleKind::face, kTop, 5}, Move{{0.1, 0, 0}}}}).refusal->relation == 0);
   CHECK_FALSE(model.deformed({{{HandleKind::face, kTop, 1}, Move{{0.1, 0, 0}}}}).refusal);
@@ -230,16 +233,16 @@ TEST_CASE("fixed parts and points stay while the rest is edited") {
   const DeformationResult result =
       model.deformed({{{HandleKind::face, kLeg1, 4}, Move{{-0.3, -0.2, 0}}}}, constraints);
   REQUIRE_FALSE(result.refusal);
-  CHECK(cuboid(result.primitives, kTop).corners == cuboid(model.rest_primitives(), kTop).corners);
-  CHECK(largest_residual(model, result.primitives) < 1e-9);
+  CHECK(cuboid(result.design.primitives, kTop).corners == cuboid(model.at_rest().primitives, kTop).corners);
+  CHECK(largest_residual(model, result.design.primitives) < 1e-9);
 
   DeformationConstraints point;
   point.fixed_points = {{4, 4, 6.2}};  // above the corner of the top
   const DeformationResult wider = model.deformed({{{HandleKind::part, kLeg1, 0}, Move{{-0.1, 0, 0}}}}, point);
   REQUIRE_FALSE(wider.refusal);
   double nearest = 1;
-  for (Eigen::Index v = 0; v < wider.shape.vertex_count(); ++v)
-    nearest = std::min(nearest, (wider.shape.vertices.row(v) - Eigen::RowVector3d(4, 4, 6)).norm());
+  for (Eigen::Index v = 0; v < wider.design.shape.vertex_count(); ++v)
+    nearest = std::min(nearest, (wider.design.shape.vertices.row(v) - Eigen::RowVector3d(4, 4, 6)).norm());
   CHECK(nearest < 1e-9);
 }
 
@@ -253,15 +256,16 @@ TEST_CASE("a kept extent is kept, with edits that would change it bent or refuse
       model.deformed({{{HandleKind::part, kLeg1, 0}, Rotate{{1, -1, 0}, 0.1}}}, constraints);
   const DeformationResult free = model.deformed({{{HandleKind::part, kLeg1, 0}, Rotate{{1, -1, 0}, 0.1}}});
   REQUIRE_FALSE(free.refusal);
-  CHECK(std::abs(range_along(free.shape, up.unit()).length() - before) > 1e-3);
+  CHECK(std::abs(range_along(free.design.shape, up.unit()).length() - before) > 1e-3);
   REQUIRE_FALSE(bent.refusal);
-  CHECK(std::abs(range_along(bent.shape, up.unit()).length() - before) <= 1e-9 * before);
-  CHECK(largest_residual(model, bent.primitives) < 1e-9);
+  CHECK(std::abs(range_along(bent.design.shape, up.unit()).length() - before) <= 1e-9 * before);
+  CHECK(largest_residual(model, bent.design.primitives) < 1e-9);
 
   const Edit longer{{HandleKind::face, kLeg1, 4}, Move{{0, 0, -0.5}}};
   CHECK_FALSE(model.deformed({longer}).refusal);
   const DeformationResult kept = model.deformed({longer}, constraints);
-  if (!kept.refusal) CHECK(std::abs(range_along(kept.shape, up.unit()).length() - before) <= 1e-9 * before);
+  if (!kept.refusal)
+    CHECK(std::abs(range_along(kept.design.shape, up.unit()).length() - before) <= 1e-9 * before);
   constraints.fixed_parts = {kTop};
   const DeformationResult refused = model.deformed({longer}, constraints);
   REQUIRE(refused.refusal);
@@ -279,11 +283,11 @@ TEST_CASE("legs lean on their ground although their feet are no images of each o
   const DeformationResult result =
       model.deformed({{{HandleKind::section, 1, 0}, Move{aside}, Falloff::linear}}, constraints);
   REQUIRE_FALSE(result.refusal);
-  const Range height = range_along(result.shape, Eigen::Vector3d::UnitZ());
+  const Range height = range_along(result.design.shape, Eigen::Vector3d::UnitZ());
   CHECK(height.length() == Approx(16).epsilon(1e-9));
   for (std::size_t leg = 1; leg < 5; ++leg) {
-    const auto& rest = std::get<GeneralizedCylinder>(model.rest_primitives()[leg]);
-    const auto& now = std::get<GeneralizedCylinder>(result.primitives[leg]);
+    const auto& rest = std::get<GeneralizedCylinder>(model.rest().structure.parts[leg].primitive);
+    const auto& now = std::get<GeneralizedCylinder>(result.design.primitives[leg]);
     const Points moves = now.centres - rest.centres;
     CHECK(std::abs(moves(0, 0)) == Approx(1).margin(1e-3));
     CHECK(std::abs(moves(0, 1)) == Approx(0.7).margin(1e-3));
@@ -304,8 +308,8 @@ TEST_CASE("rungs go up their legs, the seat stays as thick as it is") {
       model.deformed({{{HandleKind::part, named("rung_left"), 0}, Move{{0, 0, up}}}}, constraints);
   REQUIRE_FALSE(result.refusal);
   const auto change = [&](const char* part, Eigen::Index section) {
-    const GeneralizedCylinder rest = cylinder(model.rest_primitives(), named(part)),
-                              now = cylinder(result.primitives, named(part));
+    const GeneralizedCylinder rest = cylinder(model.at_rest().primitives, named(part)),
+                              now = cylinder(result.design.primitives, named(part));
     return (now.centres.row(section) - rest.centres.row(section)).norm();
   };
   CHECK(change("rung_left", 0) == Approx(up).epsilon(0.1));
@@ -324,8 +328,8 @@ TEST_CASE("a screw goes along with its board, it is not stretched to where that 
   const DeformationResult result =
       model.deformed({{{HandleKind::face, 0, 5}, Move{{0, 0, 0.5}}}}, constraints);
   REQUIRE_FALSE(result.refusal);
-  const Points before = cuboid(model.rest_primitives(), 1).corners,
-               now = cuboid(result.primitives, 1).corners;
+  const Points before = cuboid(model.at_rest().primitives, 1).corners,
+               now = cuboid(result.design.primitives, 1).corners;
   for (int k = 1; k < 8; ++k)
     CHECK((now.row(k) - now.row(0) - before.row(k) + before.row(0)).norm() < 0.2 * 0.1);
   CHECK(now(0, 2) == Approx(1).margin(1e-6));
@@ -352,13 +356,13 @@ TEST_CASE("what an edit leaves of an extent is stretched away, where it is next 
   const double half = range_along(model.rest().shape, r).high;
   const double factor = 2 * half / (2 * half + left_by(slope));
   for (int k = 0; k < 8; ++k) {
-    Eigen::Vector3d corner = cuboid(model.rest_primitives(), 0).corners.row(k);
+    Eigen::Vector3d corner = cuboid(model.at_rest().primitives, 0).corners.row(k);
     if (corner.z() < 0) corner.head<2>() *= wider;
     const double height = corner.dot(r);
     corner += (half + factor * (height - half) - height) * r;
-    CHECK((cuboid(stretched.primitives, 0).corners.row(k).transpose() - corner).norm() < 1e-14);
+    CHECK((cuboid(stretched.design.primitives, 0).corners.row(k).transpose() - corner).norm() < 1e-14);
   }
-  const Range now = range_along(stretched.shape, r);
+  const Range now = range_along(stretched.design.shape, r);
   CHECK(now.low == Approx(-half).margin(1e-14));
   CHECK(now.high == Approx(half).margin(1e-14));
 
@@ -400,7 +404,7 @@ TEST_CASE("parts of a connected surface deform it without a crack or a step") {
   const ControllerModel model(rest);
   const DeformationResult result = model.deformed({{{HandleKind::part, 1, 0}, Move{{0, 0, 0.4}}}});
   for (Eigen::Index v = 0; v < bar.vertex_count(); ++v) {
-    const double x = bar.vertices(v, 0), rise = result.shape.vertices(v, 2) - bar.vertices(v, 2);
+    const double x = bar.vertices(v, 0), rise = result.design.shape.vertices(v, 2) - bar.vertices(v, 2);
     if (x == 0) CHECK(rise == Approx(0.2));
     if (x <= -2) CHECK(rise == 0);
     if (x >= 2) CHECK(rise == Approx(0.4));
@@ -414,17 +418,18 @@ TEST_CASE("the shape as a whole is scaled by the affine map, and cannot leave it
   const DeformationResult grown = model.deformed({{whole_shape, Scale{1.25, {}}}});
   REQUIRE_FALSE(grown.refusal);
   const Points wanted = ((rest.vertices.rowwise() - centre) * 1.25).rowwise() + centre;
-  CHECK((grown.shape.vertices - wanted).cwiseAbs().maxCoeff() < 1e-9 * model.rest().structure.diagonal);
+  CHECK((grown.design.shape.vertices - wanted).cwiseAbs().maxCoeff() <
+        1e-9 * model.rest().structure.diagonal);
   const DeformationResult low = model.deformed({{whole_shape, Scale{0.5, Eigen::Vector3d(0, 0, 2)}}});
   REQUIRE_FALSE(low.refusal);
-  CHECK(range_along(low.shape, {0, 0, 1}).length() ==
+  CHECK(range_along(low.design.shape, {0, 0, 1}).length() ==
         Approx(range_along(rest, {0, 0, 1}).length() / 2).epsilon(1e-9));
-  CHECK(largest_residual(model, low.primitives) < 1e-9);
+  CHECK(largest_residual(model, low.design.primitives) < 1e-9);
   const DeformationResult aside = model.deformed({{whole_shape, Move{{1, 0, 0}}}});
   REQUIRE(aside.refusal);
   CHECK(aside.refusal->cause == RefusalCause::symmetry_of_shape);
   CHECK(aside.refusal->relation >= 0);
-  CHECK(aside.shape.vertices == rest.vertices);
+  CHECK(aside.design.shape.vertices == rest.vertices);
 }
 
 TEST_CASE("handles and operations that a part does not have are named") {
@@ -477,6 +482,7 @@ TEST_CASE("a kept extent does not depend on which of many low wires is the lowes
     const DeformationResult result =
         model.deformed({{{HandleKind::face, 0, 4}, Scale{factor, {}}}}, constraints);
     REQUIRE_FALSE(result.refusal);
-    CHECK(std::abs(range_along(result.shape, Eigen::Vector3d::UnitZ()).length() - before) <= 1e-9 * before);
+    CHECK(std::abs(range_along(result.design.shape, Eigen::Vector3d::UnitZ()).length() - before) <=
+          1e-9 * before);
   }
 }

@@ -14,12 +14,12 @@ namespace {
 std::vector<Primitive> made(const StructuredShape& rest, const Handle& handle, const Operation& operation,
                             const DeformationConstraints& constraints = {}) {
   const ControllerModel model(rest);
-  const EditOutcome outcome =
-      model.edited(model.rest_primitives(), {handle, operation, Falloff::linear}, constraints);
+  const DeformationResult outcome =
+      model.edited(model.at_rest(), {handle, operation, Falloff::linear}, constraints);
   if (outcome.refusal) FAIL(describe(*outcome.refusal, rest.structure));
-  for (const double residual : relation_residuals(rest.structure, outcome.primitives))
+  for (const double residual : relation_residuals(rest.structure, outcome.design.primitives))
     CHECK(residual < 1e-12);
-  return outcome.primitives;
+  return outcome.design.primitives;
 }
 
 Handle section(int index, int part = 0) {
@@ -95,20 +95,21 @@ TEST_CASE("from the middle a linear change goes to nothing at the last section")
 TEST_CASE("where sections have slid, a linear change is linear in where they are now") {
   const StructuredShape rest = structures::tube_alone(uneven_leg(), 12);
   const ControllerModel model(rest);
-  std::vector<Primitive> now = model.rest_primitives();
-  auto& leg = std::get<GeneralizedCylinder>(now[0]);
+  Design now = model.at_rest();
+  auto& leg = std::get<GeneralizedCylinder>(now.primitives[0]);
   leg.centres.col(2) << 0, 0.7, 1.4, 2.5, 3.6, 4;
   const GeneralizedCylinder slid = leg;
   const Eigen::RowVector3d by(0.5, 0, 0);
-  const EditOutcome moved = model.edited(now, {section(0), Move{by.transpose()}, Falloff::linear}, {});
-  const EditOutcome scaled = model.edited(now, {section(5), Scale{2, {}}, Falloff::linear}, {});
+  const DeformationResult moved = model.edited(now, {section(0), Move{by.transpose()}, Falloff::linear}, {});
+  const DeformationResult scaled = model.edited(now, {section(5), Scale{2, {}}, Falloff::linear}, {});
   REQUIRE_FALSE(moved.refusal);
   REQUIRE_FALSE(scaled.refusal);
   for (Eigen::Index i = 0; i < 6; ++i) {
     const double height = slid.centres(i, 2) / 4;
-    CHECK((cylinder(moved.primitives).centres.row(i) - slid.centres.row(i) - (1 - height) * by).norm() <
-          1e-14);
-    CHECK(cylinder(scaled.primitives).radii(i) == Approx(0.5 + 0.5 * height).epsilon(1e-14));
+    CHECK(
+        (cylinder(moved.design.primitives).centres.row(i) - slid.centres.row(i) - (1 - height) * by).norm() <
+        1e-14);
+    CHECK(cylinder(scaled.design.primitives).radii(i) == Approx(0.5 + 0.5 * height).epsilon(1e-14));
   }
 }
 
@@ -164,8 +165,8 @@ TEST_CASE("a bar mirrored about its middle widens and moves evenly, and is stret
     CHECK((longer.centres.col(0) - 1.25 * bar.centres.col(0)).norm() < 1e-14);
   }
   const ControllerModel model(rest);
-  const EditOutcome outcome =
-      model.edited(model.rest_primitives(), {section(2), Move{{0.1, 0, 0}}, Falloff::linear});
+  const DeformationResult outcome =
+      model.edited(model.at_rest(), {section(2), Move{{0.1, 0, 0}}, Falloff::linear});
   REQUIRE(outcome.refusal);
   CHECK(outcome.refusal->relation == 0);
 }
@@ -183,8 +184,9 @@ TEST_CASE("around a closed curve linear is as gaussian") {
   const StructuredShape rest = structures::tube_alone(structures::ring_cylinder(2, 0.3, 12), 10);
   const ControllerModel model(rest);
   for (const Operation& operation : std::vector<Operation>{Move{{0, 0, 0.3}}, Scale{1.3, {}}}) {
-    const Shape linear = model.deformed({{section(3), operation, Falloff::linear}}).shape;
-    CHECK(linear.vertices == model.deformed({{section(3), operation, Falloff::gaussian}}).shape.vertices);
+    const Shape linear = model.deformed({{section(3), operation, Falloff::linear}}).design.shape;
+    CHECK(linear.vertices ==
+          model.deformed({{section(3), operation, Falloff::gaussian}}).design.shape.vertices);
   }
 }
 

@@ -25,11 +25,11 @@ TEST_CASE("a thousand random edits leave no broken relation, and most of them ar
 TEST_CASE("edits give the same bytes from any number of threads") {
   const ControllerModel model(structures::table_with_line_joints());
   const Edit edit{{HandleKind::face, 1, 4}, Move{{-0.3, -0.2, 0.1}}};
-  const Points alone = model.deformed({edit}).shape.vertices;
+  const Points alone = model.deformed({edit}).design.shape.vertices;
   std::vector<Points> together(4);
   std::vector<std::thread> threads;
   for (Points& vertices : together)
-    threads.emplace_back([&] { vertices = model.deformed({edit}).shape.vertices; });
+    threads.emplace_back([&] { vertices = model.deformed({edit}).design.shape.vertices; });
   for (std::thread& thread : threads) thread.join();
   for (const Points& vertices : together) CHECK(vertices == alone);
 }

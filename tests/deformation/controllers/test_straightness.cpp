@@ -168,20 +168,20 @@ TEST_CASE("a wall stays straight through a list of edits") {
                                    {rim, Move{{-0.2, 0, 0}}, Falloff::linear},
                                    low_end(0.3),
                                    {foot, Scale{0.95, {}}, Falloff::linear}};
-  std::vector<Primitive> now = model.rest_primitives();
+  Design now = model.at_rest();
   for (const Edit& edit : edits) {
-    const EditOutcome outcome = model.edited(now, edit, constraints);
+    const DeformationResult outcome = model.edited(now, edit, constraints);
     if (outcome.refusal) FAIL(describe(*outcome.refusal, model.rest().structure));
-    now = outcome.primitives;
-    const auto& body = std::get<GeneralizedCylinder>(now[0]);
+    now = outcome.design;
+    const auto& body = std::get<GeneralizedCylinder>(now.primitives[0]);
     CHECK(bend(body.centres) < 1e-12 * 10);
     CHECK(profile_bend(body) < 1e-12 * 10);
   }
-  const auto& body = std::get<GeneralizedCylinder>(now[0]);
+  const auto& body = std::get<GeneralizedCylinder>(now.primitives[0]);
   const Eigen::VectorXd places = detail::places_along_chord(body);
   CHECK(std::abs(places(4) - 0.4 * places(10)) > 0.1);  // the sections did slide
-  for (const double residual : relation_residuals(model.rest().structure, now)) CHECK(residual < 1e-6);
-  const Range after = range_along(model.shape_of(now), Eigen::Vector3d::UnitZ());
+  for (const double residual : model.relation_residuals(now)) CHECK(residual < 1e-6);
+  const Range after = range_along(now.shape, Eigen::Vector3d::UnitZ());
   CHECK(after.low == Approx(before.low).margin(1e-9 * before.length()));
   CHECK(after.high == Approx(before.high).margin(1e-9 * before.length()));
 }
@@ -204,7 +204,7 @@ TEST_CASE("an edit of a single section still bends") {
   const ControllerModel model(structures::mug());
   const DeformationResult result = model.deformed({{{HandleKind::section, 0, 5}, Move{{0.3, 0, 0}}}});
   REQUIRE_FALSE(result.refusal);
-  CHECK(bend(std::get<GeneralizedCylinder>(result.primitives[0]).centres) > 0.1);
+  CHECK(bend(std::get<GeneralizedCylinder>(result.design.primitives[0]).centres) > 0.1);
 }
 
 TEST_CASE("what an edit moves along a height with fixed ends, it moves against the rest") {
@@ -221,10 +221,10 @@ TEST_CASE("what an edit moves along a height with fixed ends, it moves against t
                       {{HandleKind::section, 1, 1}, Move{{0, 0, 0.4}}}},
                      constraints);
   REQUIRE_FALSE(result.refusal);
-  const Range after = range_along(result.shape, Eigen::Vector3d::UnitZ());
+  const Range after = range_along(result.design.shape, Eigen::Vector3d::UnitZ());
   CHECK(after.low == Approx(before.low).margin(1e-9 * before.length()));
   CHECK(after.high == Approx(before.high).margin(1e-9 * before.length()));
-  const auto& body = std::get<GeneralizedCylinder>(result.primitives[0]);
+  const auto& body = std::get<GeneralizedCylinder>(result.design.primitives[0]);
   CHECK(detail::is_straight(body));
 
   // Without fixed ends the whole mug goes up.
@@ -232,5 +232,5 @@ TEST_CASE("what an edit moves along a height with fixed ends, it moves against t
   const DeformationResult carried =
       model.deformed({{{HandleKind::part, 1, 0}, Move{{0, 0, 0.4}}}}, constraints);
   REQUIRE_FALSE(carried.refusal);
-  CHECK(range_along(carried.shape, Eigen::Vector3d::UnitZ()).low > before.low + 0.1);
+  CHECK(range_along(carried.design.shape, Eigen::Vector3d::UnitZ()).low > before.low + 0.1);
 }

@@ -22,9 +22,9 @@ Edit squash(double factor, const Eigen::Vector3d& along = {0, 0, 1}) {
 
 Shape squashed(const Shape& shape, double factor, const Direction& direction = upwards) {
   const DeformationResult result =
-      gap_scaling(shape, direction)->deformed({squash(factor, direction.vector())});
+      gap_scaling(unstructured(shape), direction)->deformed({squash(factor, direction.vector())});
   REQUIRE_FALSE(result.refusal);
-  return result.shape;
+  return result.design.shape;
 }
 
 double f_max(const Shape& shape, const Direction& direction = upwards) {
@@ -60,6 +60,18 @@ Shape slab(int n, std::uint64_t seed) {
 }
 
 }  // namespace
+
+TEST_CASE("a squash that leaves nothing of upright sides is refused, whatever the size of the shape") {
+  const Eigen::Matrix3d small = 1e-6 * Eigen::Matrix3d::Identity();
+  for (const Shape& shape : {solids::box({1, 1, 1}), transformed(solids::box({1, 1, 1}), small, {0, 0, 0})}) {
+    const auto model = gap_scaling(unstructured(shape), upwards);
+    CHECK_FALSE(model->deformed({squash(0.002)}).refusal);
+    const DeformationResult refused = model->deformed({squash(0.5), squash(0.0002)});
+    REQUIRE(refused.refusal);
+    CHECK(refused.refusal->cause == RefusalCause::collapsed_triangle);
+    CHECK(refused.design.edits.size() == 1);
+  }
+}
 
 TEST_CASE("gap scaling: f_max is scaled exactly where the vertices resolve the envelope") {
   for (const double factor : {0.25, 0.8, 1.5}) {
@@ -129,25 +141,25 @@ TEST_CASE("gap scaling: refined triangles follow the envelope below slopes, not 
 
 TEST_CASE("gap scaling: no edit, no change, and factors multiply") {
   const Shape shape = solids::frustum_shell({});
-  const auto model = gap_scaling(shape, upwards);
-  CHECK(model->deformed({}).shape.vertices == shape.vertices);
-  CHECK(model->deformed({squash(1)}).shape.vertices == shape.vertices);
-  CHECK(largest_difference(model->deformed({squash(0.4), squash(2.5)}).shape.vertices, shape.vertices) <
-        1e-14);
-  CHECK(largest_difference(model->deformed({squash(0.4), squash(0.5, {0, 0, -7})}).shape.vertices,
-                           model->deformed({squash(0.2)}).shape.vertices) < 1e-14);
+  const auto model = gap_scaling(unstructured(shape), upwards);
+  CHECK(model->deformed({}).design.shape.vertices == shape.vertices);
+  CHECK(model->deformed({squash(1)}).design.shape.vertices == shape.vertices);
+  CHECK(largest_difference(model->deformed({squash(0.4), squash(2.5)}).design.shape.vertices,
+                           shape.vertices) < 1e-14);
+  CHECK(largest_difference(model->deformed({squash(0.4), squash(0.5, {0, 0, -7})}).design.shape.vertices,
+                           model->deformed({squash(0.2)}).design.shape.vertices) < 1e-14);
   CHECK(model->handles() == std::vector<Handle>{whole_shape});
   CHECK((model->centre(model->handles()[0]) - Eigen::Vector3d(0, 0, 4)).norm() < 1e-14);
 }
 
 TEST_CASE("gap scaling: constraints") {
   const Shape table = solids::table({});
-  const auto model = gap_scaling(table, upwards);
+  const auto model = gap_scaling(unstructured(table), upwards);
   DeformationConstraints constraints;
   constraints.keep_extent = upwards;
   const DeformationResult kept = model->deformed({squash(0.5)}, constraints);
   REQUIRE_FALSE(kept.refusal);
-  CHECK(largest_difference(kept.shape.vertices, table.vertices) < 1e-14);
+  CHECK(largest_difference(kept.design.shape.vertices, table.vertices) < 1e-14);
   constraints = {};
   constraints.box_tolerance = 0.4;
   CHECK(model->deformed({squash(0.5)}, constraints).refusal);
@@ -161,12 +173,12 @@ TEST_CASE("gap scaling: constraints") {
   constraints.fixed_parts = {1};
   const DeformationResult refused = model->deformed({squash(0.5)}, constraints);
   CHECK(refused.refusal);
-  CHECK(refused.shape.vertices == table.vertices);
+  CHECK(refused.design.shape.vertices == table.vertices);
   CHECK(model->deformed(std::vector<Edit>(11, squash(edit_limits::max_scale))).refusal);
 }
 
 TEST_CASE("gap scaling: what it cannot do is said") {
-  const auto model = gap_scaling(solids::box({1, 1, 1}), upwards);
+  const auto model = gap_scaling(unstructured(solids::box({1, 1, 1})), upwards);
   CHECK_THROWS_AS(model->deformed({{whole_shape, Move{}}}), UsageError);
   CHECK_THROWS_AS(model->deformed({{whole_shape, Rotate{}}}), UsageError);
   CHECK_THROWS_AS(model->deformed({{whole_shape, Scale{2, {}}}}), UsageError);
@@ -175,7 +187,7 @@ TEST_CASE("gap scaling: what it cannot do is said") {
   CHECK_THROWS_AS(model->deformed({{{HandleKind::part, 0, 0}, Scale{2, Eigen::Vector3d(0, 0, 1)}}}),
                   UsageError);
   CHECK_THROWS_AS(model->centre({HandleKind::part, 0, 0}), UsageError);
-  CHECK_THROWS_AS(gap_scaling(Shape{}, upwards), InputError);
+  CHECK_THROWS_AS(gap_scaling(unstructured(Shape{}), upwards), InputError);
 }
 
 TEST_CASE("gap scaling: 1000 random edits keep the extent and give finite vertices") {
@@ -187,21 +199,24 @@ TEST_CASE("gap scaling: 1000 random edits keep the extent and give finite vertic
     int refusals = 0;
     for (int d = 0; d < 5; ++d) {
       const Direction direction(d == 0 ? Eigen::Vector3d(0, 0, 1) : random.on_sphere());
-      const auto model = gap_scaling(shape, direction);
+      const auto model = gap_scaling(unstructured(shape), direction);
       for (int k = 0; k < 50; ++k) {
         DeformationConstraints constraints;
         const Direction r(k % 2 ? direction.vector() : random.on_sphere());
         constraints.keep_extent = r;
         const DeformationResult result =
             model->deformed({squash(random.uniform(0.01, 4), direction.vector())}, constraints);
+        // Where the envelope has a step, few directions tear a triangle apart until a side is nothing to the
+        // others.
+        if (result.refusal) CHECK(result.refusal->cause == RefusalCause::collapsed_triangle);
         refusals += result.refusal.has_value();
-        finite = finite && result.shape.vertices.allFinite();
+        finite = finite && result.design.shape.vertices.allFinite();
         const double h = range_along(shape, r.unit()).length();
-        worst = std::max(worst, std::abs(range_along(result.shape, r.unit()).length() - h) / h);
+        worst = std::max(worst, std::abs(range_along(result.design.shape, r.unit()).length() - h) / h);
       }
     }
     CHECK(finite);
-    CHECK(refusals == 0);
+    CHECK(refusals <= 10);
     CHECK(worst < 1e-9);
   }
 }

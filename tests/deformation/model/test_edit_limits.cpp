@@ -32,9 +32,9 @@ std::vector<NamedModel> models() {
   const StructuredShape rest = structures::box_alone(size);
   std::vector<NamedModel> all;
   all.push_back({"controllers", std::make_unique<ControllerModel>(rest)});
-  all.push_back({"surface", surface_model(rest.shape)});
-  all.push_back({"iwires", std::make_unique<IWiresModel>(rest.shape)});
-  all.push_back({"gap scaling", gap_scaling(rest.shape, Direction(0, 0, 1))});
+  all.push_back({"surface", surface_model(rest)});
+  all.push_back({"iwires", std::make_unique<IWiresModel>(rest)});
+  all.push_back({"gap scaling", gap_scaling(rest, Direction(0, 0, 1))});
   return all;
 }
 
@@ -61,9 +61,12 @@ TEST_CASE("an axis means its direction, however long it is, or is refused") {
     for (const double length : good_lengths) {
       INFO(named.name << ", axis of length " << length);
       const double slack = 1e-14 * size.norm();
-      CHECK((scaled(length).shape.vertices - scaled(1).shape.vertices).cwiseAbs().maxCoeff() <= slack);
+      CHECK((scaled(length).design.shape.vertices - scaled(1).design.shape.vertices).cwiseAbs().maxCoeff() <=
+            slack);
       if (!gap)
-        CHECK((rotated(length).shape.vertices - rotated(1).shape.vertices).cwiseAbs().maxCoeff() <= slack);
+        CHECK((rotated(length).design.shape.vertices - rotated(1).design.shape.vertices)
+                  .cwiseAbs()
+                  .maxCoeff() <= slack);
     }
     for (const double length : bad_lengths) {
       INFO(named.name << ", axis of length " << length);
@@ -105,9 +108,9 @@ TEST_CASE("edits at their limits are made, and are finite and right") {
   const ControllerModel model(structures::box_alone(size));
   const Points rest = model.rest().shape.vertices;
   const Eigen::Vector3d far(edit_limits::max_move * size.norm(), 0, 0);
-  const Points moved = model.deformed({{whole_shape, Move{far}}}).shape.vertices;
+  const Points moved = model.deformed({{whole_shape, Move{far}}}).design.shape.vertices;
   CHECK(((moved.rowwise() - far.transpose()) - rest).cwiseAbs().maxCoeff() < 1e-9);
-  const Points turned = model.deformed({{whole_shape, Rotate{{0, 0, 1}, -10 * turn}}}).shape.vertices;
+  const Points turned = model.deformed({{whole_shape, Rotate{{0, 0, 1}, -10 * turn}}}).design.shape.vertices;
   CHECK((turned - rest).cwiseAbs().maxCoeff() < 1e-12);
   for (const NamedModel& named : models())
     for (const double factor : {1 / edit_limits::max_scale, edit_limits::max_scale}) {
@@ -117,8 +120,8 @@ TEST_CASE("edits at their limits are made, and are finite and right") {
       for (int k = 0; k < 60; ++k) {
         edits.push_back({whole_shape, Scale{factor, Eigen::Vector3d(0, 0, 1)}});
         const DeformationResult result = named.model->deformed(edits);
-        REQUIRE(result.shape.vertices.allFinite());
-        if (!result.refusal) validate(result.shape);
+        REQUIRE(result.design.shape.vertices.allFinite());
+        if (!result.refusal) validate(result.design.shape);
       }
     }
 }

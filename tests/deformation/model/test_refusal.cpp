@@ -70,8 +70,9 @@ TEST_CASE("every cause of a refusal has its sentence") {
       {wire_image_of, "wire 2 would no longer be the image of wire 4 under symmetry 5, by " + diagonal},
       {proportions, "'leg 0.5' would lose its proportions"},
       {unchanged, "nothing would change"},
-      {undefined, "stackability or distortion would be undefined"}};
-  REQUIRE(sentences.size() == static_cast<std::size_t>(undefined) + 1);
+      {undefined, "stackability or distortion would be undefined"},
+      {collapsed_triangle, "triangle 2 loses a side"}};
+  REQUIRE(sentences.size() == static_cast<std::size_t>(collapsed_triangle) + 1);
   for (std::size_t k = 0; k < sentences.size(); ++k) {
     CHECK(sentences[k].first == static_cast<RefusalCause>(k));
     CHECK(describe(refusal(sentences[k].first), two_parts()) == sentences[k].second);

@@ -34,7 +34,7 @@ TEST_CASE("without an edit or a constraint, vertices stay to the bit") {
   constraints.box_tolerance = 0;
   constraints.fixed_parts = {1};
   const Rows fixed = fixed_vertices(table(), constraints);
-  const ConstrainedVertices same = constrain(table(), table().vertices, constraints, fixed);
+  const MovedVertices same = constrain(table(), table().vertices, constraints, fixed);
   CHECK_FALSE(same.refusal);
   CHECK(same.vertices == table().vertices);
   const Points moved = stretched(table().vertices, 1.5, 3);
@@ -75,7 +75,7 @@ TEST_CASE("the extent is restored along any direction, after any deformation") {
     Shape moved = shape;
     for (Eigen::Index v = 0; v < moved.vertex_count(); ++v)
       moved.vertices.row(v) += random.in_cube().transpose();
-    const ConstrainedVertices result = constrain(shape, moved.vertices, constraints, {});
+    const MovedVertices result = constrain(shape, moved.vertices, constraints, {});
     REQUIRE_FALSE(result.refusal);
     // Nothing goes across r.
     const Points by = result.vertices - moved.vertices;
@@ -94,7 +94,7 @@ TEST_CASE("fixed vertices keep their place while the extent is restored around t
   Points vertices = table().vertices;
   for (Eigen::Index v = 0; v < vertices.rows(); ++v)
     if (vertices(v, 2) > 0) vertices(v, 2) += 2;
-  const ConstrainedVertices result = constrain(table(), vertices, constraints, fixed);
+  const MovedVertices result = constrain(table(), vertices, constraints, fixed);
   REQUIRE_FALSE(result.refusal);
   CHECK(result.vertices(Eigen::all, 2).maxCoeff() == Approx(6).epsilon(1e-14));
   for (const std::int32_t v : fixed) CHECK(result.vertices.row(v) == table().vertices.row(v));
@@ -103,7 +103,7 @@ TEST_CASE("fixed vertices keep their place while the extent is restored around t
   for (Eigen::Index v = 0; v < vertices.rows(); ++v)
     vertices(v, 2) = table().vertices(v, 2) == 0 ? -1 : table().vertices(v, 2);
   for (const std::int32_t v : fixed) vertices.row(v) = table().vertices.row(v);
-  const ConstrainedVertices below = constrain(table(), vertices, constraints, fixed);
+  const MovedVertices below = constrain(table(), vertices, constraints, fixed);
   REQUIRE(below.refusal);
   CHECK(below.vertices == table().vertices);
   CHECK(below.refusal->cause == RefusalCause::fixed_low);
@@ -117,7 +117,7 @@ TEST_CASE("what moves a fixed vertex is refused") {
   CHECK(fixed.size() == 9);  // eight corners, one of them repeated in the top
   Points vertices = table().vertices;
   vertices(fixed[3], 0) += 1e-6;
-  const ConstrainedVertices result = constrain(table(), vertices, constraints, fixed);
+  const MovedVertices result = constrain(table(), vertices, constraints, fixed);
   REQUIRE(result.refusal);
   CHECK(result.refusal->cause == RefusalCause::fixed_vertex);
   CHECK(result.refusal->index == fixed[3]);
@@ -128,8 +128,7 @@ TEST_CASE("the box may change by its tolerance and no more") {
   constraints.box_tolerance = 0.1;
   CHECK_FALSE(constrain(table(), stretched(table().vertices, 1.1, 5), constraints, {}).refusal);
   CHECK_FALSE(constrain(table(), stretched(table().vertices, 0.9, 5), constraints, {}).refusal);
-  const ConstrainedVertices result =
-      constrain(table(), stretched(table().vertices, 1.11, 0), constraints, {});
+  const MovedVertices result = constrain(table(), stretched(table().vertices, 1.11, 0), constraints, {});
   REQUIRE(result.refusal);
   CHECK(result.refusal->cause == RefusalCause::box_side);
   CHECK(result.refusal->index == 2);
@@ -162,13 +161,13 @@ TEST_CASE("a fixed point fixes what carries it, and its twins") {
 TEST_CASE("numbers that are not finite and shapes that were flattened are refused") {
   Points vertices = table().vertices;
   vertices(4, 1) = std::numeric_limits<double>::infinity();
-  const ConstrainedVertices infinite = constrain(table(), vertices, {}, {});
+  const MovedVertices infinite = constrain(table(), vertices, {}, {});
   REQUIRE(infinite.refusal);
   CHECK(infinite.refusal->cause == RefusalCause::vertex_range);
   CHECK(infinite.refusal->index == 4);
   DeformationConstraints constraints;
   constraints.keep_extent = Direction(0, 0, 1);
-  const ConstrainedVertices flat = constrain(table(), stretched(table().vertices, 0, 0), constraints, {});
+  const MovedVertices flat = constrain(table(), stretched(table().vertices, 0, 0), constraints, {});
   REQUIRE(flat.refusal);
   CHECK(flat.refusal->cause == RefusalCause::flat_extent);
 }

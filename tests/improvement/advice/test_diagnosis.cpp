@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/diagnosis.h"
 #include "support/catch.h"
 #include "support/messages.h"
@@ -34,7 +35,7 @@ std::vector<int> all_parts(const StructuredShape& rest) {
 
 TEST_CASE("parts that must stay are what is in the way, and freeing the legs is offered") {
   const StructuredShape table = structures::table();
-  const auto space = design_space(table);
+  const auto space = deformation_model(table);
   Requirements requirements = designs::frame_requirements(0.8);
   requirements.kept_parts = all_parts(table);
   const RequirementChecker checker(*space, requirements);
@@ -63,6 +64,31 @@ TEST_CASE("parts that must stay are what is in the way, and freeing the legs is 
   CHECK(mentions(text, "S = 0.800 was not reached; the best is S = 0.000"));
   CHECK(mentions(text, "of each copy comes down on 'top' of the copy below"));
   CHECK(mentions(text, "\n  'leg_1' is fixed, or symmetric to a part that is (12 edits)\n"));
+}
+
+TEST_CASE("a check that keeps the best design from being a solution comes before what met edits") {
+  const designs::Still space(designs::two_cubes(), DeformationKind::surface);
+  const RequirementChecker checker(space, designs::frame_requirements(-1));
+  BestFirstResult result;
+  Candidate apart;
+  apart.design = space.at_rest();
+  apart.design.shape.vertices.bottomRows(8).col(1).array() += 0.5;
+  apart.direction = Eigen::Vector3d::UnitZ();
+  apart.measured = checker.measure(apart.design.shape, Direction(0, 0, 1));
+  result.nearest = {apart};
+  const Obstacle relations = Check{CheckKind::relations}, height = Check{CheckKind::height};
+  result.refusals = {{Refusal{.cause = RefusalCause::unchanged}, 12}, {height, 3}};
+  std::vector<ObstacleCount> told = diagnose(checker, result).constraints;
+  REQUIRE(told.size() == 3);
+  CHECK(told[0].obstacle == relations);
+  CHECK(told[0].count == 1);
+  CHECK(told[1].count == 12);
+  // A check that the search has met as well is told once, with its count.
+  result.refusals[1].obstacle = relations;
+  told = diagnose(checker, result).constraints;
+  REQUIRE(told.size() == 2);
+  CHECK(told[0].obstacle == relations);
+  CHECK(told[0].count == 3);
 }
 
 TEST_CASE("what came very near to the target is told from it") {
@@ -112,7 +138,7 @@ TEST_CASE("every outcome of the edits against a blocker, and every remedy, has i
 
 TEST_CASE("freeing the legs is what lets a table sink deeper") {
   const StructuredShape table = structures::table();
-  const auto space = design_space(table);
+  const auto space = deformation_model(table);
   Requirements requirements = designs::frame_requirements(0.8);
   for (const char* leg : {"leg_1", "leg_2", "leg_3", "leg_4"})
     requirements.kept_parts.push_back(structures::part_named(table, leg));
@@ -136,7 +162,7 @@ TEST_CASE("freeing the legs is what lets a table sink deeper") {
 
 TEST_CASE("nothing that must stay is offered to be left out or freed without need") {
   const StructuredShape table = structures::table();
-  const auto space = design_space(table);
+  const auto space = deformation_model(table);
   const RequirementChecker checker(*space, designs::frame_requirements(0.8));
   const Diagnosis diagnosis = diagnose(checker, stuck_at_rest(checker));
   CHECK(remedy_of(diagnosis, Remedy::Kind::free_part) == nullptr);
@@ -154,7 +180,7 @@ TEST_CASE("a box that lies on its side is better stacked another way") {
   StructuredShape l = structures::box_alone({4, 1, 4});
   l.shape = solids::l_shape(4, 0.5);
   l.shape.part_names = {"box"};
-  const auto space = design_space(l);
+  const auto space = deformation_model(l);
   const RequirementChecker checker(*space, designs::frame_requirements(0.9));
   const Diagnosis diagnosis = diagnose(checker, stuck_at_rest(checker));
   const Remedy* other = remedy_of(diagnosis, Remedy::Kind::other_direction);

@@ -1,3 +1,4 @@
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/diagnosis.h"
 #include "stackabilization/io/read.h"
 #include "stackabilization/structure/analysis.h"
@@ -12,7 +13,7 @@ namespace {
 TEST_CASE("the swivel chair is kept apart by its base under the back") {
   const StructuredShape chair =
       analyse_structure(read_shape(STACKABILIZATION_SOURCE_DIR "/data/models/swivel_chair.obj"));
-  const auto space = design_space(chair);
+  const auto space = deformation_model(chair);
   const RequirementChecker checker(*space, designs::frame_requirements(0.8));
   BestFirstResult result;
   result.nearest.resize(1);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/suggestions.h"
 #include "support/catch.h"
 #include "support/directions.h"
@@ -17,7 +18,7 @@ namespace {
 /// A design space and what is asked of it.
 struct Task {
   explicit Task(StructuredShape rest, Requirements requirements = designs::frame_requirements(0))
-      : space(design_space(std::move(rest))), checker(*space, std::move(requirements)) {}
+      : space(deformation_model(std::move(rest))), checker(*space, std::move(requirements)) {}
 
   std::vector<Suggestion> all(const SuggestionOptions& options = {}) const {
     return suggestions(checker, space->at_rest(), upwards, options);
@@ -26,7 +27,7 @@ struct Task {
     return deformation_constraints(checker.requirements(), space->rest(), upwards);
   }
 
-  std::unique_ptr<DesignSpace> space;
+  std::unique_ptr<DeformationModel> space;
   RequirementChecker checker;
 };
 
@@ -56,7 +57,7 @@ TEST_CASE("what a suggestion promises is what its edit does") {
   const std::vector<Suggestion> list = task.all();
   REQUIRE(possible(list) > 0);
   for (const Suggestion& one : list) {
-    const DesignOutcome outcome =
+    const DeformationResult outcome =
         task.space->edited(task.space->at_rest(), one.edit.edit, task.constraints());
     if (one.refusal) continue;
     REQUIRE(!outcome.refusal);

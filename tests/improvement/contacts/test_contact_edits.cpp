@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/contact_edits.h"
 #include "stackabilization/stacking/stackability.h"
 #include "support/catch.h"
@@ -25,10 +26,10 @@ std::vector<ContactRegion> regions_of(const Shape& shape, const Direction& direc
 /// The edits of a structured shape at rest.
 std::vector<ContactEdit> edits_of(const StructuredShape& rest, const std::vector<ContactRegion>& regions,
                                   const Direction& direction, const ContactEditOptions& options = {}) {
-  const auto space = design_space(rest);
+  const auto space = deformation_model(rest);
   const Design design = space->at_rest();
   const std::vector<Handle> handles = space->handles();
-  return contact_edits({space->rest(), space->kind(), handles, design, regions, direction}, options);
+  return contact_edits({space->rest(), space->capabilities(), handles, design, regions, direction}, options);
 }
 
 DeformationConstraints keep_height() {
@@ -185,12 +186,12 @@ TEST_CASE("the extended family goes as far as it takes to pass the other part") 
 
 TEST_CASE("edits that move the contacts apart let copies sink deeper") {
   const StructuredShape table = structures::table();
-  const auto space = design_space(table);
+  const auto space = deformation_model(table);
   const auto edits = edits_of(table, regions_of(table.shape, upwards), upwards);
   const double before = minimal_stacking_translation(table.shape, upwards).length;
   double least = before;
   for (const ContactEdit& one : edits) {
-    const DesignOutcome outcome = space->edited(space->at_rest(), one.edit, keep_height());
+    const DeformationResult outcome = space->edited(space->at_rest(), one.edit, keep_height());
     if (outcome.refusal) continue;
     least = std::min(least, minimal_stacking_translation(outcome.design.shape, upwards).length);
   }
@@ -329,8 +330,8 @@ TEST_CASE("rings scale cross-sections") {
     if (one.edit.handle.kind == HandleKind::section) CHECK(one.edit.falloff == Falloff::linear);
   }
 
-  const auto space = design_space(cup);
-  const DesignOutcome outcome =
+  const auto space = deformation_model(cup);
+  const DeformationResult outcome =
       space->edited(space->at_rest(),
                     {{HandleKind::section, 0, 0}, Scale{0.7, std::nullopt}, Falloff::linear}, keep_height());
   REQUIRE_FALSE(outcome.refusal);
@@ -384,7 +385,7 @@ TEST_CASE("suggestions are ordered, different, and the same every time") {
   const auto again = edits_of(mug, regions, Direction(0.1, 0, 1));
   REQUIRE_FALSE(edits.empty());
   REQUIRE(edits.size() == again.size());
-  const auto space = design_space(mug);
+  const auto space = deformation_model(mug);
   for (std::size_t k = 0; k < edits.size(); ++k) {
     CHECK(nearly_same(edits[k].edit, again[k].edit));
     CHECK(edits[k].reason == again[k].reason);
@@ -399,12 +400,12 @@ TEST_CASE("suggestions are ordered, different, and the same every time") {
 TEST_CASE("models without primitives offer what lies nearest") {
   const StructuredShape table = structures::table(1);
   const auto regions = regions_of(table.shape, upwards);
-  DesignSpaceOptions options;
+  DeformationModelOptions options;
   options.kind = DeformationKind::surface;
-  const auto space = design_space(table, options);
+  const auto space = deformation_model(table, options);
   const Design design = space->at_rest();
   const auto handles = space->handles();
-  const auto edits = contact_edits({space->rest(), space->kind(), handles, design, regions, upwards});
+  const auto edits = contact_edits({space->rest(), space->capabilities(), handles, design, regions, upwards});
   REQUIRE_FALSE(edits.empty());
   CHECK(edits.back().region == 3);  // the surface model knows no symmetry
   for (const ContactEdit& one : edits) {
@@ -419,33 +420,29 @@ TEST_CASE("models without primitives offer what lies nearest") {
   }
 
   const std::vector<Handle> wires = {{HandleKind::wire, 0, 0}, {HandleKind::wire, 0, 1}};
-  const ContactSituation by_wires{space->rest(),
-                                  DeformationKind::iwires,
-                                  wires,
-                                  design,
-                                  regions,
-                                  upwards,
-                                  {{0, 0, 3}, regions[0].lower_centre}};
+  const ContactSituation by_wires{
+      space->rest(), capabilities_of(DeformationKind::iwires), wires, design, regions,
+      upwards,       {{0, 0, 3}, regions[0].lower_centre}};
   for (const ContactEdit& one : contact_edits(by_wires))
     CHECK(one.edit.handle == (one.of_lower_copy ? wires[0] : wires[1]));
 
-  DesignSpaceOptions by_curves;
+  DeformationModelOptions by_curves;
   by_curves.kind = DeformationKind::iwires;
-  const auto curves = design_space(table, by_curves);
+  const auto curves = deformation_model(table, by_curves);
   const auto curve_handles = curves->handles();
   const auto centres = curves->centres();
   REQUIRE(centres.size() == curve_handles.size());
   const Design drawn = curves->at_rest();
-  const auto on_curves =
-      contact_edits({curves->rest(), curves->kind(), curve_handles, drawn, regions, upwards, centres});
+  const auto on_curves = contact_edits(
+      {curves->rest(), curves->capabilities(), curve_handles, drawn, regions, upwards, centres});
   REQUIRE_FALSE(on_curves.empty());
   for (const ContactEdit& one : on_curves) {
     CHECK(one.edit.handle.kind == HandleKind::wire);
     CHECK_NOTHROW(curves->edited(drawn, one.edit, keep_height()));
   }
 
-  const auto squashed =
-      contact_edits({space->rest(), DeformationKind::gap_scaling, handles, design, regions, upwards});
+  const auto squashed = contact_edits(
+      {space->rest(), capabilities_of(DeformationKind::gap_scaling), handles, design, regions, upwards});
   REQUIRE(squashed.size() == 1);
   CHECK(nearly_same(squashed[0].edit, {whole_shape, Scale{0.9, Vector3d::UnitZ()}}));
 }

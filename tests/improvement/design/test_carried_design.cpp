@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/carried_design.h"
 #include "stackabilization/improvement/energy.h"
 #include "support/catch.h"
@@ -34,9 +35,9 @@ TEST_CASE("primitives follow an affine map of the mesh") {
 
 TEST_CASE("the same primitives as those of a model that carries them along") {
   const StructuredShape table = structures::table(1);
-  const auto space = design_space(table, {DeformationKind::surface, Direction(0, 0, 1)});
+  const auto space = deformation_model(table, {DeformationKind::surface, Direction(0, 0, 1)});
   const Edit edit{{HandleKind::part, 0, 0}, Move{{0, 0, 0.3}}};
-  const DesignOutcome outcome = space->edited(space->at_rest(), edit, {});
+  const DeformationResult outcome = space->edited(space->at_rest(), edit, {});
   REQUIRE_FALSE(outcome.refusal);
   const Design design = carried_design(table, outcome.design.shape);
   const EnergyMeter meter(table, BoxModel::frame);

@@ -1,4 +1,5 @@
 #include "stackabilization/core/errors.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/history.h"
 #include "support/catch.h"
 #include "support/histories.h"
@@ -54,16 +55,16 @@ TEST_CASE("nodes that are not there and parents that are no ancestors are refuse
 
 TEST_CASE("nodes are made again to the bit, from the file as from memory, whatever lies beside them") {
   const Project project{rest_of_file(), small_history(), {}};
-  const auto space = design_space(project.rest, project.space);
+  const auto space = deformation_model(project.rest, project.space);
   const Project back = project_with_history(project_text(project), "p");
-  const auto other_space = design_space(back.rest, back.space);
+  const auto other_space = deformation_model(back.rest, back.space);
   for (int node = 0; node < 4; ++node) {
     const Design design = design_at(*space, project.history, node);
     CHECK(design.shape.vertices == design_at(*other_space, back.history, node).shape.vertices);
     CHECK(design.edits.size() == edits_to(project.history, node).size());
     DeformationConstraints constraints;
     constraints.keep_extent = Direction(0, 0, 1);
-    const DesignOutcome replayed = space->replayed(edits_to(project.history, node), constraints);
+    const DeformationResult replayed = space->deformed(edits_to(project.history, node), constraints);
     REQUIRE(!replayed.refusal);
     CHECK(replayed.design.shape.vertices == design.shape.vertices);
     if (node > 0) CHECK(design.shape.vertices != project.rest.shape.vertices);
@@ -71,7 +72,7 @@ TEST_CASE("nodes are made again to the bit, from the file as from memory, whatev
 }
 
 TEST_CASE("each node keeps the constraints under which it was made") {
-  const auto space = design_space(rest_of_file());
+  const auto space = deformation_model(rest_of_file());
   HistoryNode node;
   node.edits = {{{HandleKind::part, 0, 0}, Scale{1.5, {}}, {}}};
   History history;
@@ -86,7 +87,7 @@ TEST_CASE("each node keeps the constraints under which it was made") {
 }
 
 TEST_CASE("nodes that cannot be made again are refused with their number") {
-  const auto space = design_space(rest_of_file());
+  const auto space = deformation_model(rest_of_file());
   History history;
   history.nodes.push_back({});
   const auto message = [&](const Edit& edit) {

@@ -36,7 +36,7 @@ TEST_CASE("a history comes back from its file with every number, and is written 
   const Project back = project_with_history(text, "p.json");
   CHECK(project_text(back) == text);
   CHECK(back.space.kind == DeformationKind::surface);
-  CHECK(back.space.direction.vector() == project.space.direction.vector());
+  CHECK(back.space.direction->vector() == project.space.direction->vector());
   CHECK(back.history.current == project.history.current);
   REQUIRE(back.history.nodes.size() == project.history.nodes.size());
   for (std::size_t k = 0; k < back.history.nodes.size(); ++k) {

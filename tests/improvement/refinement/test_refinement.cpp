@@ -32,9 +32,9 @@ class BoundedCups : public Cups {
  public:
   explicit BoundedCups(double min_bottom = 0) : Cups(8), min_bottom_(min_bottom) {}
 
-  DesignOutcome edited(const Design& now, const Edit& edit,
-                       const DeformationConstraints& constraints) const override {
-    const DesignOutcome outcome = Cups::edited(now, edit, constraints);
+  DeformationResult edited(const Design& now, const Edit& edit,
+                           const DeformationConstraints& constraints) const override {
+    const DeformationResult outcome = Cups::edited(now, edit, constraints);
     if (!outcome.refusal && cups::radii(outcome.design)[0] < min_bottom_)
       return {Refusal{.cause = RefusalCause::collapsed_radius, .part = 0, .index = 0}, now};
     return outcome;
@@ -42,7 +42,7 @@ class BoundedCups : public Cups {
 
   Candidate candidate(const RequirementChecker& checker, const std::vector<Edit>& edits) const {
     Candidate result;
-    result.design = replayed(edits, {}).design;
+    result.design = deformed(edits, {}).design;
     result.measured = checker.measure(result.design.shape, Direction(0, 0, 1));
     for (std::size_t k = 0; k < edits.size(); ++k) result.reasons.push_back(reason(static_cast<int>(k)));
     return result;
@@ -85,6 +85,20 @@ void check_met(const RefinementResult& result, double target) {
 }
 
 }  // namespace
+
+TEST_CASE("the shape at rest is refined to itself where no edit can be added") {
+  const designs::Still space(designs::cup(), DeformationKind::surface);
+  for (const double target : {0.2, 0.9}) {
+    const RequirementChecker checker(space, stacks(target));
+    Candidate rest;
+    rest.design = space.at_rest();
+    rest.measured = checker.measure(rest.design.shape, Direction(0, 0, 1));
+    const RefinementResult result = refine_candidate(checker, rest, {});
+    CHECK(result.reached == (rest.measured.value >= target));
+    CHECK(result.candidate.design.shape.vertices == rest.design.shape.vertices);
+    CHECK(result.candidate.design.edits.empty());
+  }
+}
 
 TEST_CASE("a magnitude multiplies moves and angles, and is an exponent of factors") {
   const Edit move{{HandleKind::part, 0, 0}, Move{{1, -2, 3}}};
@@ -171,7 +185,7 @@ TEST_CASE("the signed changes add up to the distortion") {
   for (const BoxModel boxes : {BoxModel::frame, BoxModel::oriented}) {
     const EnergyMeter meter(cups.rest(), boxes);
     for (const double factor : {0.6, 1.0, 1.4}) {
-      const Design design = cups.replayed({scale(0, 0.8), scale(1, factor)}, {}).design;
+      const Design design = cups.deformed({scale(0, 0.8), scale(1, factor)}, {}).design;
       const DistortionChanges changes = meter.changes(design);
       CHECK(changes.distortion().total() == meter.distortion(design).total());
       CHECK(changes.volume[0] == Approx(volume_change(0.8, factor)).epsilon(1e-12));

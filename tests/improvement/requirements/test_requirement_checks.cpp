@@ -29,7 +29,7 @@ StructuredShape bar_of_two() {
   return bar;
 }
 
-Check check_of(const DesignSpace& space, const Requirements& requirements, const Design& design,
+Check check_of(const DeformationModel& space, const Requirements& requirements, const Design& design,
                CheckKind kind) {
   for (const Check& check : RequirementChecker(space, requirements).check(design, upwards).checks)
     if (check.kind == kind) return check;
@@ -119,9 +119,49 @@ TEST_CASE("Relations are held against the primitives of controllers", "[requirem
   CHECK_FALSE(broken.passed);
   CHECK(broken.value == Approx(1.01e-6));
   CHECK(broken.where == 0);
+  // Models that edit the mesh are not judged by their primitives.
   const Still surface(two_cubes(), DeformationKind::surface);
-  CHECK(RequirementChecker(surface, frame_requirements()).check(moved(surface, 0.1), upwards).checks.size() ==
-        3);
+  CHECK(check_of(surface, frame_requirements(), moved(surface, 0.1), CheckKind::relations).value == 0);
+}
+
+TEST_CASE("Relations are held against the mesh of models that edit it", "[requirements]") {
+  const Still space(two_cubes(), DeformationKind::surface);
+  const auto moved = [&](double fraction) {
+    Design design = space.at_rest();
+    design.shape.vertices.bottomRows(8).col(1).array() += fraction * std::sqrt(18.0);
+    return design;
+  };
+  CHECK(check_of(space, frame_requirements(), moved(0.99e-6), CheckKind::relations).passed);
+  const Check broken = check_of(space, frame_requirements(), moved(1.01e-6), CheckKind::relations);
+  CHECK_FALSE(broken.passed);
+  CHECK(broken.value == Approx(1.01e-6));
+  CHECK(broken.where == 0);
+  CHECK_FALSE(RequirementChecker(space, frame_requirements()).check(moved(1.01e-6), upwards).passed());
+}
+
+TEST_CASE("A table in pieces is no solution, whatever the model", "[requirements]") {
+  const StructuredShape table = structures::table();
+  for (const DeformationKind kind : deformation_kinds()) {
+    if (capabilities_of(kind).edits_primitives) continue;
+    INFO(name_of(kind));
+    const Still space(table, kind);
+    Design apart = space.at_rest();
+    const Shape& rest = space.rest().shape;
+    for (Eigen::Index t = 0; t < rest.triangle_count(); ++t)
+      if (rest.triangle_part[static_cast<std::size_t>(t)] != 0)
+        for (int k = 0; k < 3; ++k) {
+          const Eigen::Index v = rest.triangles(t, k);
+          apart.shape.vertices.row(v) = 0.9 * rest.vertices.row(v);  // smaller and below the top
+        }
+    Requirements free = frame_requirements();
+    free.keep_height = false;
+    free.min_size_ratio = 0;
+    const RequirementChecker checker(space, free);
+    CHECK(checker.check(space.at_rest(), upwards).passed());
+    const Assessment found = checker.check(apart, upwards);
+    CHECK_FALSE(found.passed());
+    for (const Check& check : found.checks) CHECK(check.passed == (check.kind != CheckKind::relations));
+  }
 }
 
 TEST_CASE("Parts keep their proportions", "[requirements]") {

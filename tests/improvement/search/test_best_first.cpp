@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/best_first.h"
 #include "stackabilization/improvement/shape_change.h"
 #include "support/catch.h"
@@ -44,7 +45,8 @@ std::vector<ContactEdit> suggested(const Design& design, const ContactEditOption
   const auto regions =
       contact_regions({design.shape, tree, upwards, separation(tree, tree, upwards)}, how.contacts).regions;
   const std::vector<Handle> handles = cups::space.handles();
-  return contact_edits({cups::space.rest(), cups::space.kind(), handles, design, regions, upwards}, how);
+  return contact_edits({cups::space.rest(), cups::space.capabilities(), handles, design, regions, upwards},
+                       how);
 }
 
 /// The first solution of Algorithm 1 for cups, without any of the library's search.
@@ -62,7 +64,7 @@ std::optional<Listed> listed_solution(double target, const BestFirstOptions& how
     best->taken = true;
     const Design now = best->design;
     for (const ContactEdit& suggestion : suggested(now, how.edits)) {
-      const DesignOutcome outcome = cups::space.edited(now, suggestion.edit, {});
+      const DeformationResult outcome = cups::space.edited(now, suggestion.edit, {});
       const auto is_same = [&](const Listed& other) {
         return (cups::radii(other.design) - cups::radii(outcome.design)).norm() < 1e-6;
       };
@@ -374,7 +376,7 @@ TEST_CASE("progress is reported after every candidate") {
 }
 
 TEST_CASE("gap scaling is searched along its own direction only, and a cone around it is refused") {
-  const auto squashed = design_space(cups::space.rest(), {DeformationKind::gap_scaling, upwards});
+  const auto squashed = deformation_model(cups::space.rest(), {DeformationKind::gap_scaling, upwards});
   Requirements requirements = designs::frame_requirements(0.9);
   requirements.keep_height = false;
   const RequirementChecker wish(*squashed, requirements);

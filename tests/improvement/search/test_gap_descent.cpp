@@ -4,6 +4,7 @@
 
 #include "improvement/requirements/size_ratios.h"
 #include "improvement/search/gap_descent.h"
+#include "stackabilization/deformation/factory.h"
 #include "support/catch.h"
 #include "support/still_designs.h"
 #include "support/structures.h"
@@ -62,7 +63,7 @@ TEST_CASE("proportions of a cylinder are those of its radii and its length") {
 
 TEST_CASE("a pursuit frees every contact of one height, where one edit alone would raise nothing") {
   // Bars between the legs, all at one height, in two classes of symmetric parts: both have to go up.
-  const auto space = design_space(structures::table(1));
+  const auto space = deformation_model(structures::table(1));
   const Requirements wanted = designs::frame_requirements(0.55);
   const RequirementChecker checker(*space, wanted);
   const Candidate start = at_rest(checker, {0, 0, 1});
@@ -76,7 +77,7 @@ TEST_CASE("a pursuit frees every contact of one height, where one edit alone wou
   // What it says is what its edits make.
   const auto constraints =
       deformation_constraints(wanted, space->rest(), Direction(Eigen::Vector3d::UnitZ()));
-  const DesignOutcome again = space->replayed(found.design.edits, constraints);
+  const DeformationResult again = space->deformed(found.design.edits, constraints);
   REQUIRE_FALSE(again.refusal);
   CHECK(again.design.shape.vertices == found.design.shape.vertices);
 

@@ -8,6 +8,7 @@
 #include "improvement/search/design_store.h"
 #include "improvement/search/search_tree.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/deformation/factory.h"
 #include "support/catch.h"
 #include "support/cups.h"
 #include "support/directions.h"
@@ -28,14 +29,14 @@ SearchNode node(int queue, double energy, std::uint64_t key, int parent = -1) {
   return node;
 }
 
-Design after(const DesignSpace& space, const std::vector<Edit>& edits) {
-  const DesignOutcome outcome = space.replayed(edits, {});
+Design after(const DeformationModel& space, const std::vector<Edit>& edits) {
+  const DeformationResult outcome = space.deformed(edits, {});
   REQUIRE(!outcome.refusal);
   return outcome.design;
 }
 
 /// One design that nothing changes, of any shape.
-class Fixed : public DesignSpace {
+class Fixed : public DeformationModel {
  public:
   Fixed(const Shape& shape, const std::vector<Symmetry>& symmetries) {
     rest_.shape = shape;
@@ -46,8 +47,8 @@ class Fixed : public DesignSpace {
   const StructuredShape& rest() const override { return rest_; }
   DeformationKind kind() const override { return DeformationKind::controllers; }
   std::vector<Handle> handles() const override { return {}; }
-  Design at_rest() const override { return {{}, {rest_.structure.parts[0].primitive}, rest_.shape}; }
-  DesignOutcome edited(const Design& now, const Edit&, const DeformationConstraints&) const override {
+  Eigen::Vector3d centre(const Handle&) const override { return Eigen::Vector3d::Zero(); }
+  DeformationResult edited(const Design& now, const Edit&, const DeformationConstraints&) const override {
     return {Refusal{.cause = RefusalCause::fixed_part, .part = 0}, now};
   }
 
@@ -94,7 +95,7 @@ TEST_CASE("a path leads from below the root to a candidate") {
 }
 
 TEST_CASE("one configuration has one key however it was made, and wherever it is") {
-  const auto space = design_space(structures::table());
+  const auto space = deformation_model(structures::table());
   const ConfigurationKeys keys(*space);
   const Edit leg{{HandleKind::face, 1, 0}, Move{{0.1, 0, 0}}};
   const Edit top{{HandleKind::face, 0, 5}, Move{{0, 0, 0.2}}};

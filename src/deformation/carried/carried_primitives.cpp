@@ -1,4 +1,4 @@
-#include "improvement/design/carried_primitives.h"
+#include "deformation/carried/carried_primitives.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/QR>
@@ -54,7 +54,7 @@ Points rows_of(const Points& points, const std::vector<int>& rows) {
 
 CarriedPrimitives::CarriedPrimitives(const StructuredShape& rest) : rest_(rest.shape.vertices) {
   std::vector<std::vector<int>> by_part = vertices_by_part(rest.shape);
-  for (std::size_t k = 0; k < by_part.size(); ++k) {
+  for (std::size_t k = 0; k < rest.structure.parts.size(); ++k) {
     const Points points = rows_of(rest_, by_part[k]);
     const Eigen::RowVector3d centre = points.colwise().mean();
     parts_.push_back({rest.structure.parts[k].primitive, std::move(by_part[k]), centre.transpose(),

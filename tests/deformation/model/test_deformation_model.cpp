@@ -2,11 +2,11 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "improvement/design/carried_primitives.h"
+#include "deformation/carried/carried_primitives.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/controller_model.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/deformation/surface_model.h"
-#include "stackabilization/improvement/design.h"
 #include "stackabilization/mesh/boxes.h"
 #include "support/catch.h"
 #include "support/handles.h"
@@ -16,8 +16,7 @@ using namespace stackabilization;
 
 namespace {
 
-constexpr DeformationKind kinds[] = {DeformationKind::controllers, DeformationKind::surface,
-                                     DeformationKind::iwires, DeformationKind::gap_scaling};
+const std::vector<DeformationKind>& kinds = deformation_kinds();
 const Eigen::Vector3d z_axis = Eigen::Vector3d::UnitZ();
 
 bool same_primitive(const Primitive& a, const Primitive& b) {
@@ -37,12 +36,12 @@ bool same_design(const Design& a, const Design& b) {
   return equal;
 }
 
-std::unique_ptr<DesignSpace> table_designs(DeformationKind kind) {
-  return design_space(structures::table(1), {kind, Direction(0, 0, 1)});
+std::unique_ptr<DeformationModel> table_designs(DeformationKind kind) {
+  return deformation_model(structures::table(1), {kind, Direction(0, 0, 1)});
 }
 
 /// Three edits that the model takes.
-std::vector<Edit> edits_for(DeformationKind kind, const DesignSpace& space) {
+std::vector<Edit> edits_for(DeformationKind kind, const DeformationModel& space) {
   if (kind == DeformationKind::gap_scaling)
     return {{whole_shape, Scale{0.9, z_axis}},
             {whole_shape, Scale{0.8, z_axis}},
@@ -95,7 +94,7 @@ TEST_CASE("without edits a design is the shape at rest, to the bit") {
     const auto space = table_designs(kind);
     CHECK(space->kind() == kind);
     const StructuredShape& rest = space->rest();
-    for (const Design& design : {space->at_rest(), space->replayed({}, {}).design}) {
+    for (const Design& design : {space->at_rest(), space->deformed({}, {}).design}) {
       CHECK(design.edits.empty());
       CHECK(design.shape.vertices == rest.shape.vertices);
       REQUIRE(design.primitives.size() == rest.structure.parts.size());
@@ -112,11 +111,11 @@ TEST_CASE("edits made again from rest give the same bits as one after the other"
     const std::vector<Edit> edits = edits_for(kind, *space);
     Design now = space->at_rest();
     for (std::size_t k = 0; k < edits.size(); ++k) {
-      const DesignOutcome outcome = space->edited(now, edits[k], {});
+      const DeformationResult outcome = space->edited(now, edits[k], {});
       if (outcome.refusal) FAIL(describe(*outcome.refusal, space->rest().structure));
       CHECK_FALSE(outcome.design.shape.vertices == now.shape.vertices);
       now = outcome.design;
-      const DesignOutcome again = space->replayed({edits.begin(), edits.begin() + k + 1}, {});
+      const DeformationResult again = space->deformed({edits.begin(), edits.begin() + k + 1}, {});
       CHECK_FALSE(again.refusal);
       CHECK(same_design(again.design, now));
     }
@@ -129,24 +128,25 @@ TEST_CASE("designs are what the models make") {
   const auto controllers = table_designs(DeformationKind::controllers);
   const std::vector<Edit> edits = edits_for(DeformationKind::controllers, *controllers);
   const DeformationResult result = ControllerModel(rest).deformed(edits);
-  const Design design = controllers->replayed(edits, {}).design;
-  CHECK(design.shape.vertices == result.shape.vertices);
+  const Design design = controllers->deformed(edits, {}).design;
+  CHECK(design.shape.vertices == result.design.shape.vertices);
   for (std::size_t k = 0; k < design.primitives.size(); ++k)
-    CHECK(same_primitive(design.primitives[k], result.primitives[k]));
+    CHECK(same_primitive(design.primitives[k], result.design.primitives[k]));
   SurfaceModelOptions upright;
   upright.axis = z_axis;
   const auto surface = table_designs(DeformationKind::surface);
   const std::vector<Edit> pulls = edits_for(DeformationKind::surface, *surface);
-  CHECK(surface->replayed(pulls, {}).design.shape.vertices ==
-        surface_model(rest.shape, upright)->deformed(pulls).shape.vertices);
+  CHECK(surface->deformed(pulls, {}).design.shape.vertices ==
+        surface_model(rest, upright)->deformed(pulls).design.shape.vertices);
 }
 
 TEST_CASE("the direction is that of the gap and the axis of slices") {
-  const auto sideways = design_space(structures::table(), {DeformationKind::gap_scaling, Direction(1, 0, 0)});
+  const auto sideways =
+      deformation_model(structures::table(), {DeformationKind::gap_scaling, Direction(1, 0, 0)});
   CHECK_FALSE(
       sideways->edited(sideways->at_rest(), {whole_shape, Scale{0.9, Eigen::Vector3d(1, 0, 0)}}, {}).refusal);
   CHECK_THROWS_AS(sideways->edited(sideways->at_rest(), {whole_shape, Scale{0.9, z_axis}}, {}), UsageError);
-  const auto surface = design_space(structures::mug(), {DeformationKind::surface, Direction(0, 0, 1)});
+  const auto surface = deformation_model(structures::mug(), {DeformationKind::surface, Direction(0, 0, 1)});
   const Edit wider{{HandleKind::section, 0, 23}, Scale{1.2, {}}};
   const Shape after = surface->edited(surface->at_rest(), wider, {}).design.shape;
   const Points moved = after.vertices - surface->rest().shape.vertices;
@@ -166,7 +166,7 @@ TEST_CASE("constraints hold in every design, or it stays what it was") {
     const double height = extent(space->rest().shape, z_axis);
     Design now = space->at_rest();
     for (const Edit& edit : edits_for(kind, *space)) {
-      const DesignOutcome outcome = space->edited(now, edit, constraints);
+      const DeformationResult outcome = space->edited(now, edit, constraints);
       if (outcome.refusal)
         CHECK(same_design(outcome.design, now));
       else
@@ -182,9 +182,9 @@ TEST_CASE("a refused edit ends a replay with what the edits before it made") {
   constraints.fixed_parts = {1};
   const Edit allowed{{HandleKind::face, 0, 5}, Move{{0, 0, 0.3}}};
   const Edit forbidden{{HandleKind::part, 1, 0}, Move{{0.2, 0.1, 0}}};
-  const DesignOutcome first = space->replayed({allowed}, constraints);
+  const DeformationResult first = space->deformed({allowed}, constraints);
   CHECK_FALSE(first.refusal);
-  const DesignOutcome stopped = space->replayed({allowed, forbidden, allowed}, constraints);
+  const DeformationResult stopped = space->deformed({allowed, forbidden, allowed}, constraints);
   REQUIRE(stopped.refusal);
   CHECK(same_design(stopped.design, first.design));
   CHECK(same_primitive(stopped.design.primitives[1], space->at_rest().primitives[1]));
@@ -200,7 +200,7 @@ TEST_CASE("handles that a model lacks are refused as usage") {
   StructuredShape broken = structures::table();
   broken.structure.parts.pop_back();
   for (const DeformationKind kind : kinds)
-    CHECK_THROWS_AS(design_space(broken, {kind, {0, 0, 1}}), InputError);
+    CHECK_THROWS_AS(deformation_model(broken, {kind, Direction(0, 0, 1)}), InputError);
 }
 
 TEST_CASE("carried primitives follow an affine map exactly") {
@@ -270,7 +270,7 @@ TEST_CASE("carried primitives fit in the least-squares sense, and stay where not
 }
 
 TEST_CASE("the surface model carries primitives with the shape") {
-  const auto space = design_space(structures::mug(), {DeformationKind::surface, {0, 0, 1}});
+  const auto space = deformation_model(structures::mug(), {DeformationKind::surface, Direction(0, 0, 1)});
   const Design design = space->edited(space->at_rest(), {whole_shape, Scale{0.5, z_axis}}, {}).design;
   const Range now = range_along(design.shape, z_axis), before = range_along(space->rest().shape, z_axis);
   CHECK(now.length() == Approx(before.length() / 2));
