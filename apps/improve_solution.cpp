@@ -8,6 +8,7 @@
 #include "stackabilization/deformation/relation_residual.h"
 #include "stackabilization/mesh/exact_triangles.h"
 #include "stackabilization/stacking/collision.h"
+#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization::apps {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/stacking/tolerances.h"
 #include "study/manual_work.h"
 #include "support/catch.h"
 #include "support/cups.h"

@@ -11,6 +11,7 @@
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/envelope/height_field.h"
 #include "stackabilization/envelope/separation.h"
+#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization {
 

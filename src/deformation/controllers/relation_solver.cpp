@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/index.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization::detail {
 

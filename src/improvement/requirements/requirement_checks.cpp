@@ -10,6 +10,7 @@
 #include "improvement/requirements/size_ratios.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/relation_residual.h"
+#include "stackabilization/deformation/tolerances.h"
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/stacking/static_stability.h"
 

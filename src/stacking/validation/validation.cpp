@@ -7,9 +7,11 @@
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/number_text.h"
+#include "stackabilization/core/tolerances.h"
 #include "stackabilization/mesh/exact_triangles.h"
 #include "stackabilization/stacking/collision.h"
 #include "stackabilization/stacking/minkowski.h"
+#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization {
 

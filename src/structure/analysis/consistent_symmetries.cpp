@@ -12,6 +12,7 @@
 
 #include "core/disjoint_sets.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 
 namespace stackabilization::detail {
 

@@ -1,0 +1,29 @@
+#pragma once
+
+/// Tolerances of primitives, symmetries and project files.
+namespace stackabilization::tolerance {
+
+/// Smallest thickness of a cuboid, fraction of its diagonal. Thinner cuboids are thickened to it, because
+/// mean value coordinates are undefined in a cage without volume.
+inline constexpr double min_thickness = 1e-3;
+
+/// Two symmetries are meant to be the same when they map a part to places nearer than this, fraction of the
+/// bounding-box diagonal of the shape. Two planes are meant to meet at a simple angle when they do so within
+/// this many radians.
+inline constexpr double same_symmetry = 0.01;
+
+/// Axes of symmetries within this angle, in radians, of an axis or a main plane of the file are meant to lie
+/// in it. It is fifty times the error of a fit to a mesh with 1e-5 noise, and a tenth of a visible angle.
+inline constexpr double file_axis = 1e-3;
+
+/// Accuracy of symmetries of symmetrized primitives, fraction of the diagonal or of the largest coordinate,
+/// whichever is larger. It is ten million times smaller than the accuracy promised for edits, and ten times
+/// larger than rounding errors.
+inline constexpr double symmetrized = 1e-13;
+
+/// Rounding step of the centres and axes of boxes in project files, fraction of a power of two above their
+/// largest coordinate. It is 16 times the rounding of the computation, so that writing, reading and writing
+/// again gives the same text.
+inline constexpr double project_grid = 0x1p-48;
+
+}  // namespace stackabilization::tolerance
