@@ -26,4 +26,16 @@ inline constexpr double symmetrized = 1e-13;
 /// again gives the same text.
 inline constexpr double project_grid = 0x1p-48;
 
+/// Cosine of the angle up to which two directions count as parallel, 8 degrees: axes of symmetries that
+/// describe the same thing, of which one was estimated from few samples.
+inline constexpr double parallel = 0.99;
+
+/// Cosine of the angle up to which a direction counts as lying in an axis of a box or of a symmetry, 2.6
+/// degrees. It is wider than the error of a box fitted to noisy samples.
+inline constexpr double aligned = 0.999;
+
+/// Cosine of the angle up to which two normals belong to one flat face, or to faces flush with each other, 14
+/// degrees.
+inline constexpr double same_face = 0.97;
+
 }  // namespace stackabilization::tolerance
