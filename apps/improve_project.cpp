@@ -43,7 +43,9 @@ Project improvement_project(const ImproveReport& report) {
   const ImproveTask& task = report.task;
   Project project{task.rest(),
                   {},
-                  {task.task->space().kind(), Direction(task.task->directions().front()), {},
+                  {task.task->space().kind(),
+                   Direction(task.task->directions().front()),
+                   {},
                    task.task->space().following()}};
   project.history.nodes.push_back(root(report));
   for (const SolutionReport* solution : report.shown()) {

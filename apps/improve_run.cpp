@@ -11,7 +11,6 @@
 #include "apps/interrupt.h"
 #include "apps/progress.h"
 #include "apps/text.h"
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/improvement/effort.h"
 #include "stackabilization/improvement/removal.h"
 #include "stackabilization/io/read_file.h"

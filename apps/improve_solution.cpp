@@ -6,8 +6,7 @@
 #include "apps/text.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/relation_residual.h"
-#include "stackabilization/mesh/exact_triangles.h"
-#include "stackabilization/stacking/collision.h"
+#include "stackabilization/stacking/collision_probes.h"
 
 namespace stackabilization::apps {
 
@@ -74,31 +73,13 @@ class CollisionChecks {
     const Separation answer = separation(tree_, tree_, direction_, options);
     if (!answer.blocked)
       return {{Verdict::skipped, "collision", "nothing is in the way along the direction"}};
-    std::vector<WrittenCheck> checks = {expected(semantics, answer, 1)};
-    // Where a triangle without area attains f_max, or a sheet ends, only freedom above it can be demanded.
-    const bool with_area = has_area(answer.witness.lower_triangle) && has_area(answer.witness.upper_triangle);
-    if (semantics == ContactSemantics::solid)
-      checks.push_back(expected(semantics, answer, -1));
-    else if (with_area)
-      checks.push_back(expected(semantics, answer, 0));
+    std::vector<WrittenCheck> checks;
+    for (const CollisionProbe& probe : collision_probes(shape_, direction_, answer, {semantics})) {
+      const bool found = collides(tester_, direction_, probe);
+      checks.push_back({found == probe.collides ? Verdict::agrees : Verdict::disagrees,
+                        "collision " + to_string(probe.place) + " f_max", found ? "colliding" : "free"});
+    }
     return checks;
-  }
-
-  /// A test so many margins above f_max: free above it, colliding at it (closed) and below it.
-  WrittenCheck expected(ContactSemantics semantics, const Separation& answer, int margins) const {
-    const double size = range_along(shape_, direction_.unit()).length();
-    const Rational lift =
-        answer.value + Rational(margins * tolerance::collision_margin * size / direction_.length());
-    const bool collides = semantics == ContactSemantics::solid ? tester_.interiors_overlap(direction_, lift)
-                                                               : tester_.closed_contact(direction_, lift);
-    const bool right = collides == (margins <= 0);
-    const char* const place = margins > 0 ? "above" : margins < 0 ? "below" : "at";
-    return {right ? Verdict::agrees : Verdict::disagrees, "collision " + std::string(place) + " f_max",
-            collides ? "colliding" : "free"};
-  }
-
-  bool has_area(Eigen::Index t) const {
-    return !are_collinear(shape_.corner(t, 0), shape_.corner(t, 1), shape_.corner(t, 2));
   }
 
   const Shape& shape_;

@@ -52,7 +52,7 @@ SolutionReport solution_report(const ImproveCommandOptions& options, const Impro
                                const Candidate& candidate, const Assessment& assessment);
 
 /// Reads the mesh of a solution again and asks it: is S what was said, is f_max the same rational number, is
-/// the height kept, and do collision tests find copies free just above f_max and colliding just below it?
+/// the height kept, and do collision tests find copies free or colliding around f_max as it says?
 std::vector<WrittenCheck> check_written(const std::filesystem::path& mesh, const ImproveTask& task,
                                         const SolutionReport& report);
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "stackabilization/core/number_text.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization::apps {
 

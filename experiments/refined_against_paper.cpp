@@ -22,11 +22,11 @@
 #include "common/experiment.h"
 #include "stackabilization/core/direction_text.h"
 #include "stackabilization/core/errors.h"
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/improve.h"
 #include "stackabilization/improvement/shape_change.h"
 #include "stackabilization/io/read.h"
+#include "stackabilization/stacking/tolerances.h"
 #include "stackabilization/structure/analysis.h"
 #include "stackabilization/structure/project_file.h"
 

@@ -21,7 +21,7 @@ source_lines() {
 }
 
 # shear.h names the rounding unit that the exact filters count in.
-report "Epsilon outside core/tolerances.h" \
+report "Epsilon outside the tolerances.h of a module" \
   "$(source_lines '[0-9.][eE]-[0-9]|0x[0-9a-fA-F.]+p-|epsilon\(\)' --include=*.h --include=*.cpp \
     --exclude=tolerances.h --exclude=shear.h)"
 # Pictures are full of small sizes; elsewhere a constant or an option says what such a number means.

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "common/random.h"
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/improvement/suggestions.h"
+#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization::experiments {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <memory>
 
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/factory.h"
+#include "stackabilization/stacking/tolerances.h"
 #include "study/manual_work.h"
 #include "support/catch.h"
 #include "support/cups.h"

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/envelope/separation.h"
+#include "stackabilization/envelope/tolerances.h"
 
 namespace stackabilization {
 

@@ -11,6 +11,7 @@
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/envelope/height_field.h"
 #include "stackabilization/envelope/separation.h"
+#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization {
 
@@ -81,7 +82,7 @@ struct ValidationReport {
 /// * the height fields by rays and by scan conversion, which must not exceed it and must converge to it;
 /// * the height fields of the caller, which must not exceed it unless `excess` gives a reason;
 /// * rays at high resolution around the witness;
-/// * collision tests just above and just below it;
+/// * collision tests just above, at and just below it (collision_probes.h);
 /// * a search by collision tests from the top;
 /// * for small closed solids, the Minkowski sum, which must give the identical rational number.
 ///

@@ -12,7 +12,7 @@
 
 #include "core/disjoint_sets.h"
 #include "mesh/surface_moments.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization {
 

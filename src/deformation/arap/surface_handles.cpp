@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "stackabilization/core/errors.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 #include "stackabilization/mesh/boxes.h"
 
 namespace stackabilization::detail {

@@ -6,8 +6,8 @@
 
 #include "core/index.h"
 #include "stackabilization/core/errors.h"
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/relation_residual.h"
+#include "stackabilization/deformation/tolerances.h"
 #include "stackabilization/structure/relation_graph.h"
 #include "structure/model/correspondence.h"
 

@@ -11,8 +11,8 @@
 #include "deformation/controllers/propagation.h"
 #include "mesh/barycentric.h"
 #include "stackabilization/core/errors.h"
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/relation_residual.h"
+#include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization::detail {
 

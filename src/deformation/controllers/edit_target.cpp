@@ -7,6 +7,7 @@
 #include "deformation/controllers/reduced_basis.h"
 #include "stackabilization/core/direction.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization::detail {
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization::detail {
 

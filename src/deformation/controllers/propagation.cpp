@@ -4,7 +4,7 @@
 #include <Eigen/SVD>
 
 #include "core/index.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization::detail {
 

@@ -7,7 +7,7 @@
 
 #include "core/index.h"
 #include "deformation/model/joint_slides.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization::detail {
 

@@ -5,7 +5,7 @@
 #include "deformation/controllers/joint_copies.h"
 #include "deformation/controllers/reduced_basis.h"
 #include "deformation/controllers/straightness.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization::detail {
 

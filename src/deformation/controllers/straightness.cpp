@@ -8,7 +8,6 @@
 
 #include "deformation/controllers/reduced_basis.h"
 #include "deformation/model/skinning.h"
-#include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {
 

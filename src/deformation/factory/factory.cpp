@@ -19,9 +19,8 @@ std::unique_ptr<DeformationModel> deformation_model(StructuredShape rest,
   validate(rest);
   switch (options.kind) {
     case DeformationKind::controllers:
-      return std::make_unique<ControllerModel>(std::move(rest),
-                                               ControllerLimits{options.limits.max_joint_points},
-                                               options.following);
+      return std::make_unique<ControllerModel>(
+          std::move(rest), ControllerLimits{options.limits.max_joint_points}, options.following);
     case DeformationKind::surface: {
       SurfaceModelOptions surface;
       if (options.direction) surface.axis = options.direction->unit();

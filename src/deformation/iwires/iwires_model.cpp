@@ -14,7 +14,7 @@
 #include "deformation/model/vertex_constraints.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/number_text.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization {
 

@@ -9,6 +9,7 @@
 #include "deformation/iwires/wire_turns.h"
 #include "numerics/constrained_least_squares.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization::detail {
 

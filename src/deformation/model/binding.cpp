@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization::detail {
 

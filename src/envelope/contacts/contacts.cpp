@@ -8,6 +8,7 @@
 #include "envelope/contacts/contact_polygons.h"
 #include "envelope/contacts/planar_union.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/tolerances.h"
 
 namespace stackabilization {
 namespace {

@@ -12,7 +12,7 @@
 #include "envelope/separation/node_pair.h"
 #include "envelope/separation/separation_tree.h"
 #include "envelope/separation/triangle_pair.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/envelope/tolerances.h"
 
 namespace stackabilization {
 namespace {

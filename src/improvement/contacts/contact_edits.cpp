@@ -11,6 +11,7 @@
 #include "improvement/contacts/contact_symmetry.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 #include "structure/model/nearest_box.h"
 
 namespace stackabilization {

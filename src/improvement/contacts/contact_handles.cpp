@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "deformation/controllers/straightness.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 
 namespace stackabilization::detail {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/mesh/boxes.h"
+#include "stackabilization/structure/tolerances.h"
 
 namespace stackabilization::detail {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 #include "structure/model/symmetry_orbit.h"
 
 namespace stackabilization::detail {

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "stackabilization/core/fingerprint.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/improvement/tolerances.h"
 
 namespace stackabilization::detail {
 

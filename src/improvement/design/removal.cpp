@@ -16,7 +16,7 @@
 #include "improvement/design/best_measured.h"
 #include "improvement/design/members.h"
 #include "stackabilization/core/errors.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 #include "structure/model/bounding_diagonal.h"
 #include "structure/segmentation/surface_graph.h"
 

@@ -9,6 +9,7 @@
 #include "improvement/contacts/contact_handles.h"
 #include "improvement/contacts/contact_side.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 #include "stackabilization/improvement/refinement.h"
 #include "stackabilization/improvement/removal.h"
 

@@ -7,6 +7,7 @@
 
 #include "numerics/quadratic_programme.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/improvement/tolerances.h"
 
 namespace stackabilization::detail {
 

@@ -11,6 +11,8 @@
 #include "improvement/requirements/size_ratios.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/improvement/refinement.h"
+#include "stackabilization/improvement/tolerances.h"
+#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization::detail {
 

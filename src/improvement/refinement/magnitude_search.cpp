@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "improvement/refinement/magnitude_optimiser.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/improvement/tolerances.h"
 
 namespace stackabilization::detail {
 

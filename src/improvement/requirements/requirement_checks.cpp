@@ -9,6 +9,7 @@
 #include "improvement/requirements/draft.h"
 #include "improvement/requirements/size_ratios.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/deformation/tolerances.h"
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/stacking/static_stability.h"
 

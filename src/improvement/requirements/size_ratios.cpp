@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 
 namespace stackabilization {
 

@@ -7,11 +7,11 @@
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/number_text.h"
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/effort.h"
 #include "stackabilization/stacking/plan.h"
 #include "stackabilization/stacking/search.h"
+#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization {
 

@@ -10,6 +10,8 @@
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/stacking/bundle_ascent.h"
 #include "stackabilization/stacking/direction_region.h"
+#include "stackabilization/stacking/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 
 namespace stackabilization::detail {
 

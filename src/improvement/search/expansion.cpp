@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "improvement/contacts/design_contacts.h"
-#include "stackabilization/core/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 
 namespace stackabilization::detail {
 

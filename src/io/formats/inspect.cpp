@@ -11,12 +11,17 @@
 
 #include "mesh/edge_table.h"
 #include "mesh/welded_mesh.h"
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/mesh/exact_triangles.h"
 
 namespace stackabilization {
 
 namespace {
+
+/// Height of the slab at the bottom of a shape whose points count as its support, fraction of the extent.
+constexpr double support_slab = 0.01;
+
+/// An axis is up only when the score of every other axis is below this fraction of its score.
+constexpr double clear_lead = 0.9;
 
 class Inspector {
  public:
@@ -115,7 +120,7 @@ class Inspector {
   /// lowest points span, or nothing when they do not support the centre.
   double support(Eigen::Index axis, const Eigen::Array3d& extent, const Eigen::Vector3d& centroid) const {
     const Eigen::Array3d scale = (extent > 0).select(extent, 1);
-    const double highest = findings_.lower[axis] + tolerance::support_slab * extent[axis];
+    const double highest = findings_.lower[axis] + support_slab * extent[axis];
     Eigen::Array3d low = Eigen::Array3d::Ones();
     Eigen::Array3d high = Eigen::Array3d::Zero();
     for (const auto row : mesh_.points.rowwise()) {
@@ -152,7 +157,7 @@ class Inspector {
         percents;
     Eigen::Vector3d others = supports;
     others[best] = 0;
-    if (others.maxCoeff() < tolerance::clear_lead * most) findings_.likely_up = static_cast<Axis>(best);
+    if (others.maxCoeff() < clear_lead * most) findings_.likely_up = static_cast<Axis>(best);
   }
 
   const Shape& shape_;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization {
 

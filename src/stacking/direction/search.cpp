@@ -17,6 +17,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/stacking/bundle_ascent.h"
+#include "stackabilization/stacking/tolerances.h"
 #include "stacking/direction/candidates.h"
 
 namespace stackabilization {

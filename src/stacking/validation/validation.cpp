@@ -7,9 +7,11 @@
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/number_text.h"
-#include "stackabilization/mesh/exact_triangles.h"
+#include "stackabilization/core/tolerances.h"
 #include "stackabilization/stacking/collision.h"
+#include "stackabilization/stacking/collision_probes.h"
 #include "stackabilization/stacking/minkowski.h"
+#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization {
 
@@ -17,15 +19,6 @@ namespace {
 
 std::string short_number(double value) {
   return significant_text(value, 3);
-}
-
-double width_across(const Shape& shape, const Direction& direction) {
-  const Frame frame = frame_of(direction);
-  return std::max(range_along(shape, frame.u).length(), range_along(shape, frame.v).length());
-}
-
-bool has_area(const Shape& shape, Eigen::Index t) {
-  return !are_collinear(shape.corner(t, 0), shape.corner(t, 1), shape.corner(t, 2));
 }
 
 void check_options(const ValidationOptions& options) {
@@ -216,23 +209,27 @@ class Validator {
     return stuck ? "no better than the resolution before, whose samples happen to lie better" : "";
   }
 
-  /// A shape without height is lifted by a fraction of its width.
-  Rational lift_at(const Separation& answer, double offset) const {
-    const double size = report_.extent > 0 ? report_.extent : width_across(shape_, direction_);
-    return answer.value + Rational(offset * options_.collision_margin * size / direction_.length());
+  const Separation& answer_of(ContactSemantics semantics) const {
+    return semantics == ContactSemantics::solid ? report_.solid : report_.closed;
   }
 
-  enum class Expected { free, colliding };
+  std::vector<CollisionProbe> probes(ContactSemantics semantics) const {
+    return collision_probes(shape_, direction_, answer_of(semantics), {semantics, options_.collision_margin});
+  }
 
-  /// A row that tests one lift.
-  template <class Test>
-  void expect(const std::string& name, const Rational& lift, const Test& collides, Expected expected) {
-    timed(name, [&](ValidationRow& row) {
-      row.value = lift.to_double() * direction_.length();
-      const Expected found = collides(lift) ? Expected::colliding : Expected::free;
-      row.verdict = found == expected ? Verdict::agrees : Verdict::disagrees;
-      if (found != expected) row.note = found == Expected::free ? "found free" : "found colliding";
-    });
+  /// A row per probe.
+  void run_probes(const CollisionTester& tester, const std::vector<CollisionProbe>& probes) {
+    for (const CollisionProbe& probe : probes) {
+      const bool solid = probe.semantics == ContactSemantics::solid;
+      const std::string name = std::string(probe.collides ? "" : "no ") + (solid ? "overlap " : "contact ") +
+                               to_string(probe.place) + (solid ? " solid" : " closed") + " f_max";
+      timed(name, [&](ValidationRow& row) {
+        row.value = probe.lift.to_double() * direction_.length();
+        const bool found = collides(tester, direction_, probe);
+        row.verdict = found == probe.collides ? Verdict::agrees : Verdict::disagrees;
+        if (found != probe.collides) row.note = found ? "found colliding" : "found free";
+      });
+    }
   }
 
   void collisions() {
@@ -241,23 +238,16 @@ class Validator {
       return;
     }
     const CollisionTester tester(shape_, shape_);
-    const auto touch = [&](const Rational& lift) { return tester.closed_contact(direction_, lift); };
-    const auto overlap = [&](const Rational& lift) { return tester.interiors_overlap(direction_, lift); };
-    expect("no contact above closed f_max", lift_at(report_.closed, 1), touch, Expected::free);
-    const Witness& witness = report_.closed.witness;
-    if (has_area(shape_, witness.lower_triangle) && has_area(shape_, witness.upper_triangle))
-      expect("contact at closed f_max", lift_at(report_.closed, 0), touch, Expected::colliding);
-    else
+    const std::vector<CollisionProbe> of_surfaces = probes(ContactSemantics::closed);
+    run_probes(tester, of_surfaces);
+    if (of_surfaces.back().place != ProbePlace::at)
       skip("contact at closed f_max",
            "a triangle without area attains it, and collision tests pass those over");
     const std::optional<InteriorDefect> defect = tester.interior_defect();
-    if (defect) {
+    if (defect)
       skip("overlap of interiors", reason_of(*defect));
-    } else if (report_.solid.blocked) {
-      expect("no overlap at solid f_max", lift_at(report_.solid, 0), overlap, Expected::free);
-      expect("no overlap above solid f_max", lift_at(report_.solid, 1), overlap, Expected::free);
-      expect("overlap below solid f_max", lift_at(report_.solid, -1), overlap, Expected::colliding);
-    }
+    else
+      run_probes(tester, probes(ContactSemantics::solid));
     bisection(tester, !defect && report_.solid.blocked ? ContactSemantics::solid : ContactSemantics::closed);
   }
 
@@ -282,7 +272,7 @@ class Validator {
     BisectionOptions options;
     options.steps = options_.bisection_steps;
     options.semantics = semantics;
-    const Separation& answer = options.semantics == ContactSemantics::solid ? report_.solid : report_.closed;
+    const Separation& answer = answer_of(semantics);
     const std::string name = options.semantics == ContactSemantics::solid ? "solid" : "closed";
     timed("collision search from the top, " + name, [&](ValidationRow& row) {
       const std::optional<CollisionBracket> bracket = translation_by_bisection(tester, direction_, options);

@@ -12,16 +12,13 @@
 
 #include "core/disjoint_sets.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 
 namespace stackabilization::detail {
 
 namespace {
 
 constexpr double angle_tolerance = tolerance::same_symmetry;
-
-/// Cosine of the largest angle between the axes of symmetries that may be the same. The plane of a small part
-/// is known only to some degrees.
-constexpr double min_cosine = 0.98;
 
 bool is_symmetry(const Relation& relation) {
   return relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry;
@@ -70,7 +67,7 @@ class SymmetrySet {
 
   /// Unit vectors of one cell, or of neighbouring ones, are candidates for being nearly parallel.
   using Cell = std::array<int, 3>;
-  static constexpr double cell_width = 0.25;  // more than the chord of `min_cosine`
+  static constexpr double cell_width = 0.25;  // more than the chord of tolerance::parallel
 
   static Cell cell_of(const Eigen::Vector3d& axis) {
     Cell cell{};
@@ -84,7 +81,7 @@ class SymmetrySet {
     members_.push_back({symmetry, isometry_of(symmetry), {}});
   }
 
-  /// Members whose axes are parallel to `axis` within `min_cosine`, and some more, ascending.
+  /// Members whose axes are parallel to `axis` within tolerance::parallel, and some more, ascending.
   std::vector<std::size_t> nearly_parallel(const Eigen::Vector3d& axis) const {
     std::vector<std::size_t> found;
     for (const double sign : {1.0, -1.0}) {
@@ -113,7 +110,7 @@ class SymmetrySet {
       const Symmetry& other = members_[i].symmetry;
       if (other.kind != relation.symmetry.kind || isometry_order(other) != isometry_order(relation.symmetry))
         continue;
-      if (std::abs(other.axis.dot(relation.symmetry.axis)) < min_cosine) continue;
+      if (std::abs(other.axis.dot(relation.symmetry.axis)) < tolerance::parallel) continue;
       if ((image - members_[i].isometry * point).norm() > least) continue;  // the difference is no smaller
       const double miss = difference(relation.symmetry, other, structure_.parts[part].primitive);
       if (miss > least || (best && miss == least)) continue;

@@ -12,6 +12,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/structure/analysis.h"
+#include "stackabilization/structure/tolerances.h"
 #include "structure/analysis/consistent_symmetries.h"
 #include "structure/model/correspondence.h"
 #include "structure/model/nearest_box.h"

@@ -10,6 +10,7 @@
 #include "mesh/surface_moments.h"
 #include "stackabilization/core/direction.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 #include "structure/model/canonical_axes.h"
 
 namespace stackabilization::detail {

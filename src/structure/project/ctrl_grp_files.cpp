@@ -10,6 +10,7 @@
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/io/read_file.h"
 #include "stackabilization/structure/analysis.h"
+#include "stackabilization/structure/tolerances.h"
 #include "structure/model/bounding_diagonal.h"
 #include "structure/model/fit_error.h"
 #include "structure/model/nearest_box.h"

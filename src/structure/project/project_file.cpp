@@ -11,6 +11,7 @@
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/io/read_file.h"
 #include "stackabilization/structure/analysis.h"
+#include "stackabilization/structure/tolerances.h"
 #include "structure/analysis/symmetrize.h"
 #include "structure/model/bounding_diagonal.h"
 

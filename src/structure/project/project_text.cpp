@@ -5,9 +5,9 @@
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/text.h"
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/io/write_file.h"
 #include "stackabilization/structure/project_file.h"
+#include "stackabilization/structure/tolerances.h"
 
 namespace stackabilization {
 

@@ -15,6 +15,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/mesh/box_pairs.h"
 #include "stackabilization/mesh/boxes.h"
+#include "stackabilization/structure/tolerances.h"
 #include "structure/segmentation/surface_graph.h"
 
 namespace stackabilization::detail {
@@ -130,7 +131,6 @@ void ComponentMerger::prepare(const std::vector<Pair>& pairs) {
 bool ComponentMerger::are_one_part(const Pair& pair) const {
   const Component &small = components_[pair.small], &large = components_[pair.large];
   const bool tiny = small.area <= rule_.tiny * large.area;
-  constexpr double parallel = 0.95;  // cosine
   int flush = 0, held = 0;
   bool touching = false;
   for (Eigen::Index k = 0; k < contact_samples; ++k) {
@@ -139,7 +139,7 @@ bool ComponentMerger::are_one_part(const Pair& pair) const {
     if (nearest.distance <= reach_) {
       touching = true;
       const Eigen::Vector3d normal = small.samples.normals.row(k).transpose();
-      flush += std::abs(unit_normal(large.shape, nearest.triangle).dot(normal)) >= parallel;
+      flush += std::abs(unit_normal(large.shape, nearest.triangle).dot(normal)) >= tolerance::same_face;
     }
     if (tiny) held += inside(*large.hull, point, reach_);
   }

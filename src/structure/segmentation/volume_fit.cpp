@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "stackabilization/structure/tolerances.h"
+
 namespace stackabilization::detail {
 
 namespace {
@@ -84,10 +86,10 @@ std::vector<Eigen::Matrix3d> VolumeFit::frames() const {
 }
 
 Eigen::Matrix3d VolumeFit::dominant_frame() const {
-  constexpr double same_face = 0.97, across = 0.3;  // cosines
+  constexpr double across = 0.3;  // cosine
   const auto support = [&](const Eigen::Vector3d& n) {
     double sum = 0;
-    for (const Chord* c : chords_) sum += std::abs(n.dot(c->normal)) >= same_face ? c->area : 0;
+    for (const Chord* c : chords_) sum += std::abs(n.dot(c->normal)) >= tolerance::same_face ? c->area : 0;
     return sum;
   };
   // Few directions are enough: large faces have many chords.

@@ -6,19 +6,19 @@
 #include <cmath>
 #include <numbers>
 
+#include "stackabilization/structure/tolerances.h"
 #include "structure/symmetry/symmetry_candidates.h"
 
 namespace stackabilization::detail {
 
 namespace {
 
-constexpr double min_aligned = 0.999;     // cosine
 constexpr double weight_of_whole = 0.5;   // against the share of the area of each part
 constexpr double max_angle_error = 0.05;  // radians
 constexpr int max_order_of_boxes = 12;
 
 bool along_box(const OrientedBox& box, const Eigen::Vector3d& axis) {
-  return (box.axes.transpose() * axis).cwiseAbs().maxCoeff() > min_aligned;
+  return (box.axes.transpose() * axis).cwiseAbs().maxCoeff() > tolerance::aligned;
 }
 
 /// The orthonormal normals nearest to the given ones.

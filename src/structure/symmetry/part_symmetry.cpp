@@ -9,6 +9,7 @@
 
 #include "core/disjoint_sets.h"
 #include "stackabilization/structure/symmetry_detection.h"
+#include "stackabilization/structure/tolerances.h"
 #include "structure/symmetry/canonical_reflections.h"
 #include "structure/symmetry/part_match.h"
 #include "structure/symmetry/symmetry_candidates.h"
@@ -20,7 +21,6 @@ namespace {
 
 using detail::SymmetrySurface;
 
-constexpr double nearly_parallel = 0.99;                      // cosine
 constexpr double min_diagonal = 0.697, max_diagonal = 0.717;  // cosine
 
 class PartSymmetry {
@@ -100,7 +100,7 @@ class PartSymmetry {
   /// parts equal. The diagonals of a square do not count, because it may become a rectangle.
   void add_oblique_planes() {
     for (const Symmetry& candidate : candidates_) {
-      if (meets_any_at(nearly_parallel, 1, candidate)) continue;
+      if (meets_any_at(tolerance::parallel, 1, candidate)) continue;
       const Symmetry plane = detail::fitted_to(planes_, candidate);
       const std::vector<Relation> relations = relations_under(plane);
       const bool is_diagonal = meets_any_at(min_diagonal, max_diagonal, candidate);
@@ -166,7 +166,7 @@ class PartSymmetry {
       through.push_back(plane);
     }
     for (const Symmetry& plane : own)
-      if (std::abs(plane.axis.dot(axis.axis)) > nearly_parallel) {
+      if (std::abs(plane.axis.dot(axis.axis)) > tolerance::parallel) {
         if (through.size() < 2) return {};
         axis.axis = plane.axis;
       }
@@ -211,7 +211,7 @@ class PartSymmetry {
     const double half =
         surface.diagonal * (own.axis.transpose() * surface.box.axes).cwiseAbs() * surface.box.half_extents;
     return std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& common) {
-      return std::abs(common.axis.dot(own.axis)) > nearly_parallel &&
+      return std::abs(common.axis.dot(own.axis)) > tolerance::parallel &&
              std::abs(common.axis.dot(own.point - common.point)) < half;
     });
   }

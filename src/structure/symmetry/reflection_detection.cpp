@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 #include "structure/symmetry/symmetry_candidates.h"
 #include "structure/symmetry/symmetry_refinement.h"
 #include "structure/symmetry/symmetry_voting.h"
@@ -12,7 +13,6 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr double same_normal = 0.999;  // cosine
 constexpr double same_offset = 0.02;
 constexpr double off_principal = 0.05;  // of the trace of the second moments
 constexpr double shadow_cosine = 0.85, shadow_factor = 10;
@@ -21,7 +21,7 @@ constexpr std::size_t max_reflections = 64;
 bool same_plane(const Symmetry& a, const Symmetry& b) {
   const double cosine = a.axis.dot(b.axis);
   const double offset = a.axis.dot(a.point) - std::copysign(1.0, cosine) * b.axis.dot(b.point);
-  return std::abs(cosine) > same_normal && std::abs(offset) < same_offset;
+  return std::abs(cosine) > tolerance::aligned && std::abs(offset) < same_offset;
 }
 
 Symmetry roughly(const SymmetrySurface& surface, const Symmetry& candidate) {
@@ -111,7 +111,7 @@ class ReflectionSearch {
     const auto key = [&](const FoundSymmetry& found) {
       double extent = 0;
       for (int k = 0; k < 3; ++k)
-        if (std::abs(surface_.box.axes.col(k).dot(found.symmetry.axis)) > same_normal)
+        if (std::abs(surface_.box.axes.col(k).dot(found.symmetry.axis)) > tolerance::aligned)
           extent = surface_.box.half_extents(k);
       // Values that differ by rounding are equal.
       return std::pair(-whole_steps(extent), extent > 0 ? 0 : whole_steps(found.residual));

@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "stackabilization/structure/tolerances.h"
 #include "structure/symmetry/symmetry_candidates.h"
 #include "structure/symmetry/symmetry_refinement.h"
 
@@ -16,7 +17,6 @@ constexpr double facet_allowance = 1.5;
 constexpr double without_detail = 0.98;     // support
 constexpr double inertia_allowance = 0.15;  // share
 constexpr double clear_gain = 1.1;          // factor between residuals
-constexpr double same_direction = 0.99;     // cosine
 
 /// Returns whether the moments about two directions orthogonal to `axis` agree.
 bool balanced(const Eigen::Matrix3d& spread, const Eigen::Vector3d& axis) {
@@ -90,7 +90,7 @@ std::vector<Symmetry> revolutions(const SymmetrySurface& surface, const Symmetry
   const Eigen::Matrix<double, 3, 6> candidates = axes_of(surface);
   for (const Eigen::Vector3d axis : candidates.colwise()) {
     const bool known = std::any_of(found.begin(), found.end(), [&](const Symmetry& other) {
-      return std::abs(other.axis.dot(axis)) > same_direction;
+      return std::abs(other.axis.dot(axis)) > tolerance::parallel;
     });
     if (known || found.size() == 3) continue;
     if (const auto revolution = revolution_about(surface, axis, options, roundness))

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <optional>
 
+#include "stackabilization/structure/tolerances.h"
 #include "structure/symmetry/symmetry_candidates.h"
 #include "structure/symmetry/symmetry_refinement.h"
 #include "structure/symmetry/symmetry_voting.h"
@@ -14,8 +15,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr double same_axis = 0.99;  // cosine
-constexpr int max_order = 12;       // of rotations without reflections through their axis
+constexpr int max_order = 12;  // of rotations without reflections through their axis
 
 class RotationSearch {
  public:
@@ -40,8 +40,9 @@ class RotationSearch {
 
  private:
   static bool contains(const std::vector<Symmetry>& axes, const Eigen::Vector3d& axis) {
-    return std::any_of(axes.begin(), axes.end(),
-                       [&](const Symmetry& other) { return std::abs(other.axis.dot(axis)) > same_axis; });
+    return std::any_of(axes.begin(), axes.end(), [&](const Symmetry& other) {
+      return std::abs(other.axis.dot(axis)) > tolerance::parallel;
+    });
   }
 
   /// The lines that two and more reflections have in common.

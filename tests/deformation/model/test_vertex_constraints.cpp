@@ -2,7 +2,6 @@
 
 #include "deformation/model/vertex_constraints.h"
 #include "stackabilization/core/errors.h"
-#include "stackabilization/core/tolerances.h"
 #include "support/catch.h"
 #include "support/differences.h"
 #include "support/solids.h"

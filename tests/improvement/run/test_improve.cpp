@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "stackabilization/core/errors.h"
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/improvement/effort.h"
 #include "stackabilization/improvement/improve.h"
+#include "stackabilization/improvement/tolerances.h"
+#include "stackabilization/stacking/tolerances.h"
 #include "support/catch.h"
 #include "support/cups.h"
 

@@ -1,8 +1,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/stacking/bundle_ascent.h"
+#include "stackabilization/stacking/tolerances.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/variants.h"

@@ -4,8 +4,8 @@
 #include <variant>
 
 #include "stackabilization/core/errors.h"
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/structure/fitting.h"
+#include "stackabilization/structure/tolerances.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/variants.h"

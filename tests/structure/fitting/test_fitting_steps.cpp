@@ -3,7 +3,6 @@
 #include <numbers>
 #include <variant>
 
-#include "stackabilization/core/tolerances.h"
 #include "stackabilization/structure/fitting.h"
 #include "structure/fitting/canonical_pose.h"
 #include "structure/fitting/closed_part.h"

@@ -1,0 +1,20 @@
+#pragma once
+
+/// Tolerances of stackability, of the search for a direction and of the checks of f_max.
+namespace stackabilization::tolerance {
+
+/// Distance above and below an exact f_max at which a collision test must be free and colliding, fraction of
+/// the extent h.
+inline constexpr double collision_margin = 1e-9;
+
+/// Error of a sampled f_max above which a report explains it, fraction of the extent h.
+inline constexpr double sampling_error = 1e-3;
+
+/// Angular step at which a local direction search stops, radians. Such a step changes S by at most about
+/// 1e-8.
+inline constexpr double direction_step = 1e-8;
+
+/// Two directions whose S differ by less than this are equally good; smaller differences are rounding.
+inline constexpr double stackability = 1e-11;
+
+}  // namespace stackabilization::tolerance
