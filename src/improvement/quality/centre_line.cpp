@@ -136,6 +136,12 @@ Eigen::Vector3d CentreLine::direction() const {
   return (rest_.row(station_count - 1) - rest_.row(0)).transpose().stableNormalized();
 }
 
+double CentreLine::radius() const {
+  double sum = 0;
+  for (const Section& section : sections_) sum += section.radius;
+  return sum / station_count;
+}
+
 Points CentreLine::centres(const Points& marks) const {
   Points result(station_count, 3);
   for (std::size_t k = 0; k < stations_.size(); ++k) {
@@ -192,12 +198,13 @@ CentreLineChange CentreLine::change(const Shape& now, const AffineMap& affine) c
   if (straight_) {
     const Eigen::RowVector3d chord = centres.row(station_count - 1) - centres.row(0);
     const double squared = chord.squaredNorm();
-    if (!(squared > 0)) return {1, 0, 1, 1, 0};
+    if (!(squared > 0)) return {1, 0, 1, 1, 0, 0};
     result.straightness = std::max(0.0, distance_from_chord(centres) / std::sqrt(squared) - deviation_);
     result.length = std::sqrt(squared) / (rest_.row(station_count - 1) - rest_.row(0)).norm();
     places = shares_of_line(centres);
     for (int k = 0; k < station_count; ++k)
       ratios(k) = sections[static_cast<std::size_t>(k)].radius / radius_at_rest(places(k));
+    result.width = ratios.minCoeff();
   } else {
     Points image(station_count, 3);
     for (int k = 0; k < station_count; ++k) image.row(k) = affine(rest_.row(k).transpose()).transpose();

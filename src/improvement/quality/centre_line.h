@@ -17,7 +17,8 @@ struct CentreLineChange {
   double bending = 0;       ///< largest change of turn at a station against the affine image, degrees
   double section = 0;       ///< largest loss of roundness of a round section, of its width
   double profile = 0;       ///< unevenness of the change of the radii, of the radius
-  double length = 1;        ///< length over that at rest
+  double length = 1;        ///< length over that at rest; straight lines only
+  double width = 1;         ///< smallest ratio of a radius to that at the same place at rest; straight lines only
 };
 
 /// Centre line and cross-sections of an elongated part, from pieces of its surface. Each piece belongs to the
@@ -35,6 +36,8 @@ class CentreLine {
   CentreLineChange change(const Shape& now, const AffineMap& affine) const;
   /// Returns whether the line is straight at rest.
   bool is_straight() const { return straight_; }
+  /// Returns the mean radius at rest, model units.
+  double radius() const;
   /// Returns the direction from end to end at rest, unit.
   Eigen::Vector3d direction() const;
 

@@ -75,17 +75,16 @@ TEST_CASE("A leg that leans leaves the top where it is when parts follow smoothl
   const int top = structures::part_named(table, "top"), leg = structures::part_named(table, "leg_1");
   const ControllerModel model(table, {}, Following::smooth);
   const Edit edit{{HandleKind::part, leg, 0}, Move{{0.1, 0, 0}}, Falloff::gaussian};
-  const EditOutcome outcome = model.edited(model.rest_primitives(), edit);
+  const DeformationResult outcome = model.edited(model.at_rest(), edit);
   REQUIRE_FALSE(outcome.refusal);
   const auto move = [&](int part) {
-    return (control_points(outcome.primitives[static_cast<std::size_t>(part)]) -
-            control_points(model.rest_primitives()[static_cast<std::size_t>(part)]))
+    const auto row = static_cast<std::size_t>(part);
+    return (control_points(outcome.design.primitives[row]) - control_points(model.at_rest().primitives[row]))
         .rowwise()
         .norm()
         .maxCoeff();
   };
   CHECK(move(leg) == Approx(0.1));
   CHECK(move(top) < 0.05);
-  for (const double residual : relation_residuals(model.rest().structure, outcome.primitives))
-    CHECK(residual <= 1e-9);
+  for (const double residual : model.relation_residuals(outcome.design)) CHECK(residual <= 1e-9);
 }
