@@ -13,7 +13,7 @@ HistoryNode root(const ImproveReport& report) {
   HistoryNode node;
   node.name = "at rest";
   node.direction = task.task->directions().front();
-  node.stackability = task.checker().measure(task.rest().shape, Direction(node.direction)).value;
+  node.stackability = task.checker().rest_shape().measure(Direction(node.direction)).value;
   return node;
 }
 

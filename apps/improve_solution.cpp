@@ -110,7 +110,7 @@ SolutionReport solution_report(const ImproveCommandOptions& options, const Impro
   report.assessment = assessment;
   const Direction direction = report.direction();
   const StructuredShape& rest = task.rest();
-  report.before = task.checker().measure(rest.shape, direction);
+  report.before = task.checker().rest_shape().measure(direction);
   report.change = shape_change(rest.shape, candidate.design.shape);
   report.residuals = relation_residuals(rest.structure, candidate.design.primitives);
   report.stack = stack_heights(options, task, report);

@@ -85,7 +85,7 @@ SuggestRun run_suggest(const SuggestCommandOptions& options, const StructuredMod
       requirements_of(options.requirements, rest.shape, options.measure,
                       options.family == EditFamily::paper ? QualityDefault::any : QualityDefault::limited);
   requirements.target = options.target.value_or(0);
-  const RequirementChecker checker(*run.space, requirements);
+  const auto checker = named(input.model, [&] { return RequirementChecker(*run.space, requirements); });
   const auto measured = [&](const Design& design, const SuggestionOptions& how) {
     return named(input.model, [&] { return situation(checker, design, run.direction, how); });
   };

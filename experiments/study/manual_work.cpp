@@ -82,7 +82,7 @@ ManualTool::ManualTool(const RequirementChecker& checker, const Eigen::Vector3d&
       meter_(checker.space().rest(), checker.requirements().measure.boxes),
       handles_(checker.space().handles()),
       frame_(frame_along(direction)),
-      before_(checker.measure(checker.space().rest().shape, direction_).value) {
+      before_(checker.rest_shape().measure(direction_).value) {
   std::erase_if(handles_, [](const Handle& handle) { return handle.kind == HandleKind::shape; });
   for (int axis = 0; axis < 3; ++axis)
     extents_[axis] = range_along(checker.space().rest().shape, frame_.col(axis)).length();

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "stackabilization/structure/structure.h"
+#include "stackabilization/improvement/rest_shape.h"
 
 namespace stackabilization {
 
@@ -13,7 +13,7 @@ namespace stackabilization {
 /// about 40 seconds on two cores of 2 GHz; the work is proportional to the effort. The number of designs
 /// falls with the number of triangles, of parts and of corners of the convex hull, since designs of such
 /// shapes take longer. Throws UsageError unless the effort is above 0.
-double designs_of_effort(double effort, const StructuredShape& rest);
+double designs_of_effort(double effort, const RestShape& rest);
 
 /// Returns the largest number of directions along which S of `shape` is measured when the whole effort goes
 /// into that, >= 1. Throws UsageError unless the effort is above 0.

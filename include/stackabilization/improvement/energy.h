@@ -66,6 +66,13 @@ class EnergyMeter {
   /// of D in Eq. 5, in [0, 1]. Throws UsageError for an alpha out of range, InputError when `rest` is
   /// invalid.
   EnergyMeter(const StructuredShape& rest, BoxModel boxes, double alpha = 0.2);
+  /// `main_axes`: the main axes of Eq. 9 as orthonormal columns, those of the box of the shape. Throws as the
+  /// other constructor.
+  EnergyMeter(const StructuredShape& rest, const Eigen::Matrix3d& main_axes, double alpha = 0.2);
+
+  /// Returns a meter of the same shape at rest with another weight. Throws UsageError for an alpha out of
+  /// range.
+  EnergyMeter with_alpha(double alpha) const;
 
   /// Returns D by its terms. Throws UsageError unless `design` has the vertices and primitives of the shape
   /// at rest.

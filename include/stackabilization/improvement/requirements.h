@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "stackabilization/deformation/deformation_model.h"
 #include "stackabilization/improvement/checks.h"
 #include "stackabilization/improvement/quality.h"
+#include "stackabilization/improvement/rest_shape.h"
 #include "stackabilization/stacking/stackability.h"
 
 namespace stackabilization {
@@ -75,11 +77,14 @@ struct Assessment {
 /// number of threads.
 class RequirementChecker {
  public:
-  /// Throws as `validate`.
-  RequirementChecker(const DeformationModel& space, Requirements requirements);
+  /// `rest`: the shape at rest of the space, with the measure of the requirements; if null, it is made here.
+  /// Throws as `validate` and as the constructor of RestShape.
+  RequirementChecker(const DeformationModel& space, Requirements requirements,
+                     std::shared_ptr<const RestShape> rest = nullptr);
 
   const Requirements& requirements() const;  ///< the requirements given
-  const DeformationModel& space() const;     ///< the space given; it must still exist
+  const DeformationModel& space() const;          ///< the space given; it must still exist
+  const RestShape& rest_shape() const;       ///< what is known of the shape at rest
   /// Returns S(M, r) with the required clearance and play: the only measure that a search needs for every
   /// candidate. Within 1e-12 of the value that `check` compares with the target. Throws InputError for a
   /// shape without volume.

@@ -73,15 +73,17 @@ class StackabilitySolver {
   /// point), since S is then undefined, unless the options allow it. Throws UsageError for a clearance or
   /// play out of range.
   explicit StackabilitySolver(const Shape& shape, const StackabilityOptions& options = {});
-  StackabilitySolver(StackabilitySolver&&) noexcept;
-  StackabilitySolver& operator=(StackabilitySolver&&) noexcept;
-  ~StackabilitySolver();
 
   const Shape& shape() const;                  ///< copy of the given shape
   const SeparationTree& tree() const;          ///< separation tree of the shape
   const HullSupport& hull() const;             ///< convex hull of the shape
   const StackabilityOptions& options() const;  ///< options of the solver
+  const OrientedBox& box() const;              ///< the box of V(M)
   double box_volume() const;                   ///< V(M), model units cubed; 0 only when the options allow it
+
+  /// Returns a solver that differs in play only. It shares the tree, the hull and the box with this one.
+  /// Throws UsageError for a play out of range.
+  StackabilitySolver with_play(double play) const;
 
   /// Returns the exact f_max with its witness, without clearance and play.
   Separation separation(const Direction& direction) const;
@@ -94,7 +96,10 @@ class StackabilitySolver {
 
  private:
   struct Data;
-  std::unique_ptr<const Data> data_;
+  explicit StackabilitySolver(std::shared_ptr<const Data> data, const StackabilityOptions& options);
+
+  std::shared_ptr<const Data> data_;
+  StackabilityOptions options_;
 };
 
 /// Computes S(M, r) for one direction, cheaper than a solver, which is prepared for many directions. The

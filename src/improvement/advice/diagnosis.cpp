@@ -211,15 +211,13 @@ class DiagnosisBuilder {
   }
 
   void look_elsewhere() {
-    StackabilityOptions measure = checker_.requirements().measure;
-    measure.play = 0;  // it is slow to measure, and added for the best direction below
-    const StackabilitySolver rest(rest_.shape, measure);
     SearchOptions options;
     options.cancelled = options_.cancelled;
     options.max_directions = whole_directions(designs_left() * options_.directions_per_design);
     for (const Symmetry& symmetry : rest_.structure.symmetries) options.candidates.push_back(symmetry.axis);
-    const Eigen::Vector3d direction = best_direction(rest, options).best.direction;
-    const Stackability best = checker_.measure(rest_.shape, Direction(direction));
+    const Eigen::Vector3d direction =
+        best_direction(checker_.rest_shape().solver_without_play(), options).best.direction;
+    const Stackability best = checker_.rest_shape().measure(Direction(direction));
     if (!helps(best.value)) return;
     add({Remedy::Kind::other_direction, {}, {}, best.direction, best.value});
   }

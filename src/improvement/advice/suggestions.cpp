@@ -19,7 +19,7 @@ class SuggestionScorer {
   SuggestionScorer(const RequirementChecker& checker, const Direction& direction, double alpha)
       : checker_(checker),
         direction_(direction),
-        meter_(checker.space().rest(), checker.requirements().measure.boxes, alpha),
+        meter_(checker.rest_shape().energy_meter().with_alpha(alpha)),
         constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction)),
         at_rest_(checker.check(checker.space().at_rest(), direction).measured.value) {}
 

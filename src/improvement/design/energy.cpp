@@ -65,9 +65,21 @@ std::vector<Eigen::Index> used_rows(const Shape& shape) {
   return rows;
 }
 
-Eigen::Matrix3d main_axes(const Shape& shape, BoxModel boxes) {
+Eigen::Matrix3d axes_of_box(const Shape& shape, BoxModel boxes) {
   if (boxes == BoxModel::frame) return Eigen::Matrix3d::Identity();
   return minimal_oriented_box(HullSupport(shape)).axes;
+}
+
+const StructuredShape& checked_rest(const StructuredShape& rest) {
+  validate(rest);
+  if (!(rest.structure.diagonal > 0) || !std::isfinite(rest.structure.diagonal))
+    throw InputError("the diagonal of the structure must be positive");
+  return rest;
+}
+
+double checked_alpha(double alpha) {
+  if (!(alpha >= 0 && alpha <= 1)) throw UsageError("alpha must be a number from 0 to 1");
+  return alpha;
 }
 
 /// Returns the extents of the vertices `rows` along each column of `axes`.
@@ -85,12 +97,12 @@ Eigen::Vector3d extents(const Points& vertices, const std::vector<Eigen::Index>&
 }  // namespace
 
 struct EnergyMeter::Rest {
-  Rest(const StructuredShape& rest, BoxModel boxes)
+  Rest(const StructuredShape& rest, const Eigen::Matrix3d& main_axes)
       : diagonal(rest.structure.diagonal),
         primitives(detail::primitives_of(rest.structure)),
         vertex_count(rest.shape.vertex_count()),
         rows(used_rows(rest.shape)),
-        axes(main_axes(rest.shape, boxes)),
+        axes(main_axes),
         sides(extents(rest.shape.vertices, rows, axes)),
         pairs(symmetric_pairs(rest.structure, primitives)) {
     for (const Primitive& primitive : primitives) {
@@ -163,12 +175,16 @@ double axis_distance(const Primitive& a, const Primitive& b) {
                                 detail::axis_curve(b, detail::axis_of(b)));
 }
 
-EnergyMeter::EnergyMeter(const StructuredShape& rest, BoxModel boxes, double alpha) : alpha_(alpha) {
-  if (!(alpha >= 0 && alpha <= 1)) throw UsageError("alpha must be a number from 0 to 1");
-  validate(rest);
-  if (!(rest.structure.diagonal > 0) || !std::isfinite(rest.structure.diagonal))
-    throw InputError("the diagonal of the structure must be positive");
-  rest_ = std::make_shared<const Rest>(rest, boxes);
+EnergyMeter::EnergyMeter(const StructuredShape& rest, BoxModel boxes, double alpha)
+    : EnergyMeter(rest, axes_of_box(checked_rest(rest).shape, boxes), alpha) {}
+
+EnergyMeter::EnergyMeter(const StructuredShape& rest, const Eigen::Matrix3d& main_axes, double alpha)
+    : alpha_(checked_alpha(alpha)), rest_(std::make_shared<const Rest>(checked_rest(rest), main_axes)) {}
+
+EnergyMeter EnergyMeter::with_alpha(double alpha) const {
+  EnergyMeter result = *this;
+  result.alpha_ = checked_alpha(alpha);
+  return result;
 }
 
 Distortion EnergyMeter::distortion(const Design& design) const {

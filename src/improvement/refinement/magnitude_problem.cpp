@@ -64,7 +64,7 @@ MagnitudeProblem::MagnitudeProblem(const RequirementChecker& checker, std::vecto
       direction_(direction),
       limits_(std::move(limits)),
       constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction)),
-      meter_(checker.space().rest(), checker.requirements().measure.boxes),
+      meter_(checker.rest_shape().energy_meter()),
       blocks_(checker.space().rest().shape, direction, checker.requirements().measure.semantics) {
   const Requirements& asked = checker.requirements();
   checks_ = asked.min_thickness || asked.min_draft_degrees || asked.standing_copies || asked.quality;

@@ -47,7 +47,7 @@ class MagnitudeRefiner {
         options_(options),
         direction_(start.direction),
         edits_(variables(checker, start, options, added)),
-        meter_(checker.space().rest(), checker.requirements().measure.boxes, options.alpha),
+        meter_(checker.rest_shape().energy_meter().with_alpha(options.alpha)),
         problem_(checker, plain(edits_), direction_,
                  {options.evaluations, options.magnitude_bound, options.objective, options.cancelled}) {}
 

@@ -107,20 +107,24 @@ bool Assessment::passed() const {
 }
 
 struct RequirementChecker::Data {
-  Data(const DeformationModel& designs, Requirements required)
+  Data(const DeformationModel& designs, Requirements required, std::shared_ptr<const RestShape> known)
       : space(designs),
         requirements(validated(std::move(required), designs.rest())),
+        rest(known ? std::move(known)
+                   : std::make_shared<const RestShape>(designs.rest(), requirements.measure)),
         primitives(detail::primitives_of(designs.rest().structure)),
         checks(designs, requirements, parts_that_stay(requirements, designs.rest().structure)) {}
 
   const DeformationModel& space;
   Requirements requirements;
+  std::shared_ptr<const RestShape> rest;
   std::vector<Primitive> primitives;  ///< at rest
   detail::RequirementChecks checks;
 };
 
-RequirementChecker::RequirementChecker(const DeformationModel& space, Requirements requirements)
-    : data_(std::make_shared<const Data>(space, std::move(requirements))) {}
+RequirementChecker::RequirementChecker(const DeformationModel& space, Requirements requirements,
+                                       std::shared_ptr<const RestShape> rest)
+    : data_(std::make_shared<const Data>(space, std::move(requirements), std::move(rest))) {}
 
 const Requirements& RequirementChecker::requirements() const {
   return data_->requirements;
@@ -128,6 +132,10 @@ const Requirements& RequirementChecker::requirements() const {
 
 const DeformationModel& RequirementChecker::space() const {
   return data_->space;
+}
+
+const RestShape& RequirementChecker::rest_shape() const {
+  return *data_->rest;
 }
 
 Stackability RequirementChecker::measure(const Shape& shape, const Direction& direction) const {

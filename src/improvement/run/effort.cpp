@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "stackabilization/core/errors.h"
-#include "stackabilization/mesh/boxes.h"
 
 namespace stackabilization {
 
@@ -24,11 +23,11 @@ void require_effort(double effort) {
 
 }  // namespace
 
-double designs_of_effort(double effort, const StructuredShape& rest) {
+double designs_of_effort(double effort, const RestShape& rest) {
   require_effort(effort);
-  const auto triangles = static_cast<double>(rest.shape.triangle_count());
-  const auto hull_points = static_cast<double>(HullSupport(rest.shape).points().rows());
-  const auto parts = static_cast<double>(rest.structure.parts.size());
+  const auto triangles = static_cast<double>(rest.shape().triangle_count());
+  const auto hull_points = static_cast<double>(rest.hull().points().rows());
+  const auto parts = static_cast<double>(rest.shape().part_count());
   return effort * work /
          (design_cost + triangles * triangle_cost + hull_points * hull_point_cost + parts * part_cost);
 }

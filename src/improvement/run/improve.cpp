@@ -179,7 +179,7 @@ Candidate at_rest(const RequirementChecker& checker, const Eigen::Vector3d& dire
   Candidate rest;
   rest.design = checker.space().at_rest();
   rest.direction = direction;
-  rest.measured = checker.measure(rest.design.shape, Direction(direction));
+  rest.measured = checker.rest_shape().measure(Direction(direction));
   return rest;
 }
 
@@ -192,7 +192,7 @@ class ImprovementRun {
         options_(options),
         state_(state),
         refines_(options.preset == ImprovementPreset::refined),
-        budget_(designs_of_effort(options.effort, checker.space().rest()), options.search.seconds) {
+        budget_(designs_of_effort(options.effort, checker.rest_shape()), options.search.seconds) {
     if (options.search.expansions < 1) throw UsageError("an improvement expands one candidate at least");
   }
 
@@ -324,7 +324,7 @@ class ImprovementRun {
     options.designs = static_cast<double>(budget_.designs_until(1, min_search));
     options.directions_per_design =
         static_cast<double>(directions_of_effort(1, checker_.space().rest().shape)) /
-        designs_of_effort(1, checker_.space().rest());
+        designs_of_effort(1, checker_.rest_shape());
     options.cancelled = [this] { return late(1); };
     result_.diagnosis = stackabilization::diagnose(checker_, found, options);
   }

@@ -55,16 +55,15 @@ Stackability measure_up(const StackabilitySolver& solver, const Structure& struc
 }
 
 /// Returns the target that a length limit amounts to, with the height and the boxes at rest.
-double target_of(const StackLengthLimit& limit, const StructuredShape& rest, const Direction& direction,
-                 const StackabilityOptions& measure) {
-  const Stackability measured = stackability(rest.shape, direction, measure);
-  const StackPlan plan = plan_stack(measured, {limit.copies, limit.length, measure.clearance});
+double target_of(const StackLengthLimit& limit, const RestShape& rest, const Direction& direction) {
+  const double clearance = rest.options().clearance;
+  const Stackability measured = rest.measure(direction);
+  const StackPlan plan = plan_stack(measured, {limit.copies, limit.length, clearance});
   if (!plan.possible || *plan.stackability >= 1)
-    throw UsageError(
-        "the length " + shortest_text(limit.length) + " has no room for " + std::to_string(limit.copies) +
-        " copies of height " + shortest_text(measured.extent) +
-        (measure.clearance > 0 ? " with " + shortest_text(measure.clearance) + " of air between them" : "") +
-        ", however well they stack");
+    throw UsageError("the length " + shortest_text(limit.length) + " has no room for " +
+                     std::to_string(limit.copies) + " copies of height " + shortest_text(measured.extent) +
+                     (clearance > 0 ? " with " + shortest_text(clearance) + " of air between them" : "") +
+                     ", however well they stack");
   return *plan.stackability;
 }
 
@@ -74,10 +73,9 @@ ImprovementTask::ImprovementTask(StructuredShape rest, Requirements requirements
                                  const ImprovementTaskOptions& options)
     : directions_(options.directions) {
   validate(requirements, rest);
+  auto known = std::make_shared<const RestShape>(rest, requirements.measure);
   if (directions_.empty()) {
-    StackabilityOptions measure = requirements.measure;
-    measure.play = 0;  // it is slow to measure, and rarely decides between directions
-    const StackabilitySolver solver(rest.shape, measure);
+    const StackabilitySolver& solver = known->solver_without_play();
     const Stackability up = measure_up(solver, rest.structure);
     directions_ = {up.direction};
     if (!requirements.length_limit && !capabilities_of(options.kind).edits_along_one_direction) {
@@ -93,10 +91,9 @@ ImprovementTask::ImprovementTask(StructuredShape rest, Requirements requirements
     }
   }
   const Direction first(directions_.front());
-  if (requirements.length_limit)
-    requirements.target = target_of(*requirements.length_limit, rest, first, requirements.measure);
+  if (requirements.length_limit) requirements.target = target_of(*requirements.length_limit, *known, first);
   space_ = deformation_model(std::move(rest), {options.kind, first, {}, options.following});
-  checker_ = std::make_unique<RequirementChecker>(*space_, std::move(requirements));
+  checker_ = std::make_unique<RequirementChecker>(*space_, std::move(requirements), std::move(known));
 }
 
 Improvement improve(const ImprovementTask& task, ImprovementOptions options,

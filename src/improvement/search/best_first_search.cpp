@@ -48,7 +48,7 @@ void BestFirstSearch::add_roots() {
     SearchNode root;
     root.queue = static_cast<int>(queue);
     root.direction = options().directions[queue];
-    root.measured = checker().measure(rest.shape, Direction(root.direction));
+    root.measured = checker().rest_shape().measure(Direction(root.direction));
     root.energy = tools_.energy(rest, root.measured);
     root.key = tools_.keys.key(rest);
     state_.tree.add(root);

@@ -53,12 +53,11 @@ void make(SuccessorNode& successor, const SearchTools& tools, const ExpandedNode
 SearchTools::SearchTools(const RequirementChecker& the_checker, const BestFirstOptions& the_options)
     : checker(the_checker),
       options(the_options),
-      meter(the_checker.space().rest(), the_checker.requirements().measure.boxes, the_options.alpha),
+      meter(the_checker.rest_shape().energy_meter().with_alpha(the_options.alpha)),
       keys(the_checker.space()),
       handles(the_checker.space().handles()),
       centres(the_checker.space().centres()),
-      at_rest(the_checker.measure(the_checker.space().rest().shape, Direction(the_options.directions.front()))
-                  .value) {}
+      at_rest(the_checker.rest_shape().measure(Direction(the_options.directions.front())).value) {}
 
 std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const ExpandedNode& from) {
   const DeformationModel& space = tools.checker.space();

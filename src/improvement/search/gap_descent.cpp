@@ -29,7 +29,7 @@ class Pursuit {
         options_(options),
         direction_(start.direction),
         constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction_)),
-        meter_(checker.space().rest(), checker.requirements().measure.boxes, options.alpha),
+        meter_(checker.rest_shape().energy_meter().with_alpha(options.alpha)),
         handles_(checker.space().handles()),
         centres_(checker.space().centres()),
         blocks_(checker.space().rest().shape, direction_, checker.requirements().measure.semantics, 1),

@@ -103,7 +103,9 @@ Lines first(const Lines& lines, std::size_t count) {
 CandidateDirections candidate_directions(const StackabilitySolver& solver) {
   CandidateDirections result;
   append(columns(Eigen::Matrix3d::Identity()), 3, {}, result.main);
-  append(columns(minimal_oriented_box(solver.hull()).axes), 3, {}, result.main);
+  const OrientedBox box =
+      solver.options().boxes == BoxModel::oriented ? solver.box() : minimal_oriented_box(solver.hull());
+  append(columns(box.axes), 3, {}, result.main);
   append(principal_axes(solver.shape()), 3, {}, result.main);
 
   const Lines of_hull = rows(solver.hull().face_normals()), of_surface = normals_of_surface(solver.shape());

@@ -78,11 +78,21 @@ std::optional<Stackability> measured_above(const Stackability& boxes, const Shap
   return result;
 }
 
-/// V(M) of the `frame` model. A box is flat when its thickness is within rounding.
-double frame_volume(const Points& points) {
-  const OrientedBox box = axis_aligned_box(points);
+/// V(M) of the `frame` model: the volume of the box along the file's axes around the points, 0 when its
+/// thickness is within rounding.
+double frame_volume(const OrientedBox& box, const Points& points) {
   const double thinnest = 2 * box.half_extents.minCoeff(), largest = points.cwiseAbs().maxCoeff();
   return thinnest > tolerance::rounding * largest ? box.volume() : 0;
+}
+
+OrientedBox model_box(const HullSupport& hull, BoxModel model) {
+  return model == BoxModel::frame ? axis_aligned_box(hull.points()) : minimal_oriented_box(hull);
+}
+
+/// Returns V(M). `box`: box of the hull in that model.
+double model_box_volume(const OrientedBox& box, const HullSupport& hull, BoxModel model) {
+  if (model == BoxModel::frame) return frame_volume(box, hull.points());
+  return hull.dimension() == 3 ? box.volume() : 0;
 }
 
 }  // namespace
@@ -99,47 +109,55 @@ Stackability Stackability::with_f_max(double f) const {
 }
 
 double box_volume(const HullSupport& hull, BoxModel model) {
-  if (model == BoxModel::frame) return frame_volume(hull.points());
-  return hull.dimension() == 3 ? minimal_oriented_box(hull).volume() : 0;
+  return model_box_volume(model_box(hull, model), hull, model);
 }
 
 struct StackabilitySolver::Data {
-  Data(const Shape& given, const StackabilityOptions& chosen) : shape(given), options(chosen) {
-    validate(options);
+  Data(const Shape& given, const StackabilityOptions& options) : shape(given) {
     tbb::parallel_invoke([this] { tree.emplace(shape); }, [this] { hull.emplace(shape); });
-    box_volume = checked_volume(stackabilization::box_volume(*hull, options.boxes), options.flat_shapes);
+    box = model_box(*hull, options.boxes);
+    volume = checked_volume(model_box_volume(box, *hull, options.boxes), options.flat_shapes);
   }
 
   /// Returns the terms of the boxes; f_max and S are not set.
-  Stackability boxes(const Direction& direction) const {
+  Stackability boxes(const Direction& direction, BoxModel model) const {
     Stackability terms;
     terms.direction = direction.vector();
-    terms.box_volume = box_volume;
+    terms.box_volume = volume;
     terms.extent = hull->extent(direction);
-    if (options.boxes == BoxModel::oriented) {
+    if (model == BoxModel::oriented) {
       terms.base = hull->minimal_rectangle_area(direction);
     } else {
-      const OrientedBox box = frame_box(hull->points(), direction);
-      terms.base = 4 * box.half_extents.x() * box.half_extents.y();
+      const OrientedBox along = frame_box(hull->points(), direction);
+      terms.base = 4 * along.half_extents.x() * along.half_extents.y();
     }
     return terms;
   }
 
   Shape shape;
-  StackabilityOptions options;
   std::optional<SeparationTree> tree;
   std::optional<HullSupport> hull;
-  double box_volume = 0;
+  OrientedBox box;
+  double volume = 0;
 };
 
-StackabilitySolver::StackabilitySolver(const Shape& shape, const StackabilityOptions& options) {
+StackabilitySolver::StackabilitySolver(const Shape& shape, const StackabilityOptions& options)
+    : options_(options) {
   validate(shape);
-  data_ = std::make_unique<const Data>(shape, options);
+  validate(options);
+  data_ = std::make_shared<const Data>(shape, options);
 }
 
-StackabilitySolver::StackabilitySolver(StackabilitySolver&&) noexcept = default;
-StackabilitySolver& StackabilitySolver::operator=(StackabilitySolver&&) noexcept = default;
-StackabilitySolver::~StackabilitySolver() = default;
+StackabilitySolver::StackabilitySolver(std::shared_ptr<const Data> data, const StackabilityOptions& options)
+    : data_(std::move(data)), options_(options) {
+  validate(options);
+}
+
+StackabilitySolver StackabilitySolver::with_play(double play) const {
+  StackabilityOptions options = options_;
+  options.play = play;
+  return StackabilitySolver(data_, options);
+}
 
 const Shape& StackabilitySolver::shape() const {
   return data_->shape;
@@ -151,15 +169,18 @@ const HullSupport& StackabilitySolver::hull() const {
   return *data_->hull;
 }
 const StackabilityOptions& StackabilitySolver::options() const {
-  return data_->options;
+  return options_;
+}
+const OrientedBox& StackabilitySolver::box() const {
+  return data_->box;
 }
 double StackabilitySolver::box_volume() const {
-  return data_->box_volume;
+  return data_->volume;
 }
 
 Separation StackabilitySolver::separation(const Direction& direction) const {
   return stackabilization::separation(*data_->tree, *data_->tree, direction,
-                                      {data_->options.semantics, std::nullopt});
+                                      {options_.semantics, std::nullopt});
 }
 
 Stackability StackabilitySolver::measure(const Direction& direction) const {
@@ -169,19 +190,19 @@ Stackability StackabilitySolver::measure(const Direction& direction) const {
 std::optional<Stackability> StackabilitySolver::measure_if_above(const Direction& direction,
                                                                  double threshold) const {
   if (threshold > 1) return std::nullopt;
-  const Stackability boxes = data_->boxes(direction);
+  const Stackability boxes = data_->boxes(direction, options_.boxes);
   const Enclosure enclosure =
       separation_enclosure(*data_->tree, *data_->tree, direction,
-                           {data_->options.semantics, translation_limit(boxes, direction, threshold)});
+                           {options_.semantics, translation_limit(boxes, direction, threshold)});
   if (enclosure.abandoned) return std::nullopt;
-  return measured_above(boxes, data_->shape, direction, translation(enclosure, direction), data_->options,
+  return measured_above(boxes, data_->shape, direction, translation(enclosure, direction), options_,
                         threshold);
 }
 
 ExactStackability StackabilitySolver::measure_exact(const Direction& direction) const {
   const Separation exact = separation(direction);
-  const double f_max = with_air(data_->shape, direction, translation(exact), data_->options);
-  return {data_->boxes(direction).with_f_max(f_max), exact};
+  const double f_max = with_air(data_->shape, direction, translation(exact), options_);
+  return {data_->boxes(direction, options_.boxes).with_f_max(f_max), exact};
 }
 
 namespace {
@@ -204,7 +225,7 @@ class BoxesAlong {
       const OrientedBox along = frame_box(points, direction);
       terms_.extent = 2 * along.half_extents.z();
       terms_.base = 4 * along.half_extents.x() * along.half_extents.y();
-      terms_.box_volume = checked_volume(frame_volume(points), options.flat_shapes);
+      terms_.box_volume = checked_volume(frame_volume(axis_aligned_box(points), points), options.flat_shapes);
     }
   }
 

@@ -113,7 +113,7 @@ TEST_CASE("an effort bounds the designs measured, whatever the target and the nu
         results.push_back(improve(checker(target), limited(effort)));
       }
       check_same_improvement(results[0], results[1]);
-      const double designs = designs_of_effort(effort, cups::space.rest());
+      const double designs = designs_of_effort(effort, RestShape(cups::space.rest(), {}));
       // What a refinement needs to tell which edits can leave, and the roots, come on top.
       CHECK(static_cast<double>(results[0].progress.evaluated) <= 1.1 * designs + 50);
       CHECK(results[0].end != SearchEnd::time_limit);
@@ -192,18 +192,22 @@ TEST_CASE("a deadline that is met is told, and the shape is judged nevertheless"
 }
 
 TEST_CASE("efforts are shares of a fixed amount of work, less of it for larger shapes") {
-  const StructuredShape& rest = cups::space.rest();
+  const RestShape rest(cups::space.rest(), {});
   CHECK(designs_of_effort(2, rest) == Approx(2 * designs_of_effort(1, rest)));
   CHECK(std::isinf(designs_of_effort(std::numeric_limits<double>::infinity(), rest)));
-  StructuredShape larger = rest;
-  larger.shape.triangles = rest.shape.triangles.replicate(3, 1);
+  StructuredShape replicated = cups::space.rest();
+  replicated.shape.triangles = rest.shape().triangles.replicate(3, 1);
+  const std::vector<std::int32_t>& parts = rest.shape().triangle_part;
+  while (replicated.shape.triangle_part.size() < 3 * parts.size())
+    replicated.shape.triangle_part.insert(replicated.shape.triangle_part.end(), parts.begin(), parts.end());
+  const RestShape larger(replicated, {});
   CHECK(designs_of_effort(1, larger) < designs_of_effort(1, rest));
-  CHECK(directions_of_effort(1, larger.shape) < directions_of_effort(1, rest.shape));
-  CHECK(directions_of_effort(1e-12, rest.shape) == 1);
-  CHECK(directions_of_effort(1e300, rest.shape) == std::numeric_limits<std::int64_t>::max());
+  CHECK(directions_of_effort(1, larger.shape()) < directions_of_effort(1, rest.shape()));
+  CHECK(directions_of_effort(1e-12, rest.shape()) == 1);
+  CHECK(directions_of_effort(1e300, rest.shape()) == std::numeric_limits<std::int64_t>::max());
   for (const double none : {0.0, -1.0, std::nan("")}) {
     CHECK_THROWS_AS(designs_of_effort(none, rest), UsageError);
-    CHECK_THROWS_AS(directions_of_effort(none, rest.shape), UsageError);
+    CHECK_THROWS_AS(directions_of_effort(none, rest.shape()), UsageError);
     CHECK_THROWS_AS(improve(checker(0.5), limited(none)), UsageError);
   }
 }

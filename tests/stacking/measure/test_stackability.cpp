@@ -225,3 +225,24 @@ TEST_CASE("clearance adds to f_max, play is that of separation_with_play, in eve
     CHECK_THROWS_AS(stackability(cup, r, wrong), UsageError);
   }
 }
+
+TEST_CASE("solvers that share a shape differ in play only, and the box is that of V(M)") {
+  for (const BoxModel boxes : {BoxModel::oriented, BoxModel::frame})
+    for (const auto& [name, shape] : shapes()) {
+      CAPTURE(name, boxes == BoxModel::frame);
+      StackabilityOptions options;
+      options.boxes = boxes;
+      options.clearance = 0.25;
+      const StackabilitySolver solver(shape, options);
+      CHECK(solver.box().volume() == solver.box_volume());
+      CHECK(solver.box_volume() == box_volume(solver.hull(), boxes));
+      options.play = 0.02;
+      const StackabilitySolver alone(shape, options), sharing = solver.with_play(options.play);
+      CHECK(&sharing.tree() == &solver.tree());
+      CHECK(sharing.options().play == options.play);
+      const Direction direction(0.1, 0.2, 1);
+      CHECK(sharing.measure(direction).value == alone.measure(direction).value);
+      CHECK(sharing.with_play(0).measure(direction).value == solver.measure(direction).value);
+    }
+  CHECK_THROWS_AS(StackabilitySolver(shapes().front().shape).with_play(-1), UsageError);
+}
