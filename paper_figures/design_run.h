@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "paper_figures/input.h"
+#include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/task.h"
 #include "stackabilization/rendering/pictures.h"
 #include "stackabilization/structure/analysis.h"

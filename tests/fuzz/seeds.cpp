@@ -125,7 +125,7 @@ detail::SearchTask search_task() {
           {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 1, 1)},
           {{HandleKind::face, 0, 2}, {HandleKind::part, 1, 0}},
           rest,
-          DeformationKind::controllers};
+          capabilities_of(DeformationKind::controllers)};
 }
 
 std::vector<Seed> seeds() {
