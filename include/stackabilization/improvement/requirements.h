@@ -83,7 +83,7 @@ class RequirementChecker {
                      std::shared_ptr<const RestShape> rest = nullptr);
 
   const Requirements& requirements() const;  ///< the requirements given
-  const DeformationModel& space() const;          ///< the space given; it must still exist
+  const DeformationModel& space() const;     ///< the space given; it must still exist
   const RestShape& rest_shape() const;       ///< what is known of the shape at rest
   /// Returns S(M, r) with the required clearance and play: the only measure that a search needs for every
   /// candidate. Within 1e-12 of the value that `check` compares with the target. Throws InputError for a

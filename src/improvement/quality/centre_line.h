@@ -18,7 +18,7 @@ struct CentreLineChange {
   double section = 0;       ///< largest loss of roundness of a round section, of its width
   double profile = 0;       ///< unevenness of the change of the radii, of the radius
   double length = 1;        ///< length over that at rest; straight lines only
-  double width = 1;         ///< smallest ratio of a radius to that at the same place at rest; straight lines only
+  double width = 1;  ///< smallest ratio of a radius to that at the same place at rest; straight lines only
 };
 
 /// Centre line and cross-sections of an elongated part, from pieces of its surface. Each piece belongs to the
