@@ -114,11 +114,6 @@ void check(const ImproveCommandOptions& options) {
                 {{}, analysis_inputs(options.analysis), {{"--output", improve_folder(options)}}});
 }
 
-/// Few edits that a designer would name are worth some change: 3 % for each edit less. Edits that give less
-/// than a quarter of the gain may be made up for by the others.
-constexpr double edit_price = 0.03;
-constexpr double drop_threshold = 0.25;
-
 Following following_of(const ImproveCommandOptions& options) {
   const bool smooth = options.preset == ImprovementPreset::refined &&
                       options.kind == DeformationKind::controllers && !options.requirements.any_quality &&
@@ -127,20 +122,14 @@ Following following_of(const ImproveCommandOptions& options) {
 }
 
 ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) {
-  ImprovementOptions improvement;
+  ImprovementOptions improvement =
+      following_of(options) == Following::smooth ? smooth_improvement() : ImprovementOptions{};
   improvement.preset = options.preset;
   BestFirstOptions& search = improvement.search;
   search.alpha = options.alpha.value_or(search.alpha);
   improvement.refinement.alpha = search.alpha;
   improvement.refinement.objective = options.objective;
-  if (options.preset == ImprovementPreset::paper)
-    search.edits.family = EditFamily::paper;
-  else if (following_of(options) == Following::smooth)
-    search.edits.family = EditFamily::smooth;
-  if (search.edits.family == EditFamily::smooth) {
-    improvement.refinement.edit_price = edit_price;
-    improvement.refinement.drop_threshold = drop_threshold;
-  }
+  if (options.preset == ImprovementPreset::paper) search.edits.family = EditFamily::paper;
   search.edits.bends = options.bends;
   search.edits.contacts.semantics = options.measure.semantics;
   search.solutions = options.solutions;

@@ -112,7 +112,7 @@ std::vector<Handle> ManualTool::touching_handles(const Candidate& now) const {
 
 std::optional<Candidate> ManualTool::edited(const Candidate& now, const Edit& edit) const {
   DeformationResult outcome = checker_.space().edited(now.design, edit, constraints_);
-  if (outcome.refusal || checker_.size_ratio_violation(outcome.design)) return std::nullopt;
+  if (outcome.refusal || checker_.form_obstacle(outcome.design)) return std::nullopt;
   return measured(std::move(outcome.design));
 }
 
