@@ -1,6 +1,7 @@
 // Question: how many designs that a person would accept are found, and why are the others not?
 //
-//     design_quality [--gain G[,G...]] [--effort E] [--paper-data FOLDER] [--threads N] [-o FOLDER] [MODEL...]
+//     design_quality [--gain G[,G...]] [--effort E] [--paper-data FOLDER] [--threads N] [-o FOLDER]
+//     [MODEL...]
 //
 // Each model is asked for S + G along z, at most 0.9, with the height kept, every limit of quality at its
 // default and no clock. A row says whether that was reached, the measure of quality that uses most of its
@@ -33,8 +34,8 @@ struct Settings {
 
 Table& table_of(Report& report) {
   std::vector<Column> all = columns({"model", "input_hash", "gain"}, ColumnKind::key);
-  for (const Column& column : columns({"S_rest", "target", "reached", "S", "D", "change_rms", "edits", "measure",
-                                       "share_of_limit", "remedy"}))
+  for (const Column& column : columns({"S_rest", "target", "reached", "S", "D", "change_rms", "edits",
+                                       "measure", "share_of_limit", "remedy"}))
     all.push_back(column);
   all.push_back({"seconds", ColumnKind::clock});
   return report.table("", all);
@@ -86,9 +87,8 @@ void ask(const ModelFile& file, const StructuredShape& model, const std::string&
 }  // namespace
 
 int main(int argc, char** argv) {
-  Experiment experiment(
-      "design_quality",
-      "How many designs that a person would accept are found, and why are the others not?");
+  Experiment experiment("design_quality",
+                        "How many designs that a person would accept are found, and why are the others not?");
   Settings settings;
   experiment.app().add_option("--gain", settings.gains, "gains in S to ask for")->delimiter(',');
   experiment.app().add_option("--effort", settings.effort, "work of each run")->check(CLI::PositiveNumber);
@@ -96,12 +96,12 @@ int main(int argc, char** argv) {
     Table& table = table_of(report);
     const std::vector<ModelFile> models = experiment.models();
     for (const double gain : settings.gains) {
-      Sheet sheet{"Designs within every limit of quality, S + " + std::to_string(gain).substr(0, 4), upwards, {}};
+      Sheet sheet{
+          "Designs within every limit of quality, S + " + std::to_string(gain).substr(0, 4), upwards, {}};
       for_each_model(models, report, [&](const ModelFile& file, const Shape& shape, const std::string& hash) {
         ask(file, analyse_structure(shape), hash, gain, settings, table, sheet);
       });
-      if (!sheet.tiles.empty())
-        report.sheet("gain_" + std::to_string(gain).substr(2, 2), std::move(sheet));
+      if (!sheet.tiles.empty()) report.sheet("gain_" + std::to_string(gain).substr(2, 2), std::move(sheet));
     }
   });
 }

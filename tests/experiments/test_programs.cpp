@@ -24,8 +24,9 @@ bool says(const Outcome& outcome, const std::string& program, const std::string&
          std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1;
 }
 
-const std::vector<std::string> with_models = {"deformation_models", "deformation_speed", "direction_search",
-                                              "envelope_accuracy", "minimal_translation"};
+const std::vector<std::string> with_models = {"deformation_models", "deformation_speed",
+                                              "design_quality",     "direction_search",
+                                              "envelope_accuracy",  "minimal_translation"};
 
 /// Options with which a program is done in no time.
 std::vector<std::string> quick(const std::string& program) {
@@ -34,6 +35,7 @@ std::vector<std::string> quick(const std::string& program) {
        {"--targets", "0.2", "--alphas", "0.8", "--expansions", "1", "--evaluations", "10", "--deformations",
         "cuboids,mixed"}},
       {"deformation_speed", {"--triangles", "12", "--edits", "5"}},
+      {"design_quality", {"--gain", "0.1", "--effort", "0.02"}},
       {"direction_search", {"--largest", "100", "--seeds", "1"}},
       {"envelope_accuracy", {"--directions", "2", "--fine-directions", "0"}},
       {"minimal_translation", {"--directions", "2", "--slow-directions", "1"}},

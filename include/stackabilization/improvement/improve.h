@@ -31,8 +31,8 @@ struct ImprovementOptions {
   RefinementOptions refinement;  ///< options of the refinement
 };
 
-/// Returns options for designs with limits of quality (Requirements::quality): smooth edits, and a price of each
-/// edit. They suit a model with Following::smooth.
+/// Returns options for designs with limits of quality (Requirements::quality): smooth edits, and a price of
+/// each edit. They suit a model with Following::smooth.
 ImprovementOptions smooth_improvement();
 
 /// Result of `improve`: solutions, or the reason why there are none.

@@ -35,8 +35,8 @@ constexpr int first_evaluations = 300;
 constexpr int min_solutions = 3;
 constexpr std::size_t more_extended = 4;
 
-/// Of smooth improvements: few edits that a designer would name are worth some change, 3 % for each edit less.
-/// Edits that give less than a quarter of the gain may be made up for by the others.
+/// Of smooth improvements: few edits that a designer would name are worth some change, 3 % for each edit
+/// less. Edits that give less than a quarter of the gain may be made up for by the others.
 constexpr double edit_price = 0.03;
 constexpr double drop_threshold = 0.25;
 
