@@ -76,6 +76,20 @@ void let_joints_slide(Structure& structure) {
   }
 }
 
+double distance_beyond(const Primitive& carrier, const Eigen::Vector3d& point) {
+  if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
+    const Eigen::Vector3d axis = chord(*cylinder).stableNormalized();
+    const Eigen::Vector3d offset = point - cylinder->centres.row(0).transpose();
+    return std::max(0.0, (offset - offset.dot(axis) * axis).norm() - cylinder->radii.maxCoeff());
+  }
+  const OrientedBox box = nearest_box(std::get<Cuboid>(carrier));
+  double farthest = 0;
+  for (const int axis : sliding_axes(box))
+    farthest =
+        std::max(farthest, std::abs((point - box.centre).dot(box.axes.col(axis))) - box.half_extents(axis));
+  return farthest;
+}
+
 Eigen::Matrix3d held_directions(const Primitive& carrier) {
   const Eigen::Matrix3d all = Eigen::Matrix3d::Identity();
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {

@@ -12,6 +12,10 @@ namespace stackabilization::detail {
 /// fixed. Where both parts can carry the joint, the one with the joint farther from its rim or end does.
 void let_joints_slide(Structure& structure);
 
+/// Returns how far a joint at `point` has slid beyond the rim or the end of its carrier, model units; 0 if it
+/// is on the carrier.
+double distance_beyond(const Primitive& carrier, const Eigen::Vector3d& point);
+
 /// Returns the projector onto the directions in which a joint is held on a carrier: the normal of a plate,
 /// the plane across a member, all directions for other primitives.
 Eigen::Matrix3d held_directions(const Primitive& carrier);

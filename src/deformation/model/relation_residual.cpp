@@ -62,12 +62,14 @@ double joint_gap(const Relation& relation, const Structure& rest, const std::vec
       const auto k = static_cast<std::size_t>(part);
       return deform_point(rest.parts[k].primitive, deformed[k], relation.points.row(i).transpose());
     };
-    const Eigen::Vector3d apart = place(relation.parts[0]) - place(relation.parts[1]);
-    widen(
-        gap,
-        relation.carrier < 0
-            ? apart.norm()
-            : (detail::held_directions(deformed[static_cast<std::size_t>(relation.carrier)]) * apart).norm());
+    const Eigen::Vector3d first = place(relation.parts[0]), second = place(relation.parts[1]);
+    if (relation.carrier < 0) {
+      widen(gap, (first - second).norm());
+      continue;
+    }
+    const Primitive& carrier = deformed[static_cast<std::size_t>(relation.carrier)];
+    widen(gap, (detail::held_directions(carrier) * (first - second)).norm());
+    widen(gap, detail::distance_beyond(carrier, relation.carrier == relation.parts[0] ? second : first));
   }
   return gap;
 }

@@ -1,5 +1,6 @@
 #include "stackabilization/improvement/refinement.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -23,8 +24,9 @@ constexpr int max_rounds = 4;
 constexpr double pricing_radius = 0.1;
 constexpr double min_reduced_cost = 0.01;
 constexpr double min_gain = 0.01;
-/// Two edits move the surface alike if the cosine between their displacements is above this.
-constexpr double same_motion = 0.9;
+/// An edit moves the surface in a new way if at least this share of its squared displacement is none that the
+/// others can make.
+constexpr double new_motion = 0.2;
 
 /// Largest number of times that a result with fewer edits is refined again.
 constexpr int max_restarts = 3;
@@ -94,26 +96,27 @@ class MagnitudeRefiner {
   }
 
  private:
-  /// Leaves out edits that move the surface like one before them, or like a given one: both faces of a part
-  /// that is symmetric to itself, for instance.
+  /// Leaves out edits that move the surface like given ones and those before them do together: the second
+  /// face of a part that is symmetric to itself, or the scaling of a part whose faces move.
   void leave_out_likes(std::vector<std::pair<double, std::size_t>>& ranked,
                        const Eigen::MatrixXd& gram) const {
     if (gram.size() == 0) return;
-    std::vector<std::size_t> chosen;
+    std::vector<Eigen::Index> chosen;  // columns of `gram`, of which the first is the surface itself
     for (std::size_t k = 0; k < edits_.size(); ++k)
-      if (edits_[k].source) chosen.push_back(k);
-    const auto product = [&](std::size_t a, std::size_t b) {
-      return gram(static_cast<Eigen::Index>(a) + 1, static_cast<Eigen::Index>(b) + 1);
-    };
+      if (edits_[k].source) chosen.push_back(static_cast<Eigen::Index>(k) + 1);
     std::erase_if(ranked, [&](const auto& entry) {
-      const std::size_t k = entry.second;
-      const bool like = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t other) {
-        return std::abs(product(k, other)) > same_motion * std::sqrt(product(k, k) * product(other, other));
-      });
-      if (!like) chosen.push_back(k);
-      return like;
+      const Eigen::Index column = static_cast<Eigen::Index>(entry.second) + 1;
+      const Eigen::VectorXd along = gram(chosen, column);
+      const Eigen::MatrixXd between = gram(chosen, chosen);
+      const double own = gram(column, column);
+      const double left =
+          chosen.empty() ? own : own - along.dot(between.completeOrthogonalDecomposition().solve(along));
+      if (left < new_motion * own) return true;
+      chosen.push_back(column);
+      return false;
     });
   }
+
   /// Returns the given edits and the added ones. Given edits are merged unless the merged list is refused.
   static std::vector<MagnitudeEdit> variables(const RequirementChecker& checker, const Candidate& start,
                                               const RefinementOptions& options,

@@ -54,7 +54,10 @@ std::string relation_words(const Relation& relation, const Structure& structure)
 /// Returns the sentence of a counted obstacle.
 std::string sentence(const Obstacle& obstacle, const Structure& rest) {
   if (const auto* refusal = std::get_if<Refusal>(&obstacle)) return describe(*refusal, rest);
-  return "a design that reaches the target fails its check of: " + name_of(std::get<Check>(obstacle));
+  const Check& check = std::get<Check>(obstacle);
+  if (check.kind == CheckKind::quality)
+    return "the limit of " + name_of(check.measure) + " would not be kept";
+  return "a design that reaches the target fails its check of: " + name_of(check);
 }
 
 }  // namespace

@@ -68,6 +68,9 @@ TEST_CASE("A joint that slides has no residual along its carrier", "[joints]") {
   CHECK(relation_residuals(structure, moved).front() == Approx(std::hypot(0.3, 0.1) / 10));
   detail::let_joints_slide(structure);
   CHECK(relation_residuals(structure, moved).front() == Approx(0.1 / 10));
+  // 3 of the half width of 4 are left from x = 1.
+  const std::vector<Primitive> beyond = {plate, box_of({3.5, 0, 3}, {0.5, 0.5, 6})};
+  CHECK(relation_residuals(structure, beyond).front() == Approx(0.5 / 10));
 }
 
 TEST_CASE("A leg that leans leaves the top where it is when parts follow smoothly", "[joints]") {
