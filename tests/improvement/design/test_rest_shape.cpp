@@ -39,7 +39,7 @@ TEST_CASE("S at rest is that of a shape measured on its own, to the bit", "[rest
         CHECK(known.base == alone.base);
         CHECK(known.box_volume == alone.box_volume);
         const Stackability without = rest.solver_without_play().measure(direction);
-        CHECK((play > 0 ? without.f_max < known.f_max : without.f_max == known.f_max));
+        CHECK((play > 0 ? without.f_max <= known.f_max : without.f_max == known.f_max));
       }
     }
 }

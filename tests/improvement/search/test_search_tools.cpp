@@ -40,7 +40,8 @@ class Fixed : public DeformationModel {
  public:
   Fixed(const Shape& shape, const std::vector<Symmetry>& symmetries) {
     rest_.shape = shape;
-    rest_.structure.parts = {{"part", cuboid_of({}), {}}};
+    rest_.structure.parts = {
+        {"part", cuboid_of({Vector3d::Zero(), Eigen::Matrix3d::Identity(), Vector3d::Ones()}), {}}};
     rest_.structure.symmetries = symmetries;
     rest_.structure.diagonal = 1;
   }
