@@ -30,6 +30,8 @@ void check_deform_options(const DeformCommandOptions& options) {
     throw UsageError("--extent-ends says where the extent of --keep-extent begins and ends: give that too");
   if (options.save && !capabilities_of(options.kind).edits_primitives)
     throw UsageError("--save needs --model controllers: the others move no primitives");
+  if (options.following && options.kind != DeformationKind::controllers)
+    throw UsageError("--follow is of --model controllers: the others have no parts that follow");
 }
 
 int list_handles(const CLI::App& command, const DeformCommandOptions& options, const Stopwatch& watch) {
@@ -109,6 +111,11 @@ Command make_deform_command(CLI::App& program) {
       ->type_name("EDIT");
   add_choice(*command, "--model", options->kind, deformation_choices(),
              "What moves the mesh (default: controllers)");
+  const Choices<Following> ways = {{"free", Following::free}, {"smooth", Following::smooth}};
+  add_choice(*command, "--follow", options->following, ways,
+             "How other parts follow with --model controllers: any way, or by affine maps, with joints that "
+             "slide, as in "
+             "the designs of improve (default: free)");
   add_direction(*command, "--direction", options->direction,
                 "Direction of --model gap-scaling, along which the gap is scaled (default: 0 0 1)");
   add_constraint_options(*command, *options);

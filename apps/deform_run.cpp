@@ -34,7 +34,7 @@ DeformationConstraints constraints_of(const DeformCommandOptions& options, const
 }  // namespace
 
 std::unique_ptr<DeformationModel> model_for_edits(const DeformCommandOptions& options, StructuredShape rest) {
-  DeformationModelOptions model{options.kind, {}, {}};
+  DeformationModelOptions model{options.kind, {}, {}, options.following.value_or(Following::free)};
   if (options.direction) model.direction = Direction(*options.direction);
   model.limits = {std::numeric_limits<std::size_t>::max(), ControllerLimits().max_joint_points};
   return deformation_model(std::move(rest), model);

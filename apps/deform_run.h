@@ -18,6 +18,7 @@ struct DeformCommandOptions {
   CommonOptions common;
   AnalysisArguments analysis;
   DeformationKind kind = DeformationKind::controllers;
+  std::optional<Following> following;        ///< of controllers; default free
   std::optional<Eigen::Vector3d> direction;  ///< of gap scaling; default 0 0 1
   std::vector<std::string> edits;
   std::vector<std::string> fixed_parts;

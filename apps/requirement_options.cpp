@@ -49,7 +49,8 @@ void add_requirement_options(CLI::App& command, RequirementArguments& arguments)
       arguments.tipping_degrees);
   add_relax_option(command, arguments.relaxed);
   command.add_flag("--any-quality", arguments.any_quality,
-                   "Do not look at the quality of designs, as the paper (default for --preset paper)");
+                   "Do not look at the quality of designs, as the paper (default with --preset paper, and in "
+                   "suggest without --edits smooth)");
 }
 
 void add_relax_option(CLI::App& command, std::vector<std::string>& relaxed) {

@@ -34,7 +34,10 @@ Direction direction_of(const SuggestCommandOptions& options, const History& hist
 void choose_model(const SuggestCommandOptions& options, SuggestRun& run) {
   DeformationModelOptions& space = run.project.space;
   if (run.project.history.nodes.empty())
-    space = {options.kind.value_or(DeformationKind::controllers), run.direction, {}};
+    space = {options.kind.value_or(DeformationKind::controllers),
+             run.direction,
+             {},
+             options.family == EditFamily::smooth ? Following::smooth : Following::free};
   else if (options.kind && *options.kind != space.kind)
     throw UsageError("--model " + name_of(*options.kind) + " does not fit the history, which was made with " +
                      name_of(space.kind));
@@ -83,7 +86,7 @@ SuggestRun run_suggest(const SuggestCommandOptions& options, const StructuredMod
   run.space = named(input.model, [&] { return deformation_model(rest, run.project.space); });
   Requirements requirements =
       requirements_of(options.requirements, rest.shape, options.measure,
-                      options.family == EditFamily::paper ? QualityDefault::any : QualityDefault::limited);
+                      options.family == EditFamily::smooth ? QualityDefault::limited : QualityDefault::any);
   requirements.target = options.target.value_or(0);
   const auto checker = named(input.model, [&] { return RequirementChecker(*run.space, requirements); });
   const auto measured = [&](const Design& design, const SuggestionOptions& how) {

@@ -41,7 +41,7 @@ make_stackable() {
   fi
 }
 make_stackable table 0.45
-make_stackable mug_with_handle 0.55
+make_stackable mug_with_handle 0.5
 
 cat <<END
 

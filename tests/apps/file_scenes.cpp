@@ -52,6 +52,7 @@ const std::vector<Output>& outputs() {
       {"suggest", "--json", ".json"},
       {"suggest", "--save", ".json"},
       {"suggest", "--pictures", ""},
+      {"compare", "--json", ".json", {"after.obj"}},
       {"improve", "--json", ".json", {"--target", "0.6", "--output", "elsewhere"}},
       {"improve", "--output", "", {"--target", "0.6"}}};
   return all;

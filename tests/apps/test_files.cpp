@@ -18,7 +18,8 @@ const std::set<std::string> inputs = {"--labels", "--seeds", "--ctrl", "--grp", 
 
 /// Kinds of values of options that are files or folders, and that are none; in choices there are no capitals.
 const std::set<std::string> kinds_of_files = {"FILE", "FOLDER", "PROJECT", "CONTAINER"};
-const std::set<std::string> other_kinds = {"N", "NUMBER", "LENGTH", "FRACTION", "X", "A", "PART", "EDIT"};
+const std::set<std::string> other_kinds = {"N", "NUMBER", "LENGTH", "FRACTION", "X",
+                                           "A", "PART",   "EDIT",   "NAME"};
 
 /// Options of a command by the kind of their value, by its help.
 std::map<std::string, std::set<std::string>> options_by_kind(const std::string& command) {

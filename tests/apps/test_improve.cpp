@@ -150,7 +150,8 @@ TEST_CASE("edits of a solution make the same file with deform") {
   REQUIRE(run_program(folder.more()).status == 0);
   const json solution = folder.document("solution_1.json");
   const std::string again = folder / "again.obj";
-  Arguments deform = {"deform", folder.cup, "--extent-ends", "fixed", "-o", again, "--keep-extent"};
+  Arguments deform = {"deform", folder.cup, "--follow", "smooth",       "--extent-ends",
+                      "fixed",  "-o",       again,      "--keep-extent"};
   for (const json& x : solution["direction"]) deform.push_back(x.dump());
   for (const json& edit : solution["edits"])
     deform = joined(deform, {"--edit", edit["text"].get<std::string>()});
@@ -358,8 +359,8 @@ TEST_CASE("a resumed run starts anew where there is nothing, and refuses the sta
 TEST_CASE("a run without --time is the same for every machine, and --effort says how much it does") {
   const ImprovableCup folder;
   const auto run = [&](const std::string& effort, const Arguments& further) {
-    return run_program(joined({"improve", folder.cup, "--target", "0.97", "--effort", effort, "--no-pictures",
-                               "--json", "-", "-o", folder.out},
+    return run_program(joined({"improve", folder.cup, "--target", "0.97", "--effort", effort, "--any-quality",
+                               "--no-pictures", "--json", "-", "-o", folder.out},
                               further));
   };
   const Outcome one = run("0.01", {"--threads", "1", "--no-timing"});

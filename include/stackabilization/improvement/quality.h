@@ -59,7 +59,9 @@ double ideal_value(QualityMeasure measure);
 class QualityLimits {
  public:
   QualityLimits();  ///< the defaults
+  /// Returns the limit of a measure.
   double operator[](QualityMeasure measure) const { return limits_[static_cast<std::size_t>(measure)]; }
+  /// Returns the limit of a measure, to be changed.
   double& operator[](QualityMeasure measure) { return limits_[static_cast<std::size_t>(measure)]; }
 
   /// Removes the limit of a measure.

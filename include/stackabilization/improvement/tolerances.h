@@ -45,24 +45,24 @@ inline constexpr double foot_slab = 0.01;
 /// Diagonal of a small part, at most, fraction of the diagonal of the object.
 inline constexpr double small_part = 0.08;
 
-/// Default limits, in the order of QualityMeasure.
-inline constexpr double max_self_intersection = 0;
-inline constexpr double max_collision = 0;
-inline constexpr double max_piercing = 0.005;
-inline constexpr double max_joints = 0.002;
-inline constexpr double max_symmetry = 0.001;
-inline constexpr double max_straightness = 0.005;
-inline constexpr double max_bending = 10;
-inline constexpr double max_section = 0.06;
-inline constexpr double max_profile = 0.04;
-inline constexpr double max_flatness = 0.005;
-inline constexpr double max_parallelism = 2;
-inline constexpr double min_size = 0.8;
-inline constexpr double min_small_part = 0.95;
-inline constexpr double min_thickness = 0.9;
-inline constexpr double min_seat = 0.9;
-inline constexpr double max_tilt = 2;
-inline constexpr double max_height = 0.001;
-inline constexpr double max_feet = 0.002;
+// Default limits, in the order of QualityMeasure.
+inline constexpr double max_self_intersection = 0;  ///< default limit, pairs of triangles
+inline constexpr double max_collision = 0;          ///< default limit, pairs of parts
+inline constexpr double max_piercing = 0.005;       ///< default limit, of the diagonal
+inline constexpr double max_joints = 0.002;         ///< default limit, of the diagonal
+inline constexpr double max_symmetry = 0.001;       ///< default limit, of the diagonal
+inline constexpr double max_straightness = 0.005;   ///< default limit, of the length
+inline constexpr double max_bending = 10;           ///< default limit, degrees
+inline constexpr double max_section = 0.06;         ///< default limit, of the width
+inline constexpr double max_profile = 0.04;         ///< default limit, of the radius
+inline constexpr double max_flatness = 0.005;       ///< default limit, of the width
+inline constexpr double max_parallelism = 2;        ///< default limit, degrees
+inline constexpr double min_size = 0.8;             ///< default limit, of rest
+inline constexpr double min_small_part = 0.95;      ///< default limit, of rest
+inline constexpr double min_thickness = 0.9;        ///< default limit, of rest
+inline constexpr double min_seat = 0.9;             ///< default limit, of rest
+inline constexpr double max_tilt = 2;               ///< default limit, degrees
+inline constexpr double max_height = 0.001;         ///< default limit, of the height
+inline constexpr double max_feet = 0.002;           ///< default limit, of the diagonal
 
 }  // namespace stackabilization::tolerance::quality

@@ -20,7 +20,7 @@ std::string to_string(ProbePlace place);
 
 /// A collision test of two copies whose outcome follows from an exact f_max.
 struct CollisionProbe {
-  ProbePlace place = ProbePlace::at;
+  ProbePlace place = ProbePlace::at;                     ///< lift relative to f_max
   ContactSemantics semantics = ContactSemantics::solid;  ///< `solid` tests interiors, `closed` any contact
   Rational lift;                                         ///< lift of the upper copy, units of r
   bool collides = false;                                 ///< the outcome that follows
@@ -38,7 +38,7 @@ struct CollisionProbeOptions {
 /// `direction`, highest lift first; none if nothing is in the way. Copies must be
 ///
 /// * free above f_max;
-/// * in `solid` semantics free at f_max, and colliding below it;
+/// * in `solid` semantics free at f_max, and, unless the shape has no volume, colliding below it;
 /// * in `closed` semantics colliding at f_max, if both triangles of the witness have area: collision tests
 ///   pass over triangles without area. Below f_max they may be free again where a sheet ends.
 ///

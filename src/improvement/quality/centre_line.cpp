@@ -125,7 +125,8 @@ std::optional<CentreLine> CentreLine::of(const Primitive& primitive, const Shape
   if (!(line.length_ > 0)) return std::nullopt;
   line.sections_ = line.sections(marks, line.rest_);
   if (!line.straight_) return line;
-  line.deviation_ = distance_from_chord(line.rest_) / line.length_;
+  line.deviation_ =
+      distance_from_chord(line.rest_) / (line.rest_.row(station_count - 1) - line.rest_.row(0)).norm();
   line.shares_ = shares_of_line(line.rest_);
   for (int k = 1; k < station_count; ++k)
     if (!(line.shares_(k) > line.shares_(k - 1))) return std::nullopt;

@@ -60,7 +60,7 @@ class CentreLine {
   std::vector<std::vector<Share>> stations_;  ///< the marks of every station
   bool closed_ = false, straight_ = false;
   double length_ = 0;       ///< at rest, model units
-  double deviation_ = 0;    ///< distance from the chord at rest, of the length
+  double deviation_ = 0;    ///< distance from the chord at rest, of its length
   Points rest_;             ///< centres at rest
   Eigen::VectorXd shares_;  ///< places of the centres at rest along the chord, 0 to 1; straight lines only
   std::vector<Section> sections_;

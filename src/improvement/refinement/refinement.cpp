@@ -24,6 +24,10 @@ constexpr int max_rounds = 4;
 constexpr double pricing_radius = 0.1;
 constexpr double min_reduced_cost = 0.01;
 constexpr double min_gain = 0.01;
+/// Designs measured to make up for one edit that is dropped. Where as few edits as this are left, one that
+/// cannot be dropped ends the dropping.
+constexpr int evaluations_per_drop = 80;
+constexpr std::size_t max_edits_to_drop = 6;
 /// An edit moves the surface in a new way if at least this share of its squared displacement is none that the
 /// others can make.
 constexpr double new_motion = 0.2;
@@ -217,6 +221,57 @@ Offer offered(const RequirementChecker& checker, const Candidate& candidate,
   return offer;
 }
 
+/// Returns the edits of a candidate from the one that moves the surface least to the one that moves it most,
+/// each with the design without it. Edits that others cannot be made without are left out.
+std::vector<std::pair<std::size_t, Design>> by_effect(const RequirementChecker& checker,
+                                                      const Candidate& candidate) {
+  const DeformationConstraints constraints =
+      deformation_constraints(checker.requirements(), checker.space().rest(), Direction(candidate.direction));
+  std::vector<std::pair<double, std::pair<std::size_t, Design>>> effects;
+  for (std::size_t k = 0; k < candidate.design.edits.size(); ++k) {
+    std::vector<Edit> fewer = candidate.design.edits;
+    fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(k));
+    DeformationResult without = checker.space().deformed(fewer, constraints);
+    if (without.refusal) continue;
+    const double effect = (without.design.shape.vertices - candidate.design.shape.vertices).norm();
+    effects.emplace_back(effect, std::pair(k, std::move(without.design)));
+  }
+  std::stable_sort(effects.begin(), effects.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::pair<std::size_t, Design>> result;
+  for (auto& [effect, entry] : effects) result.push_back(std::move(entry));
+  return result;
+}
+
+/// Drops edits one after the other, those of least effect first, and refines the others to make up for it, as
+/// long as the change grows by no more than the price of an edit.
+void drop_singly(const RequirementChecker& checker, const RefinementOptions& options,
+                 RefinementResult& result) {
+  const Shape& rest = checker.space().rest().shape;
+  RefinementOptions one = options;
+  one.evaluations = evaluations_per_drop;
+  for (bool dropped = true; dropped;) {
+    dropped = false;
+    for (auto& [k, design] : by_effect(checker, result.candidate)) {
+      if (options.cancelled && options.cancelled()) return;
+      Candidate fewer = result.candidate;
+      fewer.design = std::move(design);
+      if (k < fewer.reasons.size())
+        fewer.reasons.erase(fewer.reasons.begin() + static_cast<std::ptrdiff_t>(k));
+      RefinementResult next = MagnitudeRefiner(checker, fewer, one).result();
+      result.evaluations += next.evaluations;
+      const double allowed = size_of(options.objective, result.candidate, rest) * (1 + options.edit_price);
+      if (!next.reached || size_of(options.objective, next.candidate, rest) > allowed) {
+        if (result.candidate.design.edits.size() <= max_edits_to_drop) break;
+        continue;
+      }
+      result.candidate = std::move(next.candidate);
+      dropped = true;
+      break;
+    }
+  }
+}
+
 }  // namespace
 
 RefinementResult refine_candidate(const RequirementChecker& checker, const Candidate& start,
@@ -245,7 +300,7 @@ RefinementResult refine_candidate(const RequirementChecker& checker, const Candi
   };
   if (!result.reached && options.reach_with_added && options_left().evaluations >= min_refinement_evaluations)
     take(MagnitudeRefiner(checker, start, options_left(), every_edit(checker, start, options)).result());
-  std::size_t edits = result.candidate.design.edits.size() + 1;
+  std::size_t edits = start.design.edits.size();
   for (int restart = 0; restart < max_restarts && goes_on(); ++restart) {
     if (result.candidate.design.edits.size() >= edits) break;
     edits = result.candidate.design.edits.size();
@@ -260,6 +315,7 @@ RefinementResult refine_candidate(const RequirementChecker& checker, const Candi
     take(MagnitudeRefiner(checker, result.candidate, options_left(), offer.edits).result());
     if (!(size_of(options.objective, result.candidate, rest) < before * (1 - min_gain))) break;
   }
+  if (options.edit_price > 0 && result.reached) drop_singly(checker, options, result);
   return result;
 }
 
