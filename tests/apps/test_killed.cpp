@@ -105,7 +105,7 @@ void check_resumed(const SearchFolder& folder, int status) {
 }  // namespace
 
 TEST_CASE("a refined improvement that is killed at any moment goes on to the same files") {
-  check_resumed(SearchFolder({"--target", "0.7", "--solutions", "1", "--expansions", "6", "--no-pictures"}),
+  check_resumed(SearchFolder({"--target", "0.51", "--solutions", "1", "--expansions", "6", "--no-pictures"}),
                 0);
 }
 
