@@ -10,8 +10,8 @@ using namespace stackabilization;
 
 namespace {
 
-Primitive box_of(const Eigen::Vector3d& centre, const Eigen::Vector3d& size) {
-  return cuboid_of({centre, Eigen::Matrix3d::Identity(), size / 2});
+Primitive box_of(const Eigen::Vector3d& centre, const Eigen::Vector3d& sides) {
+  return cuboid_of({centre, Eigen::Matrix3d::Identity(), sides / 2});
 }
 
 /// Two parts with a point joint.
