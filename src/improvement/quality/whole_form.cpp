@@ -92,7 +92,7 @@ void WholeForm::find_seats(const Shape& rest, const PartForms& parts) {
       const bool faces_up = detail::area_vector(rest, face.triangles.front()).dot(up_) > 0;
       if (!faces_up || std::cos(seat.tilt) < level ||
           seat.area < tolerance::quality::seat_share * footprint ||
-          seat.height < tolerance::quality::seat_height * height_)
+          !(seat.height > tolerance::quality::seat_height * height_))
         continue;
       seats_.push_back(std::move(seat));
     }

@@ -265,6 +265,17 @@ TEST_CASE("Limits are relaxed by name, and shares of them are fractions", "[qual
   CHECK_THROWS_AS(validate(limits), UsageError);
 }
 
+TEST_CASE("A flat sheet on the ground is no seat", "[quality]") {
+  Triangles triangle(1, 3);
+  triangle << 0, 1, 2;
+  const Shape sheet = make_shape((Points(3, 3) << 0, 0, 0, 1, 0, 0, 0, 1, 0).finished(), triangle);
+  const StructuredShape rest = analyse_structure(sheet);
+  for (const QualityValue& value : QualityMeter(rest).measure(sheet)) {
+    CAPTURE(name_of(value.measure));
+    CHECK(value.value == Approx(ideal_value(value.measure)).margin(1e-12));
+  }
+}
+
 TEST_CASE("Another mesh is refused", "[quality]") {
   const QualityMeter meter(plate());
   CHECK_THROWS_AS(meter.measure(structures::table().shape), UsageError);
