@@ -30,23 +30,37 @@ std::string quoted(const std::string& name) {
   return text + "'";
 }
 
+bool is_number(std::string_view text) {
+  return !text.empty() &&
+         std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+/// Returns whether `name` is a `member_name` of `part`.
+bool is_member(std::string_view name, std::string_view part) {
+  return name.size() > part.size() && name.starts_with(part) && name[part.size()] == '.' &&
+         is_number(name.substr(part.size() + 1));
+}
+
 /// "part_12": a number that a segmentation gave.
 bool is_numbered(const std::string& name) {
   constexpr std::string_view start = "part_";
-  return name.size() > start.size() && name.starts_with(start) &&
-         std::all_of(name.begin() + start.size(), name.end(),
-                     [](unsigned char c) { return std::isdigit(c) != 0; });
+  return name.starts_with(start) && is_number(std::string_view(name).substr(start.size()));
 }
 
 }  // namespace
+
+std::string member_name(const std::string& part, int number) {
+  return part + "." + std::to_string(number);
+}
 
 std::vector<int> parts_named(const Shape& shape, const std::vector<std::string>& names) {
   const std::vector<std::string>& known = shape.part_names;
   std::vector<int> parts;
   for (const std::string& name : names) {
-    const auto found = std::find(known.begin(), known.end(), name);
-    if (found == known.end()) throw InputError(unknown_part(known, name));
-    parts.push_back(static_cast<int>(found - known.begin()));
+    const std::size_t before = parts.size();
+    for (std::size_t row = 0; row < known.size(); ++row)
+      if (known[row] == name || is_member(known[row], name)) parts.push_back(static_cast<int>(row));
+    if (parts.size() == before) throw InputError(unknown_part(known, name));
   }
   std::sort(parts.begin(), parts.end());
   parts.erase(std::unique(parts.begin(), parts.end()), parts.end());

@@ -12,6 +12,15 @@ TEST_CASE("parts are found by their names, in order and each once", "[part_names
   CHECK(parts_named(shape, {}).empty());
 }
 
+TEST_CASE("the name of a part that was cut stands for its members", "[part_names]") {
+  Shape shape = test::two_tetrahedra();
+  shape.part_names = {"leg", "frame.1", "frame.x", "frame.12", "frames.1"};
+  CHECK(member_name("frame", 12) == "frame.12");
+  CHECK(parts_named(shape, {"frame"}) == std::vector{1, 3});
+  CHECK(parts_named(shape, {"frame.12", "leg"}) == std::vector{0, 3});
+  CHECK_THROWS_AS(parts_named(shape, {"frame."}), InputError);
+}
+
 TEST_CASE("a name that no part has is answered with the parts that there are, the nearest first",
           "[part_names]") {
   Shape shape = test::two_tetrahedra();

@@ -142,8 +142,8 @@ TEST_CASE("hull faces, and boxes on them, take sets of any thickness") {
 TEST_CASE("sets a thousandth thick are solid, thinner than rounding they are flat") {
   for (const auto& [pose, rotation] : point_sets::poses()) {
     INFO(pose);
-    const auto dimension = [&](double thickness) {
-      return HullSupport(point_sets::moved(point_sets::lifted_lattice(thickness), rotation, {0, 0, 0}))
+    const auto dimension = [&, turn = rotation](double thickness) {
+      return HullSupport(point_sets::moved(point_sets::lifted_lattice(thickness), turn, {0, 0, 0}))
           .dimension();
     };
     CHECK(dimension(1e-3) == 3);

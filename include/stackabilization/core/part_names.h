@@ -7,7 +7,11 @@
 
 namespace stackabilization {
 
-/// Returns the rows of the parts with these names, ascending, each once. Throws InputError with the text of
+/// Returns the name of member `number` of a part that was cut into members: "NAME.NUMBER".
+std::string member_name(const std::string& part, int number);
+
+/// Returns the rows of the parts with these names, ascending, each once. The name of a part that was cut into
+/// members stands for all of them. Throws InputError with the text of
 /// `unknown_part` for the first name that does not exist.
 std::vector<int> parts_named(const Shape& shape, const std::vector<std::string>& names);
 

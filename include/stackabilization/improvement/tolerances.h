@@ -30,6 +30,9 @@ inline constexpr double coplanar = 0.0175;
 /// Distance at which parts, and triangles of one part, touch at rest, fraction of the diagonal.
 inline constexpr double touching = 0.002;
 
+/// Distance up to which two symmetry planes are the same, fraction of the diagonal.
+inline constexpr double same_plane = 0.01;
+
 /// Share of the area of a part that a flat face has at least.
 inline constexpr double face_share = 0.04;
 
@@ -50,7 +53,7 @@ inline constexpr double max_self_intersection = 0;  ///< default limit, pairs of
 inline constexpr double max_collision = 0;          ///< default limit, pairs of parts
 inline constexpr double max_piercing = 0.005;       ///< default limit, of the diagonal
 inline constexpr double max_joints = 0.002;         ///< default limit, of the diagonal
-inline constexpr double max_symmetry = 0.001;       ///< default limit, of the diagonal
+inline constexpr double max_symmetry = 0.002;       ///< default limit, of the diagonal
 inline constexpr double max_straightness = 0.005;   ///< default limit, of the length
 inline constexpr double max_bending = 10;           ///< default limit, degrees
 inline constexpr double max_section = 0.06;         ///< default limit, of the width

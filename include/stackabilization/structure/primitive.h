@@ -21,14 +21,18 @@ struct Cuboid {
 
 /// A generalized cylinder: circles along a curve, in the order of the curve (paper, section 4.1).
 ///
-/// A hollow body such as a cup is represented as well: the circles follow its outer wall. A move or a scaling
-/// of a circle moves the inner and the outer wall together.
+/// A hollow body such as a cup is represented as well: the circles follow its outer wall. A move of a circle
+/// moves the inner and the outer wall together; a scaling scales both, or with `inner_radii` moves both by
+/// the same distance.
 struct GeneralizedCylinder {
   /// n x 3 centres of the cross-sections, model units. n >= 2, or n >= 3 for a closed curve. Consecutive
   /// centres differ.
   Points centres;
   Eigen::VectorXd radii;  ///< n radii > 0, model units
-  bool closed = false;    ///< whether the first section follows the last one, as in rims and ring handles
+  /// Empty, or n radii of the inner side of the wall of a hollow body at rest, model units; 0 where it is
+  /// solid, such as in a floor. The analysis leaves them empty; Following::smooth finds them.
+  Eigen::VectorXd inner_radii = {};
+  bool closed = false;  ///< whether the first section follows the last one, as in rims and ring handles
   /// Rotation of the whole cylinder since rest. The curve does not determine the rotation about its own
   /// tangents.
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();

@@ -10,12 +10,15 @@ namespace stackabilization {
 
 /// Method of `segmented`.
 enum class SegmentationMethod {
-  given,           ///< the parts of the shape, unchanged
+  given,  ///< the parts of the shape, unchanged
+  /// The parts of the shape, and of a part that one primitive represents badly its members: the legs and
+  /// rails of a frame that is one part of the file. Member k of part "frame" is called "frame.k".
+  members,
   whole,           ///< one part, for shapes that deform as a whole, such as a basket of many wires
   components,      ///< connected components; two components that touch over a large area are merged
   primitives,      ///< components, each cut by hierarchical fitting of primitives (Attene et al. 2006)
   shape_diameter,  ///< components, each cut by the shape-diameter function (Shapira et al. 2008, CGAL)
-  /// `given` when the shape has several parts. Otherwise `whole` for a net of wires. Otherwise `components`
+  /// `members` when the shape has several parts. Otherwise `whole` for a net of wires. Otherwise `components`
   /// when there are several or when the shape is a body of revolution. Otherwise `primitives`.
   automatic,
 };

@@ -57,8 +57,8 @@ std::vector<FoundSymmetry> find_symmetries(const Shape& shape, const SymmetryOpt
 ///   Of a revolution, it takes two perpendicular planes through the axis.
 /// * A part has a counterpart, or is its own counterpart, when the image of the part matches within the
 ///   tolerance. The match compares the distance of the centroids and the root mean square distance of the
-///   surfaces in both directions, as fractions of the whole shape, and the sizes of the parts within ten
-///   tolerances.
+///   surfaces in both directions, as fractions of the whole shape, and the sizes of the parts (root mean
+///   square widths, or the sides of their minimal boxes where one of them lacks faces) within ten tolerances.
 /// * A part of revolution without a counterpart, whose ends no reflection exchanges, has two self-symmetries
 ///   with perpendicular planes through its axis, those of the whole shape first, and its revolution
 ///   (`SymmetryKind::revolution`).

@@ -6,6 +6,7 @@
 
 #include "deformation/controllers/edit_solution.h"
 #include "deformation/controllers/part_edit.h"
+#include "deformation/model/hollow.h"
 #include "deformation/model/joint_slides.h"
 #include "stackabilization/core/errors.h"
 
@@ -14,15 +15,17 @@ namespace stackabilization {
 struct ControllerModel::Data {
   Data(StructuredShape structured, const ControllerLimits& limits, Following how)
       : following(how),
-        rest(sliding(std::move(structured), following)),
+        rest(prepared(std::move(structured), following)),
         rig(within(limits, rest.structure, following)),
-        mesh{detail::MeshTransfer(rest.shape, rig), detail::vertices_by_class(rest.shape, rig),
+        mesh{detail::MeshTransfer(rest.shape, rig, following), detail::vertices_by_class(rest.shape, rig),
              SurfaceIndex(rest.shape)} {
     for (const Part& part : rest.structure.parts) primitives.push_back(part.primitive);
   }
 
-  static StructuredShape sliding(StructuredShape structured, Following following) {
-    if (following == Following::smooth) detail::let_joints_slide(structured.structure);
+  static StructuredShape prepared(StructuredShape structured, Following following) {
+    if (following != Following::smooth) return structured;
+    detail::let_joints_slide(structured.structure);
+    detail::keep_walls(structured);
     return structured;
   }
 

@@ -1,7 +1,9 @@
 #include "deformation/controllers/mesh_transfer.h"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <queue>
 #include <set>
@@ -14,6 +16,12 @@ namespace {
 
 /// Reach of a part beyond its border with another part, fraction of the diagonal of the smaller of the two.
 constexpr double reach_of_parts = 0.15;
+/// The same in smooth designs: further away from a joint, members that move differently would bend each
+/// other.
+constexpr double smooth_reach_of_parts = 0.03;
+/// By how much nearer to its end a part meets another than the other way round, fraction of half a length,
+/// from which on it is attached to the other and follows it at their border.
+constexpr double attached = 0.3;
 
 /// Returns a smooth weight: 1 at 0, 0 from 1 on, flat at both ends.
 double fall_off(double t) {
@@ -32,8 +40,10 @@ class Shares {
   /// Weight of each part to which a vertex is bound.
   using PerVertex = std::map<int, double>;
 
-  explicit Shares(const Shape& shape)
+  /// `smooth`: the structure of a smooth design, null for others.
+  Shares(const Shape& shape, const Structure* smooth)
       : shape_(shape),
+        smooth_(smooth),
         owners_(at(static_cast<int>(shape.vertex_count()))),
         triangles_(shape.part_names.size()),
         boxes_(triangles_.size()) {
@@ -51,11 +61,16 @@ class Shares {
     std::vector<PerVertex> shares(owners_.size());
     for (std::size_t v = 0; v < owners_.size(); ++v)
       for (const int part : owners_[v]) shares[v][part] = 1;
-    for (const auto& [part, borders] : borders()) spread_into(part, borders, shares);
-    for (PerVertex& shares_of : shares) {
+    const std::map<int, Borders> all_borders = borders();
+    for (const auto& [part, borders] : all_borders) spread_into(part, borders, shares);
+    for (std::size_t v = 0; v < owners_.size(); ++v) {
       double sum = 0;
-      for (const auto& [part, share] : shares_of) sum += share;
-      for (auto& [part, share] : shares_of) share /= sum;
+      for (const auto& [part, share] : shares[v]) sum += share;
+      // Parts that are attached to each other in a ring own their common vertices in equal shares.
+      if (!(sum > 0))
+        for (const int part : owners_[v]) shares[v][part] = 1, sum += 1;
+      std::erase_if(shares[v], [](const auto& share) { return share.second == 0; });
+      for (auto& [part, share] : shares[v]) share /= sum;
     }
     return shares;
   }
@@ -78,12 +93,30 @@ class Shares {
   void spread_into(int part, const Borders& borders, std::vector<PerVertex>& shares) const {
     const std::map<int, std::set<int>> edges = edges_of(part);
     for (const auto& [other, border] : borders) {
-      const double reach = reach_of_parts * std::min(diagonal(part), diagonal(other));
+      const double lead = smooth_ ? nearness_to_end(part, border) - nearness_to_end(other, border) : 0;
+      if (lead < -attached) continue;
+      const double fraction = smooth_ ? smooth_reach_of_parts : reach_of_parts;
+      const double reach = fraction * std::min(diagonal(part), diagonal(other));
       for (const auto& [vertex, distance] : distances(edges, border, reach)) {
+        const double weight = fall_off(distance / reach);
         double& share = shares[at(vertex)][other];
-        share = std::max(share, fall_off(distance / reach));
+        share = std::max(share, weight);
+        if (lead > attached) shares[at(vertex)][part] *= 1 - weight;
       }
     }
+  }
+
+  /// Returns how far from the middle of a part its border lies: 0 in the middle, 1 at an end.
+  double nearness_to_end(int part, const std::vector<int>& border) const {
+    const Points points = control_points(smooth_->parts[at(part)].primitive);
+    const Eigen::RowVector3d middle = points.colwise().mean();
+    const Eigen::Matrix3d spread = (points.rowwise() - middle).transpose() * (points.rowwise() - middle);
+    const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+    Eigen::RowVector3d place = Eigen::RowVector3d::Zero();
+    for (const int vertex : border) place += shape_.vertices.row(vertex);
+    place /= static_cast<double>(border.size());
+    const double half = ((points.rowwise() - middle) * axis).cwiseAbs().maxCoeff();
+    return std::min(std::abs((place - middle) * axis) / half, 1.0);
   }
 
   std::map<int, std::set<int>> edges_of(int part) const {
@@ -119,6 +152,7 @@ class Shares {
   }
 
   const Shape& shape_;
+  const Structure* smooth_;
   std::vector<std::set<int>> owners_;                 ///< parts whose triangles use the vertex
   std::vector<std::vector<Eigen::Index>> triangles_;  ///< per part
   std::vector<Eigen::AlignedBox3d> boxes_;            ///< per part
@@ -126,9 +160,10 @@ class Shares {
 
 }  // namespace
 
-MeshTransfer::MeshTransfer(const Shape& shape, const Rig& rig)
+MeshTransfer::MeshTransfer(const Shape& shape, const Rig& rig, Following following)
     : rest_(shape.vertices), parts_(rig.primitive_bindings.size()) {
-  const std::vector<Shares::PerVertex> shares = Shares(shape).all();
+  const std::vector<Shares::PerVertex> shares =
+      Shares(shape, following == Following::smooth ? &rig.rest : nullptr).all();
   for (std::size_t v = 0; v < shares.size(); ++v)
     for (const auto& [part, share] : shares[v]) {
       parts_[at(part)].vertices.push_back(static_cast<int>(v));

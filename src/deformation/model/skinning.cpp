@@ -8,6 +8,9 @@ namespace stackabilization {
 
 namespace {
 
+/// Least radius of the inside of a hollow body, fraction of the one that scaling would give.
+constexpr double min_hollow = 0.5;
+
 Eigen::Vector3d row(const Points& points, Eigen::Index i) {
   return points.row(i).transpose();
 }
@@ -118,12 +121,32 @@ DualQuaternion CurveAtRest::motion(const GeneralizedCylinder& now, int i) const 
                          row(now.centres, i) - origin_ - rotation * (row(cylinder_.centres, i) - origin_));
 }
 
+double CurveAtRest::radial_growth(const CurveBinding& binding, const GeneralizedCylinder& now) const {
+  const auto between = [&](const Eigen::VectorXd& values) {
+    return (1 - binding.fraction) * values(binding.from) + binding.fraction * values(binding.to);
+  };
+  const double rest = between(cylinder_.radii), growth = between(now.radii) / rest;
+  const Eigen::VectorXd& inner_radii = cylinder_.inner_radii;
+  if (inner_radii.size() == 0 || binding.radial.isZero(0)) return growth;
+  // Between a solid section and one of the hollow body, points follow partly as in each of them.
+  const double share = (inner_radii(binding.from) > 0 ? 1 - binding.fraction : 0) +
+                       (inner_radii(binding.to) > 0 ? binding.fraction : 0);
+  if (!(share > 0)) return growth;
+  const double inner = between(inner_radii) / share, place = binding.radial.norm();
+  const double change = between(now.radii) - rest;
+  // A wall that is thicker than the new radius cannot keep its thickness.
+  const double inner_change = std::max(change, (min_hollow * growth - 1) * inner);
+  double moved = change;
+  if (place <= inner)
+    moved = inner_change * place / inner;
+  else if (place < rest)
+    moved = inner_change + (place - inner) / (rest - inner) * (change - inner_change);
+  return growth + share * (1 + moved / place - growth);
+}
+
 Eigen::Vector3d CurveAtRest::position_of(const CurveBinding& binding, const GeneralizedCylinder& now,
                                          const DualQuaternion& from, const DualQuaternion& to) const {
-  const auto radius = [&](const Eigen::VectorXd& radii) {
-    return (1 - binding.fraction) * radii(binding.from) + binding.fraction * radii(binding.to);
-  };
-  Eigen::Vector3d point = binding.axis + radius(now.radii) / radius(cylinder_.radii) * binding.radial;
+  Eigen::Vector3d point = binding.axis + radial_growth(binding, now) * binding.radial;
   if (!binding.axial.isZero(0)) {
     const auto length = [&](const Points& centres) {
       return (centres.row(binding.to) - centres.row(binding.from)).norm();

@@ -32,7 +32,7 @@ struct CurveBinding {
   int from = 0, to = 1;    ///< rows of the two sections
   double fraction = 0;     ///< position between the sections: 0 at `from`, 1 at `to`
   Eigen::Vector3d axis;    ///< point of the curve, relative to CurveAtRest::origin
-  Eigen::Vector3d radial;  ///< offset from there to the point, across the curve; scales with the radius
+  Eigen::Vector3d radial;  ///< offset from there to the point, across the curve; follows the radius
   /// Offset beyond an open end, along the curve; scales with the last piece of the curve; 0 elsewhere.
   Eigen::Vector3d axial;
 };
@@ -40,7 +40,9 @@ struct CurveBinding {
 /// A generalized cylinder at rest, with the data that every binding needs.
 class CurveAtRest {
  public:
-  /// Precondition: `validate(cylinder, name)` passes.
+  /// Points follow the radii in proportion to their distance from the curve, except in the wall of a hollow
+  /// body: they move by the change of the radius, so that the wall keeps its thickness. Precondition:
+  /// `validate(cylinder, name)` passes.
   explicit CurveAtRest(GeneralizedCylinder cylinder);
 
   const GeneralizedCylinder& cylinder() const { return cylinder_; }  ///< the given cylinder
@@ -67,6 +69,8 @@ class CurveAtRest {
   }
 
  private:
+  /// Returns the factor by which the distance of a bound point from the curve grows.
+  double radial_growth(const CurveBinding& binding, const GeneralizedCylinder& now) const;
   CurveBinding bound(int piece, double fraction, const Eigen::Vector3d& point) const;
   int pieces() const;
 

@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "mesh/barycentric.h"
+#include "mesh/ray_crossings.h"
 #include "mesh/surface_index.h"
 #include "mesh/surface_moments.h"
-#include "mesh/triangle_tree.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
@@ -26,18 +26,10 @@ namespace stackabilization {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using detail::Crossing;
 
 /// Number of samples on a part in which no common sample found material.
 constexpr int samples_per_part = 16;
-
-struct Hit {
-  double distance;  ///< distance from the start of the ray, model units
-  std::int32_t triangle;
-
-  bool operator<(const Hit& other) const {
-    return std::pair(distance, triangle) < std::pair(other.distance, other.triangle);
-  }
-};
 
 /// Finds the material behind points of a surface.
 class WallThicknessRays {
@@ -52,8 +44,8 @@ class WallThicknessRays {
   std::optional<ThicknessProbe> probe(std::int32_t triangle, const Eigen::Vector3d& point) const;
 
  private:
-  std::vector<Hit> hits(std::int32_t triangle, const Eigen::Vector3d& point,
-                        const Eigen::Vector3d& along) const;
+  std::vector<Crossing> hits(std::int32_t triangle, const Eigen::Vector3d& point,
+                             const Eigen::Vector3d& along) const;
 
   const Shape& shape_;
   std::vector<std::int32_t> shell_;  ///< shell of each triangle
@@ -63,34 +55,23 @@ class WallThicknessRays {
 
 /// Returns the crossings of a ray with the shell of the triangle from which the ray starts, nearest first. A
 /// crossing at an edge or a corner counts once.
-std::vector<Hit> WallThicknessRays::hits(std::int32_t triangle, const Eigen::Vector3d& point,
-                                         const Eigen::Vector3d& along) const {
-  std::vector<std::size_t> met;
-  tree_.append_met(Kernel::Segment_3(detail::to_cgal<Kernel>(point),
-                                     detail::to_cgal<Kernel>(point + 2 * diagonal_ * along)),
-                   met);
+std::vector<Crossing> WallThicknessRays::hits(std::int32_t triangle, const Eigen::Vector3d& point,
+                                              const Eigen::Vector3d& along) const {
   const double reach = tolerance::relative * diagonal_;
-  std::vector<Hit> found;
-  for (const std::size_t entry : met) {
-    const std::int32_t other = tree_.rows()[entry];
-    if (shell_[static_cast<std::size_t>(other)] != shell_[static_cast<std::size_t>(triangle)]) continue;
-    const Eigen::Vector3d normal = detail::unit_normal(shape_, other);
-    const double distance = normal.dot(shape_.corner(other, 0) - point) / normal.dot(along);
-    if (distance > reach && distance <= 2 * diagonal_) found.push_back({distance, other});
-  }
-  std::sort(found.begin(), found.end());
-  const auto same = [&](const Hit& a, const Hit& b) { return b.distance - a.distance <= reach; };
-  found.erase(std::unique(found.begin(), found.end(), same), found.end());
+  std::vector<Crossing> found = detail::crossings(tree_, shape_, point, along, reach, 2 * diagonal_);
+  const auto shell = [&](std::int32_t t) { return shell_[static_cast<std::size_t>(t)]; };
+  std::erase_if(found, [&](const Crossing& hit) { return shell(hit.triangle) != shell(triangle); });
+  detail::merge_at_edges(found, reach);
   return found;
 }
 
 std::optional<ThicknessProbe> WallThicknessRays::probe(std::int32_t triangle,
                                                        const Eigen::Vector3d& point) const {
   const Eigen::Vector3d normal = detail::unit_normal(shape_, triangle);
-  const std::vector<Hit> behind = hits(triangle, point, -normal), before = hits(triangle, point, normal);
+  const std::vector<Crossing> behind = hits(triangle, point, -normal), before = hits(triangle, point, normal);
   if (behind.size() % 2 == before.size() % 2) return std::nullopt;
   const bool outward = behind.size() % 2 == 1;
-  const Hit& far = outward ? behind.front() : before.front();
+  const Crossing& far = outward ? behind.front() : before.front();
   const Eigen::Vector3d end = point + (outward ? -far.distance : far.distance) * normal;
   ThicknessProbe probe{triangle, far.triangle, detail::barycentric_weights(shape_, triangle, point),
                        detail::barycentric_weights(shape_, far.triangle, end), 0};

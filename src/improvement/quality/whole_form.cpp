@@ -6,6 +6,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <optional>
 
 #include "core/disjoint_sets.h"
 #include "core/index.h"
@@ -13,6 +14,7 @@
 #include "mesh/surface_index.h"
 #include "mesh/surface_moments.h"
 #include "stackabilization/improvement/tolerances.h"
+#include "structure/segmentation/surface_graph.h"
 
 namespace stackabilization::detail {
 
@@ -21,6 +23,70 @@ namespace {
 constexpr int marks_of_whole = 600;
 /// Largest tilt of a seat at rest, as a cosine.
 constexpr double level = 0.985;
+
+/// Cosine of the angle from which on two planes are the same.
+constexpr double same_direction = 0.999;
+
+/// Returns whether no relation of the parts has a symmetry, while relations have others in its place: the
+/// diagonals of a square, and with them its quarter turns, since a square table may become a rectangular one.
+bool may_be_lost(const Symmetry& symmetry, const Structure& structure) {
+  if (symmetry.kind == SymmetryKind::revolution) return false;
+  bool other = false;
+  for (const Relation& relation : structure.relations) {
+    const bool reflects =
+        relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry;
+    if (!reflects || relation.symmetry.kind != SymmetryKind::reflection) continue;
+    const Symmetry& plane = relation.symmetry;
+    const double cosine = std::abs(plane.axis.dot(symmetry.axis));
+    const double offset = std::abs(plane.axis.dot(plane.point - symmetry.point)) / structure.diagonal;
+    if (offset > tolerance::quality::same_plane) continue;
+    if (symmetry.kind == SymmetryKind::reflection && cosine >= same_direction) return false;
+    other = other || (symmetry.kind == SymmetryKind::reflection
+                          ? relation.type == RelationType::symmetry
+                          : cosine * cosine <= 1 - same_direction * same_direction);
+  }
+  return other;
+}
+
+/// Finds the images of marks under symmetries. Where surfaces of several parts touch, an image lies on the
+/// part on which most images of its part lie.
+class Counterparts {
+ public:
+  explicit Counterparts(const Shape& shape)
+      : shape_(shape), rows_(triangles_of_parts(shape)), surface_(shape), surfaces_(rows_.size()) {
+    for (std::size_t part = 0; part < rows_.size(); ++part) {
+      const Shape alone = extracted(shape, rows_[part]);
+      if (surface_graph(alone).areas.sum() > 0) surfaces_[part].emplace(alone);
+    }
+  }
+
+  /// `mapped`: one column per mark.
+  std::vector<SurfacePoint> images(const SurfaceMarks& marks, const Eigen::Matrix3Xd& mapped) const {
+    std::vector<SurfacePoint> images;
+    std::map<int, std::map<int, int>> votes;
+    for (std::size_t k = 0; k < marks.size(); ++k) {
+      images.push_back(surface_.nearest(mapped.col(static_cast<Eigen::Index>(k))));
+      ++votes[part_of(marks.triangles[k])][part_of(images.back().triangle)];
+    }
+    for (std::size_t k = 0; k < marks.size(); ++k) {
+      const std::map<int, int>& of_part = votes[part_of(marks.triangles[k])];
+      const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+      const int part = std::max_element(of_part.begin(), of_part.end(), fewer)->first;
+      if (part_of(images[k].triangle) == part) continue;
+      images[k] = surfaces_[at(part)]->nearest(mapped.col(static_cast<Eigen::Index>(k)));
+      images[k].triangle = rows_[at(part)][at(images[k].triangle)];
+    }
+    return images;
+  }
+
+ private:
+  int part_of(std::int32_t triangle) const { return shape_.triangle_part[at(triangle)]; }
+
+  const Shape& shape_;
+  std::vector<std::vector<std::int32_t>> rows_;
+  SurfaceIndex surface_;
+  std::vector<std::optional<SurfaceIndex>> surfaces_;  ///< per part; none without area
+};
 
 }  // namespace
 
@@ -38,14 +104,18 @@ void WholeForm::find_symmetric_marks(const StructuredShape& rest) {
   std::iota(all.begin(), all.end(), 0);
   marks_ = marks_on(rest.shape, all, marks_of_whole);
   if (marks_.size() == 0) return;
-  const SurfaceIndex surface(rest.shape);
+  const Counterparts counterparts(rest.shape);
   const Points places = marks_.on(rest.shape);
+  const double reach = tolerance::quality::touching * diagonal_;
   for (const Symmetry& symmetry : rest.structure.symmetries) {
-    SymmetricMarks entry{isometry_of(symmetry), {}, Eigen::VectorXd(places.rows())};
-    for (Eigen::Index k = 0; k < places.rows(); ++k) {
-      const SurfacePoint image = surface.nearest(entry.map * places.row(k).transpose());
-      entry.images.append(rest.shape, image.triangle, image.point);
-      entry.distances(k) = image.distance;
+    if (may_be_lost(symmetry, rest.structure)) continue;
+    SymmetricMarks entry{isometry_of(symmetry), {}, {}, {}};
+    const std::vector<SurfacePoint> images = counterparts.images(marks_, entry.map * places.transpose());
+    for (std::size_t k = 0; k < images.size(); ++k) {
+      if (images[k].distance > reach) continue;
+      entry.marks.push_back(static_cast<Eigen::Index>(k));
+      entry.images.append(rest.shape, images[k].triangle, images[k].point);
+      entry.distances.push_back(images[k].distance);
     }
     symmetric_.push_back(std::move(entry));
   }
@@ -56,12 +126,13 @@ QualityValue WholeForm::symmetry(const Shape& now) const {
   const Points places = marks_.on(now);
   for (const SymmetricMarks& entry : symmetric_) {
     const Points images = entry.images.on(now);
-    for (Eigen::Index k = 0; k < places.rows(); ++k) {
-      const Eigen::Vector3d image = entry.map * places.row(k).transpose();
-      const double off = ((image - images.row(k).transpose()).norm() - entry.distances(k)) / diagonal_;
+    for (std::size_t k = 0; k < entry.marks.size(); ++k) {
+      const Eigen::Vector3d image = entry.map * places.row(entry.marks[k]).transpose();
+      const Eigen::Vector3d place = images.row(static_cast<Eigen::Index>(k));
+      const double off = ((image - place).norm() - entry.distances[k]) / diagonal_;
       if (off <= worst.value) continue;
       worst.value = off;
-      worst.part = now.triangle_part[at(marks_.triangles[static_cast<std::size_t>(k)])];
+      worst.part = now.triangle_part[at(marks_.triangles[static_cast<std::size_t>(entry.marks[k])])];
     }
   }
   return worst;

@@ -22,11 +22,12 @@ class WholeForm {
   std::vector<QualityValue> function(const Shape& now) const;
 
  private:
-  /// Marks and those that a symmetry of the object maps them to.
+  /// Marks that a symmetry of the object maps onto its surface, and their images.
   struct SymmetricMarks {
     Eigen::Isometry3d map;
+    std::vector<Eigen::Index> marks;  ///< rows of marks_
     SurfaceMarks images;
-    Eigen::VectorXd distances;  ///< at rest, model units
+    std::vector<double> distances;  ///< at rest, model units
   };
   struct Seat {
     int part = 0;

@@ -18,6 +18,7 @@
 #include "structure/analysis/symmetrize.h"
 #include "structure/model/bounding_diagonal.h"
 #include "structure/model/symmetry_orbit.h"
+#include "structure/segmentation/segment.h"
 
 namespace stackabilization {
 
@@ -36,7 +37,7 @@ class Analysis {
  public:
   Analysis(const Shape& shape, const AnalysisOptions& options) : options_(options) {
     report(AnalysisStep::parts, 0);
-    result_.shape = segment(shape, options.segmentation);
+    result_.shape = detail::segment(shape, options.segmentation, [&] { return symmetries(shape); });
     if (names().size() > options.max_parts)
       throw InputError("it has " + std::to_string(names().size()) + " parts, and the structure of at most " +
                        std::to_string(options.max_parts) + " is analysed");
@@ -85,9 +86,15 @@ class Analysis {
     });
   }
 
+  /// Returns the symmetries of the whole, which do not depend on its parts.
+  const std::vector<FoundSymmetry>& symmetries(const Shape& shape) {
+    if (!symmetries_) symmetries_ = find_symmetries(shape, options_.symmetry);
+    return *symmetries_;
+  }
+
   void find_relations() {
     report(AnalysisStep::symmetries, 0);
-    const std::vector<FoundSymmetry> found = find_symmetries(result_.shape, options_.symmetry);
+    const std::vector<FoundSymmetry>& found = symmetries(result_.shape);
     for (const FoundSymmetry& one : found) structure().symmetries.push_back(one.symmetry);
     structure().relations = symmetry_relations(result_.shape, found, options_.symmetry);
     std::stable_sort(structure().relations.begin(), structure().relations.end(),
@@ -166,6 +173,7 @@ class Analysis {
   const AnalysisOptions& options_;
   std::thread::id caller_ = std::this_thread::get_id();
   std::vector<Shape> parts_;  ///< of the shape
+  std::optional<std::vector<FoundSymmetry>> symmetries_;
   StructuredShape result_;
 };
 

@@ -65,6 +65,10 @@ void validate_one(const GeneralizedCylinder& cylinder, const std::string& name) 
   check(cylinder.radii.size() == n, name, "needs one radius per cross-section");
   check(cylinder.centres.allFinite() && cylinder.radii.allFinite(), name, "has a number that is not finite");
   check(cylinder.radii.minCoeff() > 0, name, "has a radius that is not positive");
+  check(cylinder.inner_radii.size() == 0 ||
+            (cylinder.inner_radii.size() == n && cylinder.inner_radii.allFinite() &&
+             cylinder.inner_radii.minCoeff() >= 0),
+        name, "has inner radii that are not one per cross-section, from 0 on");
   for (Eigen::Index i = 0; i < piece_count(cylinder); ++i)
     check(piece(cylinder, i).norm() > 0, name, "has two neighbouring cross-sections at one place");
   check(cylinder.rotation.coeffs().allFinite() && cylinder.rotation.norm() > 0, name, "has no rotation");

@@ -1,17 +1,24 @@
 #include "stackabilization/structure/segmentation.h"
 
+#include <tbb/parallel_for.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "core/extract_parts.h"
 #include "mesh/surface_moments.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/part_names.h"
 #include "structure/fitting/revolution_axis.h"
+#include "structure/model/bounding_diagonal.h"
 #include "structure/model/fit_error.h"
 #include "structure/segmentation/components.h"
 #include "structure/segmentation/hierarchical_fitting.h"
+#include "structure/segmentation/members.h"
 #include "structure/segmentation/rod_lattice.h"
+#include "structure/segmentation/segment.h"
 #include "structure/segmentation/segment_boundaries.h"
 #include "structure/segmentation/shape_diameter.h"
 #include "structure/segmentation/surface_graph.h"
@@ -88,6 +95,49 @@ Shape cut_components(const Shape& shape, const std::vector<std::int32_t>& compon
   return with_parts_by_area(shape, part);
 }
 
+/// Returns the pieces of a part that is cut into its components, and each of these by fitting primitives.
+std::vector<std::int32_t> pieces_of(const Shape& part, SegmentationOptions options) {
+  const std::vector<std::int32_t> component = detail::merged_components(part);
+  if (detail::is_rod_lattice(part, component)) return std::vector<std::int32_t>(component.size(), 0);
+  options.method = SegmentationMethod::primitives;
+  return cut_components(part, component, options).triangle_part;
+}
+
+/// Cuts the parts of several members. Member k of "leg" is called "leg.k".
+Shape with_members(const Shape& shape, const SegmentationOptions& options,
+                   const detail::SymmetrySource& symmetries) {
+  const std::vector<Shape> parts = extract_parts(shape);
+  std::vector<std::vector<std::int32_t>> members(parts.size());
+  const auto cut = [&](const Shape& part) { return pieces_of(part, options); };
+  const double small = detail::MemberRule().small * bounding_diagonal(shape);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t p) {
+    if (bounding_diagonal(parts[p]) <= small)
+      members[p].assign(parts[p].triangle_part.size(), 0);
+    else
+      members[p] = detail::members(parts[p], cut);
+  });
+  const auto is_cut = [](const std::vector<std::int32_t>& of_part) { return count_of(of_part) > 1; };
+  if (std::none_of(members.begin(), members.end(), is_cut)) return shape;
+  detail::make_symmetric(parts, symmetry_relations(shape, symmetries()), options.min_part_area, members);
+  Shape result = shape;
+  result.part_names.clear();
+  std::vector<std::int32_t> first;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    first.push_back(static_cast<std::int32_t>(result.part_names.size()));
+    const std::string& name = shape.part_names[p];
+    const std::int32_t count = count_of(members[p]);
+    for (std::int32_t k = 1; k <= count; ++k)
+      result.part_names.push_back(count == 1 ? name : member_name(name, k));
+  }
+  std::vector<std::size_t> next(parts.size(), 0);
+  for (std::int32_t& part : result.triangle_part) {
+    const auto p = static_cast<std::size_t>(part);
+    part = first[p] + members[p][next[p]++];
+  }
+  validate(result);
+  return result;
+}
+
 /// One generalized cylinder represents a body of revolution, whatever its profile. A cut, such as that of a
 /// hat into crown and brim, would only add joints.
 bool is_body_of_revolution(const Shape& shape) {
@@ -98,10 +148,17 @@ bool is_body_of_revolution(const Shape& shape) {
 }  // namespace
 
 Shape segment(const Shape& shape, const SegmentationOptions& options) {
+  return detail::segment(shape, options, [&] { return find_symmetries(shape); });
+}
+
+Shape detail::segment(const Shape& shape, const SegmentationOptions& options,
+                      const SymmetrySource& symmetries) {
   check(options);
   validate(shape);
   if (options.method == SegmentationMethod::given) return shape;
-  if (options.method == SegmentationMethod::automatic && shape.part_count() > 1) return shape;
+  if (options.method == SegmentationMethod::members ||
+      (options.method == SegmentationMethod::automatic && shape.part_count() > 1))
+    return with_members(shape, options, symmetries);
   const std::vector<std::int32_t> one_part(shape.triangle_part.size(), 0);
   if (options.method == SegmentationMethod::whole) return with_parts_by_area(shape, one_part);
   const std::vector<std::int32_t> component = detail::merged_components(shape);

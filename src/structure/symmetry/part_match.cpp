@@ -35,6 +35,13 @@ Eigen::Vector3d widths(const SymmetrySurface& surface) {
   return surface.diagonal * solver.eigenvalues().cwiseMax(0).cwiseSqrt();
 }
 
+/// Sides of the minimal box, ascending, model units.
+Eigen::Vector3d sides(const SymmetrySurface& surface) {
+  Eigen::Vector3d sides = 2 * surface.diagonal * surface.box.half_extents;
+  std::sort(sides.begin(), sides.end());
+  return sides;
+}
+
 using Place = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
 
 Place place_of(const Eigen::Vector3d& p) {
@@ -53,12 +60,14 @@ PartSurfaces::PartSurfaces(const Shape& shape, const SymmetryOptions& options)
     : options_(options),
       whole_(symmetry_surface(shape, whole_samples)),
       parts_(shape.part_names.size()),
-      widths_(parts_.size()) {
+      widths_(parts_.size()),
+      sides_(parts_.size()) {
   const std::vector<Shape> parts = extract_parts(shape);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
     if (!(area_of(parts[k]) > 0)) return;
     parts_[k].emplace(symmetry_surface(parts[k], part_samples));
     widths_[k] = widths(*parts_[k]);
+    sides_[k] = sides(*parts_[k]);
   });
   std::vector<Centroids::Entry> entries;
   for (std::size_t k = 0; k < parts_.size(); ++k)
@@ -86,14 +95,16 @@ std::vector<const SymmetrySurface*> PartSurfaces::with_area() const {
 }
 
 bool PartSurfaces::same_size(int a, int b) const {
-  const Eigen::Vector3d &widths_a = widths_[static_cast<std::size_t>(a)],
-                        &widths_b = widths_[static_cast<std::size_t>(b)];
-  for (int k = 0; k < 3; ++k) {
-    const double allowed = options_.tolerance * std::max(size_tolerances * std::max(widths_a(k), widths_b(k)),
-                                                         absolute_size_tolerances * unit_);
-    if (std::abs(widths_a(k) - widths_b(k)) > allowed) return false;
-  }
-  return true;
+  const auto same = [&](const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
+    for (int k = 0; k < 3; ++k) {
+      const double allowed = options_.tolerance * std::max(size_tolerances * std::max(one(k), other(k)),
+                                                           absolute_size_tolerances * unit_);
+      if (std::abs(one(k) - other(k)) > allowed) return false;
+    }
+    return true;
+  };
+  const auto one = static_cast<std::size_t>(a), other = static_cast<std::size_t>(b);
+  return same(widths_[one], widths_[other]) || same(sides_[one], sides_[other]);
 }
 
 bool PartSurfaces::is_near(const Eigen::Vector3d& centroid, int b) const {

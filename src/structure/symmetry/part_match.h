@@ -35,7 +35,8 @@ class PartSurfaces {
   ///
   /// * the centroids of their areas come within the tolerance of each other,
   /// * their root mean square widths along the principal axes agree to ten tolerances, or absolutely to a
-  ///   tenth of the tolerance: a thin leg does not match a leg of half its thickness at any distance, and
+  ///   tenth of the tolerance: a thin leg does not match a leg of half its thickness at any distance. So do
+  ///   parts of which one lacks faces, if the sides of their minimal boxes agree. And
   /// * their surfaces agree in both directions, see `agreement`.
   ///
   /// Tolerances of distances are fractions of the whole shape.
@@ -52,6 +53,7 @@ class PartSurfaces {
   SymmetrySurface whole_;
   std::vector<std::optional<SymmetrySurface>> parts_;
   std::vector<Eigen::Vector3d> widths_;  ///< per part with area
+  std::vector<Eigen::Vector3d> sides_;   ///< per part with area, of its minimal box
   std::unique_ptr<const Centroids> centroids_;
   double unit_;      ///< length that tolerances are fractions of, model units
   double diagonal_;  ///< diagonal of the axis-aligned box, model units

@@ -96,9 +96,8 @@ TEST_CASE("moves, factors and angles beyond their limits are refused by every mo
   for (const NamedModel& named : models())
     for (const auto& [operation, words] : cases) {
       if (named.name == "gap scaling" && std::holds_alternative<Move>(operation)) continue;
-      const std::string found = message_of<UsageError>([&] {
-        named.model->deformed({{whole_shape, operation}});
-      });
+      const Edit edit{whole_shape, operation};
+      const std::string found = message_of<UsageError>([&] { named.model->deformed({edit}); });
       INFO(named.name << ": " << found);
       CHECK(found.find(words) == 0);
     }

@@ -18,7 +18,10 @@ OrientedBox tilted_box() {
 }
 
 GeneralizedCylinder ring(int sections, double radius, double thickness) {
-  GeneralizedCylinder cylinder{Points(sections, 3), Eigen::VectorXd::Constant(sections, thickness), true,
+  GeneralizedCylinder cylinder{Points(sections, 3),
+                               Eigen::VectorXd::Constant(sections, thickness),
+                               {},
+                               true,
                                Eigen::Quaterniond::Identity()};
   for (int k = 0; k < sections; ++k) {
     const double angle = 2 * std::numbers::pi * k / sections;
@@ -64,8 +67,8 @@ TEST_CASE("tangents, arc lengths and volume of a closed cylinder are those of th
 }
 
 TEST_CASE("an open cylinder's volume is the sum of its frusta, and its end tangents are one-sided") {
-  GeneralizedCylinder cone{Points(3, 3), Eigen::Vector3d(1, 0.75, 0.5), false,
-                           Eigen::Quaterniond::Identity()};
+  GeneralizedCylinder cone{
+      Points(3, 3), Eigen::Vector3d(1, 0.75, 0.5), {}, false, Eigen::Quaterniond::Identity()};
   cone.centres << 0, 0, 0, 0, 0, 1, 0, 0, 2;
   CHECK(volume(cone) == Approx(std::numbers::pi * 2 / 3 * (1 + 0.25 + 0.5)));
   CHECK(section_tangents(cone).row(0) == Eigen::RowVector3d(0, 0, 1));

@@ -1,0 +1,229 @@
+#include "structure/segmentation/members.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <utility>
+#include <variant>
+
+#include "core/disjoint_sets.h"
+#include "mesh/surface_index.h"
+#include "stackabilization/structure/fitting.h"
+#include "structure/fitting/part_box.h"
+#include "structure/segmentation/components.h"
+#include "structure/segmentation/segment_boundaries.h"
+#include "structure/segmentation/surface_graph.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+using Pieces = std::vector<std::int32_t>;
+
+std::int32_t piece_count(const Pieces& pieces) {
+  return *std::max_element(pieces.begin(), pieces.end()) + 1;
+}
+
+/// Returns the error of the better primitive, fraction of the diagonal of the oriented box.
+double relative_misfit(const PrimitiveFit& fit) {
+  return std::min(fit.cuboid_error, fit.cylinder_error.value_or(std::numeric_limits<double>::infinity()));
+}
+
+/// Returns the root mean square distance between a part and the primitives of its pieces, model units.
+double misfit(const Shape& part, const Pieces& pieces) {
+  std::vector<std::vector<std::int32_t>> rows(static_cast<std::size_t>(piece_count(pieces)));
+  for (std::size_t t = 0; t < pieces.size(); ++t)
+    rows[static_cast<std::size_t>(pieces[t])].push_back(static_cast<std::int32_t>(t));
+  double sum = 0, whole = 0;
+  for (const std::vector<std::int32_t>& of_piece : rows) {
+    const Shape piece = extracted(part, of_piece);
+    const double area = surface_graph(piece).areas.sum();
+    if (!(area > 0)) continue;
+    const double diagonal = 2 * part_box(FitSurface(piece)).box.half_extents.norm();
+    const double error = relative_misfit(fit_primitive(piece).fit) * diagonal;
+    sum += area * error * error;
+    whole += area;
+  }
+  return std::sqrt(sum / whole);
+}
+
+/// Returns whether a curve turns at a few corners, as that of a frame does, and not evenly.
+bool has_corners(const Primitive& primitive, const MemberRule& rule) {
+  const auto* cylinder = std::get_if<GeneralizedCylinder>(&primitive);
+  if (!cylinder || cylinder->closed) return false;
+  const Points tangents = section_tangents(*cylinder);
+  std::vector<double> turns;
+  for (Eigen::Index i = 1; i < tangents.rows(); ++i)
+    turns.push_back(std::acos(std::clamp(tangents.row(i).dot(tangents.row(i - 1)), -1.0, 1.0)));
+  const double whole = std::accumulate(turns.begin(), turns.end(), 0.0);
+  if (whole < rule.min_turn * std::numbers::pi / 180) return false;
+  std::sort(turns.rbegin(), turns.rend());
+  const auto quarter = turns.begin() + static_cast<std::ptrdiff_t>(turns.size() / 4);
+  return std::accumulate(turns.begin(), quarter, 0.0) >= rule.turn_at_corners * whole;
+}
+
+/// Joins neighbouring pieces whose border is nowhere concave, or hardly.
+Pieces without_smooth_borders(const SurfaceGraph& graph, const Pieces& pieces, double min_concave) {
+  struct Border {
+    double length = 0, concave = 0;
+  };
+  std::map<std::pair<std::int32_t, std::int32_t>, Border> borders;
+  for (const SurfaceLink& link : graph.links) {
+    const auto [a, b] =
+        std::minmax(pieces[static_cast<std::size_t>(link.a)], pieces[static_cast<std::size_t>(link.b)]);
+    if (a == b) continue;
+    Border& border = borders[{a, b}];
+    border.length += link.length;
+    border.concave += link.length * concavity(link);
+  }
+  DisjointSets sets(static_cast<std::size_t>(piece_count(pieces)));
+  for (const auto& [pair, border] : borders)
+    if (border.length > 0 && border.concave < min_concave * border.length)
+      sets.join(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
+  const std::vector<std::int32_t> numbers = sets.numbers();
+  Pieces result;
+  for (const std::int32_t piece : pieces) result.push_back(numbers[static_cast<std::size_t>(piece)]);
+  return result;
+}
+
+/// A part with what copying a cut from one side to the other needs.
+struct CutPart {
+  explicit CutPart(const Shape& part) : shape(part), graph(surface_graph(part)), index(part) {
+    link_shells(graph, part, ContactRule().reach * graph.diagonal);
+  }
+
+  const Shape& shape;
+  SurfaceGraph graph;
+  SurfaceIndex index;
+};
+
+/// Barycentric coordinates of the places of a triangle at which its image is looked up. Several, since a
+/// triangle may be long, and since another piece may touch it at some of them.
+constexpr std::array<std::array<double, 3>, 7> places = {{{1. / 3, 1. / 3, 1. / 3},
+                                                          {0.8, 0.1, 0.1},
+                                                          {0.1, 0.8, 0.1},
+                                                          {0.1, 0.1, 0.8},
+                                                          {0.45, 0.45, 0.1},
+                                                          {0.1, 0.45, 0.45},
+                                                          {0.45, 0.1, 0.45}}};
+
+/// Returns the piece of `from` that most places of the image of every triangle of `to` lie on.
+Pieces image(const CutPart& to, const CutPart& from, const Pieces& pieces, const Symmetry& reflection) {
+  const Eigen::Isometry3d map = isometry_of(reflection);
+  Pieces result(to.shape.triangle_part.size());
+  tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t t) {
+    const auto row = static_cast<Eigen::Index>(t);
+    std::map<std::int32_t, int> votes;
+    for (const auto& [a, b, c] : places) {
+      const Eigen::Vector3d place =
+          a * to.shape.corner(row, 0) + b * to.shape.corner(row, 1) + c * to.shape.corner(row, 2);
+      ++votes[pieces[static_cast<std::size_t>(from.index.nearest(map * place).triangle)]];
+    }
+    result[t] = std::max_element(votes.begin(), votes.end(), [](const auto& one, const auto& other) {
+                  return one.second < other.second;
+                })->first;
+  });
+  return result;
+}
+
+/// Returns for every piece the one that its image overlaps most, if that is so the other way round as well,
+/// and a new one beyond `count` otherwise.
+Pieces partners(const CutPart& part, const Pieces& pieces, const Pieces& images, std::int32_t count) {
+  Eigen::MatrixXd overlap = Eigen::MatrixXd::Zero(count, count);
+  for (std::size_t t = 0; t < pieces.size(); ++t)
+    overlap(pieces[t], images[t]) += part.graph.areas(static_cast<Eigen::Index>(t));
+  overlap += overlap.transpose().eval();
+  Pieces best(static_cast<std::size_t>(count));
+  for (std::int32_t p = 0; p < count; ++p) overlap.row(p).maxCoeff(&best[static_cast<std::size_t>(p)]);
+  Pieces result = best;
+  for (std::int32_t p = 0; p < count; ++p)
+    if (best[static_cast<std::size_t>(best[static_cast<std::size_t>(p)])] != p)
+      result[static_cast<std::size_t>(p)] = count + p;
+  return result;
+}
+
+/// Returns the cut that is its own image. Where piece and image do not agree, the pieces on one side of the
+/// plane (`sign`) are kept.
+Pieces mirrored(const CutPart& part, const Pieces& pieces, const Symmetry& reflection, double sign,
+                double smallest) {
+  const Pieces images = image(part, part, pieces, reflection);
+  const Pieces partner = partners(part, pieces, images, piece_count(pieces));
+  Pieces result = pieces;
+  for (std::size_t t = 0; t < pieces.size(); ++t) {
+    const std::int32_t of_image = partner[static_cast<std::size_t>(images[t])];
+    const Eigen::Vector3d centre = part.graph.centres.row(static_cast<Eigen::Index>(t));
+    if (sign * reflection.axis.dot(centre - reflection.point) < 0) result[t] = of_image;
+  }
+  return merge_small_segments(part.graph, result, smallest * part.graph.areas.sum());
+}
+
+}  // namespace
+
+std::vector<std::int32_t> members(const Shape& part, const CutIntoPieces& cut, const MemberRule& rule) {
+  Pieces one_piece(part.triangle_part.size(), 0);
+  const SurfaceGraph graph = surface_graph(part);
+  if (!(graph.areas.sum() > 0)) return one_piece;
+  const FittedPrimitive whole = fit_primitive(part);
+  const bool frame = has_corners(whole.primitive, rule);
+  if (!frame && relative_misfit(whole.fit) < rule.misfit) return one_piece;
+  Pieces pieces = without_smooth_borders(graph, cut(part), rule.min_concave);
+  const std::int32_t count = piece_count(pieces);
+  if (count < 2 || count > rule.max_members) return one_piece;
+  const double gain = frame ? rule.gain_of_frames : rule.gain;
+  return misfit(part, pieces) <= gain * misfit(part, one_piece) ? pieces : one_piece;
+}
+
+void make_symmetric(const std::vector<Shape>& parts, const std::vector<Relation>& relations, double smallest,
+                    std::vector<std::vector<std::int32_t>>& members) {
+  std::map<std::size_t, CutPart> cut;
+  const auto part = [&](std::size_t p) -> const CutPart& {
+    return cut.try_emplace(p, parts[p]).first->second;
+  };
+  const auto reflects = [](const Relation& relation, RelationType type) {
+    return relation.type == type && relation.symmetry.kind == SymmetryKind::reflection;
+  };
+  for (const Relation& relation : relations) {
+    if (!reflects(relation, RelationType::self_symmetry)) continue;
+    const auto p = static_cast<std::size_t>(relation.parts[0]);
+    if (piece_count(members[p]) < 2) continue;
+    Pieces one = mirrored(part(p), members[p], relation.symmetry, 1, smallest);
+    Pieces other = mirrored(part(p), members[p], relation.symmetry, -1, smallest);
+    members[p] = misfit(parts[p], other) < misfit(parts[p], one) ? std::move(other) : std::move(one);
+  }
+  // Of parts that are images of each other, the first one is copied to the others, from pair to pair.
+  std::vector<char> reached(parts.size(), 0);
+  std::vector<std::size_t> queue;
+  const auto copy = [&](std::size_t from, std::size_t to, const Symmetry& reflection) {
+    if (reached[to]) return;
+    reached[to] = 1;
+    queue.push_back(to);
+    if (piece_count(members[from]) > 1)
+      members[to] =
+          merge_small_segments(part(to).graph, image(part(to), part(from), members[from], reflection),
+                               smallest * part(to).graph.areas.sum());
+    else
+      members[to].assign(members[to].size(), 0);
+  };
+  for (std::size_t first = 0; first < parts.size(); ++first) {
+    if (reached[first]) continue;
+    reached[first] = 1;
+    queue = {first};
+    for (std::size_t next = 0; next < queue.size(); ++next)
+      for (const Relation& relation : relations) {
+        if (!reflects(relation, RelationType::symmetry)) continue;
+        const auto a = static_cast<std::size_t>(relation.parts[0]),
+                   b = static_cast<std::size_t>(relation.parts[1]);
+        if (queue[next] == a) copy(a, b, relation.symmetry);
+        if (queue[next] == b) copy(b, a, relation.symmetry);
+      }
+  }
+}
+
+}  // namespace stackabilization::detail
