@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "apps/command.h"
+#include "apps/explanation_report.h"
 #include "apps/output.h"
 #include "apps/requirement_options.h"
 #include "apps/structured_model.h"
@@ -85,12 +86,16 @@ int run_compare_command(const CLI::App& command, const CompareCommandOptions& op
   Json document = document_head(command, rest.model);
   document["after"] = options.after;
   document["acceptable"] = acceptable;
+  const Explanation explanation = explain(rest.structured, now);
+  document["explanation"] = explanation_json(explanation, now.part_names);
   document["quality"] = quality_json(values, limits, now);
   add_document_tail(document, options.common, rest.model, watch);
   const std::string answer = acceptable ? "acceptable\n" : "not acceptable\n";
   TextTable head;
   add_model_line(head, rest.model);
   head.add("After", options.after);
+  const std::vector<std::string> words = explanation_lines(explanation);
+  for (std::size_t i = 0; i < words.size(); ++i) head.add(i == 0 ? "Changes" : "", words[i]);
   deliver(options.common, document,
           options.common.quiet
               ? answer

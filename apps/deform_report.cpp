@@ -2,6 +2,7 @@
 
 #include "apps/deform_run.h"
 #include "apps/edit_grammar.h"
+#include "apps/explanation_report.h"
 #include "apps/structure_report.h"
 #include "apps/text.h"
 
@@ -98,6 +99,7 @@ void add_deformation(Json& document, const DeformRun& run) {
   const LargestResiduals largest = largest_residuals(run);
   document["displacement"] = {{"root_mean_square", moved.root_mean_square}, {"largest", moved.largest}};
   document["residuals"] = {{"joint", to_json(largest.joint)}, {"symmetry", to_json(largest.symmetry)}};
+  document["explanation"] = explanation_json(run.explanation, before.part_names);
   document["primitives"] = primitives_after_json(run);
   document["relations"] = relations_after_json(run);
 }
@@ -117,6 +119,8 @@ std::string deformation_text(const DeformRun& run, const Model& model) {
     }
     return table.text() + "Refused: " + describe(*refusal, structure) + "\n";
   }
+  const std::vector<std::string> words = explanation_lines(run.explanation);
+  for (std::size_t i = 0; i < words.size(); ++i) table.add(i == 0 ? "Changes" : "", words[i]);
   const Shape& after = run.result.design.shape;
   const Displacement moved = displacement(before, after);
   table.add("Moved", quantity(moved.root_mean_square, before.unit),

@@ -52,7 +52,10 @@ DeformRun run_deform(const DeformCommandOptions& options, const StructuredModel&
   for (const Edit& edit : run.edits)
     if (std::vector<std::int32_t> curve = model->curve(edit.handle); !curve.empty())
       run.curves.push_back(std::move(curve));
-  if (!run.result.refusal) run.residuals = model->relation_residuals(run.result.design);
+  if (!run.result.refusal) {
+    run.residuals = model->relation_residuals(run.result.design);
+    run.explanation = explain(run.rest, run.result.design.shape, {Eigen::Vector3d::UnitZ(), run.edits, {}});
+  }
   if (!model->capabilities().edits_primitives) run.result.design.primitives.clear();  // nobody edited them
   return run;
 }

@@ -10,6 +10,7 @@
 #include "apps/json.h"
 #include "apps/structured_model.h"
 #include "stackabilization/deformation/deformation_model.h"
+#include "stackabilization/improvement/explanation.h"
 
 namespace stackabilization::apps {
 
@@ -38,6 +39,7 @@ struct DeformRun {
   DeformationConstraints constraints;
   DeformationResult result;
   std::vector<std::vector<std::int32_t>> curves;  ///< vertices along the feature curves that were edited
+  Explanation explanation;                        ///< what a person sees of it; empty for a refusal
   std::vector<double> residuals;                  ///< of the relations, recomputed from the result
 };
 

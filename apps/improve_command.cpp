@@ -22,15 +22,8 @@ namespace fs = std::filesystem;
 /// More copies than that are a comb.
 constexpr int max_compared_copies = 20;
 
-/// The first of some lines, and how many more there are.
-std::vector<std::string> shortened(std::vector<std::string> lines) {
-  constexpr std::size_t max_lines = 4;
-  if (lines.size() <= max_lines) return lines;
-  const std::size_t more = lines.size() - (max_lines - 1);
-  lines.resize(max_lines - 1);
-  lines.push_back("and " + std::to_string(more) + " more edits");
-  return lines;
-}
+/// Lines of an explanation in a picture.
+constexpr std::size_t max_notes = 4;
 
 /// Fills the folder, and knows what is in it. Killed at any moment, it leaves whole files of which the
 /// summaries say nothing wrong, and until the last one is there the state to go on from.
@@ -103,7 +96,7 @@ class Writer {
     const std::vector<ContactRegion> contacts = contacts_along(after, solution.direction(), semantics);
     ComparedDesigns designs{{rest.shape, solution.before, contacts_before},
                             {after, solution.assessment.measured, contacts},
-                            shortened(edit_lines(report_.task, solution))};
+                            explanation_lines(solution.explanation, max_notes)};
     const std::string title = title_of(report_.task.model) + ", " + title_of(solution);
     const std::string pair = solution.name + "_before_after.png", stack = solution.name + "_stack.png";
     write_improvement_picture({(folder_ / pair).string(), title}, designs);

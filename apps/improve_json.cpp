@@ -2,6 +2,7 @@
 
 #include "apps/design_json.h"
 #include "apps/edit_grammar.h"
+#include "apps/explanation_report.h"
 #include "apps/improve_report.h"
 #include "apps/measurement.h"
 #include "apps/structure_report.h"
@@ -195,6 +196,7 @@ Json solution_json(const ImproveReport& report, const SolutionReport& solution) 
           {"f_max_exact", to_json(exact.blocked ? exact.value : Rational())},
           {"height", after.extent},
           {"energy", to_json(solution.candidate.energy, report.run.options.search.alpha)},
+          {"explanation", explanation_json(solution.explanation, task.rest().shape.part_names)},
           {"edits", edits_json(task, solution.candidate)},
           {"change",
            {{"root_mean_square", solution.change.root_mean_square}, {"largest", solution.change.largest}}},

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "apps/explanation_report.h"
 #include "apps/text.h"
 #include "stackabilization/core/direction_text.h"
 
@@ -121,8 +122,8 @@ std::string links(const SolutionReport& solution) {
 
 std::string article(const ImproveReport& report, const SolutionReport& solution) {
   const Unit unit = report.task.rest().shape.unit;
-  std::string text = "<article>\n<h2>" + escaped(title_of(solution)) + " <span class=\"" +
-                     (solution.good() ? "good" : "bad") + "\">S " +
+  std::string text = "<article id=\"" + escaped(solution.name) + "\">\n<h2>" + escaped(title_of(solution)) +
+                     " <span class=\"" + (solution.good() ? "good" : "bad") + "\">S " +
                      escaped(stackability_text(solution.assessment.measured.value) + " " +
                              direction_text(solution.candidate.direction)) +
                      "</span></h2>\n";
@@ -138,7 +139,9 @@ std::string article(const ImproveReport& report, const SolutionReport& solution)
                          stackability_text(solution.twist->stack.stackability) + ", straight " +
                          stackability_text(solution.twist->untwisted_stackability) + ".") +
         "\n";
-  text += element("h3", "Edits") + "\n" + list("ol", edit_lines(report.task, solution));
+  text += element("h3", "What changes") + "\n" + list("ul", explanation_lines(solution.explanation));
+  text += "<details class=\"faint\">" + element("summary", "Exact edits") + "\n" +
+          list("ol", edit_lines(report.task, solution)) + "</details>\n";
   text += element("h3", "Checks") + "\n" + checks(report, solution) + links(solution);
   return text + "</article>\n";
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/edit_grammar.h"
+#include "apps/explanation_report.h"
 #include "apps/text.h"
 #include "stackabilization/core/direction_text.h"
 
@@ -41,18 +41,18 @@ void add_requirement_lines(std::vector<std::string>& lines, const ImproveReport&
                     " stands, on ground tilted by up to " + rounded(asked.min_tipping_degrees) + " degrees");
 }
 
-void add_solution_rows(ColumnTable& table, const ImproveTask& task, const SolutionReport& solution) {
-  const std::vector<std::string> edits = edit_lines(task, solution);
+void add_solution_rows(ColumnTable& table, const SolutionReport& solution) {
+  const std::vector<std::string> words = explanation_lines(solution.explanation);
   const std::string change = percent(solution.change.root_mean_square);
-  for (std::size_t i = 0; i < edits.size(); ++i) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
     if (i > 0) {
-      table.add({"", "", "", "", "", "", edits[i]});
+      table.add({"", "", "", "", "", "", words[i]});
       continue;
     }
     table.add({solution.name, stackability_text(solution.assessment.measured.value),
                direction_text(solution.candidate.direction),
                stackability_text(solution.candidate.energy.distortion.total()),
-               stackability_text(solution.candidate.energy.value), change, edits[i]});
+               stackability_text(solution.candidate.energy.value), change, words[i]});
   }
 }
 
@@ -159,8 +159,8 @@ std::string improvement_text(const ImproveReport& report) {
   const std::vector<std::string> wishes = wish_lines(report);
   for (std::size_t i = 0; i < wishes.size(); ++i) head.add(i == 0 ? "Asked for" : "", wishes[i]);
   head.add("Search", counted(result.progress.evaluated, "design") + " measured, " + end_text(report.run));
-  ColumnTable table({"", "S", "direction", "D", "E", "change", "edits"});
-  for (const SolutionReport* solution : report.shown()) add_solution_rows(table, task, *solution);
+  ColumnTable table({"", "S", "direction", "D", "E", "change", "what changes"});
+  for (const SolutionReport* solution : report.shown()) add_solution_rows(table, *solution);
   std::string text = head.text();
   if (!table.empty()) text += "\n" + table.text();
   text += "\n" + complaints(report);

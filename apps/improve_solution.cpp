@@ -113,6 +113,8 @@ SolutionReport solution_report(const ImproveCommandOptions& options, const Impro
   report.before = task.checker().rest_shape().measure(direction);
   report.change = shape_change(rest.shape, candidate.design.shape);
   report.residuals = relation_residuals(rest.structure, candidate.design.primitives);
+  report.explanation = explain(rest, candidate.design.shape,
+                               {Eigen::Vector3d::UnitZ(), candidate.design.edits, candidate.reasons});
   report.stack = stack_heights(options, task, report);
   if (options.twist) report.twist = twisted(task, report);
   return report;

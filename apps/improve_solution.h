@@ -7,6 +7,7 @@
 
 #include "apps/improve_run.h"
 #include "stackabilization/envelope/contacts.h"
+#include "stackabilization/improvement/explanation.h"
 #include "stackabilization/improvement/shape_change.h"
 #include "stackabilization/stacking/stack_search.h"
 
@@ -30,11 +31,13 @@ struct StackHeights {
 
 /// Everything there is to say about one solution, or about what came nearest.
 struct SolutionReport {
-  std::string name;  ///< "solution_1", "nearest"
+  std::string name;   ///< "solution_1", "nearest"
+  double target = 0;  ///< S that was asked for
   Candidate candidate;
   Assessment assessment;
   Stackability before;  ///< of the shape at rest, along the direction of the candidate
   ShapeChange change;
+  Explanation explanation;
   std::vector<double> residuals;  ///< per relation, fraction of the diagonal
   StackHeights stack;
   std::optional<TwistResult> twist;  ///< with --twist

@@ -65,7 +65,7 @@ declare -A parts=(
   [stacking]='measure direction stacks validation'
   [structure]='model fitting symmetry joints segmentation analysis project'
   [deformation]='model controllers carried arap iwires gap_scaling factory'
-  [improvement]='design quality requirements history contacts search advice refinement run'
+  [improvement]='design quality requirements history contacts explanation search advice refinement run'
   [rendering]='gl drawing scene pictures'
 )
 for folder in src/*/ include/stackabilization/*/; do

@@ -93,6 +93,7 @@ void check_solution(const ImprovableCup& folder, const json& solution) {
         Approx(0.2 * total / 4 - 0.8 * solution["energy"]["gain"].get<double>()));
   CHECK(!solution["edits"].empty());
   CHECK(solution["good"] == true);
+  CHECK(!solution["explanation"]["lines"].empty());
   CHECK(solution["checks"].size() >= 4);
   for (const json& check : solution["checks"]) CHECK(check["verdict"] == "agrees");
   for (const json& requirement : solution["requirements"]) CHECK(requirement["passed"] == true);

@@ -69,3 +69,29 @@ inline constexpr double max_height = 0.001;         ///< default limit, of the h
 inline constexpr double max_feet = 0.002;           ///< default limit, of the diagonal
 
 }  // namespace stackabilization::tolerance::quality
+
+/// Small literals of the description of a change in words.
+namespace stackabilization::tolerance::explanation {
+
+/// Displacement from which on a person sees a change, fraction of the diagonal.
+inline constexpr double visible = 0.001;
+
+/// Change of a size that is named even where it moves the surface less, as of thin bars.
+inline constexpr double ratio = 0.015;
+
+/// Ratios of two sizes that differ by less than this share of the larger change are one.
+inline constexpr double alike = 0.1;
+
+/// Slope that a level plane or an upright line may get and still count as level or upright.
+inline constexpr double level = 0.002;
+
+/// Least advantage of a shear over a rotation, in logarithms of stretches.
+inline constexpr double same_split = 1e-9;
+
+/// Distance from the upright axis within which a part is on it, fraction of the diagonal.
+inline constexpr double on_axis = 0.03;
+
+/// Height of the lower end of a member that stands on the ground, at most, fraction of the height.
+inline constexpr double standing = 0.15;
+
+}  // namespace stackabilization::tolerance::explanation

@@ -24,6 +24,8 @@ class AffineFit {
 
   /// Returns the map of `now`, the same points elsewhere.
   AffineMap map(const Points& now) const;
+  /// Returns the mean of the points at rest.
+  const Eigen::Vector3d& centre() const { return from_; }
   /// Returns the number of directions in which the points have an extent, 0 to 3.
   int rank() const { return rank_; }
   /// Returns the main axes of the points, in columns, longest extent first. Orthonormal, right-handed.

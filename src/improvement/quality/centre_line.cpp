@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <set>
 
 #include "deformation/controllers/straightness.h"
 #include "stackabilization/improvement/tolerances.h"
@@ -23,6 +24,8 @@ constexpr std::size_t pieces_per_station = 6;
 constexpr std::size_t max_pieces = 4000;
 /// Ratio of length to width from which on a cuboid is elongated.
 constexpr double elongated = 3;
+/// Share of the length within which corners belong to an end.
+constexpr double end_share = 0.02;
 
 /// Curve along which a part is elongated.
 struct PartCurve {
@@ -130,7 +133,34 @@ std::optional<CentreLine> CentreLine::of(const Primitive& primitive, const Shape
   line.shares_ = shares_of_line(line.rest_);
   for (int k = 1; k < station_count; ++k)
     if (!(line.shares_(k) > line.shares_(k - 1))) return std::nullopt;
+  const Eigen::RowVector3d chord = line.rest_.row(station_count - 1) - line.rest_.row(0);
+  const auto share_of = [&](std::int32_t vertex) {
+    return (rest.vertices.row(vertex) - line.rest_.row(0)).dot(chord) / chord.squaredNorm();
+  };
+  std::set<std::int32_t> vertices;
+  for (const std::int32_t t : triangles)
+    for (int k = 0; k < 3; ++k) vertices.insert(rest.triangles(t, k));
+  auto& [low, high] = line.end_shares_;
+  for (const std::int32_t vertex : vertices) {
+    low = std::min(low, share_of(vertex));
+    high = std::max(high, share_of(vertex));
+  }
+  for (const std::int32_t vertex : vertices) {
+    if (share_of(vertex) <= low + end_share) line.end_corners_[0].push_back(vertex);
+    if (share_of(vertex) >= high - end_share) line.end_corners_[1].push_back(vertex);
+  }
   return line;
+}
+
+std::array<Eigen::Vector3d, 2> CentreLine::ends_on(const Shape& shape, const Points& centres) const {
+  const Eigen::RowVector3d from = centres.row(0),
+                           along = (centres.row(station_count - 1) - from).stableNormalized();
+  std::array<Eigen::Vector3d, 2> ends;
+  for (std::size_t end = 0; end < 2; ++end) {
+    const Eigen::RowVector3d corner = shape.vertices(end_corners_[end], Eigen::all).colwise().mean();
+    ends[end] = (from + (corner - from).dot(along) * along).transpose();
+  }
+  return ends;
 }
 
 Eigen::Vector3d CentreLine::direction() const {
@@ -199,7 +229,9 @@ CentreLineChange CentreLine::change(const Shape& now, const AffineMap& affine) c
   if (straight_) {
     const Eigen::RowVector3d chord = centres.row(station_count - 1) - centres.row(0);
     const double squared = chord.squaredNorm();
-    if (!(squared > 0)) return {1, 0, 1, 1, 0, 0};
+    if (!(squared > 0)) return {1, 0, 1, 1, 0, 0, {0, 0}, ends_on(now, centres), direction()};
+    result.ends = ends_on(now, centres);
+    result.direction = chord.transpose().stableNormalized();
     result.straightness = std::max(0.0, distance_from_chord(centres) / std::sqrt(squared) - deviation_);
     result.length = std::sqrt(squared) / (rest_.row(station_count - 1) - rest_.row(0)).norm();
     places = shares_of_line(centres);
@@ -225,8 +257,11 @@ CentreLineChange CentreLine::change(const Shape& now, const AffineMap& affine) c
   // The best affine function of the place; for a loop, the mean.
   Eigen::MatrixXd functions = Eigen::MatrixXd::Ones(station_count, closed_ ? 1 : 2);
   if (!closed_) functions.col(1) = places;
-  const Eigen::VectorXd even = functions * functions.colPivHouseholderQr().solve(ratios);
-  result.profile = (ratios - even).cwiseAbs().maxCoeff() / ratios.mean();
+  const Eigen::VectorXd function = functions.colPivHouseholderQr().solve(ratios);
+  result.profile = (ratios - functions * function).cwiseAbs().maxCoeff() / ratios.mean();
+  if (straight_)
+    for (std::size_t end = 0; end < 2; ++end)
+      result.end_widths[end] = function(0) + function(1) * end_shares_[end];
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -19,6 +20,12 @@ struct CentreLineChange {
   double profile = 0;       ///< unevenness of the change of the radii, of the radius
   double length = 1;        ///< length over that at rest; straight lines only
   double width = 1;  ///< smallest ratio of a radius to that at the same place at rest; straight lines only
+  /// Ratios of the radii at both ends to those at rest, by the best affine function; straight lines only.
+  std::array<double, 2> end_widths = {1, 1};
+  /// Ends of the surface on the line, by the corners that are there at rest, so that sliding in between moves
+  /// none of them; straight lines only.
+  std::array<Eigen::Vector3d, 2> ends = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< from end to end, unit; straight lines only
 };
 
 /// Centre line and cross-sections of an elongated part, from pieces of its surface. Each piece belongs to the
@@ -40,6 +47,8 @@ class CentreLine {
   double radius() const;
   /// Returns the direction from end to end at rest, unit.
   Eigen::Vector3d direction() const;
+  /// Returns the ends at rest, as CentreLineChange::ends. Precondition: the line is straight.
+  std::array<Eigen::Vector3d, 2> ends(const Shape& rest) const { return ends_on(rest, rest_); }
 
  private:
   struct Share {
@@ -52,6 +61,7 @@ class CentreLine {
   };
 
   Points centres(const Points& marks) const;
+  std::array<Eigen::Vector3d, 2> ends_on(const Shape& shape, const Points& centres) const;
   std::vector<Section> sections(const Points& marks, const Points& centres) const;
   /// Returns the radius at rest at a place along the chord, from 0 to 1, interpolated linearly.
   double radius_at_rest(double share) const;
@@ -63,6 +73,10 @@ class CentreLine {
   double deviation_ = 0;    ///< distance from the chord at rest, of its length
   Points rest_;             ///< centres at rest
   Eigen::VectorXd shares_;  ///< places of the centres at rest along the chord, 0 to 1; straight lines only
+  /// Places of the ends of the surface along the chord, just beyond 0 and 1; straight lines only.
+  std::array<double, 2> end_shares_ = {0, 1};
+  /// Corners near the ends of the surface; straight lines only.
+  std::array<std::vector<Eigen::Index>, 2> end_corners_;
   std::vector<Section> sections_;
 };
 

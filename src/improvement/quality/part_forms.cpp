@@ -13,7 +13,6 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr int marks_per_form = 240;
 constexpr int thickness_samples = 1500;
 /// Largest angle between the sheets of a wall, as a cosine.
 constexpr double opposite = 0.9;
@@ -38,12 +37,7 @@ PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded) : re
   const std::vector<std::vector<std::int32_t>> rows = triangles_of_parts(shape);
   for (std::size_t part = 0; part < rows.size(); ++part) {
     Form form;
-    form.marks = marks_on(shape, rows[part], marks_per_form);
-    if (form.marks.size() > 0) {
-      const Points places = form.marks.on(shape);
-      form.fit.emplace(places);
-      form.line = CentreLine::of(rest.structure.parts[part].primitive, shape, rows[part]);
-    }
+    static_cast<PartForm&>(form) = part_form(rest, part, rows[part]);
     Eigen::AlignedBox3d box;
     for (const std::int32_t t : rows[part])
       for (int k = 0; k < 3; ++k) box.extend(shape.corner(t, k));

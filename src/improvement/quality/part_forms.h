@@ -1,12 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <vector>
 
-#include "improvement/quality/affine_fit.h"
-#include "improvement/quality/centre_line.h"
 #include "improvement/quality/flat_faces.h"
-#include "improvement/quality/surface_marks.h"
+#include "improvement/quality/part_form.h"
 #include "improvement/quality/thickness.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/improvement/quality.h"
@@ -26,10 +23,7 @@ class PartForms {
   const std::vector<FlatFace>& faces(int part) const { return forms_[static_cast<std::size_t>(part)].faces; }
 
  private:
-  struct Form {
-    SurfaceMarks marks;
-    std::optional<AffineFit> fit;  ///< empty for a part without area
-    std::optional<CentreLine> line;
+  struct Form : PartForm {
     bool small = false;
     std::vector<FlatFace> faces;
     std::vector<ParallelFaces> parallel;

@@ -1,0 +1,262 @@
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "stackabilization/core/errors.h"
+#include "stackabilization/improvement/explanation.h"
+#include "support/catch.h"
+#include "support/solids.h"
+#include "support/still_designs.h"
+#include "support/structures.h"
+
+using namespace stackabilization;
+
+namespace {
+
+using Map = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
+using Lines = std::vector<std::string>;
+
+constexpr double radians_of_degree = std::numbers::pi / 180;
+
+Shape mapped(Shape shape, const Map& map) {
+  for (Eigen::Index v = 0; v < shape.vertex_count(); ++v)
+    shape.vertices.row(v) = map(shape.vertices.row(v).transpose()).transpose();
+  return shape;
+}
+
+/// Maps the vertices of the parts whose names begin with `start`.
+Shape with_parts_mapped(Shape shape, const std::string& start, const Map& map) {
+  std::vector<bool> moves(static_cast<std::size_t>(shape.vertex_count()));
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+    const std::int32_t part = shape.triangle_part[static_cast<std::size_t>(t)];
+    if (shape.part_names[static_cast<std::size_t>(part)].starts_with(start))
+      for (int k = 0; k < 3; ++k) moves[static_cast<std::size_t>(shape.triangles(t, k))] = true;
+  }
+  for (Eigen::Index v = 0; v < shape.vertex_count(); ++v)
+    if (moves[static_cast<std::size_t>(v)])
+      shape.vertices.row(v) = map(shape.vertices.row(v).transpose()).transpose();
+  return shape;
+}
+
+Map moved(const Eigen::Vector3d& by) {
+  return [by](const Eigen::Vector3d& p) -> Eigen::Vector3d { return p + by; };
+}
+
+Map scaled(const Eigen::Vector3d& by) {
+  return [by](const Eigen::Vector3d& p) -> Eigen::Vector3d { return by.cwiseProduct(p); };
+}
+
+/// Leans the legs of `structures::table` by an angle in the plane of x and z; their upper ends stay.
+Shape leaned_legs(const StructuredShape& table, double degrees) {
+  const double top = range_along(extract_part(table.shape, 1), Eigen::Vector3d::UnitZ()).high;
+  const double slope = std::tan(degrees * radians_of_degree);
+  return with_parts_mapped(table.shape, "leg", [=](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x() + std::copysign(1.0, p.x()) * slope * (top - p.z()), p.y(), p.z());
+  });
+}
+
+Lines lines_of(const StructuredShape& rest, const Shape& now, const ExplanationOptions& options = {}) {
+  return lines(explain(rest, now, options));
+}
+
+double amount(const Explanation& explanation, FormChangeKind kind) {
+  for (const GroupChange& group : explanation.groups)
+    for (const FormChange& change : group.changes)
+      if (change.kind == kind) return change.amount;
+  return 0;
+}
+
+/// An upright tube of length 10 and radius 1, with rings of vertices along it.
+StructuredShape upright_tube() {
+  return structures::tube_alone(structures::straight_cylinder({0, 0, 0}, {0, 0, 10}, 1, 21), 32);
+}
+
+/// Boxes "base", "arm" and "castor" in a row along x, each joined to the one before.
+StructuredShape base_arm_castor() {
+  StructuredShape result;
+  const auto add = [&](const std::string& name, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+    Shape box = solids::box(low, high);
+    box.part_names = {name};
+    result.shape = result.structure.parts.empty() ? box : concatenate(result.shape, box);
+    const Eigen::Vector3d half = (high - low) / 2;
+    result.structure.parts.push_back({name, cuboid_of({low + half, Eigen::Matrix3d::Identity(), half}), {}});
+  };
+  add("base", {-10, -5, 0}, {0, 5, 4});
+  add("arm", {0, -1, 1}, {6, 1, 3});
+  add("castor", {6, -0.5, 0}, {7, 0.5, 2});
+  for (const int part : {1, 2}) {
+    Relation joint;
+    joint.type = RelationType::point_joint;
+    joint.parts = {part - 1, part};
+    joint.points = Points::Zero(1, 3);
+    joint.points(0, 0) = part == 1 ? 0 : 6;
+    joint.points(0, 2) = 2;
+    result.structure.relations.push_back(joint);
+  }
+  result.structure.diagonal = std::sqrt(17 * 17 + 10 * 10 + 4 * 4.0);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("An unchanged object, and one that was moved as a whole, has no lines", "[explanation]") {
+  for (const StructuredShape& rest : {structures::table(), structures::mug(), structures::rough_stool()}) {
+    CHECK(lines_of(rest, rest.shape).empty());
+    CHECK(lines_of(rest, mapped(rest.shape, moved({3, -2, 5}))).empty());
+    const Shape nearly = mapped(rest.shape, scaled({1.0005, 1, 1}));
+    CHECK(lines_of(rest, nearly).empty());
+  }
+}
+
+TEST_CASE("Symmetric legs that lean by an angle are one line with that angle", "[explanation]") {
+  const StructuredShape rest = structures::table(2);
+  for (const double degrees : {5.0, 1.2}) {
+    const Explanation found = explain(rest, leaned_legs(rest, degrees));
+    REQUIRE(found.groups.size() == 1);
+    CHECK(found.groups[0].parts == std::vector{1, 2, 3, 4});
+    REQUIRE(found.groups[0].changes.size() == 1);
+    CHECK(found.groups[0].changes[0].amount == Approx(degrees).epsilon(1e-9));
+  }
+  CHECK(lines_of(rest, leaned_legs(rest, 5)) == Lines{"4 legs lean outwards by 5 degrees"});
+  CHECK(lines_of(rest, leaned_legs(rest, -6.24)) == Lines{"4 legs lean inwards by 6.2 degrees"});
+}
+
+TEST_CASE("A rigid rotation of a leg is a lean by its angle, without a change of size", "[explanation]") {
+  const StructuredShape rest = structures::table(2);
+  const Eigen::AngleAxisd turn(5 * radians_of_degree, Eigen::Vector3d::UnitY());
+  const Eigen::Vector3d hinge(3.5, 3.5, 5.5);
+  const Shape now = with_parts_mapped(rest.shape, "leg_1", [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return hinge + turn * (p - hinge);
+  });
+  const Explanation found = explain(rest, now);
+  REQUIRE(found.groups.size() == 1);
+  CHECK(amount(found, FormChangeKind::lean) == Approx(5).epsilon(1e-9));
+  CHECK(amount(found, FormChangeKind::length) == 0);
+  CHECK(amount(found, FormChangeKind::thickness) == 0);
+}
+
+TEST_CASE("A plate that gets narrower does so by its ratio", "[explanation]") {
+  const StructuredShape rest = structures::box_alone({12, 8, 1});
+  const auto line = [&](const Eigen::Vector3d& by) { return lines_of(rest, mapped(rest.shape, scaled(by))); };
+  CHECK(line({1, 0.93, 1}) == Lines{"box 7 % narrower"});
+  CHECK(line({1.07, 1, 1}) == Lines{"box 7 % longer"});
+  CHECK(line({0.93, 0.93, 1}) == Lines{"box 7 % smaller"});
+  CHECK(line({1, 1, 0.9}) == Lines{"box 10 % thinner"});
+  CHECK(line({1, 0.945, 1}) == Lines{"box 5.5 % narrower"});
+}
+
+TEST_CASE("A bar that is raised is higher by its way, in the unit of the model", "[explanation]") {
+  StructuredShape rest = structures::table();
+  const double height = range_along(rest.shape, Eigen::Vector3d::UnitZ()).length();
+  const Shape now = with_parts_mapped(rest.shape, "bar_1", moved({0, 0, 0.04 * height}));
+  CHECK(lines_of(rest, now) == Lines{"bar 1 higher by 4 % of the height"});
+  rest.shape.unit = Unit::centimetre;
+  const Shape lower = with_parts_mapped(rest.shape, "bar", moved({0, 0, -0.3}));
+  CHECK(lines_of(rest, lower) == Lines{"4 bars 0.3 cm lower"});
+}
+
+TEST_CASE("A cylinder that becomes a cone has other widths at its ends", "[explanation]") {
+  const StructuredShape rest = upright_tube();
+  const auto cone = [&](double low, double high) {
+    return explain(rest, mapped(rest.shape, [=](const Eigen::Vector3d& p) {
+                     const double factor = low + (high - low) * p.z() / 10;
+                     return Eigen::Vector3d(factor * p.x(), factor * p.y(), p.z());
+                   }));
+  };
+  const Explanation tapered = cone(1, 1.1);
+  CHECK(amount(tapered, FormChangeKind::upper_end) == Approx(0.1).margin(0.002));
+  CHECK(lines(tapered) == Lines{"tube: upper end 10 % thicker"});
+  CHECK(lines(cone(0.88, 1)) == Lines{"tube: lower end 12 % thinner"});
+  CHECK(lines(cone(1.05, 1.05)) == Lines{"tube 5 % thicker"});
+}
+
+TEST_CASE("A vessel has a rim and a foot", "[explanation]") {
+  solids::Polygon profile = {{0, 0}, {1, 0}};  // up the outer wall, down the inner one
+  for (int k = 0; k <= 20; ++k) profile.emplace_back(2, 0.4 * k);
+  for (int k = 20; k >= 1; --k) profile.emplace_back(1.8, 0.4 * k);
+  profile.emplace_back(1, 0.4);
+  profile.emplace_back(0, 0.4);
+  const StructuredShape rest = designs::alone(solids::surface_of_revolution(profile, 24),
+                                              structures::straight_cylinder({0, 0, 0}, {0, 0, 8}, 2, 5));
+  const Explanation found = explain(rest, mapped(rest.shape, [](const Eigen::Vector3d& p) {
+                                      const double factor = 0.92 + 0.13 * p.z() / 8;
+                                      return Eigen::Vector3d(factor * p.x(), factor * p.y(), p.z());
+                                    }));
+  CHECK(amount(found, FormChangeKind::rim) == Approx(0.05).margin(0.004));
+  CHECK(amount(found, FormChangeKind::foot) == Approx(-0.08).margin(0.004));
+}
+
+TEST_CASE("A pose and a scale change no words", "[explanation]") {
+  const StructuredShape rest = structures::table(2);
+  const Shape now = with_parts_mapped(leaned_legs(rest, 4), "bar", moved({0, 0, 0.3}));
+  const Lines expected = lines_of(rest, now);
+  CHECK(expected == Lines{"4 legs lean outwards by 4 degrees", "4 bars higher by 5 % of the height"});
+  const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d::UnitZ());
+  const Map posed = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return 3 * (turn * p) + Eigen::Vector3d(1, 2, 3);
+  };
+  StructuredShape elsewhere = rest;
+  elsewhere.shape = mapped(rest.shape, posed);
+  elsewhere.structure.diagonal *= 3;
+  for (Part& part : elsewhere.structure.parts) {
+    auto& corners = std::get<Cuboid>(part.primitive).corners;
+    for (Eigen::Index k = 0; k < 8; ++k) corners.row(k) = posed(corners.row(k).transpose()).transpose();
+  }
+  CHECK(lines_of(elsewhere, mapped(now, posed)) == expected);
+  CHECK(lines_of(rest, mapped(now, moved({1, 2, 3}))) == expected);
+}
+
+TEST_CASE("What changed by one affine map is the whole object", "[explanation]") {
+  const StructuredShape rest = structures::table();
+  CHECK(lines_of(rest, mapped(rest.shape, scaled({1.05, 1.05, 1.05}))) == Lines{"whole object 5 % larger"});
+  CHECK(lines_of(rest, mapped(rest.shape, scaled({0.95, 0.95, 1}))) ==
+        Lines{"whole object 5 % narrower all round"});
+}
+
+TEST_CASE("A part that is carried along follows", "[explanation]") {
+  const StructuredShape rest = base_arm_castor();
+  const Shape now = with_parts_mapped(with_parts_mapped(rest.shape, "arm", moved({0, 0, 0.4})), "castor",
+                                      moved({0, 0, 0.4}));
+  // The arm is larger than the castor.
+  CHECK(lines_of(rest, now) == Lines{"arm higher by 10 % of the height (castor follows)"});
+  ExplanationOptions options;
+  options.edits = {{{HandleKind::part, 2, 0}, Move{{0, 0, 0.4}}}};
+  CHECK(lines_of(rest, now, options) == Lines{"castor higher by 10 % of the height (arm follows)"});
+}
+
+TEST_CASE("The reason of an edit ends the line of its part", "[explanation]") {
+  const StructuredShape rest = structures::table(2);
+  ExplanationOptions options;
+  options.edits = {{{HandleKind::face, 3, 4}, Move{{0.1, 0, 0}}}};
+  options.reasons = {{EditEffect::outwards, true, 0}};
+  CHECK(lines_of(rest, leaned_legs(rest, 5), options) ==
+        Lines{"4 legs lean outwards by 5 degrees, to clear the top of the next copy"});
+  options.reasons = {{EditEffect::compensation}};
+  CHECK(lines_of(rest, leaned_legs(rest, 5), options) == Lines{"4 legs lean outwards by 5 degrees"});
+}
+
+TEST_CASE("Changes beyond the number of lines are summed up", "[explanation]") {
+  const StructuredShape rest = structures::table(2);
+  Shape now = leaned_legs(rest, 5);
+  for (int bar = 1; bar <= 4; ++bar)
+    now = with_parts_mapped(now, "bar_" + std::to_string(bar), moved({0, 0, 0.05 * bar}));
+  const Explanation found = explain(rest, now);
+  CHECK(lines(found).size() == 5);
+  CHECK(lines(found, 3) == Lines{"4 legs lean outwards by 5 degrees", "bar 4 higher by 3.3 % of the height",
+                                 "and 3 more parts by less than 3 % of the height"});
+}
+
+TEST_CASE("A part that no affine map describes changes its form", "[explanation]") {
+  const StructuredShape rest = structures::box_alone({12, 8, 1});
+  const Shape folded = mapped(rest.shape, [](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x(), p.y(), p.z() + 0.2 * std::abs(p.x()));
+  });
+  CHECK(amount(explain(rest, folded), FormChangeKind::form) > 0.2);
+}
+
+TEST_CASE("The description of another mesh is refused", "[explanation]") {
+  CHECK_THROWS_AS(explain(structures::table(), structures::mug().shape), UsageError);
+}
