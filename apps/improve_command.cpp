@@ -45,6 +45,7 @@ class Writer {
   void write_summaries(const Json& document) {
     owned_.remove_others(written_);
     write(project_name, project_text(improvement_project(report_)));
+    if (report_.run.front) write("front.csv", front_table(report_));
     write("result.json", json_text(document));
     write("index.html", improvement_page(report_));
     if (ended_by_itself(report_.run)) owned_.remove(state_file(folder_).filename().string());
@@ -65,6 +66,20 @@ class Writer {
     if (!report_.pictures_missing.empty()) return;
     try {
       draw(solution);
+    } catch (const RenderError& error) {
+      report_.pictures_missing = error.what();
+    }
+  }
+
+  void write_front_picture() {
+    if (!report_.pictures_missing.empty() || !report_.run.front) return;
+    std::vector<Eigen::Vector2d> points;
+    for (const FrontPoint& point : report_.run.front->points)
+      points.emplace_back(point.assessment.measured.value, 100 * point.change);
+    try {
+      apps::write_front_picture(
+          {(folder_ / "front.png").string(), title_of(report_.task.model) + ", S against change"}, points);
+      written_.emplace_back("front.png");
     } catch (const RenderError& error) {
       report_.pictures_missing = error.what();
     }
@@ -124,6 +139,9 @@ void write_solutions(ImproveReport& report, Writer& writer) {
   for (std::size_t i = 0; i < result.solutions.size(); ++i)
     report.solutions.push_back(
         reported(result.solutions[i], result.assessments.at(i), "solution_" + std::to_string(i + 1)));
+  if (report.run.front)
+    for (std::size_t i = 0; i < report.solutions.size(); ++i)
+      report.solutions[i].target = report.run.front->points[i + 1].target;
   if (report.solutions.empty() && result.nearest)
     report.nearest = reported(
         *result.nearest,
@@ -136,6 +154,7 @@ void write_solutions(ImproveReport& report, Writer& writer) {
   writer.begin();
   for (SolutionReport& solution : report.solutions) write(solution);
   if (report.nearest) write(*report.nearest);
+  writer.write_front_picture();
 }
 
 /// "0.8 3": S of the best solution, or of what came nearest, and the number of solutions.

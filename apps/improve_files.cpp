@@ -56,7 +56,8 @@ fs::path state_file(const fs::path& folder) {
 }
 
 const std::vector<std::string>& summary_names() {
-  static const std::vector<std::string> names = {"index.html", "result.json", project_name};
+  static const std::vector<std::string> names = {"index.html", "result.json", project_name, "front.csv",
+                                                 "front.png"};
   return names;
 }
 

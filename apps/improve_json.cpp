@@ -189,7 +189,7 @@ Json solution_json(const ImproveReport& report, const SolutionReport& solution) 
   const Separation& exact = solution.assessment.separation;
   return {{"name", solution.name},
           {"direction", to_json(solution.candidate.direction)},
-          {"target", task.target()},
+          {"target", solution.target},
           {"stackability", after.value},
           {"stackability_before", solution.before.value},
           {"f_max", exact.blocked ? exact.length : 0},
@@ -209,6 +209,20 @@ Json solution_json(const ImproveReport& report, const SolutionReport& solution) 
           {"good", solution.good()}};
 }
 
+Json front_json(const ImproveReport& report) {
+  if (!report.run.front) return nullptr;
+  Json list = Json::array();
+  for (const FrontRow& row : front_rows(report))
+    list.push_back({{"name", row.solution != nullptr ? Json(row.solution->name) : Json(nullptr)},
+                    {"target", row.point.target},
+                    {"stackability", row.point.assessment.measured.value},
+                    {"change", row.point.change},
+                    {"f_max", row.point.assessment.measured.f_max},
+                    {"edits", row.point.candidate.design.edits.size()},
+                    {"lines", row.lines}});
+  return list;
+}
+
 void add_improvement(Json& document, const ImproveReport& report) {
   const Improvement& result = report.run.result;
   document["target"] = target_json(report);
@@ -217,6 +231,7 @@ void add_improvement(Json& document, const ImproveReport& report) {
   for (const SolutionReport& solution : report.solutions)
     document["solutions"].push_back(solution_json(report, solution));
   document["nearest"] = report.nearest ? solution_json(report, *report.nearest) : Json(nullptr);
+  document["front"] = front_json(report);
   document["diagnosis"] =
       result.diagnosis ? diagnosis_json(*result.diagnosis, report.task.rest()) : Json(nullptr);
   document["search"] = {{"end", search_end_name(result.end)},

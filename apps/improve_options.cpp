@@ -16,16 +16,28 @@ constexpr double max_effort = 1e6;   ///< about a year
 /// A direction that nobody gave may turn by so much at each edit.
 constexpr double free_cone_degrees = 10;
 constexpr int max_solutions = 20;
+/// Target of a front that goes as far as it can, and the effort for each of its targets.
+constexpr double front_target = 0.95, front_effort = 0.3;
 
 void check_wish(const ImproveCommandOptions& options) {
   if (options.target && (options.copies || options.within))
     throw UsageError("--target and --copies with --within are two ways to say the same: give one of them");
   if (options.copies.has_value() != options.within.has_value())
     throw UsageError("--copies and --within go together: how many copies within what length");
-  if (!options.target && !options.copies)
+  if (!options.target && !options.copies && !options.front)
     throw UsageError("expected --target S, or --copies N with --within LENGTH");
   refuse_option(options.copies && options.directions.size() > 1, "--direction",
                 "is given once with --copies and --within: the room is along it");
+}
+
+/// A front is made of refined designs for several targets, each by a run of its own.
+void check_front(const ImproveCommandOptions& options) {
+  if (!options.front) return;
+  refuse_option(options.copies.has_value(), "--copies", "does not go with --front, which goes by S");
+  refuse_option(options.preset == ImprovementPreset::paper, "--preset paper",
+                "does not go with --front, whose designs are refined");
+  refuse_option(options.seconds.has_value(), "--time", "does not go with --front: --effort bounds its work");
+  refuse_option(options.resume, "--resume", "does not go with --front, whose runs are not saved");
 }
 
 /// The gaps are measured once, along one direction.
@@ -51,8 +63,15 @@ void add_wish_options(CLI::App& command, ImproveCommandOptions& options) {
 }
 
 void add_search_options(CLI::App& command, ImproveCommandOptions& options) {
-  add_count(command, {"--solutions", "Different solutions to look for (default: 3)", 1, max_solutions},
+  add_count(command,
+            {"--solutions",
+             "Different solutions to look for (default: 3); with --front, designs beside that at rest "
+             "(default: 8)",
+             1, max_solutions},
             options.solutions);
+  command.add_flag("--front", options.front,
+                   "Show the trade of S against change: designs from rest to --target, or to the largest S "
+                   "that is reached, with a curve");
   add_choice(command, "--model", options.kind, deformation_choices(),
              "What moves the mesh (default: controllers)");
   const Choices<ImprovementPreset> presets = {{"paper", ImprovementPreset::paper},
@@ -108,10 +127,15 @@ void add_improve_options(CLI::App& command, ImproveCommandOptions& options) {
 
 void check(const ImproveCommandOptions& options) {
   check_wish(options);
+  check_front(options);
   check_gap_scaling(options);
   check(options.requirements);
   check_outputs(options.common,
                 {{}, analysis_inputs(options.analysis), {{"--output", improve_folder(options)}}});
+}
+
+std::optional<double> ImproveCommandOptions::wanted_target() const {
+  return target || !front ? target : front_target;
 }
 
 Following following_of(const ImproveCommandOptions& options) {
@@ -132,9 +156,9 @@ ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) 
   if (options.preset == ImprovementPreset::paper) search.edits.family = EditFamily::paper;
   search.edits.bends = options.bends;
   search.edits.contacts.semantics = options.measure.semantics;
-  search.solutions = options.solutions;
+  search.solutions = options.wanted();
   search.expansions = options.expansions.value_or(search.expansions);
-  improvement.effort = options.effort.value_or(improvement.effort);
+  improvement.effort = options.effort.value_or(options.front ? front_effort : improvement.effort);
   // A direction that is given is kept. So is that of a room, and gap scaling knows no other than its own.
   const bool is_free = options.directions.empty() && !options.copies &&
                        !capabilities_of(options.kind).edits_along_one_direction;

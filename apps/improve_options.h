@@ -20,7 +20,8 @@ struct ImproveCommandOptions {
   std::optional<double> target;  ///< --target
   std::optional<int> copies;     ///< --copies
   std::optional<Length> within;  ///< --within
-  int solutions = 3;
+  std::optional<int> solutions;  ///< --solutions; default 3, and 8 for a front
+  bool front = false;            ///< --front
   DeformationKind kind = DeformationKind::controllers;
   ImprovementPreset preset = ImprovementPreset::refined;
   ChangeMeasure objective = ChangeMeasure::both;
@@ -33,6 +34,10 @@ struct ImproveCommandOptions {
   bool twist = false, resume = false, no_pictures = false;
   std::string folder;
 
+  /// Solutions to look for.
+  int wanted() const { return solutions.value_or(front ? 8 : 3); }
+  /// S to be reached, where that is asked for: of a front without --target, more than anything reaches.
+  std::optional<double> wanted_target() const;
   /// Copies of the stacks that are shown.
   int shown_copies() const { return copies.value_or(5); }
 };

@@ -30,6 +30,10 @@ table { border-collapse: collapse; margin: 1rem 0; }
 th, td { text-align: left; padding: .25rem .9rem .25rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
 td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 ul, ol { margin: .2rem 0; padding-left: 1.4rem; overflow-wrap: anywhere; }
+.strip { display: grid; gap: .8rem; grid-template-columns: repeat(auto-fill, minmax(12rem, 1fr)); }
+.strip a { color: var(--faint); font-size: .85rem; text-decoration: none; }
+details { font-size: .85rem; margin: .4rem 0; }
+summary { cursor: pointer; }
 pre { white-space: pre-wrap; font: inherit; margin: 0; }
 )";
 
@@ -146,11 +150,28 @@ std::string article(const ImproveReport& report, const SolutionReport& solution)
   return text + "</article>\n";
 }
 
+/// The curve of a front, and the designs along it.
+std::string front(const ImproveReport& report) {
+  if (!report.run.front || !report.pictures_missing.empty()) return "";
+  std::string text = element("h3", "S against change") + "\n" +
+                     picture("front.png", "the change of every design over its S") +
+                     "<div class=\"strip\">\n";
+  for (const SolutionReport& solution : report.solutions)
+    text +=
+        "<a href=\"#" + escaped(solution.name) + "\">" +
+        picture(solution.name + "_before_after.png", title_of(solution)) +
+        element("span", title_of(solution) + ", S " + stackability_text(solution.assessment.measured.value)) +
+        "</a>\n";
+  return text + "</div>\n";
+}
+
 std::string verdict(const ImproveReport& report) {
   const std::size_t count = report.solutions.size();
   if (report.reached())
-    return element("p class=\"verdict good\"", counted(static_cast<long long>(count), "solution") +
-                                                   ", best first; " + end_text(report.run));
+    return element("p class=\"verdict good\"",
+                   counted(static_cast<long long>(count), "solution") +
+                       (report.run.front ? ", from least to most S; " : ", best first; ") +
+                       end_text(report.run));
   return element("p class=\"verdict bad\"",
                  count == 0 ? "Not reached; " + end_text(report.run)
                             : "There are solutions, but a check contradicts them; " + end_text(report.run));
@@ -190,10 +211,10 @@ std::string improvement_page(const ImproveReport& report) {
       element("title", model + ", made to stack") + "\n<style>" + page_style + "</style>\n</head>\n<body>\n";
   page += element("h1", model + ", made to stack") + "\n" + verdict(report) + "\n";
   page += element("h3", "Asked for") + "\n" + list("ul", wish_lines(report));
-  if (report.run.result.diagnosis)
+  if (report.run.result.diagnosis && !(report.run.front && report.reached()))
     page += element("h3", "Why it was not reached, and what would help") + "\n" +
             element("pre", text(*report.run.result.diagnosis, report.task.rest().structure)) + "\n";
-  page += comparison(report);
+  page += front(report) + comparison(report);
   if (!report.pictures_missing.empty())
     page += element("p class=\"faint\"", "No pictures: " + report.pictures_missing + ".") + "\n";
   page += "<div class=\"solutions\">\n";

@@ -75,7 +75,8 @@ std::string complaints(const ImproveReport& report) {
 bool ImproveReport::reached() const {
   const auto confirmed = [](const SolutionReport& solution) { return solution.confirmed(); };
   const auto good = [](const SolutionReport& solution) { return solution.good(); };
-  return std::all_of(solutions.begin(), solutions.end(), confirmed) &&
+  const bool missed = run.front && options.target && !run.front->reached;
+  return !missed && std::all_of(solutions.begin(), solutions.end(), confirmed) &&
          std::any_of(solutions.begin(), solutions.end(), good);
 }
 
@@ -84,6 +85,34 @@ std::vector<const SolutionReport*> ImproveReport::shown() const {
   for (const SolutionReport& solution : solutions) list.push_back(&solution);
   if (nearest) list.push_back(&*nearest);
   return list;
+}
+
+std::vector<FrontRow> front_rows(const ImproveReport& report) {
+  std::vector<FrontRow> rows;
+  if (!report.run.front) return rows;
+  for (std::size_t k = 0; k < report.run.front->points.size(); ++k) {
+    const SolutionReport* const solution = k == 0 ? nullptr : &report.solutions.at(k - 1);
+    rows.push_back(
+        {report.run.front->points[k], solution,
+         solution != nullptr ? explanation_lines(solution->explanation) : std::vector<std::string>()});
+  }
+  return rows;
+}
+
+std::string front_table(const ImproveReport& report) {
+  std::string text = "target,stackability,change,f_max,edits,name,words\n";
+  for (const FrontRow& row : front_rows(report)) {
+    const Stackability& measured = row.point.assessment.measured;
+    for (const double number : {row.point.target, measured.value, row.point.change, measured.f_max})
+      text += exact_digits(number) + ",";
+    // Part names are in the words.
+    std::string words = joined(row.lines, "; ");
+    for (std::size_t at = words.find('"'); at != std::string::npos; at = words.find('"', at + 2))
+      words.insert(at, 1, '"');
+    text += std::to_string(row.point.candidate.design.edits.size()) + "," +
+            (row.solution != nullptr ? row.solution->name : "") + ",\"" + words + "\"\n";
+  }
+  return text;
 }
 
 std::string title_of(const SolutionReport& solution) {
@@ -101,7 +130,10 @@ std::vector<std::string> wish_lines(const ImproveReport& report) {
     lines.push_back(std::to_string(*report.options.copies) + " copies within " +
                     quantity(*task.length_limit(), task.rest().shape.unit));
   const BoxModel boxes = task.checker().requirements().measure.boxes;
-  lines.push_back("S of at least " + rounded(task.target()) + " " + directions + " (" +
+  const std::string goal = report.options.front && !report.options.target
+                               ? "as much S as can be reached"
+                               : "S of at least " + rounded(task.target());
+  lines.push_back((report.options.front ? "designs from rest to " : "") + goal + " " + directions + " (" +
                   (boxes == BoxModel::frame ? "frame" : "oriented") + " boxes)");
   add_requirement_lines(lines, report);
   return lines;
@@ -169,7 +201,8 @@ std::string improvement_text(const ImproveReport& report) {
             saving_text(report.solutions.front().stack, task.rest().shape.unit) + ".\n";
   else if (report.solutions.empty())
     text += "Not reached.\n";
-  if (result.diagnosis) text += stackabilization::text(*result.diagnosis, task.rest().structure);
+  if (result.diagnosis && !(report.run.front && report.reached()))
+    text += stackabilization::text(*result.diagnosis, task.rest().structure);
   if (!text.ends_with('\n')) text += '\n';
   if (!report.pictures_missing.empty()) text += "No pictures: " + report.pictures_missing + ".\n";
   return text + "Written to " + report.options.folder + ": open index.html there in a browser.\n";

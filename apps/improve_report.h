@@ -23,6 +23,17 @@ struct ImproveReport {
   std::vector<const SolutionReport*> shown() const;
 };
 
+/// A row of the front: a design, and the solution with its files; none at rest.
+struct FrontRow {
+  const FrontPoint& point;
+  const SolutionReport* solution;
+  std::vector<std::string> lines;  ///< what changes; empty at rest
+};
+/// The rows of the front, that at rest first; none without --front.
+std::vector<FrontRow> front_rows(const ImproveReport& report);
+/// The front as CSV with a heading: target, stackability, change, f_max, edits, name, words.
+std::string front_table(const ImproveReport& report);
+
 /// "Solution 1", "Nearest".
 std::string title_of(const SolutionReport& solution);
 /// What was asked for, a line each.

@@ -62,6 +62,24 @@ std::string status_text(const ImprovementProgress& progress) {
   return text;
 }
 
+/// Runs `improve` for every target of a front. Its designs are solutions, from least to most change.
+void run_front(const ImproveCommandOptions& options, const ImproveTask& task, ImproveRun& run) {
+  FrontOptions front;
+  front.points = options.wanted() + 1;
+  front.improvement = run.options;
+  run.front = improvement_front(*task.task, front);
+  const auto& points = run.front->points;
+  run.result.before = points.front().candidate;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    run.result.solutions.push_back(points[k].candidate);
+    run.result.assessments.push_back(points[k].assessment);
+  }
+  if (points.size() == 1) run.result.nearest = run.front->nearest;
+  run.result.diagnosis = run.front->diagnosis;
+  run.result.progress.evaluated = run.front->evaluated;
+  run.result.end = run.front->end;
+}
+
 }  // namespace
 
 ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& options,
@@ -77,7 +95,7 @@ ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& o
     Requirements requirements = requirements_of(
         options.requirements, rest.shape, options.measure,
         options.preset == ImprovementPreset::paper ? QualityDefault::any : QualityDefault::limited);
-    requirements.target = options.target.value_or(0);
+    requirements.target = options.wanted_target().value_or(0);
     if (options.within) requirements.length_limit = {*options.copies, options.within->in(rest.shape.unit)};
     ProgressBar bar("Looking for directions");
     ImprovementTaskOptions how = task_options(options, task.saved, watch);
@@ -106,9 +124,12 @@ ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& 
     if (status.due()) status.show(status_text(progress));
   };
   search.cancelled = [&interrupts] { return interrupts.requested(); };
-  search.save = [&state](const std::string& text) { write_file_atomically(state, text); };
+  if (!options.front) search.save = [&state](const std::string& text) { write_file_atomically(state, text); };
   try {
-    run.result = improve(*task.task, run.options, task.saved);
+    if (options.front)
+      run_front(options, task, run);
+    else
+      run.result = improve(*task.task, run.options, task.saved);
   } catch (const SavedSearchError&) {
     throw;
   } catch (const InputError& error_of_model) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/improve_options.h"
+#include "stackabilization/improvement/front.h"
 #include "stackabilization/improvement/task.h"
 
 namespace stackabilization::apps {
@@ -36,7 +37,8 @@ ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& o
 struct ImproveRun {
   ImprovementOptions options;
   Improvement result;
-  bool interrupted = false;  ///< by a signal, which is answered once all is written
+  std::optional<Front> front;  ///< with --front; its designs but the first are the solutions
+  bool interrupted = false;    ///< by a signal, which is answered once all is written
 };
 
 /// Was it not stopped, by a signal or a limit? Then there is nothing to go on with.

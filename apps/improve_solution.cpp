@@ -106,15 +106,16 @@ bool SolutionReport::good() const {
 SolutionReport solution_report(const ImproveCommandOptions& options, const ImproveTask& task,
                                const Candidate& candidate, const Assessment& assessment) {
   SolutionReport report;
+  report.target = task.target();
   report.candidate = candidate;
   report.assessment = assessment;
   const Direction direction = report.direction();
   const StructuredShape& rest = task.rest();
   report.before = task.checker().rest_shape().measure(direction);
   report.change = shape_change(rest.shape, candidate.design.shape);
-  report.residuals = relation_residuals(rest.structure, candidate.design.primitives);
   report.explanation = explain(rest, candidate.design.shape,
                                {Eigen::Vector3d::UnitZ(), candidate.design.edits, candidate.reasons});
+  report.residuals = relation_residuals(rest.structure, candidate.design.primitives);
   report.stack = stack_heights(options, task, report);
   if (options.twist) report.twist = twisted(task, report);
   return report;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -90,5 +91,8 @@ struct ComparedDesigns {
 };
 void write_improvement_picture(const PictureFile& file, const ComparedDesigns& designs);
 void write_stacks_picture(const PictureFile& file, const ComparedDesigns& designs, int copies);
+
+/// Change over S, with the number of each design; the first one, at rest, is 0.
+void write_front_picture(const PictureFile& file, const std::vector<Eigen::Vector2d>& points);
 
 }  // namespace stackabilization::apps

@@ -57,6 +57,10 @@ void write_improvement_picture(const PictureFile&, const ComparedDesigns&) {
   refuse_rendering();
 }
 
+void write_front_picture(const PictureFile&, const std::vector<Eigen::Vector2d>&) {
+  refuse_rendering();
+}
+
 void write_stacks_picture(const PictureFile&, const ComparedDesigns&, int) {
   refuse_rendering();
 }

@@ -3,6 +3,7 @@
 #include "apps/interrupt.h"
 #include "apps/rendering.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/rendering/curve_plot.h"
 #include "stackabilization/rendering/depth_raster.h"
 #include "stackabilization/rendering/pictures.h"
 
@@ -97,6 +98,22 @@ void write_improvement_picture(const PictureFile& file, const ComparedDesigns& d
   options.notes = designs.notes;
   write_picture(
       file, improvement_picture({measured_shape(designs.before), measured_shape(designs.after)}, options));
+}
+
+void write_front_picture(const PictureFile& file, const std::vector<Eigen::Vector2d>& points) {
+  CurvePlot plot;
+  plot.x.title = "stackability S";
+  plot.y.title = "change, per cent";
+  PlotSeries series;
+  series.mark = PlotMark::circle;
+  series.points = points;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    plot.notes.push_back({points[k], (k == 0 ? "at rest" : std::to_string(k)) + "  ", palette::ink,
+                          k == 0 ? Anchor::left : Anchor::right});
+  plot.series = {std::move(series)};
+  CurvePlotOptions options;
+  options.title = file.title;
+  write_picture(file, curve_plot(plot, options));
 }
 
 void write_stacks_picture(const PictureFile& file, const ComparedDesigns& designs, int copies) {

@@ -1,6 +1,7 @@
 #include <signal.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <pugixml.hpp>
@@ -92,8 +93,8 @@ void check_solution(const ImprovableCup& folder, const json& solution) {
   CHECK(solution["energy"]["value"].get<double>() ==
         Approx(0.2 * total / 4 - 0.8 * solution["energy"]["gain"].get<double>()));
   CHECK(!solution["edits"].empty());
-  CHECK(solution["good"] == true);
   CHECK(!solution["explanation"]["lines"].empty());
+  CHECK(solution["good"] == true);
   CHECK(solution["checks"].size() >= 4);
   for (const json& check : solution["checks"]) CHECK(check["verdict"] == "agrees");
   for (const json& requirement : solution["requirements"]) CHECK(requirement["passed"] == true);
@@ -144,6 +145,42 @@ TEST_CASE("suggest goes on from the solutions, and back to the shape at rest") {
   const json rest = suggested({"--roll-back", "0", "--apply", "1", "--save", folder / "other.json"});
   CHECK(rest["node"] == 0);
   CHECK(rest["now"]["stackability"].get<double>() == Approx(folder.stackability_now()).margin(1e-9));
+}
+
+TEST_CASE("a front has a curve of designs from rest to the target, in JSON, CSV and on the page") {
+  const ImprovableCup folder;
+  const double target = folder.stackability_now() + 0.04;
+  const Outcome outcome = run_program({"improve", folder.cup, "--direction", "0", "0", "1", "--no-timing",
+                                       "--no-pictures", "-o", folder.out, "--front", "--target",
+                                       std::to_string(target), "--solutions", "3", "--effort", "0.05"});
+  INFO(outcome.err << outcome.out);
+  REQUIRE(outcome.status == 0);
+  const json document = folder.document("result.json");
+  REQUIRE(document["front"].size() == 4);
+  CHECK(document["front"][0]["name"] == nullptr);
+  CHECK(document["front"][0]["change"] == 0);
+  for (std::size_t k = 1; k < 4; ++k) {
+    const json& point = document["front"][k];
+    CHECK(point["name"] == "solution_" + std::to_string(k));
+    CHECK(point["change"].get<double>() >= document["front"][k - 1]["change"].get<double>());
+    CHECK(document["solutions"][k - 1]["target"] == point["target"]);
+    CHECK(point["stackability"].get<double>() >= point["target"].get<double>() - 1e-9);
+    check_solution(folder, document["solutions"][k - 1]);
+  }
+  const std::string table = folder.written("front.csv");
+  CHECK(std::count(table.begin(), table.end(), '\n') == 5);
+  CHECK(table.starts_with("target,stackability,change,f_max,edits,name,words\n"));
+  check_page(folder.out);
+}
+
+TEST_CASE("a front refuses what has no place in it") {
+  const ImprovableCup folder;
+  for (const Arguments& more : {Arguments{"--copies", "3", "--within", "20"}, Arguments{"--preset", "paper"},
+                                Arguments{"--time", "9"}, Arguments{"--resume"}}) {
+    const Outcome outcome = run_program(joined({"improve", folder.cup, "--front", "-o", folder.out}, more));
+    CHECK(outcome.status == 2);
+    CHECK(outcome.err.find("--front") != std::string::npos);
+  }
 }
 
 TEST_CASE("edits of a solution make the same file with deform") {

@@ -29,6 +29,10 @@ struct ImprovementOptions {
   /// to the whole run. The number of trials follows from `effort`. `cancelled` may be asked from any thread.
   BestFirstOptions search;
   RefinementOptions refinement;  ///< options of the refinement
+  /// Designs that refinement starts from too, such as those for a similar target. A solution never changes
+  /// the shape by more than such a design that meets the requirements. Not used by the paper's preset, and no
+  /// part of a saved state.
+  std::vector<Candidate> starts = {};
 };
 
 /// Returns options for designs with limits of quality (Requirements::quality): smooth edits, and a price of

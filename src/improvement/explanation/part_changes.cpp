@@ -41,7 +41,9 @@ constexpr double open_share = 0.6, rim_share = 0.1;
 constexpr double deformed = 5;
 /// A change is left out beside one that a person sees so much better, as a ratio of multiples of what is
 /// seen.
-constexpr double minor = 0.1;
+constexpr double minor = 0.15;
+/// Pieces of the surface of a part: enough for a vessel of many triangles.
+constexpr std::size_t max_pieces = 40000;
 constexpr int sweeps = 100;
 
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
@@ -209,10 +211,13 @@ class PartMeasurement {
     measure_place();
     const Points at_rest = part_.form.marks.on(rest_);
     double departure = 0;
-    for (Eigen::Index k = 0; k < marks_.rows(); ++k)
-      departure = std::max(
-          departure,
-          (result_.map(at_rest.row(k).transpose()) + frame_.shift - marks_.row(k).transpose()).norm());
+    for (Eigen::Index k = 0; k < marks_.rows(); ++k) {
+      // Across the surface: points may slide within it.
+      const Eigen::Vector3d normal =
+          unit_normal(now_, part_.form.marks.triangles[static_cast<std::size_t>(k)]);
+      const Eigen::Vector3d image = result_.map(at_rest.row(k).transpose()) + frame_.shift;
+      departure = std::max(departure, std::abs(normal.dot(image - marks_.row(k).transpose())));
+    }
     add(Kind::form, departure / frame_.height, deformed * frame_.visible() / frame_.height);
   }
 
@@ -240,7 +245,7 @@ class PartMeasurement {
     }
     const Eigen::Vector3d u = up.unitOrthogonal(), v = up.cross(u);
     const double yaw = std::atan2(v.dot(turn * u) - u.dot(turn * v), u.dot(turn * u) + v.dot(turn * v));
-    add_angle(Kind::turn, std::abs(yaw), widest);
+    if (2 * widest > tall) add_angle(Kind::turn, std::abs(yaw), widest);
   }
 
   /// Names the stretches along the axes of a split.
@@ -330,7 +335,7 @@ double ObjectFrame::visible() const {
 }
 
 PartAtRest part_at_rest(const StructuredShape& rest, std::size_t part, std::vector<std::int32_t> triangles) {
-  PartAtRest result{part_form(rest, part, triangles), std::move(triangles)};
+  PartAtRest result{part_form(rest, part, triangles, max_pieces), std::move(triangles)};
   if (!result.form.fit) return result;
   result.low.setConstant(std::numeric_limits<double>::infinity());
   result.high = -result.low;

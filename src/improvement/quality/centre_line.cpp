@@ -18,10 +18,9 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Number of stations of a line, the fewest pieces of a station, and the most pieces of a part.
+/// Number of stations of a line, and the fewest pieces of a station.
 constexpr int station_count = 12;
 constexpr std::size_t pieces_per_station = 6;
-constexpr std::size_t max_pieces = 4000;
 /// Ratio of length to width from which on a cuboid is elongated.
 constexpr double elongated = 3;
 /// Share of the length within which corners belong to an end.
@@ -98,7 +97,7 @@ double turn(const Eigen::RowVector3d& before, const Eigen::RowVector3d& middle,
 }  // namespace
 
 std::optional<CentreLine> CentreLine::of(const Primitive& primitive, const Shape& rest,
-                                         const std::vector<std::int32_t>& triangles) {
+                                         const std::vector<std::int32_t>& triangles, std::size_t max_pieces) {
   const std::optional<PartCurve> curve = curve_of(primitive);
   if (!curve) return std::nullopt;
   CentreLine line;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -33,11 +34,14 @@ struct CentreLineChange {
 /// the mean of its pieces, its radius their mean distance from the line.
 class CentreLine {
  public:
+  static constexpr std::size_t default_pieces = 4000;  ///< of a part
+
   /// Returns the centre line of a part at rest along the curve of its primitive: the sections of a cylinder
   /// that is at least as long as its radius, or the longest axis of a cuboid if it is at least 3 times as
-  /// long as wide. Nothing for other parts and where a station has too few pieces.
+  /// long as wide. Nothing for other parts and where a station has too few pieces, of `max_pieces` in all.
   static std::optional<CentreLine> of(const Primitive& primitive, const Shape& rest,
-                                      const std::vector<std::int32_t>& triangles);
+                                      const std::vector<std::int32_t>& triangles,
+                                      std::size_t max_pieces = default_pieces);
 
   /// Compares the part, now, with rest. `affine`: map of the part.
   CentreLineChange change(const Shape& now, const AffineMap& affine) const;

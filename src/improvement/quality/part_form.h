@@ -19,7 +19,8 @@ struct PartForm {
   std::optional<CentreLine> line;  ///< of an elongated part
 };
 
-/// Prepares the form of a part at rest. `triangles`: those of the part.
-PartForm part_form(const StructuredShape& rest, std::size_t part, const std::vector<std::int32_t>& triangles);
+/// Prepares the form of a part at rest. `triangles`: those of the part; `max_pieces`: of its centre line.
+PartForm part_form(const StructuredShape& rest, std::size_t part, const std::vector<std::int32_t>& triangles,
+                   std::size_t max_pieces = CentreLine::default_pieces);
 
 }  // namespace stackabilization::detail

@@ -204,10 +204,9 @@ class ImprovementRun {
   Improvement run() {
     const BestFirstOptions search = search_options();
     if (!state_ && search.save) search.save(search_at_start(checker_, search));
-    std::vector<Candidate> starts;
-    if (refines_) {
-      starts = pursuits(search);
-    }
+    std::vector<Candidate> starts = options_.starts;
+    if (refines_)
+      for (Candidate& found : pursuits(search)) starts.push_back(std::move(found));
     if (refines_ && !checker_.requirements().quality) {
       BestFirstOptions paper = search;
       paper.edits.family = EditFamily::paper;
