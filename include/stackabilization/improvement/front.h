@@ -33,11 +33,12 @@ struct Front {
   /// reached. Every design meets the requirements; neither S nor change ever decreases. The shape at rest
   /// alone if no larger S was reached.
   std::vector<FrontPoint> points;
-  bool reached = false;                ///< whether the target of the requirements was reached
-  std::optional<Diagnosis> diagnosis;  ///< why it was not
-  std::optional<Candidate> nearest;    ///< what came nearest to it, without a limit of the form
-  std::int64_t evaluated = 0;          ///< designs measured by all runs
-  SearchEnd end = SearchEnd::solved;   ///< `cancelled` if the caller cancelled, `time_limit` at a deadline
+  bool reached = false;  ///< whether the target of the requirements was reached
+  /// Why it was not: the diagnosis of the smallest target that was missed, with the largest S of all designs.
+  std::optional<Diagnosis> diagnosis;
+  std::optional<Candidate> nearest;   ///< what came nearest to it, without a limit of the form
+  std::int64_t evaluated = 0;         ///< designs measured by all runs
+  SearchEnd end = SearchEnd::solved;  ///< `cancelled` if the caller cancelled, `time_limit` at a deadline
 };
 
 /// Finds designs of least change for targets from S at rest to the target of the requirements, or to the

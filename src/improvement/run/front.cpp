@@ -97,9 +97,17 @@ class FrontRun {
       Improvement tried = improved(next, std::move(starts));
       if (tried.solutions.empty()) {
         missed = next;
+        if (tried.diagnosis) result_.diagnosis = std::move(tried.diagnosis);
       } else {
         best = point(next, std::move(tried));
         reached = next;
+      }
+    }
+    if (result_.diagnosis) {
+      result_.diagnosis->target = target;
+      if (best && best->candidate.measured.value > result_.diagnosis->reached) {
+        result_.diagnosis->reached = best->candidate.measured.value;
+        result_.diagnosis->direction = best->candidate.direction;
       }
     }
     return best;
