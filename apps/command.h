@@ -3,6 +3,8 @@
 #include <CLI/App.hpp>
 #include <functional>
 
+#include "apps/common_options.h"
+
 /// The subcommands of `stackabilize`. Each one parses into its options, calls the library and hands the
 /// result over as text, JSON, meshes and pictures; nothing is computed here.
 namespace stackabilization::apps {
@@ -19,6 +21,7 @@ enum ExitStatus {
 struct Command {
   CLI::App* app;
   std::function<int()> run;  ///< returns the exit status; throws the errors of the library
+  CommonOptions* common;     ///< lives as long as `run`
 };
 
 Command make_inspect_command(CLI::App& program);

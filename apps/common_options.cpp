@@ -12,6 +12,12 @@ namespace {
 /// More than any machine has; a larger number is a typing error.
 constexpr int max_threads = 1024;
 
+const Count& threads_option() {
+  static const Count option = {"--threads", "Threads to use (default: all); never changes a result", 1,
+                               max_threads};
+  return option;
+}
+
 void add_reading_options(CLI::App& command, ReadOptions& read) {
   const Choices<Format> formats = {{"obj", Format::obj}, {"off", Format::off},      {"ply", Format::ply},
                                    {"stl", Format::stl}, {"3mf", Format::three_mf}, {"gltf", Format::gltf}};
@@ -53,9 +59,12 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
       ->type_name("FILE");
   command.add_flag("--quiet", common.quiet, "Print the essential numbers only");
   command.add_flag("--no-timing", common.no_timing, "Leave the field seconds out of the JSON");
-  add_count(command, {"--threads", "Threads to use (default: all); never changes a result", 1, max_threads},
-            common.threads);
+  add_count(command, threads_option(), common.threads);
   add_count(command, {"--seed", "Accepted for scripts: nothing here depends on chance"}, common.seed);
+}
+
+int parse_threads(const std::string& text) {
+  return static_cast<int>(parse_count(threads_option(), text));
 }
 
 void add_semantics_option(CLI::App& command, ContactSemantics& semantics) {

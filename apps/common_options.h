@@ -11,6 +11,8 @@
 
 namespace stackabilization::apps {
 
+struct Caller;
+
 /// What every subcommand takes.
 struct CommonOptions {
   std::string model;                ///< path of the mesh file, "-" for standard input
@@ -19,7 +21,8 @@ struct CommonOptions {
   bool quiet = false;               ///< only the essential numbers
   bool no_timing = false;           ///< leave `seconds` out of the JSON
   int threads = 0;                  ///< 0: as many as the machine has
-  std::uint64_t seed = 0;  ///< nothing here is random yet; accepted so that scripts can always give one
+  std::uint64_t seed = 0;    ///< nothing here is random yet; accepted so that scripts can always give one
+  Caller* caller = nullptr;  ///< nothing: the terminal
 
   bool json_on_stdout() const { return json && *json == "-"; }
 };
@@ -29,6 +32,9 @@ CLI::App* add_command(CLI::App& program, const std::string& name, const std::str
                       const std::string& example);
 /// MODEL and the options of `common`, which must live until the command line is parsed.
 void add_common_options(CLI::App& command, CommonOptions& common);
+
+/// The value of --threads. Throws UsageError unless it is a number of threads.
+int parse_threads(const std::string& text);
 
 /// --semantics, --boxes.
 void add_semantics_option(CLI::App& command, ContactSemantics& semantics);

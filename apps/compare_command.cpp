@@ -116,7 +116,7 @@ Command make_compare_command(CLI::App& program) {
       ->required();
   add_relax_option(*command, options->relaxed);
   add_analysis_options(*command, options->analysis);
-  return {command, [command, options] { return run_compare_command(*command, *options); }};
+  return {command, [command, options] { return run_compare_command(*command, *options); }, &options->common};
 }
 
 }  // namespace stackabilization::apps

@@ -47,7 +47,8 @@ int list_handles(const CLI::App& command, const DeformCommandOptions& options, c
 
 void write_result(const DeformCommandOptions& options, const DeformRun& run, const Model& model) {
   if (options.output) write_mesh_output(options.common, *options.output, run.result.design.shape);
-  if (options.save) write_output(*options.save, project_text(rebase(run.rest, run.result.design)));
+  if (options.save)
+    write_text_output(options.common, *options.save, project_text(rebase(run.rest, run.result.design)));
   if (options.picture)
     write_deformation_picture({*options.picture, title_of(model)},
                               {run.rest, run.result.design, run.edits, run.curves, deformation_notes(run)});
@@ -128,7 +129,7 @@ Command make_deform_command(CLI::App& program) {
   command->add_option("--save", options->save, "Write the result as a project file")->type_name("PROJECT");
   command->add_option("--picture", options->picture, "Draw the shape before and after (.png or .svg)")
       ->type_name("FILE");
-  return {command, [command, options] { return run_deform_command(*command, *options); }};
+  return {command, [command, options] { return run_deform_command(*command, *options); }, &options->common};
 }
 
 }  // namespace stackabilization::apps

@@ -59,7 +59,7 @@ class Writer {
     write_mesh(mesh, design.shape);
     write_mesh(solution.name + ".3mf", design.shape);
     write(solution.name + std::string(project_suffix), project_text(rebase(report_.task.rest(), design)));
-    solution.written = check_written(folder_ / mesh, report_.task, solution);
+    solution.written = check_written(read_shape(folder_ / mesh), report_.task, solution);
   }
 
   void write_pictures(const SolutionReport& solution) {
@@ -127,8 +127,8 @@ class Writer {
   std::vector<std::string> written_;
 };
 
-/// Solutions with what is known about them, and their files.
-void write_solutions(ImproveReport& report, Writer& writer) {
+/// Fills the report with the solutions and what is known about them, or with what came nearest.
+void report_solutions(ImproveReport& report) {
   const Improvement& result = report.run.result;
   const auto reported = [&report](const Candidate& candidate, const Assessment& assessment,
                                   std::string name) {
@@ -146,6 +146,10 @@ void write_solutions(ImproveReport& report, Writer& writer) {
     report.nearest = reported(
         *result.nearest,
         report.task.checker().check(result.nearest->design, Direction(result.nearest->direction)), "nearest");
+}
+
+/// Their files.
+void write_solutions(ImproveReport& report, Writer& writer) {
   const auto write = [&](SolutionReport& solution) {
     writer.write_meshes(solution);
     writer.write_pictures(solution);
@@ -155,6 +159,33 @@ void write_solutions(ImproveReport& report, Writer& writer) {
   for (SolutionReport& solution : report.solutions) write(solution);
   if (report.nearest) write(*report.nearest);
   writer.write_front_picture();
+}
+
+/// What a caller gets in the place of files.
+void hand_over_solutions(ImproveReport& report, Caller& caller) {
+  const auto hand_over = [&](SolutionReport& solution) {
+    const Design& design = solution.candidate.design;
+    solution.written = check_written(design.shape, report.task, solution);
+    caller.written_meshes[solution.name] = design.shape;
+    caller.written_texts[solution.name] = project_text(rebase(report.task.rest(), design));
+  };
+  for (SolutionReport& solution : report.solutions) hand_over(solution);
+  if (report.nearest) hand_over(*report.nearest);
+  caller.written_texts["project"] = project_text(improvement_project(report));
+}
+
+/// Tells a caller of every design on the way to the solutions.
+std::function<void(const ImproveRun&, const Candidate&)> teller(const ImproveCommandOptions& options,
+                                                                const ImproveTask& task) {
+  const Caller* const caller = options.common.caller;
+  if (!caller || !caller->found) return {};
+  return [&options, &task, caller](const ImproveRun& run, const Candidate& candidate) {
+    const ImproveReport report{options, task, run, {}, {}, {}};
+    SolutionReport solution = solution_report(
+        options, task, candidate, task.checker().check(candidate.design, Direction(candidate.direction)));
+    solution.name = "design";
+    caller->found(solution_json(report, solution), candidate.design.shape);
+  };
 }
 
 /// "0.8 3": S of the best solution, or of what came nearest, and the number of solutions.
@@ -169,19 +200,24 @@ int run_improve_command(const CLI::App& command, const ImproveCommandOptions& op
   check(options);
   const ThreadLimit limit(options.common);
   const ImproveTask task = improve_task(command, options, watch);
-  improve_folder(options).make();
-  const ImproveRun found = run_improve(options, task, watch);
+  Caller* const caller = options.common.caller;
+  if (!caller) improve_folder(options).make();
+  const ImproveRun found = run_improve(options, task, watch, teller(options, task));
 
   ImproveReport report{options, task, found, {}, {}, {}};
   report.pictures_missing = options.no_pictures ? "left out by --no-pictures" : rendering_missing();
-  Writer writer(report);
-  write_solutions(report, writer);
+  report_solutions(report);
+  std::optional<Writer> writer;
+  if (caller)
+    hand_over_solutions(report, *caller);
+  else
+    write_solutions(report, writer.emplace(report));
   Json document = document_head(command, task.model);
   add_improvement(document, report);
   add_document_tail(document, options.common, task.model, watch);
   Json untimed = document;
   untimed.erase("seconds");  // every run fills the folder with the same bytes
-  writer.write_summaries(untimed);
+  if (writer) writer->write_summaries(untimed);
   deliver(options.common, document,
           options.common.quiet ? essential_improvement(report) : improvement_text(report));
   if (found.interrupted) throw Interrupted();
@@ -196,7 +232,7 @@ Command make_improve_command(CLI::App& program) {
       add_command(program, "improve", "Change a design as little as possible so that it stacks as asked for",
                   "stackabilize improve table.obj --target 0.8 --keep top -o table_stackable");
   add_improve_options(*command, *options);
-  return {command, [command, options] { return run_improve_command(*command, *options); }};
+  return {command, [command, options] { return run_improve_command(*command, *options); }, &options->common};
 }
 
 }  // namespace stackabilization::apps

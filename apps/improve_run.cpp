@@ -97,9 +97,11 @@ ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& o
         options.preset == ImprovementPreset::paper ? QualityDefault::any : QualityDefault::limited);
     requirements.target = options.wanted_target().value_or(0);
     if (options.within) requirements.length_limit = {*options.copies, options.within->in(rest.shape.unit)};
-    ProgressBar bar("Looking for directions");
+    ProgressBar bar("Looking for directions", options.common.caller);
     ImprovementTaskOptions how = task_options(options, task.saved, watch);
     how.progress = [&bar](double fraction) { bar.show(fraction); };
+    if (const Caller* const caller = options.common.caller; caller && caller->stopped)
+      how.cancelled = [caller, late = how.cancelled] { return caller->stopped() || (late && late()); };
     task.task = std::make_unique<const ImprovementTask>(std::move(rest), std::move(requirements), how);
   });
   return task;
@@ -109,22 +111,28 @@ bool ended_by_itself(const ImproveRun& run) {
   return !run.interrupted && (run.result.end == SearchEnd::solved || run.result.end == SearchEnd::exhausted);
 }
 
-ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& task,
-                       const Stopwatch& watch) {
+ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& task, const Stopwatch& watch,
+                       const std::function<void(const ImproveRun&, const Candidate&)>& found) {
+  const Caller* const caller = options.common.caller;
   ImproveRun run;
   run.options = improvement_options_of(options);
   const std::filesystem::path state = state_file(options.folder);
   std::error_code error;
-  if (!task.saved) std::filesystem::remove(state, error);
-  const DeferredInterrupts interrupts;
+  if (!task.saved && !caller) std::filesystem::remove(state, error);
+  const DeferredInterrupts interrupts(caller);
   StatusLine status;
   BestFirstOptions& search = run.options.search;
   if (options.seconds) search.seconds = std::max(*options.seconds - watch.seconds(), min_seconds);
-  search.progress = [&status](const ImprovementProgress& progress) {
-    if (status.due()) status.show(status_text(progress));
+  search.progress = [&status, caller](const ImprovementProgress& progress) {
+    if (caller && caller->progress)
+      caller->progress("Improving", progress.work);
+    else if (status.due())
+      status.show(status_text(progress));
   };
   search.cancelled = [&interrupts] { return interrupts.requested(); };
-  if (!options.front) search.save = [&state](const std::string& text) { write_file_atomically(state, text); };
+  if (found) run.options.found = [&found, &run](const Candidate& candidate) { found(run, candidate); };
+  if (!options.front && !caller)
+    search.save = [&state](const std::string& text) { write_file_atomically(state, text); };
   try {
     if (options.front)
       run_front(options, task, run);

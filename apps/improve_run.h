@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -45,7 +46,9 @@ struct ImproveRun {
 bool ended_by_itself(const ImproveRun& run);
 
 /// Searches with a line of progress on standard error. The state goes to the folder before the search, and
-/// now and then. Throws InputError when --resume finds the state of another search.
-ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& task, const Stopwatch& watch);
+/// now and then; a caller has no folder. `found`: told of every design that is found, when it is, with the
+/// run so far. Throws InputError when --resume finds the state of another search.
+ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& task, const Stopwatch& watch,
+                       const std::function<void(const ImproveRun&, const Candidate&)>& found = {});
 
 }  // namespace stackabilization::apps

@@ -121,11 +121,10 @@ SolutionReport solution_report(const ImproveCommandOptions& options, const Impro
   return report;
 }
 
-std::vector<WrittenCheck> check_written(const std::filesystem::path& mesh, const ImproveTask& task,
+std::vector<WrittenCheck> check_written(const Shape& shape, const ImproveTask& task,
                                         const SolutionReport& report) {
   const Direction direction = report.direction();
   const Requirements& asked = task.checker().requirements();
-  const Shape shape = read_shape(mesh);
   const Stackability measured = task.checker().measure(shape, direction);
   SeparationOptions options;
   options.semantics = asked.measure.semantics;

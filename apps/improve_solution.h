@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,9 +53,10 @@ struct SolutionReport {
 SolutionReport solution_report(const ImproveCommandOptions& options, const ImproveTask& task,
                                const Candidate& candidate, const Assessment& assessment);
 
-/// Reads the mesh of a solution again and asks it: is S what was said, is f_max the same rational number, is
-/// the height kept, and do collision tests find copies free or colliding around f_max as it says?
-std::vector<WrittenCheck> check_written(const std::filesystem::path& mesh, const ImproveTask& task,
+/// Asks the mesh of a solution, as it is read again from its file: is S what was said, is f_max the same
+/// rational number, is the height kept, and do collision tests find copies free or colliding around f_max as
+/// it says?
+std::vector<WrittenCheck> check_written(const Shape& shape, const ImproveTask& task,
                                         const SolutionReport& report);
 
 /// Where copies of a shape touch along a direction.

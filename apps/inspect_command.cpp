@@ -39,7 +39,7 @@ Command make_inspect_command(CLI::App& program) {
   add_common_options(*command, options->common);
   command->add_flag("--self-intersections", options->self_intersections,
                     "Count the pairs of triangles that intersect (seconds on large meshes)");
-  return {command, [command, options] { return run_inspect_command(*command, *options); }};
+  return {command, [command, options] { return run_inspect_command(*command, *options); }, &options->common};
 }
 
 }  // namespace stackabilization::apps

@@ -43,14 +43,17 @@ void install_interrupt_handler() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-DeferredInterrupts::DeferredInterrupts()
-    : deferred_before_(deferred.exchange(true)), remembered_before_(remembered != 0) {}
+DeferredInterrupts::DeferredInterrupts(const Caller* caller)
+    : caller_(caller),
+      deferred_before_(caller ? deferred.load() : deferred.exchange(true)),
+      remembered_before_(remembered != 0) {}
 
 DeferredInterrupts::~DeferredInterrupts() {
-  deferred = deferred_before_;
+  if (!caller_) deferred = deferred_before_;
 }
 
 bool DeferredInterrupts::requested() const {
+  if (caller_) return caller_->stopped && caller_->stopped();
   return remembered != 0 && !remembered_before_;
 }
 

@@ -32,8 +32,8 @@ struct Summary {
 };
 
 StackabilityMap map_with_progress(const StackabilitySolver& solver, const MapCommandOptions& options) {
-  ProgressBar bar("Mapping");
-  const DeferredInterrupts interrupts;
+  ProgressBar bar("Mapping", options.common.caller);
+  const DeferredInterrupts interrupts(options.common.caller);
   MapOptions map;
   map.step_degrees = options.step_degrees.value_or(default_step_degrees);
   map.progress = [&bar](double fraction) { bar.show(fraction); };
@@ -110,7 +110,7 @@ int run_map_command(const CLI::App& command, const MapCommandOptions& options) {
   document.update(map_json(options, map, summary));
   add_document_tail(document, options.common, model, watch);
   if (options.picture) write_map_picture({*options.picture, title_of(model)}, map);
-  if (options.table) write_output(*options.table, csv_text(map));
+  if (options.table) write_text_output(options.common, *options.table, csv_text(map));
   const std::string essential =
       exact_digits(summary.best.stackability) + " " + vector_text(summary.best.direction) + "\n";
   const std::string text = options.common.quiet ? essential : map_text(model, map, summary);
@@ -136,7 +136,7 @@ Command make_map_command(CLI::App& program) {
       ->type_name("FILE");
   command->add_option("--picture", options->picture, "Draw the map of the hemisphere (.png or .svg)")
       ->type_name("FILE");
-  return {command, [command, options] { return run_map_command(*command, *options); }};
+  return {command, [command, options] { return run_map_command(*command, *options); }, &options->common};
 }
 
 }  // namespace stackabilization::apps

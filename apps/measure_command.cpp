@@ -74,7 +74,7 @@ Command make_measure_command(CLI::App& program) {
   add_boxes_option(*command, options->stackability.boxes);
   command->add_option("--picture", options->picture, "Draw envelopes, contacts and gap (.png or .svg)")
       ->type_name("FILE");
-  return {command, [command, options] { return run_measure_command(*command, *options); }};
+  return {command, [command, options] { return run_measure_command(*command, *options); }, &options->common};
 }
 
 }  // namespace stackabilization::apps

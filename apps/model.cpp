@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "apps/caller.h"
 #include "apps/version.h"
 
 namespace stackabilization::apps {
@@ -14,19 +15,47 @@ std::string title_of(const Model& model) {
   return std::filesystem::path(display_name(model)).filename().string();
 }
 
+namespace {
+
+/// A mesh of the caller, with the unit that is asked for; nothing: MODEL is a file.
+std::optional<Shape> shape_of_caller(const CommonOptions& common) {
+  if (!common.caller) return std::nullopt;
+  const auto found = common.caller->meshes.find(common.model);
+  if (found == common.caller->meshes.end()) return std::nullopt;
+  const ReadOptions& read = common.read;
+  if (read.format || read.up || read.labels)
+    throw UsageError("--format, --up and --labels say how a file is read, and " + common.model +
+                     " is a mesh in memory");
+  Shape shape = *found->second;
+  if (read.unit) shape.unit = *read.unit;
+  try {
+    validate(shape);
+  } catch (const InputError& error) {
+    throw InputError(common.model + ": " + error.what());
+  }
+  return shape;
+}
+
+}  // namespace
+
 Model load_model(const CommonOptions& common, const InspectOptions& options) {
   Model model;
   model.name = common.model;
-  model.shape = read_shape(common.model, common.read);
+  std::optional<Shape> in_memory = shape_of_caller(common);
+  model.shape = in_memory ? std::move(*in_memory) : read_shape(common.model, common.read);
   model.findings = inspect(model.shape, options);
   return model;
 }
 
-Json document_head(const CLI::App& command, const Model& model) {
-  return {{"command", command.get_name()},
-          {"version", version_number},
+Json document_head(const std::string& command, const Model& model) {
+  return {{"command", command},
+          {"version", version_number()},
           {"model", model.name},
           {"unit", to_json(model.shape.unit)}};
+}
+
+Json document_head(const CLI::App& command, const Model& model) {
+  return document_head(command.get_name(), model);
 }
 
 void add_document_tail(Json& document, const CommonOptions& common, const Model& model,

@@ -49,6 +49,7 @@ auto named(const Model& model, const Work& work) {
 Model load_model(const CommonOptions& common, const InspectOptions& options = {});
 
 /// {command, version, model, unit}: how every JSON document begins.
+Json document_head(const std::string& command, const Model& model);
 Json document_head(const CLI::App& command, const Model& model);
 
 /// {findings, seconds}: how it ends.

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "apps/caller.h"
 #include "apps/interrupt.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/io/companion_files.h"
@@ -50,6 +51,7 @@ void add_mesh(FilePlan& plan, const std::string& what, const std::string& path, 
 }  // namespace
 
 void check_outputs(const CommonOptions& common, const CommandFiles& files) {
+  if (common.caller) return;  // nothing is written
   FilePlan plan;
   add_mesh(plan, "the model", common.model, common.read);
   if (common.read.labels) plan.reads("the labels", *common.read.labels);
@@ -80,6 +82,13 @@ void write_output(const std::string& path, std::string_view text) {
   if (until_written.requested()) throw Interrupted();
 }
 
+void write_text_output(const CommonOptions& common, const std::string& path, const std::string& text) {
+  if (common.caller)
+    common.caller->written_texts[path] = text;
+  else
+    write_output(path, text);
+}
+
 namespace {
 
 /// `mesh` is a Shape or Copies.
@@ -100,16 +109,25 @@ void say_unit(const CommonOptions& common, const std::string& path, Unit unit) {
 }  // namespace
 
 void write_mesh_output(const CommonOptions& common, const std::string& path, const Shape& shape) {
+  if (common.caller) {
+    common.caller->written_meshes[path] = shape;
+    return;
+  }
   write_mesh(path, shape);
   say_unit(common, path, shape.unit);
 }
 
 void write_mesh_output(const CommonOptions& common, const std::string& path, const Copies& copies) {
+  if (common.caller) return;
   write_mesh(path, copies);
   say_unit(common, path, copies.shape.unit);
 }
 
 void deliver(const CommonOptions& common, const Json& document, const std::string& text) {
+  if (common.caller) {
+    common.caller->document = document;
+    return;
+  }
   if (common.json) write_output(*common.json, json_text(document));
   if (!common.json_on_stdout()) write_output("-", text);
 }

@@ -52,14 +52,17 @@ void check_outputs(const CommonOptions& common, const CommandFiles& files = {});
 /// Prints `text`, or writes it to a file, whole or not at all. Throws OutputError.
 void write_output(const std::string& path, std::string_view text);
 
+/// The same for a text that an option asks for: a caller gets it instead.
+void write_text_output(const CommonOptions& common, const std::string& path, const std::string& text);
+
 /// Writes a mesh file in the format of its extension, and unless quiet says on standard error which unit a
-/// shape without one gets by it. Throws OutputError.
+/// shape without one gets by it. Throws OutputError. A caller gets the shape instead.
 void write_mesh_output(const CommonOptions& common, const std::string& path, const Shape& shape);
-/// The same for copies of a shape.
+/// The same for copies of a shape. A caller knows their places from the document, and gets none.
 void write_mesh_output(const CommonOptions& common, const std::string& path, const Copies& copies);
 
 /// The last step of every command: the JSON where asked for, then `text` on standard output unless the JSON
-/// is there.
+/// is there. A caller gets the JSON alone.
 void deliver(const CommonOptions& common, const Json& document, const std::string& text);
 
 }  // namespace stackabilization::apps

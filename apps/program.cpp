@@ -8,8 +8,10 @@
 #include <iostream>
 #include <new>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "apps/completion.h"
 #include "apps/interrupt.h"
 #include "apps/version.h"
 #include "stackabilization/core/errors.h"
@@ -47,10 +49,13 @@ void check_encoding(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
-Program::Program()
+Program::Program(Caller* caller)
     : app_(std::make_unique<CLI::App>(
           "Measure exactly how well 3D shapes stack, and find out how to stack them best.", "stackabilize")) {
   app_->set_version_flag("--version", version_text(), "Print the version and exit");
+  app_->add_flag_callback(
+      "--completion", [this] { throw CLI::CallForVersion(completion_script(*this), 0); },
+      "Print a script that completes command lines in bash, and exit");
   app_->require_subcommand(1);
   app_->footer(
       "Example:\n  stackabilize measure chair.obj --direction 0 0 1\n\n"
@@ -60,6 +65,7 @@ Program::Program()
                make_map_command(*app_),       make_stack_command(*app_),   make_validate_command(*app_),
                make_structure_command(*app_), make_deform_command(*app_),  make_improve_command(*app_),
                make_suggest_command(*app_),   make_compare_command(*app_)};
+  for (const Command& command : commands_) command.common->caller = caller;
 }
 
 Program::~Program() = default;
@@ -79,6 +85,29 @@ int Program::run() {
   for (const Command& command : commands_)
     if (command.app->parsed()) return command.run();
   return status_usage;
+}
+
+std::vector<std::string> Program::command_names() const {
+  std::vector<std::string> names;
+  for (const Command& command : commands_) names.push_back(command.app->get_name());
+  return names;
+}
+
+std::vector<OptionOfCommand> Program::options(const std::string& name) const {
+  const auto found = std::find_if(commands_.begin(), commands_.end(),
+                                  [&](const Command& command) { return command.app->get_name() == name; });
+  if (found == commands_.end()) throw UsageError("there is no command '" + name + "'");
+  std::vector<OptionOfCommand> options;
+  for (const CLI::Option* option : std::as_const(*found->app).get_options()) {
+    OptionOfCommand known;
+    for (const std::string& word : option->get_lnames()) known.names.push_back("--" + word);
+    for (const std::string& letter : option->get_snames()) known.names.push_back("-" + letter);
+    if (known.names.empty()) continue;  // MODEL
+    if (option->get_items_expected_max() > 0) known.expects = option->get_type_name();
+    known.meaning = option->get_description();
+    options.push_back(std::move(known));
+  }
+  return options;
 }
 
 int Program::parse_and_run(std::vector<std::string> arguments) {

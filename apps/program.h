@@ -9,10 +9,18 @@
 
 namespace stackabilization::apps {
 
+/// An option of a command, as the help shows it.
+struct OptionOfCommand {
+  std::vector<std::string> names;  ///< "--output", "-o"
+  std::string expects;             ///< "FILE", "solid|closed"; empty for a flag
+  std::string meaning;
+};
+
 /// `stackabilize` with all its commands, for one command line.
 class Program {
  public:
-  Program();
+  /// `caller`: who runs the commands in its own process; nothing: the terminal.
+  explicit Program(Caller* caller = nullptr);
   ~Program();
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
@@ -22,6 +30,9 @@ class Program {
   void parse(std::vector<std::string> arguments);
   /// Runs the command that was parsed and returns the exit status. Throws the errors of the library.
   int run();
+  std::vector<std::string> command_names() const;
+  /// Of the command of this name. Throws UsageError when there is none.
+  std::vector<OptionOfCommand> options(const std::string& command) const;
   /// Both; prints help or the version where that was asked for.
   int parse_and_run(std::vector<std::string> arguments);
 

@@ -15,8 +15,8 @@ constexpr std::chrono::milliseconds between_lines(100);
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string label)
-    : label_(std::move(label)), terminal_(isatty(STDERR_FILENO) != 0) {}
+ProgressBar::ProgressBar(std::string label, const Caller* caller)
+    : label_(std::move(label)), caller_(caller), terminal_(!caller && isatty(STDERR_FILENO) != 0) {}
 
 ProgressBar::~ProgressBar() {
   if (shown_percent_ >= 0)
@@ -24,6 +24,7 @@ ProgressBar::~ProgressBar() {
 }
 
 void ProgressBar::show(double fraction) {
+  if (caller_ && caller_->progress) caller_->progress(label_, fraction);
   const int percent = static_cast<int>(100 * std::clamp(fraction, 0.0, 1.0));
   if (!terminal_ || percent == shown_percent_) return;
   shown_percent_ = percent;

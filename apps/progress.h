@@ -4,12 +4,15 @@
 #include <cstddef>
 #include <string>
 
+#include "apps/caller.h"
+
 namespace stackabilization::apps {
 
-/// A bar on standard error, only when that is a terminal; gone when the object goes.
+/// A bar on standard error, only when that is a terminal; gone when the object goes. A caller is told
+/// instead.
 class ProgressBar {
  public:
-  explicit ProgressBar(std::string label);
+  explicit ProgressBar(std::string label, const Caller* caller = nullptr);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -19,6 +22,7 @@ class ProgressBar {
 
  private:
   std::string label_;
+  const Caller* caller_;
   bool terminal_;
   int shown_percent_ = -1;
 };

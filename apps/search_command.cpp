@@ -38,9 +38,10 @@ SearchOptions search_options(const SearchCommandOptions& options) {
   return search;
 }
 
-SearchResult search_with_progress(const StackabilitySolver& solver, SearchOptions search) {
-  ProgressBar bar("Searching");
-  const DeferredInterrupts interrupts;
+SearchResult search_with_progress(const StackabilitySolver& solver, SearchOptions search,
+                                  const Caller* caller) {
+  ProgressBar bar("Searching", caller);
+  const DeferredInterrupts interrupts(caller);
   search.progress = [&bar](double fraction) { bar.show(fraction); };
   search.cancelled = [&interrupts] { return interrupts.requested(); };
   SearchResult result = best_direction(solver, search);
@@ -76,7 +77,7 @@ int run_search_command(const CLI::App& command, const SearchCommandOptions& opti
   const Model model = load_model(options.common);
   const StackabilitySolver solver =
       named(model, [&] { return StackabilitySolver(model.shape, options.stackability); });
-  const SearchResult result = search_with_progress(solver, search);
+  const SearchResult result = search_with_progress(solver, search, options.common.caller);
   const Measurement measurement = measure_exactly(solver, Direction(result.best.direction));
 
   Json document = document_head(command, model);
@@ -112,7 +113,7 @@ Command make_search_command(CLI::App& program) {
       ->add_option("--picture", options->picture,
                    "Draw the best direction's envelopes and contacts (.png or .svg)")
       ->type_name("FILE");
-  return {command, [command, options] { return run_search_command(*command, *options); }};
+  return {command, [command, options] { return run_search_command(*command, *options); }, &options->common};
 }
 
 }  // namespace stackabilization::apps

@@ -85,7 +85,7 @@ Command make_stack_command(CLI::App& program) {
                    "Write the stack as a mesh (" + std::string(writable_extensions()) + ")")
       ->type_name("FILE");
   command->add_option("--picture", options->picture, "Draw the stack (.png or .svg)")->type_name("FILE");
-  return {command, [command, options] { return run_stack_command(*command, *options); }};
+  return {command, [command, options] { return run_stack_command(*command, *options); }, &options->common};
 }
 
 }  // namespace stackabilization::apps

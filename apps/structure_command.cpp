@@ -17,11 +17,13 @@ struct StructureCommandOptions {
   std::optional<std::string> picture;
   std::optional<std::string> save;
   std::optional<std::string> graph;
+  std::optional<std::string> output;  ///< mesh file
 };
 
 int run_structure_command(const CLI::App& command, const StructureCommandOptions& options) {
   const Stopwatch watch;
-  check_outputs(options.common, {{{"--picture", options.picture, OutputKind::picture},
+  check_outputs(options.common, {{{"--output", options.output, OutputKind::mesh},
+                                  {"--picture", options.picture, OutputKind::picture},
                                   {"--save", options.save, OutputKind::project},
                                   {"--graph", options.graph}},
                                  analysis_inputs(options.analysis)});
@@ -33,8 +35,10 @@ int run_structure_command(const CLI::App& command, const StructureCommandOptions
   add_structure(document, input.structured);
   add_document_tail(document, options.common, input.model, watch);
   if (options.save)
-    write_output(*options.save, project_text(Project{input.structured, input.history, input.space}));
-  if (options.graph) write_output(*options.graph, graphviz(input.structured.structure));
+    write_text_output(options.common, *options.save,
+                      project_text(Project{input.structured, input.history, input.space}));
+  if (options.output) write_mesh_output(options.common, *options.output, input.structured.shape);
+  if (options.graph) write_text_output(options.common, *options.graph, graphviz(input.structured.structure));
   if (options.picture) write_structure_picture({*options.picture, title_of(input.model)}, input.structured);
   const bool printed = options.save == "-" || options.graph == "-";
   deliver(options.common, document,
@@ -56,11 +60,16 @@ Command make_structure_command(CLI::App& program) {
   command
       ->add_option("--save", options->save, "Write a project file, to be corrected by hand and read as MODEL")
       ->type_name("PROJECT");
+  command
+      ->add_option("-o,--output", options->output,
+                   "Write the shape with its parts as a mesh (" + std::string(writable_extensions()) + ")")
+      ->type_name("FILE");
   command->add_option("--graph", options->graph, "Write the graph of the relations for Graphviz (.dot)")
       ->type_name("FILE");
   command->add_option("--picture", options->picture, "Draw parts, primitives and relations (.png or .svg)")
       ->type_name("FILE");
-  return {command, [command, options] { return run_structure_command(*command, *options); }};
+  return {command, [command, options] { return run_structure_command(*command, *options); },
+          &options->common};
 }
 
 }  // namespace stackabilization::apps

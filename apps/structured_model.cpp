@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "apps/caller.h"
 #include "apps/progress.h"
 #include "apps/values.h"
 #include "stackabilization/core/part_names.h"
@@ -91,11 +92,11 @@ const char* words_for(AnalysisStep step) {
 }
 
 /// The analysis, with a bar for each of its steps.
-StructuredShape analysed_with_bar(const Shape& shape, AnalysisOptions options) {
+StructuredShape analysed_with_bar(const Shape& shape, AnalysisOptions options, const Caller* caller) {
   std::optional<ProgressBar> bar;
-  options.progress = [&bar, shown = std::optional<AnalysisStep>()](AnalysisStep step,
-                                                                   double fraction) mutable {
-    if (shown != step) bar.emplace(words_for(step));
+  options.progress = [&bar, caller, shown = std::optional<AnalysisStep>()](AnalysisStep step,
+                                                                           double fraction) mutable {
+    if (shown != step) bar.emplace(words_for(step), caller);
     shown = step;
     bar->show(fraction);
   };
@@ -118,11 +119,20 @@ StructuredModel analysed(const CommonOptions& common, const AnalysisArguments& a
     shape = segment(shape, read_seeds(*arguments.seeds, shape));
     options.segmentation.method = SegmentationMethod::given;
   }
-  result.structured = arguments.controllers || arguments.relations
-                          ? authored(shape, arguments)
-                          : named(result.model, [&] { return analysed_with_bar(shape, options); });
+  result.structured =
+      arguments.controllers || arguments.relations
+          ? authored(shape, arguments)
+          : named(result.model, [&] { return analysed_with_bar(shape, options, common.caller); });
   shape = result.structured.shape;
   return result;
+}
+
+/// A project of the caller; nothing: MODEL is a mesh or a file.
+std::optional<Project> project_of_caller(const CommonOptions& common) {
+  if (!common.caller) return std::nullopt;
+  const auto found = common.caller->projects.find(common.model);
+  if (found == common.caller->projects.end()) return std::nullopt;
+  return project_with_history(found->second, common.model);
 }
 
 }  // namespace
@@ -180,13 +190,14 @@ bool is_project(const std::string& path) {
 
 StructuredModel load_structured(const CLI::App& command, const CommonOptions& common,
                                 const AnalysisArguments& arguments, const std::optional<PartBounds>& bounds) {
-  if (!is_project(common.model)) return analysed(common, arguments, bounds);
+  const std::optional<Project> in_memory = project_of_caller(common);
+  if (!in_memory && !is_project(common.model)) return analysed(common, arguments, bounds);
   for (const char* option : mesh_options)
     if (command.count(option) > 0)
       throw UsageError(std::string(option) +
                        " does not go with a project file, which holds shape and structure: " + common.model);
   StructuredModel result;
-  Project project = read_project_with_history(common.model);
+  Project project = in_memory ? *in_memory : read_project_with_history(common.model);
   result.structured = std::move(project.rest);
   result.history = std::move(project.history);
   result.space = project.space;

@@ -45,7 +45,7 @@ int run_suggest_command(const CLI::App& command, const SuggestCommandOptions& op
   add_document_tail(document, options.common, input.model, watch);
   if (options.pictures) write_suggestion_pictures(result, options, input.model);
   if (const auto destination = options.destination())
-    write_output(*destination, project_text(result.project));
+    write_text_output(options.common, *destination, project_text(result.project));
   deliver(options.common, document, printed_text(options, result, input.model));
   const bool asked = !options.show_history && (!options.roll_back || options.apply);
   return asked && result.possible() == 0 ? status_no : status_done;
@@ -102,7 +102,7 @@ Command make_suggest_command(CLI::App& program) {
   add_analysis_options(*command, options->analysis);
   add_wishes(*command, *options);
   add_session(*command, *options);
-  return {command, [command, options] { return run_suggest_command(*command, *options); }};
+  return {command, [command, options] { return run_suggest_command(*command, *options); }, &options->common};
 }
 
 }  // namespace stackabilization::apps

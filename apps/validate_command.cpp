@@ -99,7 +99,7 @@ Command make_validate_command(CLI::App& program) {
                   "stackabilize validate chair.obj --direction 0 0 1");
   add_common_options(*command, options->common);
   add_direction(*command, "--direction", options->direction, "Stacking direction (default: 0 0 1)");
-  return {command, [command, options] { return run_validate_command(*command, *options); }};
+  return {command, [command, options] { return run_validate_command(*command, *options); }, &options->common};
 }
 
 }  // namespace stackabilization::apps

@@ -33,6 +33,9 @@ struct ImprovementOptions {
   /// the shape by more than such a design that meets the requirements. Not used by the paper's preset, and no
   /// part of a saved state.
   std::vector<Candidate> starts = {};
+  /// Called from the calling thread with the solutions of each search when it ends, and with every refined
+  /// design that meets the requirements as soon as it is found.
+  std::function<void(const Candidate&)> found = {};
 };
 
 /// Returns options for designs with limits of quality (Requirements::quality): smooth edits, and a price of

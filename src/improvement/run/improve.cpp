@@ -56,6 +56,7 @@ class Refinements {
         wanted_(static_cast<std::size_t>(options.search.solutions)),
         budget_(budget),
         report_(std::move(report)),
+        found_(options.found),
         less_changed_([measure = options.refinement.objective, &rest = checker.space().rest().shape](
                           const Candidate& a, const Candidate& b) {
           return size_of(measure, a, rest) < size_of(measure, b, rest);
@@ -106,6 +107,7 @@ class Refinements {
     RefinementResult result = refine_candidate(checker_, start, options);
     budget_.charge(result.evaluations);
     report_();
+    if (result.reached && found_) found_(result.candidate);
     return result;
   }
 
@@ -173,6 +175,7 @@ class Refinements {
   std::size_t wanted_;
   WorkBudget& budget_;
   std::function<void()> report_;
+  std::function<void(const Candidate&)> found_;
   double share_ = diagnosis_begin;  ///< share of the work at which the current phase ends
   std::function<bool(const Candidate&, const Candidate&)> less_changed_;
   detail::SolutionDiversity distinct_;
@@ -272,6 +275,8 @@ class ImprovementRun {
     if (found.end == SearchEnd::time_limit) budget_.note_deadline();
     result_.progress = counted(found.progress);
     budget_.charge(found.progress.trials);
+    if (options_.found)
+      for (const Candidate& solution : found.solutions) options_.found(solution);
     return found;
   }
 

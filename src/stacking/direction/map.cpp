@@ -1,18 +1,15 @@
 #include "stackabilization/stacking/map.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/stacking/measure_many.h"
 
 namespace stackabilization {
 
 namespace {
-
-constexpr std::size_t directions_per_report = 512;  ///< directions between two reports of progress
 
 /// Cosine and sine, exact at multiples of a right angle.
 struct Turn {
@@ -61,21 +58,17 @@ StackabilityMap stackability_map(const StackabilitySolver& solver, const MapOpti
   StackabilityMap map;
   map.step_degrees = options.step_degrees;
   map.samples = directions(options.step_degrees);
-  for (std::size_t begin = 0; begin < map.samples.size(); begin += directions_per_report) {
-    if (options.cancelled && options.cancelled()) {
-      map.samples.resize(begin);
-      map.cancelled = true;
-      return map;
-    }
-    if (options.progress)
-      options.progress(static_cast<double>(begin) / static_cast<double>(map.samples.size()));
-    tbb::parallel_for(begin, std::min(begin + directions_per_report, map.samples.size()), [&](std::size_t i) {
-      const Stackability measured = solver.measure(Direction(map.samples[i].direction));
-      map.samples[i].f_max_over_height = measured.f_max / measured.extent;
-      map.samples[i].stackability = measured.value;
-    });
+  Points asked(static_cast<Eigen::Index>(map.samples.size()), 3);
+  for (std::size_t i = 0; i < map.samples.size(); ++i)
+    asked.row(static_cast<Eigen::Index>(i)) = map.samples[i].direction.transpose();
+  const std::vector<Stackability> measured =
+      measure_many(solver, asked, {options.progress, options.cancelled});
+  map.cancelled = measured.size() < map.samples.size();
+  map.samples.resize(measured.size());
+  for (std::size_t i = 0; i < measured.size(); ++i) {
+    map.samples[i].f_max_over_height = measured[i].f_max / measured[i].extent;
+    map.samples[i].stackability = measured[i].value;
   }
-  if (options.progress) options.progress(1);
   return map;
 }
 

@@ -1,0 +1,144 @@
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "apps/common_options.h"
+#include "apps/interrupt.h"
+#include "apps/measurement.h"
+#include "apps/values.h"
+#include "bindings/arrays.h"
+#include "bindings/bindings.h"
+#include "bindings/watch.h"
+#include "stackabilization/stacking/measure_many.h"
+
+namespace stackabilization::python {
+
+namespace {
+
+ContactSemantics semantics_named(const std::string& name) {
+  for (const ContactSemantics known : {ContactSemantics::solid, ContactSemantics::closed})
+    if (apps::name_of(known) == name) return known;
+  throw UsageError("semantics expects one of solid|closed, found '" + name + "'");
+}
+
+BoxModel boxes_named(const std::string& name) {
+  for (const BoxModel known : {BoxModel::oriented, BoxModel::frame})
+    if (apps::name_of(known) == name) return known;
+  throw UsageError("boxes expects one of oriented|frame, found '" + name + "'");
+}
+
+py::array_t<double> array_of(const Eigen::Vector3d& vector) {
+  py::array_t<double> array(3);
+  std::copy_n(vector.data(), 3, array.mutable_data());
+  return array;
+}
+
+/// None when nothing blocks; else the value as a fraction in decimal, its length and the witness.
+py::object separation_tuple(const Separation& separation) {
+  if (!separation.blocked) return py::none();
+  const Witness& witness = separation.witness;
+  return py::make_tuple(separation.value.numerator(), separation.value.denominator(), separation.length,
+                        py::make_tuple(witness.upper_triangle, witness.lower_triangle,
+                                       array_of(witness.upper_point), array_of(witness.lower_point)));
+}
+
+/// A mesh prepared for many directions.
+class Solver {
+ public:
+  Solver(const std::shared_ptr<Shape>& mesh, const std::string& semantics, const std::string& boxes)
+      : mesh_(mesh) {
+    StackabilityOptions options;
+    options.semantics = semantics_named(semantics);
+    options.boxes = boxes_named(boxes);
+    options.flat_shapes = FlatShapes::measure;
+    const py::gil_scoped_release unlocked;
+    solver_.emplace(*mesh, options);
+  }
+
+  py::object separation(const py::object& along) const {
+    const Direction direction(vector_of(along, "direction"));
+    Separation found;
+    {
+      const py::gil_scoped_release unlocked;
+      found = solver_->separation(direction);
+    }
+    return separation_tuple(found);
+  }
+
+  std::string measure(const std::string& name, const py::object& along) const {
+    const Direction direction(vector_of(along, "direction"));
+    const py::gil_scoped_release unlocked;
+    const apps::Model model{name, *mesh_, inspect(*mesh_)};
+    apps::Json document = apps::document_head("measure", model);
+    apps::add_measurement(document, apps::measure_exactly(*solver_, direction), model);
+    document["findings"] = apps::to_json(model.findings);
+    return document.dump();
+  }
+
+  py::tuple measure_many(const py::object& rows, const py::object& threads,
+                         const py::object& progress) const {
+    const py::array_t<double> directions = rows_of_doubles(rows, "directions");
+    apps::CommonOptions common;
+    if (!threads.is_none()) common.threads = apps::parse_threads(py::str(threads));
+    Watch watch(progress);
+    std::vector<Stackability> measured;
+    {
+      const py::gil_scoped_release unlocked;
+      const apps::ThreadLimit limit(common);
+      measured =
+          stackabilization::measure_many(*solver_, as_points(directions),
+                                         {[&watch](double fraction) { watch.tell("Measuring", fraction); },
+                                          [&watch] { return watch.stopped(); }});
+    }
+    watch.raise_if_stopped();
+    const auto count = static_cast<py::ssize_t>(measured.size());
+    py::array_t<double> f_max(count), height(count), stackability(count);
+    for (py::ssize_t i = 0; i < count; ++i) {
+      const Stackability& values = measured[static_cast<std::size_t>(i)];
+      f_max.mutable_at(i) = values.f_max;
+      height.mutable_at(i) = values.extent;
+      stackability.mutable_at(i) = values.value;
+    }
+    return py::make_tuple(f_max, height, stackability);
+  }
+
+  const std::shared_ptr<Shape>& mesh() const { return mesh_; }
+
+ private:
+  std::shared_ptr<Shape> mesh_;
+  std::optional<StackabilitySolver> solver_;
+};
+
+py::object separation_of(const std::shared_ptr<Shape>& below, const std::shared_ptr<Shape>& above,
+                         const py::object& along, const std::string& semantics) {
+  const Direction direction(vector_of(along, "direction"));
+  SeparationOptions options;
+  options.semantics = semantics_named(semantics);
+  Separation found;
+  {
+    const py::gil_scoped_release unlocked;
+    const SeparationTree tree_below(*below);
+    found = below == above ? separation(tree_below, tree_below, direction, options)
+                           : separation(tree_below, SeparationTree(*above), direction, options);
+  }
+  return separation_tuple(found);
+}
+
+}  // namespace
+
+void add_solver(py::module_& module) {
+  using namespace py::literals;
+  py::class_<Solver>(module, "Solver")
+      .def(py::init<const std::shared_ptr<Shape>&, const std::string&, const std::string&>(), "mesh"_a,
+           "semantics"_a, "boxes"_a)
+      .def("separation", &Solver::separation, "direction"_a)
+      .def("measure", &Solver::measure, "name"_a, "direction"_a)
+      .def("measure_many", &Solver::measure_many, "directions"_a, "threads"_a, "progress"_a)
+      .def_property_readonly("mesh", &Solver::mesh);
+  module.def("separation", &separation_of, "below"_a, "above"_a, "direction"_a, "semantics"_a);
+}
+
+}  // namespace stackabilization::python

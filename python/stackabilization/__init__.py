@@ -1,0 +1,36 @@
+"""Measure exactly how well 3D shapes stack, and change them so that they stack.
+
+    >>> import stackabilization as st
+    >>> result = st.measure("chair.obj", direction=(0, 0, 1))
+    >>> result.f_max, result.height, result.stackability
+    (0.2685..., 0.8800..., 0.6327...)
+
+Functions are named as the commands of the program `stackabilize`, and their keywords as its options, with
+an underscore in the place of a hyphen. A mesh is a path, a pair of arrays (vertices, faces), a `Mesh`, or an
+object of trimesh, Open3D, PyVista or VTK. Results cannot be changed; `to_dict()` of each is what the program
+writes with `--json`.
+
+Lengths are in model units; directions are three numbers, not all zero, of any length, used exactly as given.
+Errors say what was expected: `InputError` and `UsageError` are ValueErrors. Ctrl-C stops a long call, and
+`progress=f` calls f(step, fraction) now and then.
+
+The same input gives the same numbers, whatever the number of threads.
+"""
+
+from ._commands import (compare, deform, inspect, map, measure, search, separation, stack, structure, suggest,
+                        validate)
+from ._core import Error, InputError, Mesh, OutputError, RenderError, UsageError
+from ._core import version as __version__
+from ._improvement import Design, Improvement, improve, improvement
+from ._mesh import load
+from ._results import (Comparison, Contact, Deformation, Findings, Inspection, Map, Measurement, Nest, Result,
+                       Search, Separation, Stack, Structure, Suggestion, Suggestions, Validation, Witness)
+from ._solver import Measurements, Solver
+
+__all__ = [
+    "Comparison", "Contact", "Deformation", "Design", "Error", "Findings", "Improvement", "InputError",
+    "Inspection", "Map", "Measurement", "Measurements", "Mesh", "Nest", "OutputError", "RenderError", "Result",
+    "Search", "Separation", "Solver", "Stack", "Structure", "Suggestion", "Suggestions", "UsageError",
+    "Validation", "Witness", "compare", "deform", "improve", "improvement", "inspect", "load", "map", "measure", "search",
+    "separation", "stack", "structure", "suggest", "validate",
+]

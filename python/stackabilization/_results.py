@@ -1,0 +1,466 @@
+"""Results: frozen views of the JSON that the program writes."""
+
+import copy
+import fractions
+
+import numpy
+
+_DIGITS_AT_ONCE = 4000  # Python converts no more than 4300 at once
+
+
+def _integer(text):
+    """The number of a decimal text of any length."""
+    sign, digits = (-1, text[1:]) if text.startswith("-") else (1, text)
+    value = 0
+    for start in range(0, len(digits), _DIGITS_AT_ONCE):
+        part = digits[start:start + _DIGITS_AT_ONCE]
+        value = value * 10**len(part) + int(part)
+    return sign * value
+
+
+def fraction_of(numerator, denominator):
+    """A Fraction of two decimal texts."""
+    return fractions.Fraction(_integer(numerator), _integer(denominator))
+
+
+def fraction(value):
+    return fraction_of(value["numerator"], value["denominator"])
+
+
+def _fractions(values):
+    return tuple(fraction(value) for value in values)
+
+
+def vector(values):
+    vector = numpy.array(values, dtype=float)
+    vector.setflags(write=False)
+    return vector
+
+
+def _names(values):
+    return tuple(values)
+
+
+def copied(value):
+    """A copy that may be changed."""
+    return copy.deepcopy(value)
+
+
+class field:
+    """An attribute that reads a value of the document."""
+
+    def __init__(self, doc, key=None, convert=None):
+        self.__doc__ = doc
+        self.key = key
+        self.convert = convert
+
+    def __set_name__(self, owner, name):
+        self.key = self.key or name
+
+    def __get__(self, result, owner=None):
+        if result is None:
+            return self
+        value = result._document.get(self.key)
+        return value if self.convert is None or value is None else self.convert(value)
+
+    def __set__(self, result, value):
+        raise AttributeError("results cannot be changed")
+
+
+class Result:
+    """Something that was found. It cannot be changed; results with the same values are equal."""
+
+    __slots__ = ("_document",)
+    _shown = ()
+
+    def __init__(self, document):
+        object.__setattr__(self, "_document", document)
+
+    def to_dict(self):
+        """A copy of the whole result, as the program writes it with --json --no-timing."""
+        return copy.deepcopy(self._document)
+
+    def __setattr__(self, name, value):
+        raise AttributeError("results cannot be changed")
+
+    def __eq__(self, other):
+        return type(self) is type(other) and self._document == other._document
+
+    __hash__ = None
+
+    def __repr__(self):
+        shown = ", ".join(f"{name}={_short(getattr(self, name))}" for name in self._shown)
+        return f"<{type(self).__name__}: {shown}>"
+
+
+def _short(value):
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if isinstance(value, numpy.ndarray) and value.ndim == 1:
+        return "(" + ", ".join(f"{number:.6g}" for number in value) + ")"
+    return repr(value)
+
+
+class Findings(Result):
+    """What is in a mesh, and what is wrong with it."""
+
+    __slots__ = ()
+    _shown = ("brief",)
+    brief: str = field("One line for people.")
+    vertices: int = field("Rows of the vertices.")
+    triangles: int = field("Rows of the faces.")
+    parts: int = field("Named parts.")
+    components: int = field("Connected pieces.")
+    distinct_points: int = field("Points, those in the same place counted once.")
+    unreferenced_vertices: int = field("Vertices that no face uses.")
+    degenerate_faces: int = field("Faces without area.")
+    duplicate_faces: int = field("Faces that occur before.")
+    boundary_edges: int = field("Edges of one face only.")
+    non_manifold_edges: int = field("Edges of more than two faces.")
+    inconsistent_edges: int = field("Edges whose faces have opposite orientations.")
+    self_intersections: "int | None" = field("Pairs of faces that intersect; None where not counted.")
+    closed: bool = field("Is it a closed surface?")
+    volume: "float | None" = field("Enclosed volume, model units cubed; None where it is open.")
+    oriented_outward: bool = field("Do the faces point outwards?")
+    lower: numpy.ndarray = field("(3,) lowest corner of the axis-aligned box, model units.", convert=vector)
+    upper: numpy.ndarray = field("(3,) highest corner of the axis-aligned box, model units.", convert=vector)
+    likely_up: "str | None" = field("Axis that probably points up; None where it cannot be told.")
+    up_reason: str = field("Why that axis.")
+
+
+class OfModel(Result):
+    """A result for one mesh."""
+
+    __slots__ = ()
+    command: str = field("Command of the program that says the same.")
+    model: str = field("Path of the mesh, or '<mesh>' for one in memory.")
+    unit: "str | None" = field("Unit of lengths; None where it is unknown.")
+    findings: Findings = field("What is in the mesh.", convert=Findings)
+
+
+class Inspection(OfModel):
+    """What `inspect` finds."""
+
+    __slots__ = ()
+    _shown = ("findings", "part_names")
+    part_names: tuple = field("Names of the parts.", convert=_names)
+
+
+class Witness(Result):
+    """Two points that attain a separation: on a common line along the direction before the lift."""
+
+    __slots__ = ()
+    _shown = ("upper_triangle", "lower_triangle", "upper_point", "lower_point")
+
+    @property
+    def upper_triangle(self):
+        """Row of the face of the mesh below that is touched."""
+        return self._document["triangles"][0]
+
+    @property
+    def lower_triangle(self):
+        """Row of the face of the mesh above that touches it."""
+        return self._document["triangles"][1]
+
+    upper_point: numpy.ndarray = field("(3,) point of that face below, model units, rounded.", "point", vector)
+    lower_point: numpy.ndarray = field("(3,) point of the face above, before the lift, model units, rounded.",
+                                        convert=vector)
+
+
+class Contact(Result):
+    """A region where a copy rests on the one below."""
+
+    __slots__ = ()
+    _shown = ("type", "parts", "area")
+    type: str = field("'dot', 'line' or 'ring'.")
+    parts: tuple = field("Names of the parts that touch: of the copy below, and of the one above.", convert=_names)
+    area: float = field("Model units squared.")
+    centre: numpy.ndarray = field("(3,) on the copy below, model units.", convert=vector)
+    lower_centre: numpy.ndarray = field("(3,) on the copy above, before the lift.", convert=vector)
+    long_axis: numpy.ndarray = field("(3,) unit vector along the region.", convert=vector)
+
+
+def _contacts(values):
+    return tuple(Contact(value) for value in values)
+
+
+class Separation(Result):
+    """The smallest lift that sets one mesh free of another, exact.
+
+    Lifted by more along the direction, the mesh above never meets the one below again.
+    """
+
+    __slots__ = ()
+    _shown = ("length", "witness")
+    length: float = field("The lift, model units, within 4 ulp; negative where the mesh above can come down.")
+    exact: fractions.Fraction = field("The lift in units of the direction: exact * direction is the translation.",
+                                       convert=fraction)
+    witness: Witness = field("What causes it.", convert=Witness)
+
+
+def separation_of(found):
+    """A Separation of what the compiled part returns."""
+    if found is None:
+        return None
+    numerator, denominator, length, (upper, lower, upper_point, lower_point) = found
+    return Separation({
+        "length": length,
+        "exact": {"numerator": numerator, "denominator": denominator},
+        "witness": {"triangles": [upper, lower], "point": upper_point.tolist(), "lower_point": lower_point.tolist()},
+    })
+
+
+class Measurement(OfModel):
+    """How well a mesh stacks along a direction."""
+
+    __slots__ = ()
+    _shown = ("stackability", "f_max", "height", "direction")
+    direction: numpy.ndarray = field("(3,) as given.", convert=vector)
+    method: str = field("'exact', 'rays' or 'raster'.")
+    semantics: str = field("'solid': walls may slide along each other; 'closed': touching counts.")
+    boxes: str = field("'oriented' or 'frame'.")
+    f_max: float = field("Smallest lift that sets a copy free, model units: the pitch of the stack.")
+    height: float = field("Of one copy along the direction, model units.")
+    f_max_over_height: "float | None" = field("f_max / height; None for a flat mesh across the direction.")
+    stackability: "float | None" = field("S: the share of space that a tall stack saves; None for a flat mesh.")
+    nesting_increment: float = field("What each further copy adds to the stack, model units.")
+    box_volume: float = field("Box of one copy, model units cubed.")
+    stack_box_volume: float = field("Box of one copy with a side along the direction, model units cubed.")
+    f_max_exact: "fractions.Fraction | None" = field("f_max in units of the direction; None where sampled.", "exact",
+                                                      fraction)
+    witness: "Witness | None" = field("What causes f_max; None where nothing does, or sampled.", convert=Witness)
+    contacts: "tuple | None" = field("Where a copy rests on the one below; None where sampled.", convert=_contacts)
+    sampling: "dict | None" = field("What sampling did to f_max; None where exact.", convert=copied)
+
+
+class Optimum(Result):
+    """A local optimum of a search."""
+
+    __slots__ = ()
+    _shown = ("stackability", "direction")
+    direction: numpy.ndarray = field("(3,) unit vector.", convert=vector)
+    stackability: float = field("S along it.")
+
+
+class Search(Measurement):
+    """The best direction found, measured."""
+
+    __slots__ = ()
+    evaluated: int = field("Directions tried.")
+    abandoned: int = field("Of these, given up too far below the best.")
+    optima: tuple = field("Local optima, best first.", convert=lambda values: tuple(map(Optimum, values)))
+
+
+class Map(OfModel):
+    """S over the hemisphere above the xy plane, k directions; opposite directions stack alike."""
+
+    __slots__ = ("_samples",)
+    _shown = ("step_degrees", "best", "mean_stackability")
+
+    def __init__(self, document, samples):
+        super().__init__(document)
+        samples.setflags(write=False)
+        object.__setattr__(self, "_samples", samples)
+
+    step_degrees: float = field("Angle between neighbours.")
+    best: Optimum = field("The best of the directions.", convert=Optimum)
+    worst: Optimum = field("The worst of the directions.", convert=Optimum)
+    mean_stackability: float = field("Mean over the directions, which are spread evenly.")
+
+    @property
+    def theta_degrees(self):
+        """(k,) angles from +z."""
+        return self._samples[:, 0]
+
+    @property
+    def phi_degrees(self):
+        """(k,) angles from +x towards +y."""
+        return self._samples[:, 1]
+
+    @property
+    def directions(self):
+        """(k, 3) unit vectors, rings from +z downwards."""
+        return self._samples[:, 2:5]
+
+    @property
+    def f_max_over_height(self):
+        """(k,) in [0, 1]."""
+        return self._samples[:, 5]
+
+    @property
+    def stackability(self):
+        """(k,) S along each."""
+        return self._samples[:, 6]
+
+
+def _transforms(copies):
+    transforms = numpy.zeros((len(copies), 4, 4))
+    transforms[:, 3, 3] = 1
+    for transform, one in zip(transforms, copies):
+        transform[:3, :3] = one["rotation"]
+        transform[:3, 3] = one["translation"]
+    transforms.setflags(write=False)
+    return transforms
+
+
+class Stack(OfModel):
+    """Copies on top of each other."""
+
+    __slots__ = ()
+    _shown = ("n", "height", "nesting_increment", "stackability")
+    direction: numpy.ndarray = field("(3,) as given; copies come from above along it.", convert=vector)
+    n: int = field("Number of copies.")
+    transforms: numpy.ndarray = field("(n, 4, 4): takes the mesh to its place as each copy, bottom first.", "copies",
+                                       _transforms)
+    offsets: tuple = field("(n,) lifts along the direction, model units.", convert=_names)
+    exact_offsets: tuple = field("(n,) the same as Fractions, in units of the direction.", convert=_fractions)
+    twist_degrees: float = field("Turn of each copy against the one below.")
+    period: int = field("Length of the cycle of poses.")
+    poses: tuple = field("Per copy of a period, how it is turned.", convert=_names)
+    clearance: float = field("Air along the direction, model units.")
+    lateral_clearance: float = field("Sideways play, model units.")
+    copy_height: float = field("Of one copy, model units.")
+    height: float = field("Of the stack, model units.")
+    nesting_increment: float = field("What each further copy adds, model units.")
+    stackability: float = field("Share of space that this stack saves.")
+    conflicts: list = field("Pairs of copies that are no neighbours and would overlap.", convert=copied)
+    within: "dict | None" = field("Whether the stack fits the length asked for: 'met' says so.", convert=copied)
+
+
+class Nest(OfModel):
+    """One mesh lowered into another."""
+
+    __slots__ = ()
+    _shown = ("offset", "height", "saving", "on_floor")
+    into: str = field("The container.")
+    direction: numpy.ndarray = field("(3,) as given.", convert=vector)
+    offset: float = field("Lift from where the file puts the mesh, model units; negative: it comes down.")
+    exact_offset: fractions.Fraction = field("The same in units of the direction.", convert=fraction)
+    on_floor: bool = field("Does it stand on the floor below the container?")
+    witness: "Witness | None" = field("What it rests on; None on the floor.", convert=Witness)
+    container_height: float = field("Model units.")
+    content_height: float = field("Model units.")
+    height: float = field("Of both, model units.")
+    saving: float = field("How much less that is than both heights, model units.")
+    stackability: "float | None" = field("Share of space that nesting saves.")
+
+    @property
+    def transform(self):
+        """(4, 4): takes the mesh from its place to where it rests."""
+        transform = numpy.eye(4)
+        transform[:3, 3] = float(self.exact_offset) * self.direction
+        transform.setflags(write=False)
+        return transform
+
+
+class Validation(OfModel):
+    """The same number by independent methods."""
+
+    __slots__ = ()
+    _shown = ("passed", "checks")
+    passed: bool = field("Do all agree?")
+    checks: list = field("A dict per method: name, value, error, verdict and note.", convert=copied)
+
+
+class Structured(OfModel):
+    """A result that has a mesh of its own."""
+
+    __slots__ = ("_mesh", "_project")
+
+    def __init__(self, document, mesh, project):
+        super().__init__(document)
+        object.__setattr__(self, "_mesh", mesh)
+        object.__setattr__(self, "_project", project)
+
+    @property
+    def mesh(self):
+        """The Mesh; None where there is none."""
+        return self._mesh
+
+    @property
+    def project(self):
+        """Text of a project file, which holds mesh and structure; None where there is none.
+
+        Written to a file it is read by the program. The result itself may stand for a mesh in `deform`,
+        `suggest`, `compare` and `improve`, which then analyse nothing anew.
+        """
+        return self._project
+
+
+class Structure(Structured):
+    """Parts of a mesh, what stands for them, and how they are related."""
+
+    __slots__ = ()
+    _shown = ("part_names",)
+    diagonal: float = field("Of the mesh, model units: residuals are fractions of it.")
+    parts: list = field("A dict per part: name, triangles.", convert=copied)
+    primitives: list = field("A dict per part: its cuboid or generalized cylinder.", convert=copied)
+    symmetries: list = field("A dict per symmetry of the whole.", convert=copied)
+    relations: list = field("A dict per relation: type, parts, residual.", convert=copied)
+
+    @property
+    def part_names(self):
+        """Names of the parts."""
+        return tuple(part["name"] for part in self._document["parts"])
+
+
+def lines(explanation):
+    return tuple(explanation["lines"])
+
+
+class Deformation(Structured):
+    """A shape after edits, or why they were refused; then `mesh` is None."""
+
+    __slots__ = ()
+    _shown = ("edits", "refusal", "explanation")
+    deformation: str = field("What moved the mesh: the `model` asked for.")
+    edits: tuple = field("What was done.", convert=_names)
+    refusal: "dict | None" = field("Why it was refused: reason, relation, amount; None: it was not.",
+                                    convert=copied)
+    explanation: "tuple | None" = field("What changes, in words.", convert=lines)
+    displacement: "dict | None" = field("Of the vertices, model units: root_mean_square and largest.",
+                                         convert=copied)
+    residuals: "dict | None" = field("Largest residuals of joints and symmetries, fractions of the diagonal.",
+                                      convert=copied)
+    relations: "list | None" = field("As in Structure, after the edits.", convert=copied)
+
+
+class Suggestion(Result):
+    """An edit that would make the shape stack better."""
+
+    __slots__ = ()
+    _shown = ("number", "edit", "stackability")
+    number: "int | None" = field("For `apply`; None where it is refused.")
+    edit: str = field("What to do, as `deform` takes it.")
+    words: str = field("The same in words.")
+    why: str = field("What it is good for.")
+    stackability: "float | None" = field("S after it.")
+    energy: "dict | None" = field("E of the paper after it, and what it is made of.", convert=copied)
+    refusal: "str | None" = field("Why it cannot be made.")
+
+
+class Suggestions(Structured):
+    """The edits of one step, best first."""
+
+    __slots__ = ()
+    _shown = ("possible", "suggestions")
+    direction: numpy.ndarray = field("(3,) along which copies are stacked.", convert=vector)
+    now: dict = field("Where the shape stands: S, E, f_max.", convert=copied)
+    contacts: tuple = field("Where copies touch now.", convert=_contacts)
+    possible: int = field("How many can be made.")
+    refused: int = field("How many cannot.")
+    suggestions: tuple = field("What was asked for of them.",
+                                convert=lambda values: tuple(Suggestion(value) for value in values))
+    applied: "int | None" = field("The number that was applied.")
+    history: dict = field("The tree of what was tried: current and nodes.", convert=copied)
+
+
+class Comparison(OfModel):
+    """What a person would mind in a changed shape."""
+
+    __slots__ = ()
+    _shown = ("acceptable", "explanation")
+    after: str = field("The changed shape.")
+    acceptable: bool = field("Are all limits kept?")
+    explanation: tuple = field("What changes, in words.", convert=lines)
+    quality: list = field("A dict per measure: name, value, limit, unit, kept, part, other.", convert=copied)

@@ -1,0 +1,93 @@
+"""measure, inspect, search, map and validate."""
+
+import fractions
+
+import numpy
+import pytest
+
+import stackabilization as st
+from conftest import box, program_error
+
+
+def test_a_box_stacks_by_its_height():
+    measured = st.measure(box((0, 0, 0), (1, 2, 3)))
+    assert (measured.f_max, measured.height, measured.stackability) == (3, 3, 0)
+    assert measured.f_max_exact == fractions.Fraction(3)
+    assert measured.box_volume == pytest.approx(6)
+    assert repr(measured) == "<Measurement: stackability=0, f_max=3, height=3, direction=(0, 0, 1)>"
+
+
+def test_directions_are_exact_doubles_of_any_length():
+    measured = st.measure(box((0, 0, 0), (1, 1, 1)), direction=(0, 0, 0.3))
+    assert measured.f_max_exact == 1 / fractions.Fraction(0.3)
+    assert measured.direction.tolist() == [0, 0, 0.3] and measured.f_max == 1
+
+
+def test_the_witness_attains_f_max(chair):
+    mesh = st.load(chair)
+    measured = st.measure(mesh)
+    witness = measured.witness
+    assert witness.upper_point[2] - witness.lower_point[2] == pytest.approx(measured.f_max, rel=1e-14)
+    for triangle, point in ((witness.upper_triangle, witness.upper_point),
+                            (witness.lower_triangle, witness.lower_point)):
+        corners = mesh.vertices[mesh.faces[triangle]]
+        assert (point >= corners.min(axis=0) - 1e-12).all() and (point <= corners.max(axis=0) + 1e-12).all()
+
+
+def test_results_cannot_be_changed(cup):
+    measured = st.measure(cup)
+    with pytest.raises(AttributeError):
+        measured.f_max = 0
+    with pytest.raises(ValueError):
+        measured.direction[0] = 1
+    measured.to_dict()["contacts"].clear()
+    assert measured.contacts and measured == st.measure(cup)
+
+
+def test_sampling_says_what_it_did(cup):
+    sampled = st.measure(cup, method="raster", resolution=64)
+    assert sampled.sampling["resolution"] == 64 and sampled.witness is None and sampled.f_max_exact is None
+
+
+def test_self_intersections_are_counted_where_asked_for(cup):
+    assert st.inspect(cup).findings.self_intersections is None
+    assert st.inspect(cup, self_intersections=True).findings.self_intersections == 0
+
+
+@pytest.mark.parametrize("keywords, arguments", [
+    ({"direction": (0, 0, 0)}, ["--direction", 0, 0, 0]),
+    ({"direction": (0, numpy.inf, 1)}, ["--direction", 0, "inf", 1]),
+    ({"semantics": "soft"}, ["--semantics", "soft"]),
+    ({"resolution": 0}, ["--resolution", 0]),
+    ({"threads": -1}, ["--threads", -1]),
+    ({"unit": "yard"}, ["--unit", "yard"]),
+])
+def test_options_are_refused_in_the_words_of_the_program(cup, keywords, arguments):
+    with pytest.raises(st.UsageError) as refusal:
+        st.measure(cup, **keywords)
+    assert str(refusal.value) == program_error("measure", cup, *arguments)
+
+
+def test_values_of_other_types_are_refused(cup):
+    with pytest.raises(st.UsageError, match="direction expects a number, a text or a list of these, found object"):
+        st.measure(cup, direction=object())
+
+
+def test_a_search_finds_what_no_sample_of_the_map_beats(cup):
+    best = st.search(cup, cone_degrees=30)
+    mapped = st.map(cup, step_degrees=10)
+    assert best.stackability >= mapped.stackability[mapped.theta_degrees <= 30].max() - 1e-9
+    assert best.optima[0].stackability == pytest.approx(best.stackability)
+
+
+def test_a_map_agrees_with_its_solver(cup):
+    mapped = st.map(cup, step_degrees=15)
+    again = st.Solver(cup).measure_many(mapped.directions)
+    assert numpy.array_equal(mapped.stackability, again.stackability)
+    assert numpy.array_equal(mapped.f_max_over_height, again.f_max / again.height)
+    assert mapped.best.stackability == mapped.stackability.max()
+    assert numpy.allclose(numpy.cos(numpy.radians(mapped.theta_degrees)), mapped.directions[:, 2])
+
+
+def test_independent_methods_agree(cup):
+    assert st.validate(cup).passed

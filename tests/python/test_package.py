@@ -1,0 +1,87 @@
+"""The package itself: what it loads, what it documents, and that its keywords are the program's options."""
+
+import ast
+import inspect
+import pathlib
+import re
+import subprocess
+import sys
+
+import pytest
+
+import stackabilization as st
+from stackabilization import _core
+
+PACKAGE = pathlib.Path(st.__file__).parent
+FUNCTIONS = [name for name in _core.commands() if hasattr(st, name)]
+
+# Options that say where the program writes, and how much it prints.
+OF_FILES = {"--json", "--quiet", "--no-timing", "--seed", "--help", "-h", "--version", "--picture", "--pictures",
+            "--output", "-o", "--save", "--graph", "--no-pictures", "--resume", "--history", "--list-handles"}
+
+
+def keyword_of(names):
+    longest = max(names, key=len)
+    return longest.lstrip("-").replace("-", "_")
+
+
+def test_every_command_is_a_function():
+    assert FUNCTIONS == _core.commands()
+
+
+@pytest.mark.parametrize("command", FUNCTIONS)
+def test_keywords_are_the_options_of_the_program(command):
+    keywords = {name for name, parameter in inspect.signature(getattr(st, command)).parameters.items()
+                if parameter.kind is parameter.KEYWORD_ONLY} - {"progress"}
+    options = {keyword_of(option["names"]) for option in _core.options(command)
+               if not OF_FILES.intersection(option["names"])}
+    # Where nothing runs in parallel there is no --threads to ask for.
+    assert keywords == options - ({"threads"} if command == "inspect" else set())
+
+
+@pytest.mark.parametrize("command", FUNCTIONS)
+def test_help_explains_every_keyword(command):
+    function = getattr(st, command)
+    doc = inspect.getdoc(function)
+    missing = {name for name in inspect.signature(function).parameters
+               if name != "mesh" and not re.search(rf"\b{name}\b", doc)}
+    shared = {"segmentation", "segments", "seeds", "primitive", "sections", "symmetry_tolerance", "joint_reach", "ctrl",
+              "grp", "format", "unit", "up", "labels", "threads", "progress"}
+    if "Other keywords: as in `structure`" in doc or "other keywords: as in `structure`" in doc:
+        missing -= shared
+    if "keep to any_quality: as in `improve`" in doc:
+        missing -= {"only", "change_height", "box_tolerance", "thickness", "clearance", "lateral_clearance",
+                    "draft_degrees", "standing", "tilt_degrees", "relax"}
+    assert not missing
+
+
+def test_every_public_name_and_attribute_is_documented():
+    for name in st.__all__:
+        thing = getattr(st, name)
+        assert inspect.getdoc(thing), name
+        if inspect.isclass(thing):
+            for member, value in vars(thing).items():
+                if not member.startswith("_"):
+                    assert getattr(value, "__doc__", None), f"{name}.{member}"
+
+
+def test_stubs_name_what_the_compiled_part_has():
+    stubs = {node.name if hasattr(node, "name") else node.target.id
+             for node in ast.parse((PACKAGE / "_core.pyi").read_text()).body
+             if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.AnnAssign))}
+    assert stubs == {name for name in dir(_core) if not name.startswith("_")}
+    assert (PACKAGE / "py.typed").exists()
+
+
+def test_the_package_loads_quickly_and_without_vtk():
+    """Beyond NumPy, in processor time, the best of several, because the machine may be busy."""
+    code = ("import numpy, time; start = time.process_time(); import stackabilization; "
+            "print(time.process_time() - start); print(open('/proc/self/maps').read())")
+    runs = [subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+            for _ in range(5)]
+    assert min(float(run.partition("\n")[0]) for run in runs) < 0.2
+    assert "libvtk" not in runs[0] and "libEGL" not in runs[0]
+
+
+def test_the_version_is_that_of_the_program(cup):
+    assert st.__version__ == st.inspect(cup).to_dict()["version"]
