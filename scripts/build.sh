@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Configures the preset `release` and builds it, or only the targets given as arguments, into build/release.
-# For the program alone (build.sh stackabilize) the packages of tests and experiments need not be there.
+# For the program and the Python module alone (build.sh stackabilize stackabilization_python) the packages of tests and
+# experiments need not be there.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -11,7 +12,7 @@ jobs=$(nproc)
 ((jobs < 1)) && jobs=1
 
 with_tests=ON
-[[ "$*" == stackabilize ]] && with_tests=OFF
+[[ "$*" == stackabilize || "$*" == "stackabilize stackabilization_python" ]] && with_tests=OFF
 options=(-DSTACKABILIZATION_BUILD_TESTS=$with_tests -DSTACKABILIZATION_BUILD_EXPERIMENTS=$with_tests)
 if command -v ccache >/dev/null; then
   options+=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Installs packages on Debian 12, Debian 13 and Ubuntu 24.04: install_packages.sh [program | all].
-# program: what the program needs to be built and run. all (default): also what the Python module, tests, experiments and
-# the reference need.
+# Installs packages on Debian 12, Debian 13 and Ubuntu 24.04: install_packages.sh [program | packages | all].
+# program: what the program needs to be built and run. packages: also what the Python module and Debian packages need.
+# all (default): also what tests, experiments and the reference need.
 # Does nothing, and needs no rights, when everything is there already.
 set -euo pipefail
 
@@ -12,13 +12,16 @@ packages=(
   libpugixml-dev libminizip-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
   libvtk9-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
 )
+for_packages=(pybind11-dev python3-dev python3-numpy dpkg-dev file)
 case $purpose in
   program) ;;
-  all) packages+=(catch2 libopenmesh-dev libembree-dev libfcl-dev doxygen python3
-    pybind11-dev python3-dev python3-numpy python3-pytest python3-hypothesis
-    python3-nbclient python3-ipykernel python3-matplotlib) ;;
+  packages) packages+=("${for_packages[@]}") ;;
+  all)
+    packages+=("${for_packages[@]}" catch2 libopenmesh-dev libembree-dev libfcl-dev doxygen python3
+      python3-pytest python3-hypothesis python3-nbclient python3-ipykernel python3-matplotlib)
+    ;;
   *)
-    echo "scripts/install_packages.sh: expected 'program' or 'all', found '$purpose'" >&2
+    echo "scripts/install_packages.sh: expected 'program', 'packages' or 'all', found '$purpose'" >&2
     exit 2
     ;;
 esac

@@ -1,5 +1,6 @@
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -65,6 +66,29 @@ TEST_CASE("one solution asked for is the best of three") {
   REQUIRE(one.solutions.size() == 1);
   REQUIRE(!three.solutions.empty());
   CHECK(distortion(one) == distortion(three));
+}
+
+TEST_CASE("designs are told of as they are found, the solutions among them") {
+  for (const ImprovementPreset preset : {ImprovementPreset::paper, ImprovementPreset::refined}) {
+    const auto found_by = checker(0.75);
+    std::vector<Points> told;
+    ImprovementOptions options;
+    options.preset = preset;
+    options.effort = std::numeric_limits<double>::infinity();
+    options.search.expansions = 20;
+    options.refinement.evaluations = 60;
+    options.found = [&](const Candidate& candidate) {
+      CHECK(found_by.check(candidate.design, Direction(candidate.direction)).passed());
+      CHECK(found_by.meets_target(candidate.measured));
+      told.push_back(candidate.design.shape.vertices);
+    };
+    const Improvement result = improve(found_by, options);
+    REQUIRE(!result.solutions.empty());
+    for (const Candidate& solution : result.solutions)
+      CHECK(std::count(told.begin(), told.end(), solution.design.shape.vertices) > 0);
+    options.found = {};
+    CHECK(improve(found_by, options).progress.evaluated == result.progress.evaluated);
+  }
 }
 
 TEST_CASE("improving gives the same bytes for any number of threads") {

@@ -1,0 +1,51 @@
+# Packages for Debian, by the target `package`: program, Python module, libraries.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME stackabilization)
+set(CPACK_PACKAGE_CONTACT "The Stackabilization maintainers <maintainers@stackabilization.invalid>")
+set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL program development)
+if(STACKABILIZATION_BUILD_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME stackabilization)
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "measure exactly how well 3D shapes stack
+ The program stackabilize measures how far each further copy of a chair, a cup
+ or a crate sits above the one below it, finds the direction along which it
+ stacks best, and changes designs so that they stack better.")
+
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-stackabilization)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3-numpy")
+if(STACKABILIZATION_BUILD_PYTHON)
+  # The module is for one version of Python.
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  string(APPEND CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    ", python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}~), python3 (<< ${Python_VERSION_MAJOR}.${next_minor})")
+endif()
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Python module that measures how well 3D shapes stack
+ The module stackabilization has the commands of the program stackabilize as
+ functions, and takes arrays as meshes.")
+
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libstackabilization-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)  # static libraries
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+  "libeigen3-dev, libtbb-dev, libgmp-dev, libmpfr-dev, libpugixml-dev, libminizip-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libvtk9-dev, libegl-dev")  # the component rendering
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "libraries that measure how well 3D shapes stack
+ Static libraries and headers of stackabilization, with a CMake package, the
+ documentation, and a first project.")
+
+foreach(component program python development)
+  string(TOUPPER ${component} upper)
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME} RENAME copyright
+    COMPONENT ${component})
+endforeach()
+include(CPack)
