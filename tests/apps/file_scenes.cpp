@@ -44,6 +44,7 @@ const std::vector<Output>& outputs() {
       {"structure", "--json", ".json"},
       {"structure", "--save", ".json"},
       {"structure", "--graph", ".dot"},
+      {"structure", "--output", ".obj"},
       {"structure", "--picture", ".png"},
       {"deform", "--json", ".json", {"--edit", "shape scale 0.9"}},
       {"deform", "--output", ".obj", {"--edit", "shape scale 0.9"}},

@@ -140,6 +140,15 @@ TEST_CASE("parts come from the file, from seeds, or from the surface") {
           .size() == 1);
 }
 
+TEST_CASE("the mesh is written with the parts that were found") {
+  const TableFolder folder;
+  const std::string out = folder / "parts.obj";
+  const json parts = structure_of(folder.table, {"--segmentation", "components", "-o", out})["parts"];
+  const json written =
+      run_program({"structure", out, "--segmentation", "given", "--json", "-"}).json()["parts"];
+  CHECK(written == parts);
+}
+
 TEST_CASE("the graph of the relations is written for Graphviz") {
   const TableFolder folder;
   const std::string graph = folder / "table.dot";

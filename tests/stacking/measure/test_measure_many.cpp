@@ -1,10 +1,9 @@
-#include "stackabilization/stacking/measure_many.h"
-
 #include <tbb/global_control.h>
 
 #include <limits>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/stacking/measure_many.h"
 #include "support/catch.h"
 #include "support/solids.h"
 
