@@ -14,7 +14,7 @@ namespace stackabilization::apps {
 /// projects are in memory, and so is what the command writes; there is no terminal, and signals are its own
 /// business.
 struct Caller {
-  /// By names that MODEL, --into and AFTER may have.
+  /// By names that MODEL, --into, ABOVE and AFTER may have.
   std::map<std::string, std::shared_ptr<const Shape>> meshes = {};
   std::map<std::string, std::string> projects = {};  ///< texts of project files, by names that MODEL may have
   /// Told from the calling thread which step goes on and how far it is, in [0, 1].

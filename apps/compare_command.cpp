@@ -21,11 +21,7 @@ struct CompareCommandOptions {
 
 /// The changed object with the parts of the one at rest. Throws InputError unless its triangles are the same.
 Shape changed_shape(const CompareCommandOptions& options, const Model& rest) {
-  CommonOptions common = options.common;
-  common.model = options.after;
-  common.read.labels.reset();
-  common.read.format.reset();
-  const Model after = load_model(common);
+  const Model after = load_other_model(options.common, options.after);
   Shape now = rest.shape;
   if (after.shape.vertex_count() != now.vertex_count() || after.shape.triangles != now.triangles)
     throw InputError(display_name(after) + ": expected the triangles of " + display_name(rest) +

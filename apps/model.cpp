@@ -47,6 +47,21 @@ Model load_model(const CommonOptions& common, const InspectOptions& options) {
   return model;
 }
 
+Model load_other_model(CommonOptions common, const std::string& path) {
+  common.model = path;
+  common.read.labels.reset();
+  common.read.format.reset();
+  return load_model(common);
+}
+
+void check_same_unit(const Model& model, const Model& other, const std::string& name_of_other) {
+  const auto words = [](Unit unit) { return unit == Unit::unknown ? "an unknown unit" : unit_symbol(unit); };
+  const Unit a = model.shape.unit, b = other.shape.unit;
+  if (a != b)
+    throw UsageError("MODEL is in " + words(a) + " and " + name_of_other + " is in " + words(b) +
+                     ": give --unit, which holds for both");
+}
+
 Json document_head(const std::string& command, const Model& model) {
   return {{"command", command},
           {"version", version_number()},

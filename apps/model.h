@@ -48,6 +48,13 @@ auto named(const Model& model, const Work& work) {
 /// Reads MODEL as `common` says. Throws InputError.
 Model load_model(const CommonOptions& common, const InspectOptions& options = {});
 
+/// Reads another mesh as MODEL is read, but for its format and labels. Throws InputError.
+Model load_other_model(CommonOptions common, const std::string& path);
+
+/// Throws UsageError, with what the other model is called on the command line, when the two are in different
+/// units.
+void check_same_unit(const Model& model, const Model& other, const std::string& name_of_other);
+
 /// {command, version, model, unit}: how every JSON document begins.
 Json document_head(const std::string& command, const Model& model);
 Json document_head(const CLI::App& command, const Model& model);

@@ -16,23 +16,6 @@ struct Boxes {
   double together = 0;  ///< box of both, nested
 };
 
-/// Throws UsageError when the two files state different units.
-void check_units(const Model& content, const Model& container) {
-  const Unit a = content.shape.unit, b = container.shape.unit;
-  if (a != b)
-    throw UsageError("MODEL is in " + (a == Unit::unknown ? "an unknown unit" : unit_symbol(a)) +
-                     " and --into is in " + (b == Unit::unknown ? "an unknown unit" : unit_symbol(b)) +
-                     ": give --unit, which holds for both");
-}
-
-Model load_container(const StackCommandOptions& options) {
-  CommonOptions common = options.common;
-  common.model = *options.into;
-  common.read.labels.reset();
-  common.read.format.reset();
-  return load_model(common);
-}
-
 void add_nest(Json& document, const StackCommandOptions& options, const NestResult& result,
               const Boxes& boxes) {
   document["semantics"] = name_of(options.stackability.semantics);
@@ -74,8 +57,9 @@ int run_nest(const CLI::App& command, const StackCommandOptions& options) {
   const Stopwatch watch;
   const Direction direction = options.stacking_direction();
   const ThreadLimit limit(options.common);
-  const Model content = load_model(options.common), container = load_container(options);
-  check_units(content, container);
+  const Model content = load_model(options.common),
+              container = load_other_model(options.common, *options.into);
+  check_same_unit(content, container, "--into");
   const Play play = play_of(options, content.shape.unit);
   NestOptions nesting;
   nesting.semantics = options.stackability.semantics;

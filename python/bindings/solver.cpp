@@ -12,6 +12,7 @@
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/watch.h"
+#include "stackabilization/envelope/separation_gradient.h"
 #include "stackabilization/stacking/measure_many.h"
 
 namespace stackabilization::python {
@@ -36,13 +37,33 @@ py::array_t<double> array_of(const Eigen::Vector3d& vector) {
   return array;
 }
 
-/// None when nothing blocks; else the value as a fraction in decimal, its length and the witness.
-py::object separation_tuple(const Separation& separation) {
+py::array_t<double> array_of(const Eigen::Matrix3d& matrix) {
+  py::array_t<double> array({3, 3});
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) array.mutable_at(i, j) = matrix(i, j);
+  return array;
+}
+
+/// (by upper corners, by lower corners, by direction); None where a triangle has no area.
+py::object gradient_tuple(const Shape& below, const Shape& above, const Direction& direction,
+                          const Separation& separation) {
+  try {
+    const SeparationGradient gradient = separation_gradient(below, above, direction, separation);
+    return py::make_tuple(array_of(gradient.upper), array_of(gradient.lower), array_of(gradient.direction));
+  } catch (const UsageError&) {
+    return py::none();
+  }
+}
+
+/// None when nothing blocks; else the value as a fraction in decimal, its length, the witness and a gradient.
+py::object separation_tuple(const Shape& below, const Shape& above, const Direction& direction,
+                            const Separation& separation) {
   if (!separation.blocked) return py::none();
   const Witness& witness = separation.witness;
   return py::make_tuple(separation.value.numerator(), separation.value.denominator(), separation.length,
                         py::make_tuple(witness.upper_triangle, witness.lower_triangle,
-                                       array_of(witness.upper_point), array_of(witness.lower_point)));
+                                       array_of(witness.upper_point), array_of(witness.lower_point)),
+                        gradient_tuple(below, above, direction, separation));
 }
 
 /// A mesh prepared for many directions.
@@ -65,7 +86,7 @@ class Solver {
       const py::gil_scoped_release unlocked;
       found = solver_->separation(direction);
     }
-    return separation_tuple(found);
+    return separation_tuple(*mesh_, *mesh_, direction, found);
   }
 
   std::string measure(const std::string& name, const py::object& along) const {
@@ -124,7 +145,7 @@ py::object separation_of(const std::shared_ptr<Shape>& below, const std::shared_
     found = below == above ? separation(tree_below, tree_below, direction, options)
                            : separation(tree_below, SeparationTree(*above), direction, options);
   }
-  return separation_tuple(found);
+  return separation_tuple(*below, *above, direction, found);
 }
 
 }  // namespace

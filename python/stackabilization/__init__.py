@@ -17,20 +17,20 @@ Errors say what was expected: `InputError` and `UsageError` are ValueErrors. Ctr
 The same input gives the same numbers, whatever the number of threads.
 """
 
-from ._commands import (compare, deform, inspect, map, measure, search, separation, stack, structure, suggest,
+from ._commands import (compare, deform, gap, inspect, map, measure, search, separation, stack, structure, suggest,
                         validate)
 from ._core import Error, InputError, Mesh, OutputError, RenderError, UsageError
 from ._core import version as __version__
 from ._improvement import Design, Improvement, improve, improvement
 from ._mesh import load
-from ._results import (Comparison, Contact, Deformation, Findings, Inspection, Map, Measurement, Nest, Result,
+from ._results import (Comparison, Contact, Deformation, Findings, Gap, Gradient, Inspection, Map, Measurement, Nest, Result,
                        Search, Separation, Stack, Structure, Suggestion, Suggestions, Validation, Witness)
 from ._solver import Measurements, Solver
 
 __all__ = [
-    "Comparison", "Contact", "Deformation", "Design", "Error", "Findings", "Improvement", "InputError",
+    "Comparison", "Contact", "Deformation", "Design", "Error", "Findings", "Gap", "Gradient", "Improvement", "InputError",
     "Inspection", "Map", "Measurement", "Measurements", "Mesh", "Nest", "OutputError", "RenderError", "Result",
     "Search", "Separation", "Solver", "Stack", "Structure", "Suggestion", "Suggestions", "UsageError",
-    "Validation", "Witness", "compare", "deform", "improve", "improvement", "inspect", "load", "map", "measure", "search",
+    "Validation", "Witness", "compare", "deform", "gap", "improve", "improvement", "inspect", "load", "map", "measure", "search",
     "separation", "stack", "structure", "suggest", "validate",
 ]

@@ -41,12 +41,14 @@ def command_line(command, positionals, options):
     return [command, "--no-timing"] + arguments_of(options) + ["--"] + positionals
 
 
-def run_command(command, mesh, options, progress=None, after=None):
+def run_command(command, mesh, options, progress=None, *, after=None, above=None):
     """Run a command of the program in this process."""
     inputs = Inputs()
     positionals = [inputs.name_of(mesh, "<mesh>")]
     if after is not None:
         positionals.append(inputs.name_of(after, "<after>"))
+    if above is not None:
+        positionals.append(inputs.name_of(above, "<above>"))
     if options.get("into") is not None:
         options = {**options, "into": inputs.name_of(options["into"], "<into>")}
     arguments = command_line(command, positionals, options)
@@ -130,6 +132,17 @@ def stack(mesh, *, n=None, into=None, direction=None, twist_degrees=None, period
                "threads": threads}
     document = run_command("stack", mesh, options).document
     return _results.Stack(document) if into is None else _results.Nest(document)
+
+
+def gap(mesh, above, *, direction=None, semantics=None, format=None, unit=None, up=None, labels=None, threads=None):
+    """Say how far `above` can come down along a direction before it touches `mesh`, signed and exact; a Gap.
+
+    direction: from `mesh` to `above` (default: 0, 0, 1). semantics: as in `measure`.
+    format, unit, up, labels: how a file is read, see `load`. threads: at most so many (default: all).
+    """
+    options = {"direction": direction, "semantics": semantics, "format": format, "unit": unit, "up": up,
+               "labels": labels, "threads": threads}
+    return _results.Gap(run_command("gap", mesh, options, above=above).document)
 
 
 def validate(mesh, *, direction=None, format=None, unit=None, up=None, labels=None, threads=None):

@@ -197,16 +197,38 @@ class Separation(Result):
                                        convert=fraction)
     witness: Witness = field("What causes it.", convert=Witness)
 
+    @property
+    def gradient(self):
+        """A subgradient of `length`; None where a face without area attains it."""
+        values = self._document["gradient"]
+        return None if values is None else Gradient(values)
+
+
+class Gradient(Result):
+    """A subgradient of a separation, model units per model unit: by vertices that it does not name it is 0.
+
+    Away from kinks, where other faces attain the same value, it is the gradient.
+    """
+
+    __slots__ = ()
+    _shown = ("direction",)
+    upper: numpy.ndarray = field("(3, 3): row i by corner i of witness.upper_triangle, of the mesh below.",
+                                 convert=vector)
+    lower: numpy.ndarray = field("(3, 3): row i by corner i of witness.lower_triangle, of the mesh above.",
+                                 convert=vector)
+    direction: numpy.ndarray = field("(3,) by the direction.", convert=vector)
+
 
 def separation_of(found):
     """A Separation of what the compiled part returns."""
     if found is None:
         return None
-    numerator, denominator, length, (upper, lower, upper_point, lower_point) = found
+    numerator, denominator, length, (upper, lower, upper_point, lower_point), gradient = found
     return Separation({
         "length": length,
         "exact": {"numerator": numerator, "denominator": denominator},
         "witness": {"triangles": [upper, lower], "point": upper_point.tolist(), "lower_point": lower_point.tolist()},
+        "gradient": gradient and dict(zip(("upper", "lower", "direction"), (part.tolist() for part in gradient))),
     })
 
 
@@ -351,6 +373,20 @@ class Nest(OfModel):
         transform[:3, 3] = float(self.exact_offset) * self.direction
         transform.setflags(write=False)
         return transform
+
+
+class Gap(OfModel):
+    """How far one mesh is above another along a direction."""
+
+    __slots__ = ()
+    _shown = ("gap", "witness")
+    above: str = field("The mesh that comes down.")
+    direction: numpy.ndarray = field("(3,) as given.", convert=vector)
+    semantics: str = field("'solid' or 'closed'.")
+    gap: "float | None" = field("How far it can come down, model units; negative: it has to be lifted by as much to "
+                                "be free; None: the two pass each other.")
+    exact: "fractions.Fraction | None" = field("The same in units of the direction.", convert=fraction)
+    witness: "Witness | None" = field("What touches first.", convert=Witness)
 
 
 class Validation(OfModel):

@@ -78,5 +78,20 @@ class Solver:
         """Return the exact f_max with its witness; a Separation, None when copies never collide."""
         return _results.separation_of(self._solver.separation(direction))
 
+    def gradient(self, direction=(0, 0, 1)):
+        """Return a subgradient of f_max by the vertices, (n, 3), model units per model unit; see Gradient.
+
+        Zero but for the corners of the two faces that cause f_max. None when copies never collide, or where a
+        face without area attains it.
+        """
+        found = self.separation(direction)
+        if found is None or found.gradient is None:
+            return None
+        by_vertices = numpy.zeros(self.mesh.vertices.shape)
+        for face, rows in ((found.witness.upper_triangle, found.gradient.upper),
+                           (found.witness.lower_triangle, found.gradient.lower)):
+            numpy.add.at(by_vertices, self.mesh.faces[face], rows)
+        return by_vertices
+
     def __repr__(self):
         return f"<Solver of {self.mesh!r}>"

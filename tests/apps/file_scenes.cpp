@@ -40,6 +40,7 @@ const std::vector<Output>& outputs() {
       {"stack", "--json", ".json"},
       {"stack", "--output", ".3mf"},
       {"stack", "--picture", ".png"},
+      {"gap", "--json", ".json", {"after.obj"}},
       {"validate", "--json", ".json"},
       {"structure", "--json", ".json"},
       {"structure", "--save", ".json"},

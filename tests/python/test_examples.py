@@ -9,20 +9,29 @@ import pytest
 from conftest import SOURCE
 
 
-def python_blocks():
-    text = (SOURCE / "README.md").read_text()
-    return [block for block in re.findall(r"```python\n(.*?)```", text, re.DOTALL) if "import" in block]
+def python_blocks(page):
+    return [block for block in re.findall(r"```python\n(.*?)```", (SOURCE / page).read_text(), re.DOTALL)
+            if "import" in block]
 
 
-@pytest.mark.parametrize("block", python_blocks())
-def test_examples_of_the_readme_print_what_they_say(block, monkeypatch):
-    monkeypatch.chdir(SOURCE / "data/models")
-    said = re.findall(r"#> (.*)", block)
+def printed_by(block, page):
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
-        exec(compile(block, "README.md", "exec"), {})  # noqa: S102
-    assert printed.getvalue().splitlines() == said
+        exec(compile(block, page, "exec"), {})  # noqa: S102
+    return printed.getvalue().splitlines()
 
 
-def test_the_readme_has_examples():
-    assert len(python_blocks()) >= 2
+@pytest.mark.parametrize("block", python_blocks("README.md"))
+def test_examples_of_the_readme_print_what_they_say(block, monkeypatch):
+    monkeypatch.chdir(SOURCE / "data/models")
+    assert printed_by(block, "README.md") == re.findall(r"#> (.*)", block) != []
+
+
+@pytest.mark.parametrize("block", python_blocks("docs/guide.md"))
+def test_examples_of_the_guide_run(block, monkeypatch):
+    monkeypatch.chdir(SOURCE / "data/models")
+    assert printed_by(block, "guide.md")
+
+
+def test_both_pages_have_examples():
+    assert len(python_blocks("README.md")) >= 2 and python_blocks("docs/guide.md")

@@ -41,8 +41,7 @@ def test_lengths_are_in_units_of_the_direction():
 def test_one_call_takes_the_place_of_lowering_until_it_clips(cup):
     """The loop that simulators use finds the same height, to the step of its bisection."""
     mesh = st.load(cup)
-    solver = st.Solver(mesh)
-    exact = solver.separation().length
+    exact = -st.gap(mesh, mesh).gap
     low, high = 0.0, float(numpy.ptp(mesh.vertices[:, 2]))
     while high - low > 1e-9:
         middle = (low + high) / 2
@@ -58,3 +57,41 @@ def test_the_witness_names_rows_of_the_meshes():
     assert (below[0][below[1][witness.upper_triangle]][:, 2] == 1).all()
     assert (above[0][above[1][witness.lower_triangle]][:, 2] == 2).all()
     assert witness.upper_point[:2] == pytest.approx(witness.lower_point[:2])
+
+
+def test_a_gap_is_how_far_one_can_come_down():
+    below, above = box((0, 0, 0), (1, 1, 0.3)), box((0.5, 0.5, 0.7), (2, 2, 1))
+    found = st.gap(below, above)
+    assert found.exact == fractions.Fraction(0.7) - fractions.Fraction(0.3) == -st.separation(below, above).exact
+    assert found.gap == float(found.exact) and found.above == "<above>"
+    assert st.gap(above, below).gap == -1
+    assert st.gap(below, box((3, 3, 0), (4, 4, 1))).gap is None
+    with pytest.raises(st.UsageError, match="MODEL is in mm and ABOVE is in an unknown unit"):
+        st.gap(st.Mesh(*below, unit="mm"), st.Mesh(*above))
+
+
+def test_a_gradient_is_a_quotient_of_differences(cup):
+    mesh = st.load(cup)
+    rows = numpy.random.default_rng(5).normal(size=mesh.vertices.shape)
+    rows *= 1e-9  # the cup is no longer the same all around, so one pair alone causes f_max
+    noisy = st.Mesh(mesh.vertices + 1000 * rows, mesh.faces)
+    gradient = st.Solver(noisy).gradient()
+    moved = [st.Solver(st.Mesh(noisy.vertices + sign * rows, mesh.faces)).separation().length for sign in (1, -1)]
+    assert (moved[0] - moved[1]) / 2 == pytest.approx((gradient * rows).sum(), rel=1e-5)
+    assert (gradient * noisy.vertices).sum() == pytest.approx(st.Solver(noisy).separation().length)
+
+
+def test_a_parameter_of_a_cup_descends_to_a_wanted_pitch(cup):
+    """The rim of the cup is widened until each further copy adds 15 mm."""
+    mesh, wanted, rim = st.load(cup), 0.015, 1.0
+    across = mesh.vertices * [1, 1, 0] * (mesh.vertices[:, 2:] / numpy.ptp(mesh.vertices[:, 2]))  # by the factor
+    for _ in range(20):
+        solver = st.Solver((mesh.vertices + (rim - 1) * across, mesh.faces))
+        error = solver.separation().length - wanted
+        rim -= error / (solver.gradient() * across).sum()
+    assert error == pytest.approx(0, abs=1e-12) and 1.2 < rim < 1.3
+
+
+def test_there_is_no_gradient_where_nothing_is_in_the_way():
+    flat = st.Solver(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
+    assert flat.gradient((1, 0, 0)) is None and not flat.gradient().any()
