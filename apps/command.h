@@ -36,5 +36,6 @@ Command make_deform_command(CLI::App& program);
 Command make_suggest_command(CLI::App& program);
 Command make_compare_command(CLI::App& program);
 Command make_improve_command(CLI::App& program);
+Command make_edit_command(CLI::App& program);
 
 }  // namespace stackabilization::apps

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "apps/command.h"
+#include "apps/explanation_report.h"
 #include "apps/improve_files.h"
 #include "apps/improve_page.h"
 #include "apps/improve_project.h"

@@ -52,6 +52,7 @@ declare -A modules=(
   [structure]='core mesh io structure'
   [deformation]='core mesh io numerics structure deformation'
   [improvement]='core mesh io numerics envelope stacking structure deformation improvement'
+  [editing]='core mesh io numerics envelope stacking structure deformation improvement editing'
   [rendering]='core mesh io envelope stacking structure deformation improvement rendering'
 )
 # A part of a module may include only itself and the parts before it. A public header belongs to the part that holds
@@ -66,6 +67,7 @@ declare -A parts=(
   [structure]='model fitting symmetry joints segmentation analysis project'
   [deformation]='model controllers carried arap iwires gap_scaling factory'
   [improvement]='design quality requirements history contacts explanation search advice refinement run'
+  [editing]='document session'
   [rendering]='gl drawing scene pictures'
 )
 for folder in src/*/ include/stackabilization/*/; do

@@ -19,6 +19,9 @@ case $purpose in
   all)
     packages+=("${for_packages[@]}" catch2 libopenmesh-dev libembree-dev libfcl-dev doxygen python3
       python3-pytest python3-hypothesis python3-nbclient python3-ipykernel python3-matplotlib)
+    # For the tests of the page of `edit`. Ubuntu has no package of Chromium but a snap; there they are skipped.
+    command -v npm >/dev/null || packages+=(nodejs npm)
+    grep -qx 'ID=debian' /etc/os-release && packages+=(chromium)
     ;;
   *)
     echo "scripts/install_packages.sh: expected 'program', 'packages' or 'all', found '$purpose'" >&2

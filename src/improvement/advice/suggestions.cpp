@@ -4,14 +4,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "improvement/contacts/design_contacts.h"
+#include "improvement/contacts/gap_excess.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization {
 
 namespace {
+
+/// Edits that are tried before the list is shown again.
+constexpr std::size_t suggestion_batch = 16;
+/// Decrease of the summed gap excess that makes an edit helpful, fraction of it.
+constexpr double min_suggested_relief = 0.01;
+/// Increase of S that makes an edit helpful.
+constexpr double min_suggested_gain = 0.001;
 
 /// Measures and checks designs along one direction.
 class SuggestionScorer {
@@ -21,25 +30,53 @@ class SuggestionScorer {
         direction_(direction),
         meter_(checker.rest_shape().energy_meter().with_alpha(alpha)),
         constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction)),
-        at_rest_(checker.check(checker.space().at_rest(), direction).measured.value) {}
+        at_rest_(checker.measure(checker.space().rest().shape, direction).value),
+        gap_(checker, direction) {}
 
   Energy energy(const Design& design, const Stackability& measured) const {
     return meter_.energy(design, measured.value - at_rest_);
   }
 
+  double excess(const Shape& shape, const Stackability& measured) const { return gap_.of(shape, measured); }
+
   /// Fills in the effect of `suggestion.edit` on `design`.
-  void scorer(Suggestion& suggestion, const Design& design) const {
-    const DeformationResult outcome = checker_.space().edited(design, suggestion.edit.edit, constraints_);
+  void score(Suggestion& suggestion, const Design& design) const {
+    if (const std::optional<Design> edited = design_after(suggestion, design)) check(suggestion, *edited);
+  }
+
+  /// Does the same if the edit helps a design with these measures; otherwise returns false.
+  bool score_helpful(Suggestion& suggestion, const Design& design, const Situation& now) const {
+    const std::optional<Design> edited = design_after(suggestion, design);
+    if (!edited) return true;
+    const Stackability measured = checker_.measure(edited->shape, direction_);
+    suggestion.excess = excess(edited->shape, measured);
+    if (measured.value < now.measured.value + min_suggested_gain &&
+        suggestion.excess >= (1 - min_suggested_relief) * now.excess)
+      return false;
+    if (const std::optional<Obstacle> obstacle = checker_.form_obstacle(*edited))
+      suggestion.refusal = obstacle;
+    else
+      check(suggestion, *edited);
+    return true;
+  }
+
+ private:
+  std::optional<Design> design_after(Suggestion& suggestion, const Design& design) const {
+    DeformationResult outcome = checker_.space().edited(design, suggestion.edit.edit, constraints_);
     if (outcome.refusal) {
       suggestion.refusal = *outcome.refusal;
-      return;
+      return std::nullopt;
     }
     const double moved = (outcome.design.shape.vertices - design.shape.vertices).cwiseAbs().maxCoeff();
     if (moved <= tolerance::relative * checker_.space().rest().structure.diagonal) {
       suggestion.refusal = Refusal{RefusalCause::unchanged};
-      return;
+      return std::nullopt;
     }
-    const Assessment assessment = checker_.check(outcome.design, direction_);
+    return std::move(outcome.design);
+  }
+
+  void check(Suggestion& suggestion, const Design& edited) const {
+    const Assessment assessment = checker_.check(edited, direction_);
     for (const Check& check : assessment.checks)
       if (check.kind == CheckKind::target)
         suggestion.reaches_target = check.passed;
@@ -47,48 +84,83 @@ class SuggestionScorer {
         suggestion.refusal = check;
     if (suggestion.refusal) return;
     suggestion.measured = assessment.measured;
-    suggestion.energy = energy(outcome.design, assessment.measured);
+    suggestion.energy = energy(edited, assessment.measured);
     if (!std::isfinite(suggestion.energy.value)) suggestion.refusal = Refusal{RefusalCause::undefined};
   }
 
- private:
   const RequirementChecker& checker_;
   const Direction& direction_;
   EnergyMeter meter_;
   DeformationConstraints constraints_;
   double at_rest_;  ///< S of the shape at rest along the direction
+  detail::GapExcess gap_;
 };
+
+Situation situation_of(const RequirementChecker& checker, const SuggestionScorer& scorer,
+                       const Design& design, const Direction& direction, const SuggestionOptions& options) {
+  Situation result;
+  result.measured = checker.measure(design.shape, direction);
+  result.energy = scorer.energy(design, result.measured);
+  result.contacts = detail::contacts_of(checker, design.shape, direction, options.edits.contacts);
+  result.excess = scorer.excess(design.shape, result.measured);
+  return result;
+}
+
+/// Sorts suggestions that can be made by `merit`, least first, before those that are refused.
+template <class Merit>
+void sort_by(std::vector<Suggestion>& list, const Merit& merit) {
+  std::stable_sort(list.begin(), list.end(), [&](const Suggestion& a, const Suggestion& b) {
+    if (a.refusal.has_value() != b.refusal.has_value()) return b.refusal.has_value();
+    return !a.refusal && merit(a) < merit(b);
+  });
+}
+
+void sort_suggestions(std::vector<Suggestion>& list, const Situation& now, const SuggestionOptions& options) {
+  if (options.only_helpful && now.excess > 0)
+    sort_by(list,
+            [&](const Suggestion& one) { return one.energy.distortion.total() + one.excess / now.excess; });
+  else
+    sort_by(list, [](const Suggestion& one) { return one.energy.value; });
+}
 
 }  // namespace
 
 Situation situation(const RequirementChecker& checker, const Design& design, const Direction& direction,
                     const SuggestionOptions& options) {
-  Situation result;
-  result.measured = checker.check(design, direction).measured;
-  result.energy = SuggestionScorer(checker, direction, options.alpha).energy(design, result.measured);
-  result.contacts = detail::contacts_of(checker, design.shape, direction, options.edits.contacts);
-  return result;
+  return situation_of(checker, SuggestionScorer(checker, direction, options.alpha), design, direction,
+                      options);
 }
 
 std::vector<Suggestion> suggestions(const RequirementChecker& checker, const Design& design,
                                     const Direction& direction, const SuggestionOptions& options) {
   const DeformationModel& space = checker.space();
-  const std::vector<ContactRegion> regions =
-      detail::contacts_of(checker, design.shape, direction, options.edits.contacts);
+  const SuggestionScorer scorer(checker, direction, options.alpha);
+  const Situation now = situation_of(checker, scorer, design, direction, options);
   const std::vector<Handle> handles = space.handles();
   const std::vector<ContactEdit> edits = contact_edits(
-      {space.rest(), space.capabilities(), handles, design, regions, direction, space.centres()},
+      {space.rest(), space.capabilities(), handles, design, now.contacts, direction, space.centres()},
       options.edits);
-  const SuggestionScorer scorer(checker, direction, options.alpha);
-  std::vector<Suggestion> result(edits.size());
-  tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
-    result[k].edit = edits[k];
-    scorer.scorer(result[k], design);
-  });
-  std::stable_sort(result.begin(), result.end(), [](const Suggestion& a, const Suggestion& b) {
-    if (a.refusal.has_value() != b.refusal.has_value()) return b.refusal.has_value();
-    return !a.refusal && a.energy.value < b.energy.value;
-  });
+  std::vector<Suggestion> result;
+  for (std::size_t begin = 0; begin < edits.size(); begin += suggestion_batch) {
+    if (options.cancelled && options.cancelled()) break;
+    const std::size_t end = std::min(begin + suggestion_batch, edits.size());
+    std::vector<std::optional<Suggestion>> batch(end - begin);
+    tbb::parallel_for(begin, end, [&](std::size_t k) {
+      if (options.cancelled && options.cancelled()) return;
+      Suggestion suggestion;
+      suggestion.edit = edits[k];
+      if (!options.only_helpful)
+        scorer.score(suggestion, design);
+      else if (!scorer.score_helpful(suggestion, design, now))
+        return;
+      batch[k - begin] = std::move(suggestion);
+    });
+    for (std::optional<Suggestion>& one : batch)
+      if (one) result.push_back(std::move(*one));
+    sort_suggestions(result, now, options);
+    if (options.found) options.found(result);
+    if (options.progress) options.progress(static_cast<double>(end) / static_cast<double>(edits.size()));
+  }
   return result;
 }
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "improvement/contacts/block_separations.h"
 #include "improvement/contacts/design_contacts.h"
+#include "improvement/contacts/gap_excess.h"
 #include "stackabilization/improvement/energy.h"
 
 namespace stackabilization {
@@ -32,10 +32,10 @@ class Pursuit {
         meter_(checker.rest_shape().energy_meter().with_alpha(options.alpha)),
         handles_(checker.space().handles()),
         centres_(checker.space().centres()),
-        blocks_(checker.space().rest().shape, direction_, checker.requirements().measure.semantics, 1),
+        gap_(checker, direction_),
         at_rest_(start.measured.value - start.energy.gain) {
     now_.candidate = start;
-    now_.excess = excess(now_.candidate);
+    now_.excess = gap_.of(start.design.shape, start.measured);
   }
 
   GapDescentResult run() {
@@ -50,19 +50,6 @@ class Pursuit {
     double excess = 0;  ///< summed excess of all pairs of blocks, fraction of the extent
   };
 
-  double allowed(const Stackability& measured) const {
-    return (1 - checker_.required_stackability(measured)) / measured.loss_per_length() -
-           checker_.requirements().measure.clearance;
-  }
-
-  double excess(const Candidate& candidate) const {
-    const double most = allowed(candidate.measured);
-    double sum = 0;
-    for (const detail::BlockPair& pair : blocks_.pairs_above(candidate.design.shape, most))
-      sum += pair.f - most;
-    return sum / candidate.measured.extent;
-  }
-
   /// Returns D + F / F_now, see `descend_gaps`.
   double merit(const State& state) const {
     return state.candidate.energy.distortion.total() + state.excess / now_.excess;
@@ -72,7 +59,7 @@ class Pursuit {
   std::vector<ContactEdit> suggestions() const {
     const Candidate& from = now_.candidate;
     ContactOptions contacts = options_.edits.contacts;
-    const double lack = (from.measured.f_max - allowed(from.measured)) / from.measured.extent;
+    const double lack = (from.measured.f_max - gap_.allowed_separation(from.measured)) / from.measured.extent;
     const double density = static_cast<double>(from.design.shape.triangle_count()) / many_triangles;
     contacts.band = std::max(contacts.band, std::min({lack, 1.0, 1 / (density * density)}));
     const std::vector<ContactRegion> regions =
@@ -89,7 +76,7 @@ class Pursuit {
     state.candidate.measured = checker_.measure(outcome.design.shape, direction_);
     state.candidate.energy = meter_.energy(outcome.design, state.candidate.measured.value - at_rest_);
     state.candidate.design = std::move(outcome.design);
-    state.excess = excess(state.candidate);
+    state.excess = gap_.of(state.candidate.design.shape, state.candidate.measured);
     return state;
   }
 
@@ -124,7 +111,7 @@ class Pursuit {
   EnergyMeter meter_;
   std::vector<Handle> handles_;
   std::vector<Eigen::Vector3d> centres_;  ///< of the handles, at rest
-  detail::BlockSeparations blocks_;
+  detail::GapExcess gap_;
   double at_rest_;
   State now_;
   std::int64_t evaluations_ = 0;

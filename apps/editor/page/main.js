@@ -1,0 +1,256 @@
+// The page: what the program tells goes into the view and the panels; what a person does becomes commands.
+import { Connection, frameKind, meshOf, verticesOf } from './connection.js';
+import { Viewer } from './viewer.js';
+import { Measures } from './measures.js';
+import { Gallery } from './gallery.js';
+import { Tree } from './tree.js';
+import { element } from './dom.js';
+import { bindKeys } from './keys.js';
+import { bindTabs } from './tabs.js';
+
+const canvas = /** @type {HTMLCanvasElement} */ (element('view'));
+const viewer = new Viewer(canvas);
+
+/** What the program has told. @type {Record<string, any>} */
+const state = { model: null, design: null, review: null, tree: null, wishes: null, suggestions: { list: [] }, found: { list: [] }, writes: false };
+/** @type {Float32Array | null} */
+let shown = null;
+/** What is shown instead while the mouse is over it. @type {{vertices: Float32Array, step: number} | null} */
+let preview = null;
+
+const connection = new Connection({ message: receive, frame: receiveFrame, open: opened });
+const send = (/** @type {object} */ command) => connection.send(command);
+
+/** @param {Float32Array} vertices @param {number} step @param {number} value  S */
+function startPreview(vertices, step, value) {
+  preview = { vertices, step };
+  viewer.setBefore(shown);
+  viewer.show(vertices, step, true);
+  measures.preview(value, step);
+}
+
+function endPreview() {
+  if (!preview || !shown) return;
+  preview = null;
+  viewer.setBefore(null);
+  viewer.show(shown, state.design?.measured.f_max ?? 0, true);
+  measures.preview(null, null);
+}
+
+const measures = new Measures(send);
+const gallery = new Gallery(viewer, {
+  preview: (offer) => startPreview(offer.vertices, offer.f_max, offer.stackability),
+  leave: endPreview,
+  apply: (number) => { endPreview(); send({ do: 'apply', number }); },
+});
+const tree = new Tree(viewer, {
+  go: (node) => { endPreview(); send({ do: 'roll-back', node }); },
+  picture: (node) => send({ do: 'picture', node }),
+  preview: (node) => startPreview(node.vertices, node.step, node.stackability),
+  leave: endPreview,
+});
+
+/** @param {boolean} open */
+function opened(open) {
+  element('veil').hidden = open;
+  element('veil-text').textContent = 'The program has ended, or cannot be reached. What you did is saved.';
+}
+
+/** A sentence under the object. @param {string} text @param {boolean} [bad] */
+function hint(text, bad = false) {
+  const line = element('hint');
+  line.textContent = text;
+  line.classList.toggle('bad', bad);
+  clearTimeout(hintEnd);
+  if (text) hintEnd = setTimeout(() => (line.textContent = ''), 6000);
+}
+let hintEnd = 0;
+
+function showDesign() {
+  if (!shown || !state.design || preview) return;
+  const { design } = state;
+  viewer.setDirection(design.direction);
+  viewer.setChanged(design.change > 1e-9);
+  // Few copies where they stand far apart, more where they nest.
+  viewer.copiesAbove = Math.max(1, Math.min(4, Math.round(1 / Math.max(1 - design.measured.stackability, 0.01))));
+  viewer.show(shown, design.measured.f_max, seen && !design.dragging);
+  seen = true;
+}
+let seen = false;
+
+/** @param {any} message */
+function receive(message) {
+  switch (message.type) {
+    case 'model':
+      state.model = message;
+      element('title').textContent = message.name;
+      document.title = message.name + ' – Stackabilization';
+      measures.setModel(message);
+      exportList(message.stem);
+      if (message.resumed) hint('Going on from where you left off.');
+      break;
+    case 'role':
+      state.writes = message.writes;
+      element('role').textContent = message.writes ? '' : 'Another page is editing; this one looks on.';
+      document.body.classList.toggle('reader', !message.writes);
+      break;
+    case 'design': {
+      const first = !state.design;
+      state.design = message;
+      showDesign();
+      if (message.primitives) viewer.setPrimitives(message.primitives);
+      measures.setDesign(message);
+      if (first) { viewer.setRelations(state.model.joints.flatMap((/** @type {any} */ j) => j.points), state.model.symmetries); viewer.fit(); }
+      break;
+    }
+    case 'review':
+      state.review = message;
+      measures.setReview(message);
+      if (!message.ready) viewer.setContacts(new Float32Array(), []);
+      else viewer.setContacts(contactCorners, message.contacts.filter((/** @type {any} */ c) => c.type === 'dot').map((/** @type {any} */ c) => c.centre));
+      break;
+    case 'tree':
+      state.tree = message;
+      tree.set(message, state.design);
+      /** @type {HTMLButtonElement} */ (element('undo')).disabled = !message.can_undo;
+      /** @type {HTMLButtonElement} */ (element('redo')).disabled = !message.can_redo;
+      break;
+    case 'wishes':
+      state.wishes = message;
+      measures.setWishes(message);
+      break;
+    case 'suggestions':
+      state.suggestions = message;
+      gallery.set(message);
+      break;
+    case 'progress':
+      if (message.work === 'suggestions') gallery.progress(message.fraction);
+      break;
+    case 'refusal':
+      hint(message.words, true);
+      break;
+    case 'error':
+      hint(message.words, true);
+      break;
+  }
+}
+
+let contactCorners = new Float32Array();
+
+/** @param {import('./connection.js').Frame} frame */
+function receiveFrame(frame) {
+  switch (frame.kind) {
+    case frameKind.mesh:
+      viewer.setMesh(meshOf(frame));
+      break;
+    case frameKind.shown:
+      shown = viewer.design = verticesOf(frame);
+      break;
+    case frameKind.suggestion:
+      gallery.setVertices(frame.number, frame.stamp, verticesOf(frame));
+      break;
+    case frameKind.node:
+      tree.setVertices(frame.number, verticesOf(frame));
+      break;
+    case frameKind.contacts:
+      contactCorners = new Float32Array(frame.buffer, 16, 9 * frame.count);
+      break;
+  }
+}
+
+/** @param {string} stem */
+function exportList(stem) {
+  const list = element('export-list');
+  list.replaceChildren();
+  for (const [ending, words] of [['obj', 'Mesh with parts'], ['3mf', 'Mesh for printing'], ['glb', 'Mesh for viewers'], ['stl', 'Triangles only'], ['stackabilize.json', 'Project with all designs']]) {
+    const link = document.createElement('a');
+    link.href = 'export/' + ending;
+    link.download = stem + '.' + ending;
+    link.textContent = `${words} (.${ending})`;
+    link.addEventListener('click', () => element('export').removeAttribute('open'));
+    list.append(link);
+  }
+  const picture = document.createElement('button');
+  picture.textContent = 'Picture of the view (.png)';
+  picture.addEventListener('click', async () => {
+    const blob = await viewer.picture();
+    if (!blob) return;
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(blob);
+    link.download = stem + '.png';
+    link.click();
+    URL.revokeObjectURL(link.href);
+    element('export').removeAttribute('open');
+  });
+  list.append(picture);
+}
+
+/** What can be shown, with its key. */
+const layers = /** @type {const} */ ([
+  ['ghosts', 'Copies', 'g'], ['contacts', 'Contacts', 'c'], ['before', 'At rest', 'r'], ['parts', 'Parts', 'p'],
+  ['primitives', 'Primitives', 'b'], ['joints', 'Joints', 'j'], ['symmetry', 'Symmetry', 'y'],
+]);
+/** @type {Record<string, () => void>} */
+const toggles = {};
+for (const [layer, words, key] of layers) {
+  const button = document.createElement('button');
+  button.textContent = words;
+  button.title = `${words} (${key.toUpperCase()})`;
+  const mark = () => button.setAttribute('aria-pressed', String(viewer.layers[layer]));
+  toggles[key] = () => {
+    viewer.setLayers({ [layer]: !viewer.layers[layer] });
+    if (layer === 'before') viewer.setBefore(null);
+    mark();
+  };
+  button.addEventListener('click', toggles[key]);
+  mark();
+  element('layers').append(button);
+}
+
+/** @type {[string, string, number[]][]} */
+const cameras = [['Fit', 'f', [1.6, -2.4, 1.15]], ['Front', '1', [0, -1, 0.001]], ['Side', '2', [1, 0, 0.001]], ['Top', '3', [0, -0.001, 1]]];
+for (const [words, key, from] of cameras) {
+  const button = document.createElement('button');
+  button.textContent = words;
+  button.title = `${words} (${key.toUpperCase()})`;
+  toggles[key] = () => viewer.fit(from);
+  button.addEventListener('click', toggles[key]);
+  element('cameras').append(button);
+}
+
+const undo = () => send({ do: 'undo' }), redo = () => send({ do: 'redo' });
+element('undo').addEventListener('click', undo);
+element('redo').addEventListener('click', redo);
+
+let dark = matchMedia('(prefers-color-scheme: dark)').matches;
+function setTheme() {
+  document.documentElement.dataset.theme = dark ? 'dark' : 'light';
+  element('theme').textContent = dark ? 'Light' : 'Dark';
+  viewer.setTheme(dark);
+  gallery.paint();
+  tree.paint();
+}
+const toggleTheme = () => { dark = !dark; setTheme(); };
+element('theme').addEventListener('click', toggleTheme);
+setTheme();
+
+const keysDialog = /** @type {HTMLDialogElement} */ (element('keys'));
+element('help').addEventListener('click', () => keysDialog.showModal());
+bindTabs(element('tabs'));
+bindKeys({
+  plain: { ...toggles, d: toggleTheme, '?': () => keysDialog.showModal(), Escape: endPreview },
+  control: { z: undo, y: redo },
+  controlShift: { z: redo },
+  list: element('keys-list'),
+  words: [...layers.map(([, words, key]) => [key, 'Show or hide: ' + words]), ...cameras.map(([words, key]) => [key, 'View: ' + words]),
+    ['Ctrl Z', 'Undo'], ['Ctrl Shift Z', 'Redo'], ['d', 'Light or dark'], ['Arrows', 'In the view: turn; in a list: move'], ['Enter', 'Apply or go there'], ['?', 'This list']],
+});
+canvas.addEventListener('keydown', (event) => {
+  const turns = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] });
+  if (!turns[event.key]) return;
+  event.preventDefault();
+  viewer.turn(...turns[event.key]);
+});
+
+// For tests: what the page holds and shows.
+Object.assign(window, { editor: { viewer, state, send } });

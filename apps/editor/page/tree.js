@@ -1,0 +1,132 @@
+// Every design visited, as a tree that grows to the right.
+import { create, element, walkWithArrows } from './dom.js';
+import * as format from './format.js';
+
+const width = 140, height = 56;
+
+export class Tree {
+  /**
+   * @param {import('./viewer.js').Viewer} viewer
+   * @param {{go: (node: number) => void, picture: (node: number) => void, leave: () => void,
+   *   preview: (node: {vertices: Float32Array, step: number, stackability: number}) => void}} actions
+   */
+  constructor(viewer, actions) {
+    this.viewer = viewer;
+    this.actions = actions;
+    this.list = element('tree');
+    /** @type {Map<number, Float32Array>} */
+    this.vertices = new Map();
+    /** @type {Map<number, HTMLButtonElement>} */
+    this.nodes = new Map();
+    this.message = /** @type {any} */ (null);
+    this.lines = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+    this.lines.setAttribute('aria-hidden', 'true');
+    walkWithArrows(this.list);
+  }
+
+  /** @param {number} node @param {Float32Array} vertices */
+  setVertices(node, vertices) {
+    this.vertices.set(node, vertices);
+    this.#paint(node);
+  }
+
+  /** @param {any} message @param {any} design */
+  set(message, design) {
+    this.message = message;
+    this.loss = design ? design.measured.loss_per_length : 1;
+    if (message.nodes.length < this.nodes.size) {
+      this.nodes.clear();
+      this.vertices.clear();
+    }
+    const places = layout(message.nodes);
+    const path = new Set();
+    for (let node = message.current; node >= 0; node = message.nodes[node].parent) path.add(node);
+    message.nodes.forEach((/** @type {any} */ node, /** @type {number} */ k) => {
+      const button = this.#node(k, node);
+      button.style.left = `${12 + width * places[k].column}px`;
+      button.style.top = `${8 + height * places[k].row}px`;
+      if (k === message.current) button.setAttribute('aria-current', 'true');
+      else button.removeAttribute('aria-current');
+      button.setAttribute('aria-level', String(places[k].column + 1));
+      button.tabIndex = k === message.current ? 0 : -1;
+    });
+    this.#connect(message.nodes, places, path);
+    this.list.replaceChildren(this.lines, ...this.nodes.values());
+    this.nodes.get(message.current)?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+  }
+
+  /** @param {number} k @param {any} node */
+  #node(k, node) {
+    const known = this.nodes.get(k);
+    if (known) return known;
+    const button = create('button', 'node');
+    button.setAttribute('role', 'treeitem');
+    const name = k === 0 ? 'At rest' : node.name;
+    button.setAttribute('aria-label', `S ${format.stackability(node.stackability)}, ${name}`);
+    button.title = name;
+    const picture = create('canvas');
+    picture.width = 108;
+    picture.height = 84;
+    const words = create('span');
+    words.append(create('b', '', format.stackability(node.stackability)), create('small', '', name));
+    button.append(picture, words);
+    button.addEventListener('click', () => this.actions.go(k));
+    const look = () => {
+      const vertices = this.vertices.get(k);
+      if (vertices && k !== this.message.current) this.actions.preview({ vertices, step: this.#step(k), stackability: node.stackability });
+    };
+    button.addEventListener('mouseenter', look);
+    button.addEventListener('mouseleave', () => this.actions.leave());
+    this.nodes.set(k, button);
+    this.actions.picture(k);
+    return button;
+  }
+
+  /** f_max of a node, from its S. @param {number} k */
+  #step(k) {
+    return (1 - this.message.nodes[k].stackability) / (this.loss || 1);
+  }
+
+  /** @param {number} k */
+  #paint(k) {
+    const vertices = this.vertices.get(k), picture = this.nodes.get(k)?.querySelector('canvas');
+    if (vertices && picture) this.viewer.thumbnail(picture, vertices, { step: this.#step(k), against: this.viewer.surface?.mesh.vertices ?? null });
+  }
+
+  /** Paints all pictures again. */
+  paint() {
+    for (const node of this.nodes.keys()) this.#paint(node);
+  }
+
+  /** @param {{parent: number}[]} nodes @param {{column: number, row: number}[]} places @param {Set<number>} path */
+  #connect(nodes, places, path) {
+    const lines = nodes.map((node, k) => {
+      if (node.parent < 0) return '';
+      const from = places[node.parent], to = places[k];
+      const x0 = 12 + width * from.column + 112, y0 = 8 + height * from.row + 24, x1 = 12 + width * to.column, y1 = 8 + height * to.row + 24;
+      const middle = (x0 + x1) / 2;
+      return `<path class="${path.has(k) ? 'path' : ''}" d="M${x0} ${y0}C${middle} ${y0} ${middle} ${y1} ${x1} ${y1}"/>`;
+    });
+    this.lines.innerHTML = lines.join('');
+    this.lines.setAttribute('width', String(24 + width * (1 + Math.max(...places.map((p) => p.column)))));
+    this.lines.setAttribute('height', String(16 + height * (1 + Math.max(...places.map((p) => p.row)))));
+  }
+}
+
+/**
+ * Columns by depth; the first child stays in the row of its parent, further ones start rows of their own.
+ * @param {{parent: number}[]} nodes
+ */
+export function layout(nodes) {
+  /** @type {number[][]} */
+  const children = nodes.map(() => []);
+  nodes.forEach((node, k) => { if (node.parent >= 0) children[node.parent].push(k); });
+  const places = nodes.map(() => ({ column: 0, row: 0 }));
+  let rows = 0;
+  const place = (/** @type {number} */ k, /** @type {number} */ column, /** @type {number} */ row) => {
+    places[k] = { column, row };
+    children[k].forEach((child, n) => place(child, column + 1, n === 0 ? row : ++rows));
+  };
+  if (nodes.length) place(0, 0, 0);
+  return places;
+}

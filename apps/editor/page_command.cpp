@@ -1,0 +1,110 @@
+#include "apps/editor/page_command.h"
+
+#include <functional>
+#include <map>
+
+#include "apps/edit_grammar.h"
+#include "apps/json.h"
+#include "stackabilization/core/errors.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+using editing::AcceptRemedy, editing::ApplySuggestion, editing::Drag, editing::EndDrag, editing::FindDesigns,
+    editing::FindRange, editing::KeepParts, editing::Redo, editing::RollBack, editing::SetDirection,
+    editing::SetLimit, editing::SetTarget, editing::StopFinding, editing::TakeDesign, editing::Undo;
+
+/// A JSON object of a page, with the shape that its commands are about.
+class PageCommand {
+ public:
+  PageCommand(const Json& json, const StructuredShape& rest) : json_(json), rest_(rest) {}
+
+  editing::Command command() const {
+    const std::map<std::string, std::function<editing::Command()>> commands = {
+        {"apply", [&] { return ApplySuggestion{whole("number")}; }},
+        {"drag", [&] { return Drag{edit()}; }},
+        {"end-drag", [&] { return EndDrag{truth("keep")}; }},
+        {"range", [&] { return FindRange{edit()}; }},
+        {"roll-back", [&] { return RollBack{whole("node")}; }},
+        {"undo", [] { return Undo{}; }},
+        {"redo", [] { return Redo{}; }},
+        {"target", [&] { return SetTarget{number(entry("value"))}; }},
+        {"direction", [&] { return SetDirection{direction()}; }},
+        {"limit", [&] { return limit(); }},
+        {"keep", [&] { return keep(); }},
+        {"find", [] { return FindDesigns{}; }},
+        {"stop", [] { return StopFinding{}; }},
+        {"take", [&] { return TakeDesign{whole("number")}; }},
+        {"accept", [&] { return AcceptRemedy{whole("number")}; }}};
+    const std::string word = text("do");
+    const auto found = commands.find(word);
+    if (found == commands.end()) throw UsageError("there is no command '" + word + "'");
+    return found->second();
+  }
+
+ private:
+  const Json& entry(const char* key) const {
+    const auto found = json_.find(key);
+    if (found == json_.end()) throw UsageError(std::string("the command expects '") + key + "'");
+    return *found;
+  }
+  [[noreturn]] static void fail(const std::string& key, const std::string& what) {
+    throw UsageError("'" + key + "' of the command expects " + what);
+  }
+  static double number(const Json& value) {
+    if (!value.is_number()) throw UsageError("the command expects a number, found " + value.dump());
+    return value.get<double>();
+  }
+  int whole(const char* key) const {
+    const Json& value = entry(key);
+    constexpr std::int64_t most = 1'000'000;
+    if (!value.is_number_integer() || value.get<std::int64_t>() < 0 || value.get<std::int64_t>() > most)
+      fail(key, "a number counted from 0");
+    return value.get<int>();
+  }
+  bool truth(const char* key) const {
+    if (!entry(key).is_boolean()) fail(key, "true or false");
+    return entry(key).get<bool>();
+  }
+  std::string text(const char* key) const {
+    if (!entry(key).is_string()) fail(key, "a text");
+    return entry(key).get<std::string>();
+  }
+  Edit edit() const { return parse_edit(text("edit"), rest_.shape.part_names, rest_.structure.diagonal); }
+  Eigen::Vector3d direction() const {
+    const Json& value = entry("direction");
+    if (!value.is_array() || value.size() != 3) fail("direction", "three numbers");
+    return {number(value[0]), number(value[1]), number(value[2])};
+  }
+  editing::Command limit() const {
+    const std::string name = text("measure");
+    const auto measure = quality_measure_of(name);
+    if (!measure) throw UsageError("there is no measure of quality '" + name + "'");
+    const Json& value = entry("value");
+    return SetLimit{*measure, value.is_null() ? std::nullopt : std::optional(number(value))};
+  }
+  editing::Command keep() const {
+    KeepParts command;
+    const Json& value = entry("parts");
+    if (!value.is_array()) fail("parts", "a list of rows of parts");
+    for (const Json& part : value) {
+      if (!part.is_number_integer()) fail("parts", "rows of parts");
+      command.parts.push_back(part.get<int>());
+    }
+    return command;
+  }
+
+  const Json& json_;
+  const StructuredShape& rest_;
+};
+
+}  // namespace
+
+editing::Command page_command(const std::string& text, const StructuredShape& rest) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) throw UsageError("a command is a JSON object");
+  return PageCommand(json, rest).command();
+}
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "stackabilization/editing/session.h"
+
+namespace stackabilization::apps {
+
+/// Reads a command of a page, one JSON object:
+///
+///     {"do": "apply", "number": 0}                  {"do": "roll-back", "node": 2}
+///     {"do": "drag", "edit": "leg move 0 0 1"}      {"do": "end-drag", "keep": true}
+///     {"do": "range", "edit": "leg move 0 0 1"}     {"do": "undo"}, {"do": "redo"}
+///     {"do": "target", "value": 0.6}                {"do": "direction", "direction": [0, 0, 1]}
+///     {"do": "limit", "measure": "size", "value": 0.7}    (value null: none)
+///     {"do": "keep", "parts": [0, 3]}
+///     {"do": "find"}, {"do": "stop"}, {"do": "take", "number": 0}, {"do": "accept", "number": 0}
+///
+/// Edits are those of edit_grammar.h. Throws UsageError, in words for people, for anything else.
+editing::Command page_command(const std::string& text, const StructuredShape& rest);
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,266 @@
+#include "apps/editor/room.h"
+
+#include <algorithm>
+#include <atomic>
+#include <future>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "apps/editor/page_command.h"
+#include "apps/editor/page_files.h"
+#include "apps/editor/state_json.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/editing/command_loop.h"
+#include "stackabilization/io/write.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+using editing::Change, editing::Changed, editing::CommandLoop, editing::Document, editing::EditingSession,
+    editing::EndDrag, editing::Event, editing::OfferedEdit, editing::Progress, editing::Refused,
+    editing::Work;
+
+/// Messages that replace an earlier one of the same number that still waits; see WebServer::send_text.
+enum Replaces : std::uint32_t { keeps_all = 0, shown_frame, design_text, review_text, progress_text };
+
+/// Commands of one page that may wait; a page that sends more is flooding.
+constexpr int max_waiting_commands = 1000;
+
+struct Export {
+  const char* ending;
+  const char* type;
+  std::optional<Format> format;  ///< none: the project
+};
+
+constexpr const char* binary_type = "application/octet-stream";
+
+const Export* export_of(const std::string& path) {
+  static const std::vector<Export> exports = {{"obj", "text/plain; charset=utf-8", Format::obj},
+                                              {"3mf", "model/3mf", Format::three_mf},
+                                              {"glb", "model/gltf-binary", Format::gltf},
+                                              {"stl", binary_type, Format::stl},
+                                              {"stackabilize.json", "application/json", std::nullopt}};
+  for (const Export& one : exports)
+    if (path == std::string("export/") + one.ending) return &one;
+  return nullptr;
+}
+
+}  // namespace
+
+class EditingRoom::Implementation {
+ public:
+  Implementation(Document document, RoomOptions options, WebOptions web)
+      : options_(std::move(options)),
+        server_(web, {[this](WebRequest request, auto reply) { answer(std::move(request), reply); },
+                      [this](PageId page) { post([this, page] { opened(page); }); },
+                      [this](PageId page) { post([this, page] { closed(page); }); },
+                      [this](PageId page, std::string text) { received(page, std::move(text)); }}) {
+    auto session = std::make_unique<EditingSession>(std::move(document), options_.session,
+                                                    [this](const Event& event) { tell(event); });
+    session_ = session.get();
+    loop_.emplace(std::move(session));
+  }
+
+  std::string address() const { return server_.address(); }
+  Document run() {
+    server_.run();
+    std::promise<Document> last;
+    loop_->post([&last](EditingSession& session) { last.set_value(session.document()); });
+    return last.get_future().get();
+  }
+
+ private:
+  template <class Function>
+  void post(Function function) {
+    loop_->post([function = std::move(function)](EditingSession&) { function(); });
+  }
+
+  // From here on: the thread of the server.
+
+  void received(PageId page, std::string text) {
+    if (++waiting_ > max_waiting_commands) {
+      --waiting_;
+      return server_.close(page, "too many commands");
+    }
+    const bool drag = text.find("\"drag\"") != std::string::npos;
+    const auto counted = std::shared_ptr<void>(nullptr, [this](void*) { --waiting_; });
+    const auto task = [this, page, text = std::move(text), counted](EditingSession&) { obey(page, text); };
+    if (drag)
+      loop_->post_drag(task);
+    else
+      loop_->post(task);
+  }
+
+  void answer(WebRequest request, const std::function<void(WebReply)>& reply) {
+    if (request.path.empty()) request.path = "index.html";
+    if (const auto file = page_file(request.path); file && request.method == "GET")
+      return reply({200, file->type, std::string(file->bytes), ""});
+    const Export* const wanted = export_of(request.path);
+    if (!wanted || request.method != "GET") return reply({404, "text/plain; charset=utf-8", "not found", ""});
+    post([this, wanted, reply] { reply(exported(*wanted)); });
+  }
+
+  // From here on: the thread of the session.
+
+  WebReply exported(const Export& wanted) const {
+    try {
+      return {200, wanted.type,
+              wanted.format ? shape_bytes(session_->shown().design->shape, *wanted.format)
+                            : project_text(session_->document().project),
+              options_.stem + "." + wanted.ending};
+    } catch (const Error& error) {
+      return {500, "text/plain; charset=utf-8", error.what(), ""};
+    }
+  }
+
+  void opened(PageId page) {
+    pages_.push_back(page);
+    if (!writer_) writer_ = page;
+    send(page, model());
+    send_frame(page, mesh_frame(session_->space().rest().shape));
+    tell_writers();
+    for (const Change change : {Change::wishes, Change::design, Change::tree, Change::review,
+                                Change::suggestions, Change::range, Change::found})
+      show(change, {page});
+  }
+
+  void closed(PageId page) {
+    std::erase(pages_, page);
+    if (writer_ != page) return;
+    writer_.reset();
+    if (session_->dragging()) session_->execute(EndDrag{false});
+    if (!pages_.empty()) writer_ = pages_.front();
+    tell_writers();
+  }
+
+  void obey(PageId page, const std::string& text) {
+    if (std::find(pages_.begin(), pages_.end(), page) == pages_.end()) return;
+    try {
+      const Json json = Json::parse(text, nullptr, false);
+      const std::string word = json.is_object() ? json.value("do", Json()).dump() : "";
+      if (word == "\"write\"") {
+        if (session_->dragging()) session_->execute(EndDrag{false});
+        writer_ = page;
+        tell_writers();
+      } else if (word == "\"picture\"") {
+        const Json node = json.value("node", Json());
+        if (!node.is_number_integer()) throw UsageError("'node' of the command expects a number");
+        send_frame(page, vertex_frame(FrameKind::node, node.get<std::uint32_t>(), 0,
+                                      session_->design_of(node.get<int>())->shape.vertices));
+      } else if (writer_ != page) {
+        throw UsageError("another page is editing; this one looks on");
+      } else {
+        session_->execute(page_command(text, session_->space().rest()));
+      }
+    } catch (const Error& error) {
+      send(page, {{"type", "error"}, {"words", error.what()}});
+    } catch (const nlohmann::json::exception&) {
+      send(page, {{"type", "error"}, {"words", "a command is a JSON object"}});
+    }
+  }
+
+  void tell(const Event& event) {
+    if (const auto* changed = std::get_if<Changed>(&event)) return show(changed->what, pages_);
+    Json json;
+    std::uint32_t replaces = keeps_all;
+    if (const auto* refused = std::get_if<Refused>(&event)) {
+      json = {{"type", "refusal"},
+              {"words", describe(refused->obstacle, session_->space().rest().structure)}};
+    } else if (const auto* progress = std::get_if<Progress>(&event)) {
+      json = {{"type", "progress"},
+              {"work", progress->work == Work::designs ? "designs" : "suggestions"},
+              {"fraction", progress->fraction}};
+      if (progress->fraction < 1) replaces = progress_text;
+    } else {
+      json = {{"type", "error"}, {"words", std::get<editing::Failed>(event).sentence}};
+    }
+    for (const PageId page : pages_) send(page, json, replaces);
+  }
+
+  /// Tells pages what changed.
+  void show(Change change, const std::vector<PageId>& pages) {
+    if (pages.empty()) return;
+    const auto all = [&](const Json& json, std::uint32_t replaces = keeps_all) {
+      for (const PageId page : pages) send(page, json, replaces);
+    };
+    switch (change) {
+      case Change::design:
+        ++stamp_;
+        frames(pages, vertex_frame(FrameKind::shown, 0, stamp_, session_->shown().design->shape.vertices),
+               shown_frame);
+        return all(design_json(*session_), session_->dragging() ? design_text : keeps_all);
+      case Change::review:
+        if (session_->review()) frames(pages, contact_frame(session_->review()->contacts));
+        return all(review_json(*session_), review_text);
+      case Change::tree:
+        return all(tree_json(*session_));
+      case Change::wishes:
+        return all(wishes_json(*session_));
+      case Change::suggestions: {
+        ++stamp_;
+        std::uint32_t number = 0;
+        for (const OfferedEdit& offered : session_->suggestions())
+          frames(pages,
+                 vertex_frame(FrameKind::suggestion, number++, stamp_, offered.design->shape.vertices));
+        Json json = suggestions_json(*session_);
+        json["stamp"] = stamp_;
+        return all(json);
+      }
+      case Change::range:
+        return all(range_json(*session_));
+      case Change::found: {
+        std::uint32_t number = 0;
+        for (const Candidate& design : session_->found().designs)
+          frames(pages, vertex_frame(FrameKind::found, number++, stamp_, design.design.shape.vertices));
+        return all(found_json(*session_));
+      }
+    }
+  }
+
+  Json model() const {
+    Json json = model_json(*session_, options_.name);
+    json["stem"] = options_.stem;
+    json["resumed"] = options_.resumed;
+    return json;
+  }
+
+  void tell_writers() {
+    for (const PageId page : pages_)
+      send(page, {{"type", "role"}, {"writes", writer_ == page}, {"pages", pages_.size()}});
+  }
+
+  void send(PageId page, const Json& json, std::uint32_t replaces = keeps_all) {
+    server_.send_text(page, json.dump(-1, ' ', false, Json::error_handler_t::replace), replaces);
+  }
+  void send_frame(PageId page, std::string frame) { frames({page}, std::move(frame)); }
+  void frames(const std::vector<PageId>& pages, std::string frame, std::uint32_t replaces = keeps_all) {
+    const auto bytes = std::make_shared<const std::string>(std::move(frame));
+    for (const PageId page : pages) server_.send_bytes(page, bytes, replaces);
+  }
+
+  RoomOptions options_;
+  std::vector<PageId> pages_;
+  std::optional<PageId> writer_;
+  std::uint32_t stamp_ = 0;
+  std::atomic<int> waiting_ = 0;
+  WebServer server_;
+  EditingSession* session_ = nullptr;  ///< of the loop
+  std::optional<CommandLoop> loop_;    ///< last: its threads use everything above
+};
+
+EditingRoom::EditingRoom(Document document, RoomOptions options, WebOptions web)
+    : implementation_(std::make_unique<Implementation>(std::move(document), std::move(options), web)) {}
+
+EditingRoom::~EditingRoom() = default;
+
+std::string EditingRoom::address() const {
+  return implementation_->address();
+}
+
+Document EditingRoom::run() {
+  return implementation_->run();
+}
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "apps/editor/server.h"
+#include "stackabilization/editing/session.h"
+
+namespace stackabilization::apps {
+
+struct RoomOptions {
+  std::string name;      ///< of the model, for people
+  std::string stem;      ///< of files that are exported, without folder and ending
+  bool resumed = false;  ///< whether the session goes on with what was saved
+  editing::SessionOptions session;
+};
+
+/// An editing session, the pages that look at it, and one page that edits: the first one, and when it leaves
+/// the next one, or whichever asks for it. Everything happens on the thread of the session.
+class EditingRoom {
+ public:
+  /// Throws as EditingSession.
+  EditingRoom(editing::Document document, RoomOptions options, WebOptions web);
+  ~EditingRoom();
+  EditingRoom(const EditingRoom&) = delete;
+  EditingRoom& operator=(const EditingRoom&) = delete;
+
+  std::string address() const;
+  /// Serves until the last page has left, or a signal. Returns what was edited.
+  editing::Document run();
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace stackabilization::apps

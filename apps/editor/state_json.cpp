@@ -1,0 +1,311 @@
+#include "apps/editor/state_json.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "apps/design_json.h"
+#include "apps/edit_grammar.h"
+#include "apps/explanation_report.h"
+#include "apps/improve_report.h"
+#include "apps/text.h"
+#include "stackabilization/core/direction_text.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+using editing::EditingSession;
+
+constexpr double alpha_shown = 0.2;  ///< of energies, that of SessionOptions
+
+const char* words_for(SymmetryKind kind) {
+  switch (kind) {
+    case SymmetryKind::reflection:
+      return "reflection";
+    case SymmetryKind::rotation:
+      return "rotation";
+    case SymmetryKind::revolution:
+      break;
+  }
+  return "revolution";
+}
+
+Json points_json(const Points& points) {
+  Json list = Json::array();
+  for (Eigen::Index row = 0; row < points.rows(); ++row)
+    list.push_back(to_json(Eigen::Vector3d(points.row(row).transpose())));
+  return list;
+}
+
+Json primitive_json(const Primitive& primitive) {
+  if (const auto* cuboid = std::get_if<Cuboid>(&primitive))
+    return {{"kind", "cuboid"}, {"points", points_json(cuboid->corners)}};
+  const auto& cylinder = std::get<GeneralizedCylinder>(primitive);
+  Json radii = Json::array();
+  for (const double radius : cylinder.radii) radii.push_back(radius);
+  return {{"kind", "cylinder"},
+          {"points", points_json(cylinder.centres)},
+          {"radii", radii},
+          {"closed", cylinder.closed}};
+}
+
+Json measured_json(const Stackability& measured) {
+  return {{"stackability", measured.value},
+          {"f_max", measured.f_max},
+          {"height", measured.extent},
+          {"loss_per_length", measured.loss_per_length()}};
+}
+
+/// Checks that a person may want to see, with the share of the limit that they use.
+Json checks_json(const std::vector<Check>& checks, const Structure& rest, const QualityLimits* limits) {
+  Json list = Json::array();
+  for (const Check& check : checks) {
+    Json json = {{"name", name_of(check)},          {"unit", unit_of(check)}, {"value", check.value},
+                 {"limit", check.demanded},         {"passed", check.passed}, {"violation", violation(check)},
+                 {"words", check_text(check, rest)}};
+    if (check.kind == CheckKind::quality && limits != nullptr)
+      json["share"] = share_of_limit({check.measure, check.value, check.where, check.other}, *limits);
+    list.push_back(std::move(json));
+  }
+  return list;
+}
+
+const QualityLimits* limits_of(const EditingSession& session) {
+  const auto& quality = session.checker().requirements().quality;
+  return quality ? &*quality : nullptr;
+}
+
+const std::vector<std::string>& names_of(const EditingSession& session) {
+  return session.space().rest().shape.part_names;
+}
+
+/// The first group of a change in words.
+std::string first_line(const Explanation& explanation) {
+  return explanation.groups.empty() ? explanation_lines(explanation).front()
+                                    : describe(explanation.groups.front(), explanation);
+}
+
+class Frame {
+ public:
+  Frame(FrameKind kind, std::uint32_t number, Eigen::Index count, std::uint32_t stamp) {
+    for (const std::uint32_t word :
+         {static_cast<std::uint32_t>(kind), number, static_cast<std::uint32_t>(count), stamp})
+      add(word);
+  }
+
+  void add(std::uint32_t word) {
+    for (int byte = 0; byte < 4; ++byte) bytes_ += static_cast<char>(word >> (8 * byte) & 0xff);
+  }
+  void add(float value) { add(std::bit_cast<std::uint32_t>(value)); }
+  void add(const Points& points) {
+    bytes_.reserve(bytes_.size() + static_cast<std::size_t>(12 * points.rows()));
+    for (Eigen::Index row = 0; row < points.rows(); ++row)
+      for (int column = 0; column < 3; ++column) add(static_cast<float>(points(row, column)));
+  }
+
+  std::string take() { return std::move(bytes_); }
+
+ private:
+  std::string bytes_;
+};
+
+}  // namespace
+
+Json model_json(const EditingSession& session, const std::string& name) {
+  const StructuredShape& rest = session.space().rest();
+  Json parts = Json::array(), joints = Json::array(), symmetries = Json::array(), measures = Json::array();
+  for (const Part& part : rest.structure.parts)
+    parts.push_back(
+        {{"name", part.name},
+         {"text", handle_text({HandleKind::part, static_cast<int>(parts.size()), 0}, names_of(session))},
+         {"kind", std::holds_alternative<Cuboid>(part.primitive) ? "cuboid" : "cylinder"}});
+  for (const Relation& relation : rest.structure.relations)
+    if (relation.type == RelationType::point_joint || relation.type == RelationType::line_joint)
+      joints.push_back({{"parts", relation.parts}, {"points", points_json(relation.points)}});
+  for (const Symmetry& symmetry : rest.structure.symmetries)
+    symmetries.push_back({{"kind", words_for(symmetry.kind)},
+                          {"point", to_json(symmetry.point)},
+                          {"axis", to_json(symmetry.axis)}});
+  const QualityLimits defaults;
+  for (std::size_t k = 0; k < quality_measure_count; ++k) {
+    const auto measure = static_cast<QualityMeasure>(k);
+    measures.push_back({{"name", name_of(measure)},
+                        {"unit", unit_of(measure)},
+                        {"limit", defaults[measure]},
+                        {"lower", has_lower_limit(measure)}});
+  }
+  return {{"type", "model"},
+          {"name", name},
+          {"unit", to_json(rest.shape.unit)},
+          {"diagonal", rest.structure.diagonal},
+          {"triangles", rest.shape.triangle_count()},
+          {"parts", parts},
+          {"joints", joints},
+          {"symmetries", symmetries},
+          {"measures", measures}};
+}
+
+Json design_json(const EditingSession& session) {
+  const editing::MeasuredDesign& shown = session.shown();
+  const Structure& rest = session.space().rest().structure;
+  Json json = {{"type", "design"},
+               {"node", session.document().project.history.current},
+               {"dragging", session.dragging()},
+               {"direction", to_json(session.direction().vector())},
+               {"direction_words", direction_text(session.direction().vector())},
+               {"measured", measured_json(shown.assessment.measured)},
+               {"rest", measured_json(session.at_rest())},
+               {"energy", to_json(shown.energy, alpha_shown)},
+               {"change", shown.change.root_mean_square},
+               {"reaches", session.checker().meets_target(shown.assessment.measured)},
+               {"checks", checks_json(shown.assessment.checks, rest, limits_of(session))}};
+  if (!session.dragging()) {
+    json["primitives"] = Json::array();
+    for (const Primitive& primitive : shown.design->primitives)
+      json["primitives"].push_back(primitive_json(primitive));
+  }
+  return json;
+}
+
+Json review_json(const EditingSession& session) {
+  Json json = {{"type", "review"}, {"ready", session.review().has_value()}};
+  if (!session.review()) return json;
+  const editing::Review& review = *session.review();
+  json["words"] = explanation_lines(review.explanation);
+  json["checks"] =
+      checks_json(review.assessment.checks, session.space().rest().structure, limits_of(session));
+  json["contacts"] = to_json(review.contacts, names_of(session));
+  return json;
+}
+
+Json tree_json(const EditingSession& session) {
+  const History& history = session.document().project.history;
+  Json nodes = Json::array();
+  for (const HistoryNode& node : history.nodes)
+    nodes.push_back({{"parent", node.parent},
+                     {"name", node.name},
+                     {"stackability", node.stackability},
+                     {"energy", node.energy},
+                     {"direction", to_json(node.direction)},
+                     {"edits", edit_texts(node.edits, names_of(session))}});
+  return {{"type", "tree"},
+          {"current", history.current},
+          {"nodes", nodes},
+          {"can_undo", session.can_undo()},
+          {"can_redo", session.can_redo()}};
+}
+
+Json wishes_json(const EditingSession& session) {
+  const Requirements& wishes = session.checker().requirements();
+  Json limits = Json::object();
+  if (wishes.quality)
+    for (std::size_t k = 0; k < quality_measure_count; ++k) {
+      const auto measure = static_cast<QualityMeasure>(k);
+      limits[name_of(measure)] =
+          wishes.quality->is_limited(measure) ? Json((*wishes.quality)[measure]) : Json(nullptr);
+    }
+  return {{"type", "wishes"},
+          {"target", wishes.target},
+          {"keep_height", wishes.keep_height},
+          {"kept", wishes.kept_parts},
+          {"limits", limits}};
+}
+
+Json suggestions_json(const EditingSession& session) {
+  Json list = Json::array(), refused = Json::array();
+  for (const editing::OfferedEdit& offered : session.suggestions()) {
+    list.push_back({{"words", first_line(offered.explanation)},
+                    {"reason", describe(offered.suggestion.edit.reason, names_of(session))},
+                    {"edit", edit_text(offered.suggestion.edit.edit, names_of(session))},
+                    {"part", offered.suggestion.edit.edit.handle.part},
+                    {"gain", offered.gain},
+                    {"stackability", offered.suggestion.measured.value},
+                    {"f_max", offered.suggestion.measured.f_max},
+                    {"energy", offered.suggestion.energy.value},
+                    {"change", offered.change.root_mean_square},
+                    {"excess", offered.suggestion.excess},
+                    {"reaches", offered.suggestion.reaches_target}});
+  }
+  for (const ObstacleCount& count : session.refused())
+    refused.push_back(describe(count, session.space().rest().structure));
+  return {{"type", "suggestions"},
+          {"complete", session.suggestions_complete()},
+          {"list", list},
+          {"refused", refused}};
+}
+
+Json range_json(const EditingSession& session) {
+  if (!session.range()) return {{"type", "range"}, {"edit", nullptr}};
+  const editing::HandleRange& range = *session.range();
+  const Structure& rest = session.space().rest().structure;
+  Json samples = Json::array();
+  for (const editing::HandleRange::Sample& sample : range.samples)
+    samples.push_back({sample.amount, sample.stackability});
+  const auto words = [&](const std::optional<Obstacle>& obstacle) {
+    return obstacle ? Json(describe(*obstacle, rest)) : Json(nullptr);
+  };
+  return {{"type", "range"},
+          {"edit", edit_text(range.edit, names_of(session))},
+          {"samples", samples},
+          {"low", range.low},
+          {"high", range.high},
+          {"below", words(range.below)},
+          {"above", words(range.above)}};
+}
+
+Json found_json(const EditingSession& session) {
+  const editing::FoundDesigns& found = session.found();
+  const Structure& rest = session.space().rest().structure;
+  Json list = Json::array(), offers = Json::array();
+  for (std::size_t k = 0; k < found.designs.size(); ++k)
+    list.push_back({{"words", explanation_lines(found.explanations[k])},
+                    {"stackability", found.designs[k].measured.value},
+                    {"f_max", found.designs[k].measured.f_max},
+                    {"change", found.changes[k].root_mean_square},
+                    {"energy", found.designs[k].energy.value}});
+  Json diagnosis = nullptr;
+  if (found.diagnosis) {
+    Json blockers = Json::array();
+    for (const Blocker& blocker : found.diagnosis->blockers) blockers.push_back(describe(blocker, rest));
+    diagnosis = {{"reached", found.diagnosis->reached}, {"blockers", blockers}};
+    for (const Remedy& remedy : found.diagnosis->remedies)
+      offers.push_back({{"words", describe(remedy, rest)},
+                        {"stackability", remedy.stackability},
+                        {"possible", remedy.kind != Remedy::Kind::remove_part}});
+  }
+  return {{"type", "found"}, {"target", found.target}, {"running", found.running},
+          {"list", list},    {"diagnosis", diagnosis}, {"offers", offers}};
+}
+
+std::string mesh_frame(const Shape& shape) {
+  Frame frame(FrameKind::mesh, static_cast<std::uint32_t>(shape.triangle_count()), shape.vertex_count(), 0);
+  frame.add(shape.vertices);
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k) frame.add(static_cast<std::uint32_t>(shape.triangles(t, k)));
+  for (const std::int32_t part : shape.triangle_part) frame.add(static_cast<std::uint32_t>(part));
+  return frame.take();
+}
+
+std::string vertex_frame(FrameKind kind, std::uint32_t number, std::uint32_t stamp, const Points& vertices) {
+  Frame frame(kind, number, vertices.rows(), stamp);
+  frame.add(vertices);
+  return frame.take();
+}
+
+std::string contact_frame(const std::vector<ContactRegion>& regions) {
+  Eigen::Index count = 0;
+  for (const ContactRegion& region : regions)
+    for (const ContactPolygon& polygon : region.polygons)
+      count += std::max<Eigen::Index>(polygon.upper_points.rows() - 2, 0);
+  Frame frame(FrameKind::contacts, 0, count, 0);
+  for (const ContactRegion& region : regions)
+    for (const ContactPolygon& polygon : region.polygons)
+      for (Eigen::Index k = 2; k < polygon.upper_points.rows(); ++k) {
+        Points corners(3, 3);
+        corners << polygon.upper_points.row(0), polygon.upper_points.row(k - 1), polygon.upper_points.row(k);
+        frame.add(corners);
+      }
+  return frame.take();
+}
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "apps/json.h"
+#include "stackabilization/editing/session.h"
+
+/// What a page is told of a session: texts in JSON, and frames of little-endian numbers for what is large.
+namespace stackabilization::apps {
+
+/// {type: "model", name, unit, diagonal, height, parts: [{name, kind}], joints: [{parts, points}],
+///  symmetries: [{kind, point, axis}], measures: [{name, unit, limit, lower}]}
+Json model_json(const editing::EditingSession& session, const std::string& name);
+
+/// {type: "design", node, dragging, direction, measured, rest, copies, energy, change, checks, primitives}:
+/// what follows every step of a drag.
+Json design_json(const editing::EditingSession& session);
+/// {type: "review", ready, words, checks, contacts}
+Json review_json(const editing::EditingSession& session);
+/// {type: "tree", current, nodes: [{parent, name, stackability, energy, direction}], can_undo, can_redo}
+Json tree_json(const editing::EditingSession& session);
+/// {type: "wishes", target, keep_height, kept, limits}
+Json wishes_json(const editing::EditingSession& session);
+/// {type: "suggestions", complete, list: [{words, reason, edit, part, gain, stackability, energy, change,
+/// reaches}], refused}
+Json suggestions_json(const editing::EditingSession& session);
+/// {type: "range", edit, samples, low, high, below, above}; edit is null where there is none
+Json range_json(const editing::EditingSession& session);
+/// {type: "found", target, running, list: [{words, stackability, change, energy}], diagnosis, offers}
+Json found_json(const editing::EditingSession& session);
+
+/// Kinds of frames. A frame is uint32 {kind, number, points or triangles, stamp}, then its numbers.
+enum class FrameKind : std::uint32_t {
+  mesh = 1,        ///< float32 vertices at rest, then uint32 triangles, then uint32 part per triangle; the
+                   ///< number is the number of triangles
+  shown = 2,       ///< float32 vertices of the design that is shown
+  suggestion = 3,  ///< float32 vertices of suggestion `number`
+  node = 4,        ///< float32 vertices of node `number`
+  found = 5,       ///< float32 vertices of the found design `number`
+  contacts = 6,    ///< float32 corners of the triangles of the contact regions on the copy below
+};
+
+/// Returns the frame of the mesh.
+std::string mesh_frame(const Shape& shape);
+/// Returns a frame of vertices.
+std::string vertex_frame(FrameKind kind, std::uint32_t number, std::uint32_t stamp, const Points& vertices);
+/// Returns the frame of contact regions.
+std::string contact_frame(const std::vector<ContactRegion>& regions);
+
+}  // namespace stackabilization::apps

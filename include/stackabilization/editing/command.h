@@ -1,0 +1,89 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "stackabilization/deformation/edit.h"
+#include "stackabilization/improvement/quality.h"
+
+/// Commands of an editing session. What a number refers to is what the session shows when it executes the
+/// command.
+namespace stackabilization::editing {
+
+/// Makes the edit of a suggestion: a new node of the history.
+struct ApplySuggestion {
+  int number = 0;  ///< row of EditingSession::suggestions
+};
+
+/// Shows the current design with one more edit, without a new node. Where a limit does not allow the edit,
+/// the session shows the largest part of it that all limits allow, and emits the obstacle. Each drag starts
+/// from the current design, not from the last drag.
+struct Drag {
+  Edit edit;  ///< from the current design
+};
+
+/// Ends a drag.
+struct EndDrag {
+  bool keep = true;  ///< whether the dragged design becomes a new node; otherwise it is forgotten
+};
+
+/// Looks for the part of an axis of a handle on which all limits hold: EditingSession::range.
+struct FindRange {
+  Edit edit;  ///< largest edit one way; the other way ends at its inverse
+};
+
+/// Makes a node of the history current.
+struct RollBack {
+  int node = 0;  ///< row of History::nodes
+};
+
+/// Makes the node that was current before the last change current again.
+struct Undo {};
+/// Reverts the last Undo.
+struct Redo {};
+
+/// Changes the stackability that is wanted.
+struct SetTarget {
+  double target = 0;  ///< S, finite, < 1
+};
+
+/// Stacks along another direction: a new node without edits.
+struct SetDirection {
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< r, of any length that a Direction accepts
+};
+
+/// Changes the limit of a measure of quality.
+struct SetLimit {
+  QualityMeasure measure = QualityMeasure::size;  ///< the measure
+  std::optional<double> limit;                    ///< new limit; empty: no limit
+};
+
+/// Changes the parts that must not change.
+struct KeepParts {
+  std::vector<int> parts;  ///< all of them, rows of Shape::part_names
+};
+
+/// Starts the automatic search for designs that reach the target.
+struct FindDesigns {};
+/// Ends that search; what it has found stays.
+struct StopFinding {};
+/// Makes a found design current: a new node, child of the root.
+struct TakeDesign {
+  int number = 0;  ///< row of EditingSession::found
+};
+
+/// Accepts a change that the diagnosis of the automatic search offers, where it is one of requirements or of
+/// the direction.
+struct AcceptRemedy {
+  int number = 0;  ///< row of Diagnosis::remedies
+};
+
+/// A command.
+using Command =
+    std::variant<ApplySuggestion, Drag, EndDrag, FindRange, RollBack, Undo, Redo, SetTarget, SetDirection,
+                 SetLimit, KeepParts, FindDesigns, StopFinding, TakeDesign, AcceptRemedy>;
+
+}  // namespace stackabilization::editing

@@ -1,0 +1,96 @@
+#include "editing/session/handle_range.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace stackabilization::editing {
+
+Edit scaled(Edit edit, double amount) {
+  if (auto* move = std::get_if<Move>(&edit.operation))
+    move->by *= amount;
+  else if (auto* rotate = std::get_if<Rotate>(&edit.operation))
+    rotate->radians *= amount;
+  else
+    std::get<Scale>(edit.operation).factor = std::pow(std::get<Scale>(edit.operation).factor, amount);
+  return edit;
+}
+
+namespace {
+
+constexpr int bisections = 6;        ///< of the part of an edit that can be made: 1/64 of what is left
+constexpr int samples_per_side = 8;  ///< of a range
+
+/// Samples one side of a range, from the design outwards. Returns the end of the range, and what is there.
+std::pair<double, std::optional<Obstacle>> sample_side(const EditedFrom& from, HandleRange& range,
+                                                       double sign, const std::function<bool()>& cancelled) {
+  double reached = 0;
+  for (int k = 1; k <= samples_per_side && !cancelled(); ++k) {
+    const double amount = static_cast<double>(k) / samples_per_side;
+    const Edit whole = scaled(range.edit, sign);
+    const TriedEdit tried = try_edit(from, scaled(whole, amount));
+    if (tried.made) {
+      range.samples.push_back({sign * amount, tried.made->assessment.measured.value});
+      reached = amount;
+      continue;
+    }
+    const LargestEdit largest = largest_part(from, scaled(whole, amount), reached / amount);
+    const double end = amount * largest.amount;
+    if (end > reached) range.samples.push_back({sign * end, largest.made.assessment.measured.value});
+    return {sign * end, largest.obstacle};
+  }
+  return {sign * reached, std::nullopt};
+}
+
+}  // namespace
+
+TriedEdit try_edit(const EditedFrom& from, const Edit& edit) {
+  TriedEdit tried;
+  DeformationResult outcome =
+      from.workspace->space().edited(*from.design, edit, from.workspace->constraints(from.direction));
+  if (outcome.refusal) {
+    tried.obstacle = *outcome.refusal;
+    return tried;
+  }
+  MeasuredDesign made = from.workspace->measured(std::make_shared<const Design>(std::move(outcome.design)),
+                                                 from.direction, from.at_rest);
+  tried.obstacle = obstacle_in(made.assessment);
+  if (!tried.obstacle) tried.made = std::move(made);
+  return tried;
+}
+
+LargestEdit largest_part(const EditedFrom& from, const Edit& edit, double known) {
+  LargestEdit result;
+  TriedEdit whole = try_edit(from, edit);
+  if (whole.made) return {std::move(*whole.made), 1, std::nullopt};
+  result.obstacle = whole.obstacle;
+  double low = 0, high = 1;
+  for (int k = 0; k <= bisections; ++k) {
+    const double amount = k == 0 && known > 0 && known < 1 ? known : (low + high) / 2;
+    TriedEdit tried = try_edit(from, scaled(edit, amount));
+    if (tried.made) {
+      low = amount;
+      result.made = std::move(*tried.made);
+    } else {
+      high = amount;
+      result.obstacle = tried.obstacle;
+    }
+  }
+  result.amount = low;
+  if (!result.made.design) result.made = from.workspace->measured(from.design, from.direction, from.at_rest);
+  return result;
+}
+
+HandleRange handle_range(const EditedFrom& from, const Edit& edit, const std::function<bool()>& cancelled) {
+  HandleRange range;
+  range.edit = edit;
+  const MeasuredDesign now = from.workspace->measured(from.design, from.direction, from.at_rest);
+  range.samples.push_back({0, now.assessment.measured.value});
+  std::tie(range.low, range.below) = sample_side(from, range, -1, cancelled);
+  std::tie(range.high, range.above) = sample_side(from, range, 1, cancelled);
+  std::sort(range.samples.begin(), range.samples.end(),
+            [](const HandleRange::Sample& a, const HandleRange::Sample& b) { return a.amount < b.amount; });
+  return range;
+}
+
+}  // namespace stackabilization::editing

@@ -1,0 +1,161 @@
+// The editor in a real browser: what a person sees and does.
+import assert from 'node:assert/strict';
+import fs from 'node:fs';
+import { after, before, test } from 'node:test';
+import { canvasFacts, Editor, Folder, keepPicture, openBrowser, openPage, stackability, suggestionsOf } from './editor.mjs';
+
+let browser;
+before(async () => { browser = await openBrowser(); });
+after(() => browser?.close());
+
+/** A test with a model, an editor and a page of its own. */
+function editing(name, model, work) {
+  test(name, { timeout: 300_000 }, async () => {
+    const folder = new Folder(model);
+    const editor = await Editor.start(folder);
+    try {
+      const page = await openPage(browser, editor);
+      await work(page, editor, folder);
+      assert.deepEqual(page.failures, []);
+      if (!page.isClosed()) {
+        const facts = await canvasFacts(page);
+        assert.equal(facts.lost, false, 'the WebGL context lives');
+        assert.ok(facts.colours > 50 && facts.flat < 0.97, `the canvas is not flat: ${JSON.stringify(facts)}`);
+        await keepPicture(page, name.replace(/[^a-z]+/gi, '_'));
+        await page.close();
+      }
+    } finally {
+      await editor.kill();
+      folder.remove();
+    }
+  });
+}
+
+editing('a table opens with its measures and with suggestions, best first', 'table.obj', async (page) => {
+  assert.match(await page.textContent('#s'), /^0\.0/);
+  const list = await suggestionsOf(page);
+  assert.ok(list.length > 3);
+  assert.ok(list[0].gain > 0.1, 'the first suggestion of four legs on a top raises S');
+  assert.equal(await page.locator('.card').count(), list.length);
+});
+
+editing('hovering previews, clicking applies, undo goes back', 'table.obj', async (page) => {
+  const [first] = await suggestionsOf(page);
+  const before = await stackability(page);
+  await page.locator('.card').first().hover();
+  await page.waitForFunction((s) => document.getElementById('s').textContent === s, first.stackability.toFixed(2));
+  assert.equal(await stackability(page), before, 'a preview is no edit');
+  await page.mouse.move(400, 400);
+  await page.waitForFunction((s) => Number(document.getElementById('s').textContent) === s, Number(before.toFixed(2)));
+  await page.locator('.card').first().click();
+  await page.waitForFunction(() => window.editor.state.tree.current === 1);
+  assert.ok(Math.abs((await stackability(page)) - first.stackability) < 1e-9);
+  await suggestionsOf(page);
+  await page.keyboard.press('Control+z');
+  await page.waitForFunction(() => window.editor.state.tree.current === 0);
+  assert.equal(await stackability(page), before);
+  await page.keyboard.press('Control+Shift+z');
+  await page.waitForFunction(() => window.editor.state.tree.current === 1);
+});
+
+editing('rolling back to the root and taking another edit makes a branch', 'cup.obj', async (page) => {
+  await suggestionsOf(page);
+  await page.locator('.card').first().click();
+  await page.waitForFunction(() => window.editor.state.tree.current === 1);
+  await suggestionsOf(page);
+  await page.locator('.node').first().click();
+  await page.waitForFunction(() => window.editor.state.tree.current === 0);
+  await suggestionsOf(page);
+  await page.locator('.card').nth(1).focus();
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => window.editor.state.tree.nodes.length === 3);
+  const parents = await page.evaluate(() => window.editor.state.tree.nodes.map((node) => node.parent));
+  assert.deepEqual(parents, [-1, 0, 0]);
+});
+
+editing('what is exported is what is shown', 'cup.obj', async (page) => {
+  await suggestionsOf(page);
+  await page.locator('.card').first().click();
+  await page.waitForFunction(() => window.editor.state.tree.current === 1);
+  await page.click('#export summary');
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#export-list a >> nth=0')]);
+  assert.equal(download.suggestedFilename(), 'cup.obj');
+  const text = fs.readFileSync(await download.path(), 'utf8');
+  const vertices = text.split('\n').filter((line) => line.startsWith('v ')).flatMap((line) => line.split(' ').slice(1, 4).map(Number));
+  await page.waitForTimeout(0);
+  const shown = await page.evaluate(() => Array.from(window.editor.viewer.design));
+  assert.equal(vertices.length, shown.length);
+  vertices.forEach((value, k) => assert.ok(Math.abs(value - shown[k]) <= 1e-6 * Math.abs(value) + 1e-12));
+});
+
+test('an editor that was killed comes back as it was', { timeout: 300_000 }, async () => {
+  const folder = new Folder('cup.obj');
+  let editor = await Editor.start(folder);
+  try {
+    let page = await openPage(browser, editor);
+    await suggestionsOf(page);
+    await page.locator('.card').first().click();
+    await page.waitForFunction(() => window.editor.state.tree.current === 1);
+    await page.fill('#target', '0.87');
+    await page.press('#target', 'Enter');
+    await page.waitForFunction(() => window.editor.state.wishes.target === 0.87);
+    const [s, vertices] = await page.evaluate(() => [window.editor.state.design.measured.stackability, Array.from(window.editor.viewer.design)]);
+    await editor.kill('SIGKILL');
+    await page.waitForSelector('#veil:not([hidden])');
+    await page.close();
+    editor = await Editor.start(folder);
+    page = await openPage(browser, editor);
+    assert.equal(await stackability(page), s);
+    assert.deepEqual(await page.evaluate(() => Array.from(window.editor.viewer.design)), vertices);
+    assert.equal(await page.inputValue('#target'), '0.87');
+    assert.equal(await page.isEnabled('#undo'), true);
+    await page.close();
+  } finally {
+    await editor.kill();
+    folder.remove();
+  }
+});
+
+test('a session of another shape is refused', { timeout: 300_000 }, async () => {
+  const folder = new Folder('cup.obj');
+  try {
+    const editor = await Editor.start(folder);
+    const page = await openPage(browser, editor);
+    await suggestionsOf(page);
+    await page.locator('.card').first().click();
+    await page.waitForFunction(() => window.editor.state.tree.current === 1);
+    await editor.kill();
+    await page.close();
+    fs.appendFileSync(folder.model, 'v 9 9 9\n');
+    await assert.rejects(Editor.start(folder), /--fresh begins anew/);
+    await (await Editor.start(folder, ['--fresh'])).kill();
+  } finally {
+    folder.remove();
+  }
+});
+
+editing('one page edits, the other looks on until it takes over', 'cup.obj', async (page, editor) => {
+  const other = await openPage(browser, editor);
+  await suggestionsOf(other);
+  assert.match(await other.textContent('#role'), /looks on/);
+  await other.locator('.card').first().click();
+  await other.waitForFunction(() => /looks on/.test(document.getElementById('hint').textContent));
+  assert.equal(await page.evaluate(() => window.editor.state.tree.nodes.length), 1);
+  await page.locator('.card').first().click();
+  await other.waitForFunction(() => window.editor.state.tree.current === 1);
+  await other.evaluate(() => window.editor.send({ do: 'write' }));
+  await other.waitForFunction(() => window.editor.state.writes);
+  await other.click('#undo');
+  await page.waitForFunction(() => window.editor.state.tree.current === 0);
+  assert.deepEqual(other.failures, []);
+  await other.close();
+});
+
+test('the program ends when the last page leaves', { timeout: 300_000 }, async () => {
+  const folder = new Folder('cup.obj');
+  const editor = await Editor.start(folder);
+  const page = await openPage(browser, editor);
+  await page.close();
+  assert.equal(await editor.ended, 0);
+  folder.remove();
+});

@@ -1,0 +1,117 @@
+// What the server refuses, and that nothing of it harms a session.
+import assert from 'node:assert/strict';
+import http from 'node:http';
+import { after, before, test } from 'node:test';
+import { Editor, Folder } from './editor.mjs';
+
+let folder, editor, address;
+before(async () => {
+  folder = new Folder('cup.obj');
+  editor = await Editor.start(folder, ['--keep-open']);
+  address = new URL(editor.address);
+});
+after(async () => {
+  await editor?.kill();
+  folder?.remove();
+});
+
+/** @returns {Promise<{status: number, headers: http.IncomingHttpHeaders, body: string}>} */
+const ask = (path, options = {}) =>
+  new Promise((resolve, reject) => {
+    const request = http.request({ host: '127.0.0.1', port: address.port, path, ...options }, (reply) => {
+      let body = '';
+      reply.on('data', (data) => (body += data));
+      reply.on('end', () => resolve({ status: reply.statusCode, headers: reply.headers, body }));
+    });
+    request.on('upgrade', (reply, socket) => {
+      socket.destroy();
+      resolve({ status: reply.statusCode, headers: reply.headers, body: '' });
+    });
+    request.on('error', reject);
+    request.end(options.body);
+  });
+
+const upgrade = (headers) => ({
+  headers: { Connection: 'Upgrade', Upgrade: 'websocket', 'Sec-WebSocket-Version': '13', 'Sec-WebSocket-Key': 'dGhlIHNhbXBsZSBub25jZQ==', ...headers },
+});
+
+/** A WebSocket as the page has one, without a browser. */
+async function socket() {
+  const { WebSocket } = await import('./websocket.mjs');
+  return WebSocket.open(address);
+}
+
+test('nothing is answered without the secret', async () => {
+  for (const path of ['/', '/index.html', '/socket', '/export/obj', '/../etc/passwd'])
+    assert.equal((await ask(path)).status, 404);
+});
+
+test('files of the page are there, others are not', async () => {
+  const page = await ask(address.pathname);
+  assert.equal(page.status, 200);
+  assert.match(page.headers['content-type'], /text\/html/);
+  assert.match(page.headers['content-security-policy'], /default-src 'self'/);
+  assert.ok(!page.body.includes('{{nonce}}'));
+  assert.equal(page.headers['access-control-allow-origin'], undefined);
+  for (const path of ['cup.obj', '../cup.obj', '%2e%2e/cup.obj', 'export/exe', 'three/'])
+    assert.equal((await ask(address.pathname + path)).status, 404, path);
+});
+
+test('another host is refused: a name that somebody bound to 127.0.0.1', async () => {
+  for (const host of ['evil.example', 'localhost.evil.example', '192.168.0.1'])
+    assert.equal((await ask(address.pathname, { headers: { Host: host } })).status, 403, host);
+  assert.equal((await ask(address.pathname, { headers: { Host: 'localhost:8080' } })).status, 200);
+});
+
+test('another site gets no socket', async () => {
+  const path = address.pathname + 'socket', own = `http://127.0.0.1:${address.port}`;
+  assert.equal((await ask(path, upgrade({ Origin: own }))).status, 101);
+  for (const headers of [{}, { Origin: 'http://evil.example' }, { Origin: 'null' }, { Origin: 'http://127.0.0.1:1' }])
+    assert.equal((await ask(path, upgrade(headers))).status, 403, JSON.stringify(headers));
+  assert.equal((await ask(address.pathname, { method: 'POST', body: 'x' })).status, 403);
+});
+
+test('commands that are none are answered with a sentence, and the session stays', async () => {
+  const page = await socket();
+  const before = await page.next((message) => message.type === 'tree');
+  for (const text of ['', '{', '[]', '7', '{"do": 3}', '{"do": "fly"}', '{"do": "apply"}', '{"do": "apply", "number": -1}',
+    '{"do": "apply", "number": 1e9}', '{"do": "drag", "edit": "nothing"}', '{"do": "drag", "edit": "body move 0 0 1e300"}',
+    '{"do": "target", "value": "much"}', '{"do": "direction", "direction": [0, 0, 0]}', '{"do": "limit", "measure": "beauty", "value": 1}',
+    '{"do": "keep", "parts": [77]}', '{"do": "picture", "node": 4000000000}', '{"do": "picture", "node": "\ud800"}']) {
+    page.send(text);
+    const answer = await page.next((message) => message.type === 'error');
+    assert.ok(answer.words.length > 5, text);
+  }
+  page.send('{"do": "write"}');
+  page.close();
+  const again = await socket();
+  assert.deepEqual(await again.next((message) => message.type === 'tree'), before);
+  again.close();
+});
+
+test('a message that is too large ends the page, not the program', async () => {
+  const page = await socket();
+  page.send('x'.repeat(5 << 20));
+  await page.closed;
+  assert.equal((await ask(address.pathname)).status, 200);
+});
+
+test('a page that vanishes in the middle of a drag leaves the design as it was', async () => {
+  const page = await socket();
+  await page.next((message) => message.type === 'tree');
+  page.send('{"do": "drag", "edit": "body scale 1.05 along 1 0 0"}');
+  await page.next((message) => message.type === 'design' && message.dragging);
+  page.destroy();
+  const again = await socket();
+  const design = await again.next((message) => message.type === 'design');
+  assert.ok(design.change < 1e-12);
+  assert.equal(design.dragging, false);
+  again.close();
+});
+
+test('a flood of commands ends the page, not the program', async () => {
+  const page = await socket();
+  for (let k = 0; k < 20_000; ++k) page.send('{"do": "target", "value": 0.5}');
+  await page.closed;
+  assert.equal((await ask(address.pathname)).status, 200);
+});

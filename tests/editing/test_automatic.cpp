@@ -1,0 +1,68 @@
+#include "sessions.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/read.h"
+#include "stackabilization/structure/analysis.h"
+#include "support/catch.h"
+
+using namespace stackabilization;
+using namespace stackabilization::editing;
+using sessions::Observed;
+
+TEST_CASE("designs that the automatic search finds reach the target, and one is taken on") {
+  const StructuredShape table =
+      analyse_structure(read_shape(STACKABILIZATION_SOURCE_DIR "/data/models/table.obj"));
+  SessionOptions options;
+  options.effort = 0.2;
+  Observed observed(new_document(table), options);
+  EditingSession& session = observed.session;
+  session.execute(FindDesigns{});
+  CHECK(session.found().running);
+  observed.work(Lane::automatic);
+  CHECK(!session.found().running);
+  const FoundDesigns& found = session.found();
+  REQUIRE(!found.designs.empty());
+  for (const Candidate& one : found.designs) {
+    CHECK(session.checker().check(one.design, Direction(one.direction)).passed());
+    CHECK(one.measured.value >= found.target);
+  }
+  const Points vertices = found.designs[0].design.shape.vertices;
+  session.execute(TakeDesign{0});
+  CHECK((session.current().design->shape.vertices - vertices).cwiseAbs().maxCoeff() < 1e-9);
+  CHECK(session.document().project.history.nodes[1].parent == 0);
+  CHECK_THROWS_AS(session.execute(TakeDesign{99}), UsageError);
+}
+
+TEST_CASE("a target out of reach is diagnosed, and an offer is accepted") {
+  Document document = sessions::table_document();
+  document.requirements.target = 0.97;
+  SessionOptions options;
+  options.effort = 0.02;
+  Observed observed(document, options);
+  EditingSession& session = observed.session;
+  session.execute(FindDesigns{});
+  observed.work(Lane::automatic);
+  REQUIRE(session.found().designs.empty());
+  REQUIRE(session.found().diagnosis);
+  const std::vector<Remedy> remedies = session.found().diagnosis->remedies;
+  for (std::size_t k = 0; k < remedies.size(); ++k)
+    if (remedies[k].kind == Remedy::Kind::relax_quality) {
+      session.execute(AcceptRemedy{static_cast<int>(k)});
+      CHECK(!session.checker().requirements().quality->is_limited(remedies[k].measure));
+      return;
+    }
+}
+
+TEST_CASE("a search that is stopped keeps nothing running") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  session.execute(FindDesigns{});
+  const auto job = session.next_job(Lane::automatic);
+  REQUIRE(job);
+  session.execute(StopFinding{});
+  std::vector<EditingSession::Result> results;
+  (*job)([&](EditingSession::Result result) { results.push_back(std::move(result)); });
+  for (const EditingSession::Result& result : results) result();
+  CHECK(session.found().designs.empty());
+  CHECK(!session.found().running);
+  CHECK(!session.next_job(Lane::automatic));
+}

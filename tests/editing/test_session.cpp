@@ -1,0 +1,244 @@
+#include <cmath>
+
+#include "sessions.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/io/read_file.h"
+#include "support/catch.h"
+#include "support/messages.h"
+
+using namespace stackabilization;
+using namespace stackabilization::editing;
+using sessions::Observed;
+
+namespace {
+
+Edit lean_leg(const EditingSession& session, double by) {
+  Edit edit{{HandleKind::part, structures::part_named(session.space().rest(), "leg_1"), 0}, Move{{by, 0, 0}}};
+  return edit;
+}
+
+bool within_limits(const Assessment& assessment) {
+  for (const Check& check : assessment.checks)
+    if (!check.passed && check.kind != CheckKind::target) return false;
+  return true;
+}
+
+}  // namespace
+
+TEST_CASE("part of an edit: none, all, its inverse, and parts of parts") {
+  const Edit move{{HandleKind::part, 0, 0}, Move{{1, 2, -3}}};
+  const Edit rotate{{HandleKind::part, 0, 0}, Rotate{{0, 0, 1}, 0.5}};
+  const Edit scale{{HandleKind::part, 0, 0}, Scale{1.5, {}}};
+  CHECK(std::get<Move>(scaled(move, 0).operation).by == Eigen::Vector3d::Zero());
+  CHECK(std::get<Move>(scaled(move, -1).operation).by == Eigen::Vector3d(-1, -2, 3));
+  CHECK(std::get<Rotate>(scaled(rotate, 0.5).operation).radians == 0.25);
+  CHECK(std::get<Scale>(scaled(scale, 0).operation).factor == 1);
+  CHECK(std::get<Scale>(scaled(scale, -1).operation).factor == Approx(1 / 1.5));
+  CHECK(std::get<Scale>(scaled(scaled(scale, 0.5), 0.5).operation).factor == Approx(std::pow(1.5, 0.25)));
+}
+
+TEST_CASE("a suggestion that is applied gives the design and the S that it promised") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  observed.work();
+  REQUIRE(session.suggestions_complete());
+  REQUIRE(!session.suggestions().empty());
+  const OfferedEdit offered = session.suggestions().front();
+  session.execute(ApplySuggestion{0});
+  const History& history = session.document().project.history;
+  REQUIRE(history.nodes.size() == 2);
+  CHECK(history.current == 1);
+  CHECK(session.current().design->shape.vertices == offered.design->shape.vertices);
+  CHECK(design_at(session.space(), history, 1).shape.vertices == offered.design->shape.vertices);
+  const double value = stackability(session.current().design->shape, {0, 0, 1}).value;
+  CHECK(history.nodes[1].stackability == Approx(value).margin(1e-9));
+  CHECK(offered.gain == Approx(value - history.nodes[0].stackability).margin(1e-9));
+}
+
+TEST_CASE("suggestions on a plateau help: S rises, or the summed gap excess falls") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const Situation now = situation(session.checker(), *session.current().design, session.direction());
+  observed.work();
+  REQUIRE(!session.suggestions().empty());
+  for (const OfferedEdit& one : session.suggestions()) {
+    const bool rises = one.gain > 0, clears = one.suggestion.excess < now.excess;
+    CHECK((rises || clears));
+    CHECK(within_limits(session.checker().check(*one.design, session.direction())));
+  }
+}
+
+TEST_CASE("undo, redo, going back and branching") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  CHECK(!session.can_undo());
+  session.execute(Undo{});
+  observed.work();
+  session.execute(ApplySuggestion{0});
+  const Points first = session.current().design->shape.vertices;
+  CHECK(session.can_undo());
+  session.execute(Undo{});
+  CHECK(session.current().design->shape.vertices == session.space().rest().shape.vertices);
+  CHECK(session.can_redo());
+  session.execute(Redo{});
+  CHECK(session.current().design->shape.vertices == first);
+  session.execute(RollBack{0});
+  CHECK(!session.can_redo());
+  observed.work();
+  REQUIRE(session.suggestions().size() > 1);
+  session.execute(ApplySuggestion{1});
+  const History& history = session.document().project.history;
+  REQUIRE(history.nodes.size() == 3);
+  CHECK(history.nodes[2].parent == 0);
+  session.execute(Undo{});
+  session.execute(Undo{});
+  CHECK(history.current == 1);
+  CHECK(session.current().design->shape.vertices == first);
+}
+
+TEST_CASE("a drag shows the edited design and becomes one node when it is kept") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const DeformationConstraints constraints =
+      deformation_constraints(session.checker().requirements(), session.space().rest(), session.direction());
+  for (const double by : {0.02, 0.05, 0.03}) {
+    session.execute(Drag{lean_leg(session, by)});
+    const Design wanted =
+        session.space().edited(session.space().at_rest(), lean_leg(session, by), constraints).design;
+    CHECK(session.shown().design->shape.vertices == wanted.shape.vertices);
+    CHECK(session.document().project.history.nodes.size() == 1);
+  }
+  CHECK(session.dragging());
+  session.execute(EndDrag{true});
+  CHECK(!session.dragging());
+  const History& history = session.document().project.history;
+  REQUIRE(history.nodes.size() == 2);
+  REQUIRE(history.nodes[1].edits.size() == 1);
+  CHECK(std::get<Move>(history.nodes[1].edits[0].operation).by.x() == 0.03);
+}
+
+TEST_CASE("a drag that is not kept leaves nothing behind") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const std::string before = document_text(session.document());
+  session.execute(Drag{lean_leg(session, 0.05)});
+  session.execute(EndDrag{false});
+  CHECK(document_text(session.document()) == before);
+  CHECK(session.shown().design->shape.vertices == session.space().rest().shape.vertices);
+}
+
+TEST_CASE("a limit holds a drag, and is named") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  session.execute(Drag{lean_leg(session, 3)});
+  CHECK(!observed.all<Refused>().empty());
+  CHECK(within_limits(session.shown().assessment));
+  const double reached = std::abs(session.shown().design->shape.vertices.maxCoeff());
+  CHECK(reached < session.space().rest().shape.vertices.maxCoeff() + 3);
+}
+
+TEST_CASE("the range of a handle ends where limits do") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const Edit whole = lean_leg(session, 4);
+  session.execute(FindRange{whole});
+  observed.work();
+  REQUIRE(session.range());
+  const HandleRange range = *session.range();
+  CHECK(range.low <= 0);
+  CHECK(range.high >= 0);
+  CHECK(range.high < 1);
+  CHECK(range.above);
+  const DeformationConstraints constraints =
+      deformation_constraints(session.checker().requirements(), session.space().rest(), session.direction());
+  for (const HandleRange::Sample& sample : range.samples) {
+    const DeformationResult made =
+        session.space().edited(session.space().at_rest(), scaled(whole, sample.amount), constraints);
+    REQUIRE(!made.refusal);
+    CHECK(sample.stackability == Approx(stackability(made.design.shape, {0, 0, 1}).value).margin(1e-9));
+    CHECK(within_limits(session.checker().check(made.design, session.direction(), QualityScope::parts)));
+  }
+  constexpr double resolution = 0.01;
+  const DeformationResult beyond =
+      session.space().edited(session.space().at_rest(), scaled(whole, range.high + resolution), constraints);
+  CHECK((beyond.refusal ||
+         !within_limits(session.checker().check(beyond.design, session.direction(), QualityScope::parts))));
+}
+
+TEST_CASE("results that come too late are dropped") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  std::vector<EditingSession::Result> late;
+  const auto job = session.next_job(Lane::advice);
+  REQUIRE(job);
+  CHECK(!session.next_job(Lane::advice));  // one at a time
+  (*job)([&](EditingSession::Result result) { late.push_back(std::move(result)); });
+  session.execute(SetDirection{{0, 1, 1}});
+  for (const EditingSession::Result& result : late) result();
+  CHECK(!session.review());
+  CHECK(session.next_job(Lane::advice));
+}
+
+TEST_CASE("numbers that do not exist are refused and change nothing") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const std::string before = document_text(session.document());
+  CHECK_THROWS_AS(session.execute(ApplySuggestion{0}), UsageError);
+  CHECK_THROWS_AS(session.execute(RollBack{1}), UsageError);
+  CHECK_THROWS_AS(session.execute(TakeDesign{0}), UsageError);
+  CHECK_THROWS_AS(session.execute(AcceptRemedy{0}), UsageError);
+  CHECK_THROWS_AS(session.execute(SetTarget{1.5}), UsageError);
+  CHECK_THROWS_AS(session.execute(SetTarget{std::nan("")}), UsageError);
+  CHECK_THROWS_AS(session.execute(SetLimit{QualityMeasure::size, -1.0}), UsageError);
+  CHECK_THROWS_AS(session.execute(KeepParts{{99}}), UsageError);
+  CHECK_THROWS_AS(session.execute(SetDirection{{0, 0, 0}}), UsageError);
+  CHECK_THROWS_AS(session.execute(Drag{{{HandleKind::section, 0, 3}, Move{{1, 0, 0}}}}), UsageError);
+  CHECK(!session.dragging());
+  CHECK(document_text(session.document()) == before);
+}
+
+TEST_CASE("a part that is kept does not move in any suggestion") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const int leg = structures::part_named(session.space().rest(), "leg_1");
+  session.execute(KeepParts{{leg}});
+  observed.work();
+  const Shape& rest = session.space().rest().shape;
+  const Shape before = extract_part(rest, leg);
+  for (const OfferedEdit& one : session.suggestions())
+    CHECK((extract_part(one.design->shape, leg).vertices - before.vertices).cwiseAbs().maxCoeff() < 1e-9);
+}
+
+TEST_CASE("a session that was killed goes on as it was") {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / "stackabilize_session_test.json";
+  std::filesystem::remove(file);
+  SessionOptions options;
+  options.autosave = file;
+  Points shown;
+  std::string saved;
+  {
+    Observed observed(sessions::table_document(), options);
+    observed.work();
+    observed.session.execute(ApplySuggestion{0});
+    observed.session.execute(SetTarget{0.5});
+    observed.session.execute(Drag{lean_leg(observed.session, 0.05)});  // was never ended
+    shown = observed.session.current().design->shape.vertices;
+    saved = document_text(observed.session.document());
+  }
+  CHECK(read_file(file) == saved);
+  Observed again(document_of_text(read_file(file), file.string()));
+  CHECK(again.session.current().design->shape.vertices == shown);
+  CHECK(again.session.document().requirements.target == 0.5);
+  CHECK(again.session.can_undo());
+  std::filesystem::remove(file);
+}
+
+TEST_CASE("a file that cannot be written is said, and nothing else is lost") {
+  SessionOptions options;
+  options.autosave = "/nowhere/at/all/session.json";
+  Observed observed(sessions::table_document(), options);
+  observed.session.execute(SetDirection{{0, 0.1, 1}});
+  REQUIRE(!observed.all<Failed>().empty());
+  CHECK(observed.session.document().project.history.nodes.size() == 2);
+}
