@@ -159,6 +159,7 @@ Json design_json(const EditingSession& session) {
                {"change", shown.change.root_mean_square},
                {"reaches", session.checker().meets_target(shown.assessment.measured)},
                {"checks", checks_json(shown.assessment.checks, rest, limits_of(session))}};
+  if (session.drag()) json["dragged"] = edit_text(*session.drag(), names_of(session));
   if (!session.dragging()) {
     json["primitives"] = Json::array();
     for (const Primitive& primitive : shown.design->primitives)

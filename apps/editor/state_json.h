@@ -13,7 +13,8 @@ namespace stackabilization::apps {
 ///  symmetries: [{kind, point, axis}], measures: [{name, unit, limit, lower}]}
 Json model_json(const editing::EditingSession& session, const std::string& name);
 
-/// {type: "design", node, dragging, direction, measured, rest, copies, energy, change, checks, primitives}:
+/// {type: "design", node, dragging, direction, measured, rest, energy, change, reaches, checks, and
+/// dragged (an edit) or primitives}:
 /// what follows every step of a drag.
 Json design_json(const editing::EditingSession& session);
 /// {type: "review", ready, words, checks, contacts}

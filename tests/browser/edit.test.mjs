@@ -151,6 +151,115 @@ editing('one page edits, the other looks on until it takes over', 'cup.obj', asy
   await other.close();
 });
 
+/** Middle of the handle of an axis in the window, a little away from the centre. */
+const gripOf = (page, name) =>
+  page.evaluate((name) => {
+    const { gizmo, viewer } = window.editor, axis = gizmo.handle.axesOf(gizmo.tool).find((one) => one.name === name);
+    const length = gizmo.group.scale.x, centre = gizmo.group.position.clone(), at = centre.clone().addScaledVector(axis.direction, 0.8 * length);
+    const grip = viewer.screenOf(at), origin = viewer.screenOf(centre);
+    return { x: grip.x, y: grip.y, dx: grip.x - origin.x, dy: grip.y - origin.y };
+  }, name);
+
+/** Picks a part by its name in the panel. */
+async function pick(page, name) {
+  await page.click('#tab-parts');
+  await page.locator('.parts button', { hasText: name }).first().click();
+  await page.waitForFunction(() => window.editor.gizmo.handle);
+}
+
+editing('a part is picked in the view', 'table.obj', async (page) => {
+  await suggestionsOf(page);
+  const at = await page.evaluate(() => {
+    const { viewer, state } = window.editor, top = state.model.parts.findIndex((part) => /top/.test(part.name));
+    const points = state.design.primitives[top].points, highest = Math.max(...points.map((p) => p[2]));
+    const corners = points.filter((p) => p[2] > highest - 0.001), middle = [0, 1].map((k) => corners.reduce((sum, p) => sum + p[k], 0) / corners.length);
+    const place = viewer.screenOf(viewer.centre.clone().set(middle[0], middle[1], highest));
+    return { ...place, top };
+  });
+  await page.mouse.click(at.x, at.y);
+  await page.waitForFunction((top) => window.editor.gizmo.handle?.part === top, at.top);
+  assert.equal(await page.getAttribute('#tab-parts', 'aria-selected'), 'true');
+  await page.keyboard.press('Escape');
+  await page.waitForFunction(() => !window.editor.gizmo.handle);
+});
+
+editing('a handle is dragged until a limit holds it; the limit is named; it is one edit', 'table.obj', async (page) => {
+  await suggestionsOf(page);
+  await pick(page, 'leg');
+  await page.waitForFunction(() => window.editor.viewer.framesDrawn > 2);
+  const name = await page.evaluate(() => window.editor.gizmo.handle.axesOf('move')[1].name);
+  const grip = await gripOf(page, name);
+  await page.mouse.move(grip.x, grip.y);
+  await page.mouse.down();
+  await page.waitForFunction(() => window.editor.gizmo.active);
+  await page.waitForFunction(() => window.editor.state.range);
+  const range = await page.evaluate(() => window.editor.state.range);
+  assert.ok(range.above || range.below, 'a leg cannot be moved anywhere');
+  for (let k = 1; k <= 12; ++k) await page.mouse.move(grip.x + (grip.dx * k) / 3, grip.y + (grip.dy * k) / 3);
+  await page.waitForFunction(() => document.getElementById('hint').classList.contains('bad') && document.getElementById('hint').textContent);
+  await page.waitForFunction(() => window.editor.state.design.dragging);
+  assert.ok(await page.isVisible('#range'));
+  const checks = await page.evaluate(() => window.editor.state.design.checks);
+  for (const check of checks) assert.ok(check.passed || check.name === 'target', check.words);
+  await keepPicture(page, 'dragging');
+  await page.mouse.up();
+  await page.waitForFunction(() => window.editor.state.tree.nodes.length === 2 && !window.editor.state.design.dragging);
+  assert.equal(await page.evaluate(() => window.editor.state.tree.nodes[1].edits.length), 1);
+  await page.keyboard.press('Control+z');
+  await page.waitForFunction(() => window.editor.state.tree.current === 0);
+});
+
+editing('a drag that is given up leaves the design as it was', 'table.obj', async (page) => {
+  await suggestionsOf(page);
+  await pick(page, 'leg');
+  const name = await page.evaluate(() => window.editor.gizmo.handle.axesOf('move')[1].name);
+  const grip = await gripOf(page, name);
+  await page.mouse.move(grip.x, grip.y);
+  await page.mouse.down();
+  await page.mouse.move(grip.x + 0.2 * grip.dx, grip.y + 0.2 * grip.dy);
+  await page.waitForFunction(() => window.editor.state.design.dragging);
+  await page.keyboard.press('Escape');
+  await page.waitForFunction(() => !window.editor.state.design.dragging && window.editor.state.design.change < 1e-12);
+  await page.mouse.up();
+  assert.equal(await page.evaluate(() => window.editor.state.tree.nodes.length), 1);
+});
+
+editing('an amount is typed instead of dragged', 'table.obj', async (page) => {
+  await pick(page, 'leg');
+  await page.click('.segments button:has-text("Scale")');
+  await page.selectOption('.amounts select', { label: 'all sizes' });
+  await page.fill('.amounts input', '0.95');
+  await page.click('.amounts button');
+  await page.waitForFunction(() => window.editor.state.tree.nodes.length === 2);
+  assert.match(await page.evaluate(() => window.editor.state.tree.nodes[1].edits[0]), /scale 0\.95/);
+});
+
+editing('a target is set, designs are found, and one is taken on', 'table.obj', async (page) => {
+  await page.fill('#target', '0.3');
+  await page.press('#target', 'Enter');
+  await page.click('#tab-automatic');
+  await page.click('#find');
+  await page.waitForFunction(() => window.editor.state.found.list.length > 0);
+  const [design] = await page.evaluate(() => window.editor.state.found.list);
+  assert.ok(design.stackability >= 0.3);
+  if (await page.evaluate(() => window.editor.state.found.running)) await page.click('#find');
+  await page.waitForFunction(() => !window.editor.state.found.running);
+  await keepPicture(page, 'found');
+  await page.locator('#panel-automatic .card').first().click();
+  await page.waitForFunction(() => window.editor.state.tree.nodes.length === 2);
+  assert.ok(Math.abs((await stackability(page)) - design.stackability) < 1e-6);
+});
+
+editing('a limit is relaxed under Quality', 'cup.obj', async (page) => {
+  await page.click('#tab-quality');
+  const box = page.getByLabel('No limit for bending');
+  await box.check();
+  await page.waitForFunction(() => window.editor.state.wishes.limits.bending === null);
+  await page.getByLabel('No limit for bending').uncheck();
+  await page.waitForFunction(() => window.editor.state.wishes.limits.bending !== null);
+  assert.match(await page.textContent('#nearest'), /none|%/);
+});
+
 test('the program ends when the last page leaves', { timeout: 300_000 }, async () => {
   const folder = new Folder('cup.obj');
   const editor = await Editor.start(folder);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints every relative link and image of a page that leads nowhere, and fails if there is one.
 
-    links.py FOLDER    looks at all .md files of the project in FOLDER, build folders left out
+    links.py FOLDER    looks at all .md files of the project in FOLDER, build folders and packages of npm left out
 """
 import pathlib
 import re
@@ -33,7 +33,7 @@ def broken(page):
 
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
-    pages = [page for page in sorted(root.rglob("*.md")) if not {"build", "out", ".git"} & set(page.relative_to(root).parts)]
+    pages = [page for page in sorted(root.rglob("*.md")) if not {"build", "out", ".git", "node_modules"} & set(page.relative_to(root).parts)]
     if not pages:
         sys.exit(f"{root}: no pages.")
     messages = [message for page in pages for message in broken(page)]

@@ -6,7 +6,12 @@ import { Gallery } from './gallery.js';
 import { Tree } from './tree.js';
 import { element } from './dom.js';
 import { bindKeys } from './keys.js';
-import { bindTabs } from './tabs.js';
+import { bindTabs, openTab } from './tabs.js';
+import { Automatic } from './automatic.js';
+import { Gizmo, PickedHandle } from './handles.js';
+import { Parts } from './parts.js';
+import { Quality } from './quality.js';
+import { showRange } from './range_card.js';
 
 const canvas = /** @type {HTMLCanvasElement} */ (element('view'));
 const viewer = new Viewer(canvas);
@@ -50,6 +55,38 @@ const tree = new Tree(viewer, {
   leave: endPreview,
 });
 
+const automatic = new Automatic(viewer, {
+  send,
+  leave: endPreview,
+  preview: (offer) => startPreview(offer.vertices, offer.f_max, offer.stackability),
+});
+const quality = new Quality(send);
+
+const gizmo = new Gizmo(viewer, {
+  begin: (edit) => { endPreview(); send({ do: 'range', edit }); },
+  drag: (edit) => send({ do: 'drag', edit }),
+  end: (keep) => { send({ do: 'end-drag', keep }); showRange(null, null); },
+});
+const parts = new Parts(gizmo, send, () => viewer.select(parts.part < 0 ? [] : [parts.part]));
+
+/** Where a drag is on its axis, as ranges have it. */
+function dragShare() {
+  const { active } = gizmo;
+  return active ? PickedHandle.share(gizmo.tool, active.amount, viewer.diagonal) : null;
+}
+
+// A click that turns nothing picks.
+let pressed = { x: 0, y: 0 };
+canvas.addEventListener('pointerdown', (event) => (pressed = { x: event.clientX, y: event.clientY }));
+canvas.addEventListener('click', (event) => {
+  const dragged = gizmo.dragged;
+  gizmo.dragged = false;
+  if (dragged || gizmo.active || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 4) return;
+  const hit = viewer.pick(event.clientX, event.clientY);
+  parts.pick(hit ? hit.part : -1, hit?.point ?? null);
+  if (hit) openTab('parts');
+});
+
 /** @param {boolean} open */
 function opened(open) {
   element('veil').hidden = open;
@@ -86,6 +123,9 @@ function receive(message) {
       element('title').textContent = message.name;
       document.title = message.name + ' – Stackabilization';
       measures.setModel(message);
+      viewer.diagonal = message.diagonal;
+      parts.setModel(message);
+      quality.setModel(message);
       exportList(message.stem);
       if (message.resumed) hint('Going on from where you left off.');
       break;
@@ -98,7 +138,13 @@ function receive(message) {
       const first = !state.design;
       state.design = message;
       showDesign();
-      if (message.primitives) viewer.setPrimitives(message.primitives);
+      if (message.primitives) {
+        viewer.setPrimitives(message.primitives);
+        parts.setPrimitives(message.primitives);
+      }
+      gizmo.follow(message.dragged ?? '');
+      if (gizmo.active && state.range) showRange(state.range, dragShare());
+      quality.setChecks(message.checks);
       measures.setDesign(message);
       if (first) { viewer.setRelations(state.model.joints.flatMap((/** @type {any} */ j) => j.points), state.model.symmetries); viewer.fit(); }
       break;
@@ -106,6 +152,7 @@ function receive(message) {
     case 'review':
       state.review = message;
       measures.setReview(message);
+      if (message.ready) quality.setChecks(message.checks);
       if (!message.ready) viewer.setContacts(new Float32Array(), []);
       else viewer.setContacts(contactCorners, message.contacts.filter((/** @type {any} */ c) => c.type === 'dot').map((/** @type {any} */ c) => c.centre));
       break;
@@ -118,13 +165,26 @@ function receive(message) {
     case 'wishes':
       state.wishes = message;
       measures.setWishes(message);
+      quality.setWishes(message);
+      automatic.setWishes(message);
+      parts.setKept(message.kept);
       break;
     case 'suggestions':
       state.suggestions = message;
       gallery.set(message);
       break;
     case 'progress':
-      if (message.work === 'suggestions') gallery.progress(message.fraction);
+      (message.work === 'suggestions' ? gallery : automatic).progress(message.fraction);
+      break;
+    case 'found':
+      state.found = message;
+      automatic.set(message);
+      break;
+    case 'range':
+      state.range = message.edit ? message : null;
+      if (!gizmo.active) break;
+      gizmo.setRange(state.range);
+      showRange(state.range, dragShare());
       break;
     case 'refusal':
       hint(message.words, true);
@@ -151,6 +211,9 @@ function receiveFrame(frame) {
       break;
     case frameKind.node:
       tree.setVertices(frame.number, verticesOf(frame));
+      break;
+    case frameKind.found:
+      automatic.setVertices(frame.number, verticesOf(frame));
       break;
     case frameKind.contacts:
       contactCorners = new Float32Array(frame.buffer, 16, 9 * frame.count);
@@ -238,12 +301,14 @@ const keysDialog = /** @type {HTMLDialogElement} */ (element('keys'));
 element('help').addEventListener('click', () => keysDialog.showModal());
 bindTabs(element('tabs'));
 bindKeys({
-  plain: { ...toggles, d: toggleTheme, '?': () => keysDialog.showModal(), Escape: endPreview },
+  plain: { ...toggles, d: toggleTheme, '?': () => keysDialog.showModal(),
+    m: () => parts.choose('move'), t: () => parts.choose('rotate'), s: () => parts.choose('scale'),
+    Escape: () => { endPreview(); if (!gizmo.cancel()) parts.pick(-1, null); } },
   control: { z: undo, y: redo },
   controlShift: { z: redo },
   list: element('keys-list'),
   words: [...layers.map(([, words, key]) => [key, 'Show or hide: ' + words]), ...cameras.map(([words, key]) => [key, 'View: ' + words]),
-    ['Ctrl Z', 'Undo'], ['Ctrl Shift Z', 'Redo'], ['d', 'Light or dark'], ['Arrows', 'In the view: turn; in a list: move'], ['Enter', 'Apply or go there'], ['?', 'This list']],
+    ['Ctrl Z', 'Undo'], ['Ctrl Shift Z', 'Redo'], ['m', 'Handle: move'], ['t', 'Handle: turn'], ['s', 'Handle: scale'], ['Escape', 'Give up a drag, or let go of the part'], ['d', 'Light or dark'], ['Arrows', 'In the view: turn; in a list: move'], ['Enter', 'Apply or go there'], ['?', 'This list']],
 });
 canvas.addEventListener('keydown', (event) => {
   const turns = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] });
@@ -253,4 +318,4 @@ canvas.addEventListener('keydown', (event) => {
 });
 
 // For tests: what the page holds and shows.
-Object.assign(window, { editor: { viewer, state, send } });
+Object.assign(window, { editor: { viewer, state, send, gizmo, parts } });

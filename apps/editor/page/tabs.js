@@ -1,6 +1,9 @@
 // Tabs after the pattern of WAI-ARIA.
 import { element } from './dom.js';
 
+/** Shows a panel. @param {string} name */
+export const openTab = (name) => element('tab-' + name).click();
+
 /** @param {HTMLElement} list */
 export function bindTabs(list) {
   const tabs = /** @type {HTMLElement[]} */ ([...list.querySelectorAll('[role="tab"]')]);

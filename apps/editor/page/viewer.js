@@ -98,6 +98,8 @@ export class Viewer {
     this.direction = new THREE.Vector3(0, 0, 1);
     this.step = 0;
     this.radius = 1;
+    /** Of the box of the object at rest. */
+    this.diagonal = 1;
     this.centre = new THREE.Vector3();
     /** What is shown. @type {Record<string, boolean>} */
     this.layers = { ghosts: true, contacts: true, before: false, parts: false, primitives: false, joints: false, symmetry: false };

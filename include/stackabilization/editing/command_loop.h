@@ -14,6 +14,7 @@ class CommandLoop {
   /// Work with the session on its thread. Must not throw.
   using Task = std::function<void(EditingSession&)>;
 
+  /// Starts the threads. Nobody else may use the session from now on, but for its listener.
   explicit CommandLoop(std::unique_ptr<EditingSession> session);
   /// Drops what waits, cancels jobs, and waits for their end.
   ~CommandLoop();

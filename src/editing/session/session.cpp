@@ -598,6 +598,10 @@ const MeasuredDesign& EditingSession::shown() const {
   return implementation_->dragged_ ? *implementation_->dragged_ : implementation_->current_;
 }
 
+const std::optional<Edit>& EditingSession::drag() const {
+  return implementation_->drag_edit_;
+}
+
 bool EditingSession::dragging() const {
   return implementation_->dragging_;
 }

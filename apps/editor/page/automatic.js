@@ -1,0 +1,106 @@
+// The automatic search: a target, designs as they are found, and what is in the way.
+import { create, element, walkWithArrows } from './dom.js';
+import * as format from './format.js';
+
+export class Automatic {
+  /**
+   * @param {import('./viewer.js').Viewer} viewer
+   * @param {{send: (command: object) => void, leave: () => void, preview: (offer: any) => void}} actions
+   */
+  constructor(viewer, actions) {
+    this.viewer = viewer;
+    this.actions = actions;
+    this.panel = element('panel-automatic');
+    this.message = /** @type {any} */ ({ list: [], offers: [], running: false, diagnosis: null });
+    /** @type {Float32Array[]} */
+    this.vertices = [];
+    this.wishes = /** @type {any} */ (null);
+    this.button = create('button', 'primary', 'Find designs');
+    this.button.id = 'find';
+    this.button.addEventListener('click', () => actions.send({ do: this.message.running ? 'stop' : 'find' }));
+    this.bar = create('progress');
+    this.bar.max = 1;
+    this.bar.setAttribute('aria-label', 'Progress of the search');
+    this.note = create('p', 'note');
+    this.note.setAttribute('role', 'status');
+    this.list = create('div', 'gallery');
+    this.list.setAttribute('role', 'list');
+    this.list.setAttribute('aria-label', 'Designs found, least change first');
+    this.reasons = create('div');
+    const row = create('div', 'row find');
+    row.append(this.button, this.bar);
+    this.panel.append(row, this.note, this.list, this.reasons);
+    walkWithArrows(this.list);
+    this.#show();
+  }
+
+  /** @param {any} wishes */
+  setWishes(wishes) {
+    this.wishes = wishes;
+    this.#show();
+  }
+
+  /** @param {number} number @param {Float32Array} vertices */
+  setVertices(number, vertices) { this.vertices[number] = vertices; }
+
+  /** @param {any} message */
+  set(message) {
+    this.message = message;
+    this.#show();
+  }
+
+  /** @param {number} fraction */
+  progress(fraction) { this.bar.value = fraction; }
+
+  #show() {
+    const { message } = this;
+    this.button.textContent = message.running ? 'Stop' : 'Find designs';
+    this.button.classList.toggle('primary', !message.running);
+    this.bar.hidden = !message.running;
+    const target = this.wishes ? format.stackability(this.wishes.target) : '';
+    const count = message.list.length;
+    this.note.textContent = count ? `${count === 1 ? 'One design reaches' : count + ' designs reach'} S ${format.stackability(message.target)}, least change first.${message.running ? ' Looking for better ones …' : ''}`
+      : message.running ? `Looking for designs of S ${format.stackability(message.target)} …`
+        : message.diagnosis ? `No design of S ${format.stackability(message.target)} within the limits; the best one has ${format.stackability(message.diagnosis.reached)}.`
+          : `Looks for the least change that reaches S ${target}, with all limits kept.`;
+    this.list.replaceChildren(...message.list.map((/** @type {any} */ design, /** @type {number} */ k) => this.#card(design, k)));
+    this.#diagnose();
+  }
+
+  /** @param {any} design @param {number} k */
+  #card(design, k) {
+    const card = create('button', 'card'), picture = create('canvas', 'picture'), facts = create('span', 'facts'), gain = create('span', 'gain');
+    card.setAttribute('role', 'listitem');
+    picture.width = 160;
+    picture.height = 120;
+    picture.setAttribute('aria-hidden', 'true');
+    gain.append(`S ${format.stackability(design.stackability)}`, create('span', 'cost', format.percent(design.change)));
+    facts.append(gain, ...design.words.slice(0, 3).map((/** @type {string} */ words) => create('span', 'what', words)));
+    card.append(picture, facts);
+    card.setAttribute('aria-label', `S ${format.stackability(design.stackability)}, change ${format.percent(design.change)}, ${design.words.join(', ')}`);
+    const vertices = this.vertices[k];
+    if (vertices) this.viewer.thumbnail(picture, vertices, { step: design.f_max, against: this.viewer.surface?.mesh.vertices ?? null });
+    card.onclick = () => { this.actions.leave(); this.actions.send({ do: 'take', number: k }); };
+    card.onmouseenter = card.onfocus = () => vertices && this.actions.preview({ ...design, vertices });
+    card.onmouseleave = card.onblur = () => this.actions.leave();
+    return card;
+  }
+
+  #diagnose() {
+    this.reasons.replaceChildren();
+    const { diagnosis, offers } = this.message;
+    if (!diagnosis || this.message.list.length) return;
+    const list = create('ul', 'words');
+    list.append(...diagnosis.blockers.map((/** @type {string} */ words) => create('li', 'bad', words)));
+    this.reasons.append(create('h3', '', 'What blocks'), list);
+    if (!offers.length) return;
+    this.reasons.append(create('h3', '', 'What would help'));
+    offers.forEach((/** @type {any} */ offer, /** @type {number} */ k) => {
+      const button = create('button', 'offer', offer.words);
+      button.append(create('b', '', `S ${format.stackability(offer.stackability)}`));
+      button.disabled = !offer.possible;
+      button.addEventListener('click', () => this.actions.send({ do: 'accept', number: k }));
+      this.reasons.append(button);
+    });
+  }
+}

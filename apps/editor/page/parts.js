@@ -1,0 +1,157 @@
+// The panel of parts: pick one, choose what of it is dragged and how, or type the amount.
+import { create, element, walkWithArrows } from './dom.js';
+import { PickedHandle, toolsOf } from './handles.js';
+
+const elementWords = { part: 'Whole part', face: 'Face', corner: 'Corner', end: 'End' };
+const toolWords = { move: 'Move', rotate: 'Turn', scale: 'Scale' };
+
+export class Parts {
+  /**
+   * @param {import('./handles.js').Gizmo} gizmo
+   * @param {(command: object) => void} send
+   * @param {() => void} changed  the choice changed
+   */
+  constructor(gizmo, send, changed) {
+    this.gizmo = gizmo;
+    this.send = send;
+    this.changed = changed;
+    this.panel = element('panel-parts');
+    this.bar = element('handle-bar');
+    this.model = /** @type {any} */ (null);
+    this.primitives = /** @type {any[]} */ ([]);
+    this.kept = /** @type {number[]} */ ([]);
+    this.part = -1;
+    this.element = /** @type {import('./handles.js').Element} */ ('part');
+    this.tool = /** @type {import('./handles.js').Tool} */ ('move');
+    this.near = /** @type {any} */ (null);
+    this.list = create('ul', 'parts');
+    this.form = create('div');
+    this.panel.append(create('p', 'note', 'Click a part in the view, or here, and drag its handles. Whatever is joined or symmetric to it follows.'), this.form, this.list);
+    walkWithArrows(this.list);
+  }
+
+  /** @param {any} model */
+  setModel(model) {
+    this.model = model;
+    this.list.replaceChildren(...model.parts.map((/** @type {any} */ part, /** @type {number} */ row) => {
+      const line = create('li'), button = create('button', '', part.name);
+      button.append(create('small', '', part.kind === 'cuboid' ? 'box' : 'cylinder'));
+      button.addEventListener('click', () => this.pick(row, null));
+      line.append(button);
+      return line;
+    }));
+  }
+
+  /** @param {any[]} primitives */
+  setPrimitives(primitives) {
+    this.primitives = primitives;
+    const { handle } = this.gizmo;
+    if (handle) {
+      handle.update(primitives[handle.part]);
+      this.gizmo.rebuild();
+    }
+  }
+
+  /** @param {number[]} kept */
+  setKept(kept) {
+    this.kept = kept;
+    this.#show();
+  }
+
+  /** @param {number} part  -1: none  @param {any} near  the point that was clicked */
+  pick(part, near) {
+    this.part = part;
+    const primitive = this.primitives[part];
+    if (near) this.near = near;
+    else if (primitive) this.near = new PickedHandle(part, '', primitive, 'part', this.gizmo.viewer.centre.clone()).centre;
+    if (primitive && !PickedHandle.elementsOf(primitive).includes(this.element)) this.element = 'part';
+    if (!toolsOf[this.element].includes(this.tool)) this.tool = 'move';
+    this.#show();
+  }
+
+  /** @param {import('./handles.js').Tool} tool */
+  choose(tool) {
+    if (this.part < 0 || !toolsOf[this.element].includes(tool)) return;
+    this.tool = tool;
+    this.#show();
+  }
+
+  #show() {
+    const primitive = this.primitives[this.part];
+    [...this.list.querySelectorAll('button')].forEach((button, row) => {
+      button.setAttribute('aria-pressed', String(row === this.part));
+      button.classList.toggle('kept', this.kept.includes(row));
+    });
+    if (!primitive) {
+      this.gizmo.set(null, this.tool);
+      this.bar.replaceChildren();
+      this.form.replaceChildren();
+      return this.changed();
+    }
+    const part = this.model.parts[this.part];
+    this.gizmo.set(new PickedHandle(this.part, part.text, primitive, this.element, this.near), this.tool);
+    this.bar.replaceChildren(create('b', '', part.name),
+      this.#chips('What is dragged', PickedHandle.elementsOf(primitive), elementWords, this.element, (one) => {
+        this.element = one;
+        if (!toolsOf[one].includes(this.tool)) this.tool = 'move';
+      }),
+      this.#chips('How', toolsOf[this.element], toolWords, this.tool, (one) => (this.tool = one)));
+    this.form.replaceChildren(this.#amounts(), this.#keep());
+    this.changed();
+  }
+
+  /**
+   * @template {string} Name
+   * @param {string} label
+   * @param {Name[]} names
+   * @param {Record<Name, string>} words
+   * @param {Name} current
+   * @param {(name: Name) => void} choose
+   */
+  #chips(label, names, words, current, choose) {
+    const group = create('span', 'segments');
+    group.setAttribute('role', 'group');
+    group.setAttribute('aria-label', label);
+    for (const name of names) {
+      const button = create('button', '', words[name]);
+      button.setAttribute('aria-pressed', String(name === current));
+      button.addEventListener('click', () => { choose(name); this.#show(); });
+      group.append(button);
+    }
+    return group;
+  }
+
+  /** A form with what a drag does, for exact amounts and for those who use no mouse. */
+  #amounts() {
+    const { gizmo, tool } = this, form = create('form', 'amounts'), handle = gizmo.handle;
+    const axis = create('select'), amount = create('input'), apply = create('button', 'primary', 'Apply');
+    const axes = handle?.axesOf(tool) ?? [];
+    axes.forEach((one, k) => axis.append(new Option(one.name, String(k))));
+    axis.setAttribute('aria-label', 'Direction');
+    amount.type = 'number';
+    amount.step = 'any';
+    amount.required = true;
+    const unit = tool === 'move' ? this.model.unit ?? 'units' : tool === 'rotate' ? 'degrees' : 'times';
+    amount.placeholder = unit;
+    amount.setAttribute('aria-label', `Amount, ${unit}`);
+    form.append(create('b', '', toolWords[tool]), axis, amount, apply);
+    form.addEventListener('submit', (event) => {
+      event.preventDefault();
+      const value = Number(amount.value) * (tool === 'rotate' ? Math.PI / 180 : 1);
+      if (!handle || !Number.isFinite(value) || (tool === 'scale' && value <= 0)) return;
+      this.send({ do: 'drag', edit: handle.edit(tool, axes[Number(axis.value)], value) });
+      this.send({ do: 'end-drag', keep: true });
+    });
+    return form;
+  }
+
+  #keep() {
+    const label = create('label', 'check'), box = create('input'), part = this.part;
+    box.type = 'checkbox';
+    box.checked = this.kept.includes(part);
+    box.addEventListener('change', () =>
+      this.send({ do: 'keep', parts: box.checked ? [...this.kept, part].sort((a, b) => a - b) : this.kept.filter((row) => row !== part) }));
+    label.append(box, ' Keep this part as it is');
+    return label;
+  }
+}
