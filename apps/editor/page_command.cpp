@@ -32,10 +32,13 @@ class PageCommand {
         {"target", [&] { return SetTarget{number(entry("value"))}; }},
         {"direction", [&] { return SetDirection{direction()}; }},
         {"limit", [&] { return limit(); }},
-        {"keep", [&] { return keep(); }},
+        {"keep", [&] { return KeepParts{rows("parts")}; }},
         {"find", [] { return FindDesigns{}; }},
         {"stop", [] { return StopFinding{}; }},
         {"take", [&] { return TakeDesign{whole("number")}; }},
+        {"segment", [&] { return segment(); }},
+        {"kind", [&] { return kind(); }},
+        {"remove-relations", [&] { return editing::RemoveRelations{rows("relations")}; }},
         {"accept", [&] { return AcceptRemedy{whole("number")}; }}};
     const std::string word = text("do");
     const auto found = commands.find(word);
@@ -84,13 +87,31 @@ class PageCommand {
     const Json& value = entry("value");
     return SetLimit{*measure, value.is_null() ? std::nullopt : std::optional(number(value))};
   }
-  editing::Command keep() const {
-    KeepParts command;
-    const Json& value = entry("parts");
-    if (!value.is_array()) fail("parts", "a list of rows of parts");
-    for (const Json& part : value) {
-      if (!part.is_number_integer()) fail("parts", "rows of parts");
-      command.parts.push_back(part.get<int>());
+  static std::vector<std::int32_t> numbers(const Json& value) {
+    if (!value.is_array()) throw UsageError("the command expects a list of numbers counted from 0");
+    std::vector<std::int32_t> result;
+    for (const Json& one : value) {
+      if (!one.is_number_integer()) throw UsageError("the command expects numbers counted from 0");
+      result.push_back(one.get<std::int32_t>());
+    }
+    return result;
+  }
+  std::vector<int> rows(const char* key) const { return numbers(entry(key)); }
+  editing::Command kind() const {
+    const std::string name = text("kind");
+    if (name != "cuboid" && name != "cylinder") fail("kind", "cuboid or cylinder");
+    return editing::SetKind{whole("part"),
+                            name == "cuboid" ? PrimitiveKind::cuboid : PrimitiveKind::cylinder};
+  }
+  editing::Command segment() const {
+    editing::Segment command;
+    const Json& strokes = entry("strokes");
+    if (!strokes.is_array()) fail("strokes", "a list");
+    for (const Json& stroke : strokes) {
+      if (!stroke.is_object() || !stroke.contains("part") || !stroke["part"].is_string() ||
+          !stroke.contains("triangles"))
+        fail("strokes", "parts and triangles");
+      command.strokes.push_back({stroke["part"].get<std::string>(), numbers(stroke["triangles"])});
     }
     return command;
   }

@@ -14,6 +14,8 @@ namespace stackabilization::apps {
 ///     {"do": "target", "value": 0.6}                {"do": "direction", "direction": [0, 0, 1]}
 ///     {"do": "limit", "measure": "size", "value": 0.7}    (value null: none)
 ///     {"do": "keep", "parts": [0, 3]}
+///     {"do": "segment", "strokes": [{"part": "handle", "triangles": [7, 8]}]}
+///     {"do": "kind", "part": 0, "kind": "cuboid"}       {"do": "remove-relations", "relations": [4]}
 ///     {"do": "find"}, {"do": "stop"}, {"do": "take", "number": 0}, {"do": "accept", "number": 0}
 ///
 /// Edits are those of edit_grammar.h. Throws UsageError, in words for people, for anything else.

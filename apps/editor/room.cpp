@@ -118,11 +118,9 @@ class EditingRoom::Implementation {
   void opened(PageId page) {
     pages_.push_back(page);
     if (!writer_) writer_ = page;
-    send(page, model());
-    send_frame(page, mesh_frame(session_->space().rest().shape));
     tell_writers();
-    for (const Change change : {Change::wishes, Change::design, Change::tree, Change::review,
-                                Change::suggestions, Change::range, Change::found})
+    for (const Change change : {Change::structure, Change::wishes, Change::design, Change::tree,
+                                Change::review, Change::suggestions, Change::range, Change::found})
       show(change, {page});
   }
 
@@ -167,7 +165,7 @@ class EditingRoom::Implementation {
     std::uint32_t replaces = keeps_all;
     if (const auto* refused = std::get_if<Refused>(&event)) {
       json = {{"type", "refusal"},
-              {"words", describe(refused->obstacle, session_->space().rest().structure)}};
+              {"words", obstacle_words(refused->obstacle, session_->space().rest().structure)}};
     } else if (const auto* progress = std::get_if<Progress>(&event)) {
       json = {{"type", "progress"},
               {"work", progress->work == Work::designs ? "designs" : "suggestions"},
@@ -186,6 +184,9 @@ class EditingRoom::Implementation {
       for (const PageId page : pages) send(page, json, replaces);
     };
     switch (change) {
+      case Change::structure:
+        all(model());
+        return frames(pages, mesh_frame(session_->space().rest().shape));
       case Change::design:
         ++stamp_;
         frames(pages, vertex_frame(FrameKind::shown, 0, stamp_, session_->shown().design->shape.vertices),

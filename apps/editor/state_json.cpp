@@ -56,13 +56,23 @@ Json measured_json(const Stackability& measured) {
           {"loss_per_length", measured.loss_per_length()}};
 }
 
+/// What a check found, and its limit: "size 0.79 of rest, at least 0.8 ('leg')".
+std::string limit_words(const Check& check, const Structure& rest) {
+  if (check.kind != CheckKind::quality) return check_text(check, rest);
+  const std::string note = note_of(check, rest);
+  return name_of(check.measure) + " " + rounded(check.value) + " " + unit_of(check) + ", " +
+         (has_lower_limit(check.measure) ? "at least " : "at most ") + rounded(check.demanded) +
+         (note.empty() ? "" : " (" + note + ")");
+}
+
 /// Checks that a person may want to see, with the share of the limit that they use.
 Json checks_json(const std::vector<Check>& checks, const Structure& rest, const QualityLimits* limits) {
   Json list = Json::array();
   for (const Check& check : checks) {
-    Json json = {{"name", name_of(check)},          {"unit", unit_of(check)}, {"value", check.value},
-                 {"limit", check.demanded},         {"passed", check.passed}, {"violation", violation(check)},
-                 {"words", check_text(check, rest)}};
+    Json json = {
+        {"name", name_of(check)},           {"unit", unit_of(check)}, {"value", check.value},
+        {"limit", check.demanded},          {"passed", check.passed}, {"violation", violation(check)},
+        {"words", limit_words(check, rest)}};
     if (check.kind == CheckKind::quality && limits != nullptr)
       json["share"] = share_of_limit({check.measure, check.value, check.where, check.other}, *limits);
     list.push_back(std::move(json));
@@ -111,6 +121,11 @@ class Frame {
 
 }  // namespace
 
+std::string obstacle_words(const Obstacle& obstacle, const Structure& rest) {
+  const auto* check = std::get_if<Check>(&obstacle);
+  return check ? "limit: " + limit_words(*check, rest) : describe(obstacle, rest);
+}
+
 Json model_json(const EditingSession& session, const std::string& name) {
   const StructuredShape& rest = session.space().rest();
   Json parts = Json::array(), joints = Json::array(), symmetries = Json::array(), measures = Json::array();
@@ -119,9 +134,12 @@ Json model_json(const EditingSession& session, const std::string& name) {
         {{"name", part.name},
          {"text", handle_text({HandleKind::part, static_cast<int>(parts.size()), 0}, names_of(session))},
          {"kind", std::holds_alternative<Cuboid>(part.primitive) ? "cuboid" : "cylinder"}});
-  for (const Relation& relation : rest.structure.relations)
+  for (std::size_t row = 0; row < rest.structure.relations.size(); ++row) {
+    const Relation& relation = rest.structure.relations[row];
     if (relation.type == RelationType::point_joint || relation.type == RelationType::line_joint)
-      joints.push_back({{"parts", relation.parts}, {"points", points_json(relation.points)}});
+      joints.push_back(
+          {{"relation", row}, {"parts", relation.parts}, {"points", points_json(relation.points)}});
+  }
   for (const Symmetry& symmetry : rest.structure.symmetries)
     symmetries.push_back({{"kind", words_for(symmetry.kind)},
                           {"point", to_json(symmetry.point)},
@@ -243,7 +261,7 @@ Json range_json(const EditingSession& session) {
   for (const editing::HandleRange::Sample& sample : range.samples)
     samples.push_back({sample.amount, sample.stackability});
   const auto words = [&](const std::optional<Obstacle>& obstacle) {
-    return obstacle ? Json(describe(*obstacle, rest)) : Json(nullptr);
+    return obstacle ? Json(obstacle_words(*obstacle, rest)) : Json(nullptr);
   };
   return {{"type", "range"},
           {"edit", edit_text(range.edit, names_of(session))},

@@ -9,7 +9,7 @@
 /// What a page is told of a session: texts in JSON, and frames of little-endian numbers for what is large.
 namespace stackabilization::apps {
 
-/// {type: "model", name, unit, diagonal, height, parts: [{name, kind}], joints: [{parts, points}],
+/// {type: "model", name, unit, diagonal, height, parts: [{name, kind}], joints: [{relation, parts, points}],
 ///  symmetries: [{kind, point, axis}], measures: [{name, unit, limit, lower}]}
 Json model_json(const editing::EditingSession& session, const std::string& name);
 
@@ -30,6 +30,9 @@ Json suggestions_json(const editing::EditingSession& session);
 Json range_json(const editing::EditingSession& session);
 /// {type: "found", target, running, list: [{words, stackability, change, energy}], diagnosis, offers}
 Json found_json(const editing::EditingSession& session);
+
+/// What stands against an edit, as the page says it.
+std::string obstacle_words(const Obstacle& obstacle, const Structure& rest);
 
 /// Kinds of frames. A frame is uint32 {kind, number, points or triangles, stamp}, then its numbers.
 enum class FrameKind : std::uint32_t {

@@ -227,7 +227,7 @@ editing('a drag that is given up leaves the design as it was', 'table.obj', asyn
 editing('an amount is typed instead of dragged', 'table.obj', async (page) => {
   await pick(page, 'leg');
   await page.click('.segments button:has-text("Scale")');
-  await page.selectOption('.amounts select', { label: 'all sizes' });
+  await page.selectOption('.amounts select', { label: 'across, first' });
   await page.fill('.amounts input', '0.95');
   await page.click('.amounts button');
   await page.waitForFunction(() => window.editor.state.tree.nodes.length === 2);
@@ -258,6 +258,77 @@ editing('a limit is relaxed under Quality', 'cup.obj', async (page) => {
   await page.getByLabel('No limit for bending').uncheck();
   await page.waitForFunction(() => window.editor.state.wishes.limits.bending !== null);
   assert.match(await page.textContent('#nearest'), /none|%/);
+});
+
+/** What axe-core finds serious or critical. */
+const violations = (page) =>
+  page.evaluate(async () => {
+    const found = await window.axe.run(document, { runOnly: ['wcag2a', 'wcag2aa', 'wcag21aa', 'best-practice'] });
+    return found.violations.filter((one) => ['serious', 'critical'].includes(one.impact)).map((one) => `${one.id}: ${one.nodes.map((node) => node.html).join(' | ').slice(0, 300)}`);
+  });
+
+editing('axe-core finds nothing serious, in any panel, light and dark', 'table.obj', async (page) => {
+  await suggestionsOf(page);
+  await page.evaluate(fs.readFileSync(new URL('node_modules/axe-core/axe.min.js', import.meta.url), 'utf8'));
+  for (const theme of ['light', 'dark']) {
+    for (const tab of ['suggestions', 'automatic', 'quality', 'parts']) {
+      await page.click('#tab-' + tab);
+      if (tab === 'parts') await page.locator('.parts button').first().click();
+      assert.deepEqual(await violations(page), [], `${theme}, ${tab}`);
+      await keepPicture(page, `panel_${theme}_${tab}`);
+    }
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('d');
+  }
+});
+
+editing('everything of a step is done with keys alone', 'cup.obj', async (page) => {
+  await suggestionsOf(page);
+  await page.focus('#tab-suggestions');
+  await page.keyboard.press('Tab');
+  assert.ok(await page.evaluate(() => document.activeElement.classList.contains('card')));
+  const first = await page.evaluate(() => document.activeElement.dataset.edit);
+  await page.keyboard.press('ArrowRight');
+  assert.notEqual(await page.evaluate(() => document.activeElement.dataset.edit), first);
+  await page.keyboard.press('ArrowLeft');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => window.editor.state.tree.current === 1);
+  await page.focus('.node[aria-current]');
+  await page.keyboard.press('ArrowLeft');
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => window.editor.state.tree.current === 0);
+  const before = await page.evaluate(() => window.editor.viewer.camera.position.toArray());
+  await page.focus('#view');
+  await page.keyboard.press('ArrowLeft');
+  assert.notDeepEqual(await page.evaluate(() => window.editor.viewer.camera.position.toArray()), before);
+});
+
+editing('strokes cut a part in two; undo joins it again', 'mug_with_handle.obj', async (page) => {
+  await suggestionsOf(page);
+  const count = await page.evaluate(() => window.editor.state.model.parts.length);
+  await page.keyboard.press('k');
+  const box = await page.locator('#view').boundingBox();
+  const middle = await page.evaluate(() => window.editor.viewer.screenOf(window.editor.viewer.centre));
+  const stroke = async (dy) => {
+    await page.mouse.move(middle.x - 30, middle.y + dy);
+    await page.mouse.down();
+    await page.mouse.move(middle.x + 30, middle.y + dy, { steps: 4 });
+    await page.mouse.up();
+  };
+  assert.ok(box);
+  const own = await page.evaluate(({ x, y }) => window.editor.state.model.parts[window.editor.viewer.pick(x, y).part].name, { x: middle.x, y: middle.y + 40 });
+  await page.fill('.paint input', 'lower');
+  await stroke(40);
+  await page.fill('.paint input', own);
+  await stroke(-20);
+  await keepPicture(page, 'strokes');
+  await page.click('.paint button.primary');
+  await page.waitForFunction((n) => window.editor.state.model.parts.length === n, count + 1);
+  assert.ok(await page.evaluate(() => window.editor.state.model.parts.some((part) => part.name === 'lower')));
+  await page.waitForFunction(() => window.editor.state.tree?.can_undo);
+  await page.keyboard.press('Escape');
+  await page.keyboard.press('Control+z');
+  await page.waitForFunction((n) => window.editor.state.model.parts.length === n, count);
 });
 
 test('the program ends when the last page leaves', { timeout: 300_000 }, async () => {

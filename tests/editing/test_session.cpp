@@ -3,8 +3,10 @@
 #include "sessions.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/io/read_file.h"
+#include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
 #include "support/messages.h"
+#include "support/solids.h"
 
 using namespace stackabilization;
 using namespace stackabilization::editing;
@@ -241,4 +243,73 @@ TEST_CASE("a file that cannot be written is said, and nothing else is lost") {
   observed.session.execute(SetDirection{{0, 0.1, 1}});
   REQUIRE(!observed.all<Failed>().empty());
   CHECK(observed.session.document().project.history.nodes.size() == 2);
+}
+
+TEST_CASE("strokes cut a part in two, and Undo joins it again") {
+  const Shape tower =
+      concatenate(solids::box({0, 0, 0}, {2, 2, 1}), solids::box({0.5, 0.5, 1}, {1.5, 1.5, 4}));
+  AnalysisOptions whole;
+  whole.segmentation.method = SegmentationMethod::whole;
+  Observed observed(new_document(analyse_structure(make_shape(tower.vertices, tower.triangles), whole)));
+  EditingSession& session = observed.session;
+  const Shape before = session.space().rest().shape;
+  REQUIRE(before.part_count() == 1);
+  const std::string own = before.part_names[0];
+  session.execute(Segment{{{"tower", {12}}, {own, {0}}}});
+  const Shape& cut = session.space().rest().shape;
+  REQUIRE(cut.part_count() == 2);
+  CHECK(cut.vertices == before.vertices);
+  CHECK(cut.triangles == before.triangles);
+  for (std::size_t t = 0; t < cut.triangle_part.size(); ++t)
+    CHECK((cut.part_names[static_cast<std::size_t>(cut.triangle_part[t])] == "tower") == (t >= 12));
+  CHECK(session.can_undo());
+  session.execute(Undo{});
+  CHECK(session.space().rest().shape.part_count() == 1);
+  CHECK(!session.can_undo());
+}
+
+TEST_CASE("strokes that contradict each other or leave nothing are refused") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const std::string before = document_text(session.document());
+  CHECK_THROWS_AS(session.execute(Segment{}), UsageError);
+  CHECK_THROWS_AS(session.execute(Segment{{{"new", {0}}}}), UsageError);            // what would stay?
+  CHECK_THROWS_AS(session.execute(Segment{{{"a", {0}}, {"b", {0}}}}), UsageError);  // they cross
+  CHECK_THROWS_AS(session.execute(Segment{{{"a", {1'000'000}}}}), UsageError);
+  CHECK_THROWS_AS(session.execute(Segment{{{"", {0}}}}), UsageError);
+  CHECK_THROWS_AS(session.execute(SetKind{99, PrimitiveKind::cuboid}), UsageError);
+  CHECK_THROWS_AS(session.execute(RemoveRelations{{}}), UsageError);
+  CHECK_THROWS_AS(session.execute(RemoveRelations{{100'000}}), UsageError);
+  CHECK(document_text(session.document()) == before);
+}
+
+TEST_CASE("a part and those symmetric to it change their kind") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const int leg = structures::part_named(session.space().rest(), "leg_1");
+  session.execute(SetKind{leg, PrimitiveKind::cylinder});
+  for (const char* name : {"leg_1", "leg_2", "leg_3", "leg_4"}) {
+    const StructuredShape& rest = session.space().rest();
+    const auto row = static_cast<std::size_t>(structures::part_named(rest, name));
+    CHECK(std::holds_alternative<GeneralizedCylinder>(rest.structure.parts[row].primitive));
+  }
+  session.execute(Undo{});
+  const StructuredShape& rest = session.space().rest();
+  CHECK(std::holds_alternative<Cuboid>(rest.structure.parts[static_cast<std::size_t>(leg)].primitive));
+}
+
+TEST_CASE("a joint that is taken out is gone until Undo") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const std::size_t before = session.space().rest().structure.relations.size();
+  std::vector<int> joints;
+  for (std::size_t row = 0; row < before; ++row)
+    if (session.space().rest().structure.relations[row].type == RelationType::point_joint)
+      joints.push_back(static_cast<int>(row));
+  REQUIRE(!joints.empty());
+  session.execute(RemoveRelations{joints});
+  CHECK(session.space().rest().structure.relations.size() == before - joints.size());
+  CHECK(session.document().project.history.nodes.size() == 1);
+  session.execute(Undo{});
+  CHECK(session.space().rest().structure.relations.size() == before);
 }

@@ -24,7 +24,7 @@ export class Automatic {
     this.note = create('p', 'note');
     this.note.setAttribute('role', 'status');
     this.list = create('div', 'gallery');
-    this.list.setAttribute('role', 'list');
+    this.list.setAttribute('role', 'group');
     this.list.setAttribute('aria-label', 'Designs found, least change first');
     this.reasons = create('div');
     const row = create('div', 'row find');
@@ -70,7 +70,6 @@ export class Automatic {
   /** @param {any} design @param {number} k */
   #card(design, k) {
     const card = create('button', 'card'), picture = create('canvas', 'picture'), facts = create('span', 'facts'), gain = create('span', 'gain');
-    card.setAttribute('role', 'listitem');
     picture.width = 160;
     picture.height = 120;
     picture.setAttribute('aria-hidden', 'true');
@@ -81,7 +80,8 @@ export class Automatic {
     const vertices = this.vertices[k];
     if (vertices) this.viewer.thumbnail(picture, vertices, { step: design.f_max, against: this.viewer.surface?.mesh.vertices ?? null });
     card.onclick = () => { this.actions.leave(); this.actions.send({ do: 'take', number: k }); };
-    card.onmouseenter = card.onfocus = () => vertices && this.actions.preview({ ...design, vertices });
+    const offer = { ...design, vertices };
+    card.onmousemove = card.onfocus = () => vertices && this.actions.preview(offer);
     card.onmouseleave = card.onblur = () => this.actions.leave();
     return card;
   }

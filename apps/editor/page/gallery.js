@@ -42,7 +42,8 @@ export class Gallery {
     this.offers.forEach((offer, number) => {
       const card = this.cards.get(offer.edit) ?? this.#card(offer);
       card.onclick = () => this.actions.apply(number);
-      card.onmouseenter = card.onfocus = () => this.actions.preview(offer);
+      // Moving the mouse, not lying under it: cards change places under a mouse that rests.
+      card.onmousemove = card.onfocus = () => this.actions.preview(offer);
       card.onmouseleave = card.onblur = () => this.actions.leave();
       cards.set(offer.edit, card);
     });
@@ -57,7 +58,6 @@ export class Gallery {
   #card(offer) {
     const card = create('button', 'card');
     card.dataset.edit = offer.edit;
-    card.setAttribute('role', 'listitem');
     const picture = create('canvas', 'picture');
     picture.width = 160;
     picture.height = 120;

@@ -11,6 +11,7 @@ import { Automatic } from './automatic.js';
 import { Gizmo, PickedHandle } from './handles.js';
 import { Parts } from './parts.js';
 import { Quality } from './quality.js';
+import { Strokes } from './strokes.js';
 import { showRange } from './range_card.js';
 
 const canvas = /** @type {HTMLCanvasElement} */ (element('view'));
@@ -28,6 +29,7 @@ const send = (/** @type {object} */ command) => connection.send(command);
 
 /** @param {Float32Array} vertices @param {number} step @param {number} value  S */
 function startPreview(vertices, step, value) {
+  if (preview?.vertices === vertices) return;
   preview = { vertices, step };
   viewer.setBefore(shown);
   viewer.show(vertices, step, true);
@@ -69,6 +71,8 @@ const gizmo = new Gizmo(viewer, {
 });
 const parts = new Parts(gizmo, send, () => viewer.select(parts.part < 0 ? [] : [parts.part]));
 
+const strokes = new Strokes(viewer, send);
+
 /** Where a drag is on its axis, as ranges have it. */
 function dragShare() {
   const { active } = gizmo;
@@ -81,7 +85,7 @@ canvas.addEventListener('pointerdown', (event) => (pressed = { x: event.clientX,
 canvas.addEventListener('click', (event) => {
   const dragged = gizmo.dragged;
   gizmo.dragged = false;
-  if (dragged || gizmo.active || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 4) return;
+  if (dragged || gizmo.active || strokes.active || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 4) return;
   const hit = viewer.pick(event.clientX, event.clientY);
   parts.pick(hit ? hit.part : -1, hit?.point ?? null);
   if (hit) openTab('parts');
@@ -124,7 +128,14 @@ function receive(message) {
       document.title = message.name + ' – Stackabilization';
       measures.setModel(message);
       viewer.diagonal = message.diagonal;
+      parts.pick(-1, null);
       parts.setModel(message);
+      strokes.setNames(message.parts.map((/** @type {any} */ part) => part.name));
+      strokes.set(false);
+      state.design = null;
+      shown = null;
+      seen = false;
+      tree.clear();
       quality.setModel(message);
       exportList(message.stem);
       if (message.resumed) hint('Going on from where you left off.');
@@ -302,13 +313,14 @@ element('help').addEventListener('click', () => keysDialog.showModal());
 bindTabs(element('tabs'));
 bindKeys({
   plain: { ...toggles, d: toggleTheme, '?': () => keysDialog.showModal(),
+    k: () => { openTab('parts'); strokes.set(!strokes.active); },
     m: () => parts.choose('move'), t: () => parts.choose('rotate'), s: () => parts.choose('scale'),
-    Escape: () => { endPreview(); if (!gizmo.cancel()) parts.pick(-1, null); } },
+    Escape: () => { endPreview(); if (strokes.active) strokes.set(false); else if (!gizmo.cancel()) parts.pick(-1, null); } },
   control: { z: undo, y: redo },
   controlShift: { z: redo },
   list: element('keys-list'),
   words: [...layers.map(([, words, key]) => [key, 'Show or hide: ' + words]), ...cameras.map(([words, key]) => [key, 'View: ' + words]),
-    ['Ctrl Z', 'Undo'], ['Ctrl Shift Z', 'Redo'], ['m', 'Handle: move'], ['t', 'Handle: turn'], ['s', 'Handle: scale'], ['Escape', 'Give up a drag, or let go of the part'], ['d', 'Light or dark'], ['Arrows', 'In the view: turn; in a list: move'], ['Enter', 'Apply or go there'], ['?', 'This list']],
+    ['Ctrl Z', 'Undo'], ['Ctrl Shift Z', 'Redo'], ['k', 'Paint parts'], ['m', 'Handle: move'], ['t', 'Handle: turn'], ['s', 'Handle: scale'], ['Escape', 'Give up a drag, or let go of the part'], ['d', 'Light or dark'], ['Arrows', 'In the view: turn; in a list: move'], ['Enter', 'Apply or go there'], ['?', 'This list']],
 });
 canvas.addEventListener('keydown', (event) => {
   const turns = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] });
@@ -318,4 +330,4 @@ canvas.addEventListener('keydown', (event) => {
 });
 
 // For tests: what the page holds and shows.
-Object.assign(window, { editor: { viewer, state, send, gizmo, parts } });
+Object.assign(window, { editor: { viewer, state, send, gizmo, parts, strokes } });

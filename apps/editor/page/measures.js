@@ -29,14 +29,19 @@ export class Measures {
 
   /** @param {any} design */
   setDesign(design) {
+    const began = design.dragging && !this.design?.dragging;
     this.design = design;
+    if (began) this.setReview({ ready: false });
     this.#update();
   }
 
   /** @param {any} review */
   setReview(review) {
     const list = element('words');
-    if (!review.ready) return;
+    if (!review.ready) {
+      if (this.design?.dragging) list.replaceChildren(create('li', 'none', 'Let go to keep, Escape to give up'));
+      return;
+    }
     const nothing = (this.design?.change ?? 0) < 1e-9;
     list.replaceChildren(...(nothing ? ['As given: nothing is changed yet'] : review.words).map((/** @type {string} */ words) => create('li', nothing ? 'none' : '', words)));
   }

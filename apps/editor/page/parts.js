@@ -96,7 +96,7 @@ export class Parts {
         if (!toolsOf[one].includes(this.tool)) this.tool = 'move';
       }),
       this.#chips('How', toolsOf[this.element], toolWords, this.tool, (one) => (this.tool = one)));
-    this.form.replaceChildren(this.#amounts(), this.#keep());
+    this.form.replaceChildren(this.#amounts(), this.#keep(), this.#kind(), this.#joints());
     this.changed();
   }
 
@@ -143,6 +143,31 @@ export class Parts {
       this.send({ do: 'end-drag', keep: true });
     });
     return form;
+  }
+
+  /** What the part is for the program: a box, or circles along a curve. */
+  #kind() {
+    const row = create('div', 'row kind');
+    row.append(create('span', 'note', 'Moves as a'),
+      this.#chips('Kind of the part', ['cuboid', 'cylinder'], { cuboid: 'Box', cylinder: 'Cylinder' }, this.model.parts[this.part].kind,
+        (kind) => this.send({ do: 'kind', part: this.part, kind })));
+    return row;
+  }
+
+  /** What it is joined to, to be taken apart. */
+  #joints() {
+    const box = create('div', 'joints'), joints = this.model.joints.filter((/** @type {any} */ joint) => joint.parts.includes(this.part));
+    if (!joints.length) return box;
+    box.append(create('span', 'note', 'Joined to '));
+    for (const other of new Set(joints.map((/** @type {any} */ joint) => joint.parts.find((/** @type {number} */ part) => part !== this.part)))) {
+      const relations = joints.filter((/** @type {any} */ joint) => joint.parts.includes(other)).map((/** @type {any} */ joint) => joint.relation);
+      const name = this.model.parts[/** @type {number} */ (other)].name, button = create('button', 'tag', name + ' ×');
+      button.title = 'Take this joint apart';
+      button.setAttribute('aria-label', `Take the joint with ${name} apart`);
+      button.addEventListener('click', () => this.send({ do: 'remove-relations', relations }));
+      box.append(button);
+    }
+    return box;
   }
 
   #keep() {

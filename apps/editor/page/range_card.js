@@ -22,7 +22,8 @@ export function showRange(range, share) {
     picture.setAttribute('viewBox', `0 0 ${width} ${height}`);
     picture.innerHTML = `<line class="zero" x1="${x(0)}" x2="${x(0)}" y1="4" y2="${height - 4}"/>${ends}<path d="${path}"/>${now}`;
   }
-  element('range-best').textContent = `S from ${stackability(low)} to ${stackability(Math.max(...values))}`;
+  const most = Math.max(...values);
+  element('range-best').textContent = stackability(low) === stackability(most) ? `S stays ${stackability(low)}` : `S ${stackability(low)} to ${stackability(most)}`;
   const words = [range.below, range.above].filter((one) => one);
-  element('range-limits').textContent = words.length ? 'Limits: ' + [...new Set(words)].join('; ') : 'No limit within reach';
+  element('range-limits').textContent = words.length ? 'Held by ' + [...new Set(words)].join('; ').replaceAll('limit: ', '') : 'No limit within reach';
 }

@@ -30,6 +30,12 @@ export class Tree {
     this.#paint(node);
   }
 
+  /** Forgets all designs: those that come are of another structure. */
+  clear() {
+    this.nodes.clear();
+    this.vertices.clear();
+  }
+
   /** @param {any} message @param {any} design */
   set(message, design) {
     this.message = message;

@@ -72,13 +72,14 @@ function makeStage(surface) {
   const before = new THREE.LineSegments(surface.edgeGeometry.clone(), new THREE.LineBasicMaterial({ transparent: true, opacity: 0.9 }));
   const primitives = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
   const joints = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 9, sizeAttenuation: false, depthTest: false }));
+  const strokes = new THREE.Group();
   const symmetry = new THREE.Group();
   const handles = new THREE.Group();
-  root.add(contacts, contactDots, before, primitives, joints, symmetry, handles);
+  root.add(contacts, contactDots, before, primitives, joints, strokes, symmetry, handles);
   const bvh = new MeshBVH(surface.geometry, { indirect: true });
   asAny(surface.geometry).boundsTree = bvh;
   body.raycast = acceleratedRaycast;
-  return { root, bvh, before, body, bodyEdges, contactDots, contactMaterial, contacts, edgeMaterial, ghostDepth, ghostEdgeMaterial, ghostMaterial, ghosts, handles, joints, material, primitives, symmetry };
+  return { root, bvh, before, body, bodyEdges, contactDots, contactMaterial, contacts, edgeMaterial, ghostDepth, ghostEdgeMaterial, ghostMaterial, ghosts, handles, joints, material, primitives, strokes, symmetry };
 }
 
 export class Viewer {
@@ -291,6 +292,29 @@ export class Viewer {
           new THREE.LineBasicMaterial({ color: this.palette.plane })));
       }
     }
+    this.draw();
+  }
+
+  /** Colour of the strokes of a name. @param {number} k */
+  strokeColour(k) {
+    return '#' + partColours[(k + 2) % partColours.length].clone().lerp(new THREE.Color(0x000000), 0.25).getHexString();
+  }
+
+  /** Paints triangles over the object. @param {Set<number>[]} strokes */
+  setStrokes(strokes) {
+    const { stage, surface } = this;
+    if (!stage || !surface) return;
+    stage.strokes.clear();
+    strokes.forEach((triangles, k) => {
+      const corners = [];
+      for (const triangle of triangles)
+        for (let corner = 0; corner < 3; ++corner)
+          for (let i = 0; i < 3; ++i) corners.push(surface.vertices[3 * surface.mesh.triangles[3 * triangle + corner] + i]);
+      const painted = new THREE.Mesh(new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(corners, 3)),
+        new THREE.MeshBasicMaterial({ color: this.strokeColour(k), side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2 }));
+      painted.renderOrder = 1;
+      stage.strokes.add(painted);
+    });
     this.draw();
   }
 

@@ -8,6 +8,8 @@
 
 #include "stackabilization/deformation/edit.h"
 #include "stackabilization/improvement/quality.h"
+#include "stackabilization/structure/fitting.h"
+#include "stackabilization/structure/segmentation.h"
 
 /// Commands of an editing session. What a number refers to is what the session shows when it executes the
 /// command.
@@ -81,9 +83,28 @@ struct AcceptRemedy {
   int number = 0;  ///< row of Diagnosis::remedies
 };
 
+/// Segments the parts in which there are strokes anew, each triangle to the nearest stroke. Strokes of a new
+/// name make a new part. The structure is analysed again, and the history begins anew; Undo brings the old
+/// one back.
+struct Segment {
+  std::vector<PartSeeds> strokes;  ///< names of parts, and triangles of the shape; not empty
+};
+
+/// Gives a part another kind of primitive, with the same consequences.
+struct SetKind {
+  int part = 0;                                ///< row of Structure::parts
+  PrimitiveKind kind = PrimitiveKind::cuboid;  ///< wanted kind
+};
+
+/// Takes relations out of the structure, such as a joint that is none. The history begins anew; Undo brings
+/// the old one back.
+struct RemoveRelations {
+  std::vector<int> relations;  ///< rows of Structure::relations; not empty
+};
+
 /// A command.
-using Command =
-    std::variant<ApplySuggestion, Drag, EndDrag, FindRange, RollBack, Undo, Redo, SetTarget, SetDirection,
-                 SetLimit, KeepParts, FindDesigns, StopFinding, TakeDesign, AcceptRemedy>;
+using Command = std::variant<ApplySuggestion, Drag, EndDrag, FindRange, RollBack, Undo, Redo, SetTarget,
+                             SetDirection, SetLimit, KeepParts, FindDesigns, StopFinding, TakeDesign,
+                             AcceptRemedy, Segment, SetKind, RemoveRelations>;
 
 }  // namespace stackabilization::editing

@@ -11,6 +11,7 @@ namespace stackabilization::editing {
 
 /// What changed in a session.
 enum class Change {
+  structure,    ///< the shape at rest: its parts, primitives and relations; everything else follows
   design,       ///< EditingSession::shown: the mesh, and S and E with it
   review,       ///< EditingSession::review
   tree,         ///< the history, and what can be undone

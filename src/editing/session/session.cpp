@@ -4,15 +4,19 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "editing/session/handle_range.h"
 #include "editing/session/node_designs.h"
 #include "editing/session/workspace.h"
+#include "editing/structure/strokes.h"
 #include "stackabilization/core/direction_text.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/rebase.h"
+#include "stackabilization/improvement/removal.h"
 #include "stackabilization/io/write_file.h"
+#include "stackabilization/structure/analysis.h"
 
 namespace stackabilization::editing {
 
@@ -95,6 +99,7 @@ class EditingSession::Implementation {
   Listener listener_;
   std::shared_ptr<const Workspace> workspace_;
   mutable NodeDesigns designs_;
+  std::vector<Document> earlier_;  ///< documents before each change of the structure
   Direction direction_{0, 0, 1};
   Stackability at_rest_;
   MeasuredDesign current_;
@@ -271,7 +276,11 @@ class EditingSession::Implementation {
   }
 
   void run(const Undo& /*command*/) {
-    if (document_.place > 0) go_to_place(document_.place - 1);
+    if (document_.place > 0) return go_to_place(document_.place - 1);
+    if (earlier_.empty()) return;
+    Document earlier = std::move(earlier_.back());
+    earlier_.pop_back();
+    load(std::move(earlier));
   }
 
   void run(const Redo& /*command*/) {
@@ -383,6 +392,80 @@ class EditingSession::Implementation {
         break;
     }
     require(requirements);
+  }
+
+  /// Starts anew with a document.
+  void load(Document document) {
+    auto workspace = std::make_shared<const Workspace>(document.project, document.requirements);
+    stop(Lane::automatic);
+    found_ = {};
+    finding_wanted_ = false;
+    designs_ = {};
+    workspace_ = std::move(workspace);
+    document_ = std::move(document);
+    load_node();
+    emit(Changed{Change::structure});
+    emit(Changed{Change::wishes});
+    emit(Changed{Change::found});
+    announce_node();
+  }
+
+  /// Goes on with another structure of the same shape and the same wishes.
+  void replace_structure(StructuredShape structured) {
+    Document fresh = new_document(std::move(structured), document_.requirements.measure);
+    const HistoryNode& old = document_.project.history.nodes.front();
+    HistoryNode& root = fresh.project.history.nodes.front();
+    root.direction = old.direction;
+    root.stackability = old.stackability;
+    fresh.source = document_.source;
+    const Requirements& wishes = document_.requirements;
+    fresh.requirements.target = wishes.target;
+    fresh.requirements.keep_height = wishes.keep_height;
+    fresh.requirements.quality = wishes.quality;
+    Document before = document_;
+    load(std::move(fresh));
+    earlier_.push_back(std::move(before));
+    emit(Changed{Change::tree});
+  }
+
+  /// Analyses a shape with its parts as they are. `forced`: kinds of primitives, by part name.
+  void analyse(const Shape& shape, const std::map<std::string, PrimitiveKind>& forced) {
+    AnalysisOptions options;
+    options.segmentation.method = SegmentationMethod::given;
+    options.max_parts = DeformationLimits().max_parts;
+    options.kinds = forced;
+    replace_structure(analyse_structure(shape, options));
+  }
+
+  void run(const Segment& command) {
+    analyse(segment_by_strokes(workspace_->space().rest().shape, command.strokes), {});
+  }
+
+  void run(const SetKind& command) {
+    const Structure& structure = workspace_->space().rest().structure;
+    expect_row(command.part, structure.parts.size(), "part");
+    std::map<std::string, PrimitiveKind> kinds;
+    for (const Part& part : structure.parts)
+      kinds[part.name] =
+          std::holds_alternative<Cuboid>(part.primitive) ? PrimitiveKind::cuboid : PrimitiveKind::cylinder;
+    // Symmetric parts have primitives of one kind.
+    for (const std::vector<int>& members : symmetric_classes(structure))
+      if (std::find(members.begin(), members.end(), command.part) != members.end())
+        for (const int part : members)
+          kinds[structure.parts[static_cast<std::size_t>(part)].name] = command.kind;
+    analyse(workspace_->space().rest().shape, kinds);
+  }
+
+  void run(const RemoveRelations& command) {
+    StructuredShape structured = workspace_->space().rest();
+    std::vector<Relation>& relations = structured.structure.relations;
+    if (command.relations.empty()) throw UsageError("no relation was named");
+    std::vector<int> rows = command.relations;
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    for (const int row : rows) expect_row(row, relations.size(), "relation");
+    for (auto row = rows.rbegin(); row != rows.rend(); ++row) relations.erase(relations.begin() + *row);
+    replace_structure(std::move(structured));
   }
 
   // Jobs.
@@ -607,7 +690,7 @@ bool EditingSession::dragging() const {
 }
 
 bool EditingSession::can_undo() const {
-  return implementation_->document_.place > 0;
+  return implementation_->document_.place > 0 || !implementation_->earlier_.empty();
 }
 
 bool EditingSession::can_redo() const {
