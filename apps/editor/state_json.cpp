@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "apps/design_json.h"
 #include "apps/edit_grammar.h"
@@ -9,6 +10,7 @@
 #include "apps/improve_report.h"
 #include "apps/text.h"
 #include "stackabilization/core/direction_text.h"
+#include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::apps {
 
@@ -60,7 +62,8 @@ Json measured_json(const Stackability& measured) {
 std::string limit_words(const Check& check, const Structure& rest) {
   if (check.kind != CheckKind::quality) return check_text(check, rest);
   const std::string note = note_of(check, rest);
-  return name_of(check.measure) + " " + rounded(check.value) + " " + unit_of(check) + ", " +
+  const double shown = std::abs(check.value) < tolerance::relative ? 0 : check.value;
+  return name_of(check.measure) + " " + rounded(shown) + " " + unit_of(check) + ", " +
          (has_lower_limit(check.measure) ? "at least " : "at most ") + rounded(check.demanded) +
          (note.empty() ? "" : " (" + note + ")");
 }

@@ -57,6 +57,8 @@ export class Tree {
       button.tabIndex = k === message.current ? 0 : -1;
     });
     this.#connect(message.nodes, places, path);
+    const rows = 1 + Math.max(...places.map((place) => place.row));
+    this.list.style.height = `${10 + height * Math.min(rows, 2)}px`;
     this.list.replaceChildren(this.lines, ...this.nodes.values());
     this.nodes.get(message.current)?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
   }
