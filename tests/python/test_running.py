@@ -38,6 +38,8 @@ def test_what_a_callable_raises_ends_the_call(chair):
     with pytest.raises(Enough):
         st.Solver(chair).measure_many(numpy.eye(3), progress=progress)
     with pytest.raises(Enough):
+        st.structure(chair, progress=progress)
+    with pytest.raises(Enough):
         list(st.improve(chair, target=0.9, progress=progress))
 
 
@@ -45,6 +47,7 @@ def test_what_a_callable_raises_ends_the_call(chair):
     "st.map(mesh, step_degrees=0.1, progress=progress)",
     "st.Solver(mesh).measure_many(numpy.tile([0.1, 0.2, 1.0], (3_000_000, 1)), progress=progress)",
     "list(st.improve(mesh, target=0.99, effort=1000, progress=progress))",
+    "[st.structure(mesh, sections=900, progress=progress) for _ in range(20)]",
 ])
 def test_an_interrupt_ends_a_long_call(chair, call):
     code = textwrap.dedent(f"""
