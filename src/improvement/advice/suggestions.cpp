@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "improvement/contacts/design_contacts.h"
 #include "improvement/contacts/gap_excess.h"
@@ -22,6 +23,12 @@ constexpr double min_suggested_relief = 0.01;
 /// Increase of S that makes an edit helpful.
 constexpr double min_suggested_gain = 0.001;
 
+Stackability exact_at_rest(const RequirementChecker& checker, const Direction& direction) {
+  const RestShape& rest = checker.rest_shape();
+  return measure_exact(rest.shape(), rest.solver_without_play().tree(), direction, rest.options())
+      .stackability;
+}
+
 /// Measures and checks designs along one direction.
 class SuggestionScorer {
  public:
@@ -30,7 +37,7 @@ class SuggestionScorer {
         direction_(direction),
         meter_(checker.rest_shape().energy_meter().with_alpha(alpha)),
         constraints_(deformation_constraints(checker.requirements(), checker.space().rest(), direction)),
-        at_rest_(checker.measure(checker.space().rest().shape, direction).value),
+        at_rest_(exact_at_rest(checker, direction).value),
         gap_(checker, direction) {}
 
   Energy energy(const Design& design, const Stackability& measured) const {
@@ -99,9 +106,11 @@ class SuggestionScorer {
 Situation situation_of(const RequirementChecker& checker, const SuggestionScorer& scorer,
                        const Design& design, const Direction& direction, const SuggestionOptions& options) {
   Situation result;
-  result.measured = checker.measure(design.shape, direction);
+  detail::MeasuredContacts touching =
+      detail::measured_contacts(checker, design.shape, direction, options.edits.contacts);
+  result.measured = touching.measured;
   result.energy = scorer.energy(design, result.measured);
-  result.contacts = detail::contacts_of(checker, design.shape, direction, options.edits.contacts);
+  result.contacts = std::move(touching.regions);
   result.excess = scorer.excess(design.shape, result.measured);
   return result;
 }
