@@ -47,16 +47,19 @@ struct Remedy {
     other_direction,  ///< stack along another direction
     free_part,        ///< let parts change
     remove_part,      ///< leave parts out
+    take_apart,       ///< take parts off, and stack the pieces apart (partition.h)
     relax_height,     ///< let the height change
     relax_box,        ///< let the box change
     relax_quality,    ///< leave a measure of quality without a limit
   };
   Kind kind = Kind::relax_height;  ///< kind of the change
-  std::vector<int> parts;          ///< parts to be freed or left out; rows of Structure::parts
+  /// Parts to be freed, left out or taken off; rows of Structure::parts.
+  std::vector<int> parts;
   QualityMeasure measure = QualityMeasure::self_intersection;  ///< relax_quality: the measure
   /// r along which `stackability` is measured; the new direction for other_direction.
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();
-  /// S(M, r) with the change. other_direction and remove_part: of the shape at rest, without further edits.
+  /// S(M, r) with the change. other_direction and remove_part: of the shape at rest, without further edits;
+  /// take_apart: of its pieces (Partition::stackability).
   /// free_part, relax_...: after the best single edit of the design that the change allows.
   double stackability = 0;
 };
@@ -86,8 +89,9 @@ struct DiagnosisOptions {
 
 /// Explains why a search did not reach its target, for the candidate of largest S. Finds the blocking pairs,
 /// and changes that would help: another direction, freeing a part that had to stay, relaxing the height, the
-/// box or a measure of quality, leaving out a part (removal.h). Blocking pairs are always determined; reasons
-/// and remedies only within the limits of the options. Precondition: `result.nearest` is not empty.
+/// box or a measure of quality, leaving out a part (removal.h), taking the object apart (partition.h).
+/// Blocking pairs are always determined; reasons and remedies only within the limits of the options.
+/// Precondition: `result.nearest` is not empty.
 Diagnosis diagnose(const RequirementChecker& checker, const BestFirstResult& result,
                    const DiagnosisOptions& options = {});
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "stackabilization/improvement/removal.h"
@@ -23,6 +25,11 @@ struct Partition {
   double stackability = 0;
 };
 
+/// Options of `suggested_partitions`.
+struct PartitionOptions : RemovalOptions {
+  std::size_t max_pieces = std::numeric_limits<std::size_t>::max();  ///< cuts into more pieces are left out
+};
+
 /// Finds where to cut an object so that its pieces stack well (paper, Fig. 14). For every class of symmetric
 /// parts, all joints between the class and the other parts are cut; the components still connected by joints
 /// are the pieces (legs cut off a top are one piece each). Cuts that separate nothing and cuts with the same
@@ -30,6 +37,6 @@ struct Partition {
 /// `split_into_groups` makes the pieces. The result is the same for any number of threads. Throws UsageError
 /// without directions, InputError when the whole shape has no volume.
 std::vector<Partition> suggested_partitions(const StructuredShape& structured,
-                                            const RemovalOptions& options = {});
+                                            const PartitionOptions& options = {});
 
 }  // namespace stackabilization

@@ -380,6 +380,7 @@ class EditingSession::Implementation {
         });
         break;
       case Remedy::Kind::remove_part:
+      case Remedy::Kind::take_apart:
         throw UsageError("parts cannot be left out here; `improve --remove` does it");
       case Remedy::Kind::relax_height:
         requirements.keep_height = false;

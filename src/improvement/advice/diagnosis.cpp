@@ -14,6 +14,7 @@
 #include "improvement/contacts/contact_symmetry.h"
 #include "stackabilization/core/direction_text.h"
 #include "stackabilization/core/number_text.h"
+#include "stackabilization/improvement/partition.h"
 #include "stackabilization/improvement/removal.h"
 #include "stackabilization/stacking/search.h"
 
@@ -25,6 +26,8 @@ namespace {
 constexpr double worth_saying = 0.01;
 constexpr int max_blockers = 4;
 constexpr std::size_t max_constraints = 3, max_removals = 3;
+/// Pieces of an object that is worth taking apart: a top and four legs.
+constexpr std::size_t max_pieces = 5;
 
 std::string number(double value, int digits = 3) {
   return fixed_text(value, digits);
@@ -89,6 +92,7 @@ class DiagnosisBuilder {
     if (!stopped()) free_parts();
     if (!stopped()) relax();
     if (!stopped()) remove_parts();
+    if (!stopped()) take_apart();
     if (!stopped()) look_elsewhere();
     std::stable_sort(diagnosis_.remedies.begin(), diagnosis_.remedies.end(),
                      [](const Remedy& a, const Remedy& b) { return a.stackability > b.stackability; });
@@ -287,13 +291,17 @@ class DiagnosisBuilder {
     return as_asked_;
   }
 
-  void remove_parts() {
+  RemovalOptions along_best_direction() const {
     RemovalOptions options;
     options.measure = checker_.requirements().measure;
     options.directions = {best_.direction};
     options.cancelled = options_.cancelled;
+    return options;
+  }
+
+  void remove_parts() {
     std::size_t offered = 0;
-    for (const Removal& removal : removals(rest_, options)) {
+    for (const Removal& removal : removals(rest_, along_best_direction())) {
       if (offered == max_removals || !helps(removal.stackability)) break;
       const bool all_may_go = std::none_of(removal.parts.begin(), removal.parts.end(), [&](int part) {
         return contains(checker_.requirements().kept_parts, part);
@@ -302,6 +310,21 @@ class DiagnosisBuilder {
       add({Remedy::Kind::remove_part, removal.parts, {}, removal.direction, removal.stackability});
       ++offered;
     }
+  }
+
+  /// Offers the partition of largest S with few pieces: all but the piece of most parts are taken off.
+  void take_apart() {
+    const std::vector<Partition> found = suggested_partitions(rest_, {along_best_direction(), max_pieces});
+    if (found.empty() || !helps(found.front().stackability)) return;
+    const std::vector<Piece>& pieces = found.front().pieces;
+    const auto stays = std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) {
+      return a.parts.size() < b.parts.size();
+    });
+    std::vector<int> parts;
+    for (auto piece = pieces.begin(); piece != pieces.end(); ++piece)
+      if (piece != stays) parts.insert(parts.end(), piece->parts.begin(), piece->parts.end());
+    std::sort(parts.begin(), parts.end());
+    add({Remedy::Kind::take_apart, parts, {}, best_.direction, found.front().stackability});
   }
 
   void add(Remedy remedy) { diagnosis_.remedies.push_back(std::move(remedy)); }
@@ -365,6 +388,8 @@ std::string describe(const Remedy& remedy, const Structure& rest) {
       return "let " + names(remedy.parts, rest) + " change";
     case Remedy::Kind::remove_part:
       return "leave out " + names(remedy.parts, rest);
+    case Remedy::Kind::take_apart:
+      return "take off " + names(remedy.parts, rest) + " and stack the pieces apart";
     case Remedy::Kind::relax_height:
       return "let the height change";
     case Remedy::Kind::relax_box:

@@ -60,20 +60,25 @@ Partition measured(const StructuredShape& structured, const Groups& groups, doub
 }  // namespace
 
 std::vector<Partition> suggested_partitions(const StructuredShape& structured,
-                                            const RemovalOptions& options) {
+                                            const PartitionOptions& options) {
   const auto whole = detail::best_measured(structured.shape, options.measure, options.directions);
   if (!whole) throw InputError("the shape has no volume, so its pieces cannot be compared with it");
   const Groups uncut = pieces_without_joints_of(structured.structure, {});
   std::vector<Groups> cuts;
   for (const std::vector<int>& members : symmetric_classes(structured.structure)) {
     Groups groups = pieces_without_joints_of(structured.structure, members);
-    if (groups != uncut && std::find(cuts.begin(), cuts.end(), groups) == cuts.end())
+    if (groups.size() <= options.max_pieces && groups != uncut &&
+        std::find(cuts.begin(), cuts.end(), groups) == cuts.end())
       cuts.push_back(std::move(groups));
   }
-  std::vector<Partition> partitions(cuts.size());
+  std::vector<std::optional<Partition>> found(cuts.size());
   tbb::parallel_for(std::size_t{0}, cuts.size(), [&](std::size_t k) {
-    partitions[k] = measured(structured, cuts[k], whole->box_volume, options);
+    if (!options.cancelled || !options.cancelled())
+      found[k] = measured(structured, cuts[k], whole->box_volume, options);
   });
+  std::vector<Partition> partitions;
+  for (auto& partition : found)
+    if (partition) partitions.push_back(std::move(*partition));
   std::stable_sort(partitions.begin(), partitions.end(), [](const Partition& a, const Partition& b) {
     if (a.stackability != b.stackability) return a.stackability > b.stackability;
     return a.pieces.size() < b.pieces.size();

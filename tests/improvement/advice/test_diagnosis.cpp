@@ -2,6 +2,7 @@
 
 #include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/diagnosis.h"
+#include "stackabilization/improvement/partition.h"
 #include "support/catch.h"
 #include "support/messages.h"
 #include "support/solids.h"
@@ -125,6 +126,7 @@ TEST_CASE("every outcome of the edits against a blocker, and every remedy, has i
       {Remedy::Kind::other_direction, "stack along x, without any edit"},
       {Remedy::Kind::free_part, "let 'leg_1', 'leg_2' and 'top' change"},
       {Remedy::Kind::remove_part, "leave out 'leg_1', 'leg_2' and 'top'"},
+      {Remedy::Kind::take_apart, "take off 'leg_1', 'leg_2' and 'top' and stack the pieces apart"},
       {Remedy::Kind::relax_height, "let the height change"},
       {Remedy::Kind::relax_box, "let the box change"},
       {Remedy::Kind::relax_quality, "--relax size"}};
@@ -173,6 +175,22 @@ TEST_CASE("nothing that must stay is offered to be left out or freed without nee
   REQUIRE(diagnosis.blockers.size() == 1);
   CHECK(diagnosis.blockers.front().edits != Blocker::Edits::untried);
   CHECK(diagnosis.blockers.front().edits != Blocker::Edits::refused);
+}
+
+TEST_CASE("what saves most when it is taken off is offered, with the S of its pieces") {
+  const StructuredShape mug = structures::mug();
+  const auto space = deformation_model(mug);
+  const RequirementChecker checker(*space, designs::frame_requirements(0.99));
+  const Diagnosis diagnosis = diagnose(checker, stuck_at_rest(checker));
+  const Remedy* apart = remedy_of(diagnosis, Remedy::Kind::take_apart);
+  PartitionOptions options;
+  options.measure = checker.requirements().measure;
+  const std::vector<Partition> found = suggested_partitions(mug, options);
+  REQUIRE(found.size() == 1);
+  REQUIRE(found.front().stackability > diagnosis.reached + 0.01);
+  REQUIRE(apart != nullptr);
+  CHECK(apart->parts == std::vector<int>{1});
+  CHECK(apart->stackability == found.front().stackability);
 }
 
 TEST_CASE("a box that lies on its side is better stacked another way") {

@@ -26,6 +26,10 @@ TEST_CASE("a table is cut between its classes of parts, and the saving is that o
   // Two bars out: as much left twice, and no part is lost.
   CHECK(groups_of(found[2]) == std::vector<std::vector<int>>{{0, 1, 2, 3, 4, 6, 8}, {5}, {7}});
   CHECK(found[2].stackability == Approx(found[3].stackability));
+  PartitionOptions few;
+  few.max_pieces = 2;
+  REQUIRE(suggested_partitions(table, few).size() == 1);
+  CHECK(groups_of(suggested_partitions(table, few)[0]) == groups_of(found[1]));
   for (const Partition& partition : found)
     for (const Piece& piece : partition.pieces) CHECK(piece.stackability <= 1);
 }
@@ -39,7 +43,7 @@ TEST_CASE("equal cuts are suggested once, and none where there is no joint") {
 }
 
 TEST_CASE("suggestions refuse a whole without volume and no direction") {
-  RemovalOptions nowhere;
+  PartitionOptions nowhere;
   nowhere.directions.clear();
   CHECK_THROWS_AS(suggested_partitions(structures::table(), nowhere), UsageError);
   StructuredShape flat = structures::box_alone({1, 2, 3});
