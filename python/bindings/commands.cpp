@@ -10,41 +10,47 @@
 
 #include "apps/caller.h"
 #include "apps/common_options.h"
-#include "apps/interrupt.h"
 #include "apps/program.h"
 #include "bindings/bindings.h"
-#include "bindings/watch.h"
+#include "bindings/job.h"
 #include "stackabilization/core/shape.h"
 
 namespace stackabilization::python {
 
 namespace {
 
-/// Runs a command of the program on meshes in memory.
-py::tuple run(const std::vector<std::string>& arguments,
-              const std::map<std::string, std::shared_ptr<Shape>>& meshes,
-              const std::map<std::string, std::string>& projects, const py::object& progress) {
-  Watch watch(progress);
+/// What a command leaves.
+struct Answer {
+  int status = 0;
+  std::string document;
+  std::map<std::string, std::shared_ptr<Shape>> meshes;
+  std::map<std::string, std::string> texts;
+};
+
+Answer answer_of(const std::vector<std::string>& arguments, const Meshes& meshes,
+                 const std::map<std::string, std::string>& projects, JobState& job) {
   apps::Caller caller;
   caller.meshes.insert(meshes.begin(), meshes.end());
   caller.projects = projects;
-  caller.progress = [&watch](const std::string& step, double fraction) { watch.tell(step, fraction); };
-  caller.stopped = [&watch] { return watch.stopped(); };
-  int status = 0;
-  try {
-    const py::gil_scoped_release unlocked;
-    apps::Program program(&caller);
-    program.parse(arguments);
-    status = program.run();
-  } catch (const apps::Interrupted&) {
-    watch.raise_if_stopped();
-    throw;
-  }
-  watch.raise_if_stopped();  // by the last thing it was told
-  py::dict written;
+  caller.progress = [&job](const std::string& step, double fraction) { job.tell(step, fraction); };
+  caller.stopped = [&job] { return job.stopped.load(); };
+  apps::Program program(&caller);
+  program.parse(arguments);
+  Answer answer;
+  answer.status = program.run();
+  answer.document = caller.document.dump();
   for (auto& [name, shape] : caller.written_meshes)
-    written[py::str(name)] = std::make_shared<Shape>(std::move(shape));
-  return py::make_tuple(status, caller.document.dump(), written, caller.written_texts);
+    answer.meshes.emplace(name, std::make_shared<Shape>(std::move(shape)));
+  answer.texts = std::move(caller.written_texts);
+  return answer;
+}
+
+/// Runs a command of the program on meshes in memory.
+py::tuple run(const std::vector<std::string>& arguments, const Meshes& meshes,
+              const std::map<std::string, std::string>& projects, const py::object& progress) {
+  const Answer answer =
+      run_as_job(progress, [=](JobState& job) { return answer_of(arguments, meshes, projects, job); });
+  return py::make_tuple(answer.status, answer.document, answer.meshes, answer.texts);
 }
 
 /// Reads a mesh file as the commands do.
@@ -54,8 +60,9 @@ std::shared_ptr<Shape> read(std::vector<std::string> arguments) {
   apps::add_common_options(app, common);
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
   app.parse(std::move(arguments));
-  const py::gil_scoped_release unlocked;
-  return std::make_shared<Shape>(read_shape(common.model, common.read));
+  return run_as_job(py::none(), [model = common.model, options = common.read](JobState&) {
+    return std::make_shared<Shape>(read_shape(model, options));
+  });
 }
 
 /// What a command takes: per option its names, what it expects ("" for a flag) and what it means.
@@ -83,6 +90,7 @@ void add_commands(py::module_& module) {
       "commands", [] { return apps::Program().command_names(); }, "Names of the program's commands.");
   module.def("options", &options, "command"_a,
              "What a command of the program takes: a dict of names, expects and meaning per option.");
+  module.def("end_of_interpreter", &end_of_interpreter, "To be called when the interpreter is about to end.");
 }
 
 }  // namespace stackabilization::python

@@ -25,26 +25,36 @@ Unit unit_named(const std::optional<std::string>& symbol) {
   return *unit;
 }
 
-std::vector<std::int32_t> part_rows(const py::object& values) {
-  const auto rows = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>::ensure(values);
-  if (!rows) PyErr_Clear();
-  if (!rows || rows.ndim() != 1)
-    throw InputError("face_parts expects one whole number per face, a row of parts");
-  return {rows.data(), rows.data() + rows.size()};
+/// Names, none of which is one text cut into letters. Throws InputError.
+Names names_of(const py::object& values) {
+  if (values.is_none()) return {"part"};
+  Names names;
+  if (!py::isinstance<py::str>(values) && py::isinstance<py::iterable>(values))
+    for (const py::handle name : values) {
+      if (!py::isinstance<py::str>(name))
+        throw InputError("parts expects names, found " + std::string(py::repr(name)));
+      if (PyUnicode_AsUTF8(name.ptr()) == nullptr) {
+        PyErr_Clear();
+        throw InputError("the part name " + std::string(py::repr(name)) + " is not UTF-8");
+      }
+      names.push_back(name.cast<std::string>());
+    }
+  else
+    throw InputError("parts expects a list of names, found " + std::string(py::repr(values)));
+  return names;
 }
 
-std::shared_ptr<Shape> mesh_of(const py::object& vertices, const py::object& faces,
-                               const std::optional<Names>& parts, const py::object& face_parts,
-                               const std::optional<std::string>& unit) {
+std::shared_ptr<Shape> mesh_of(const py::object& vertices, const py::object& faces, const py::object& parts,
+                               const py::object& face_parts, const std::optional<std::string>& unit) {
   auto shape = std::make_shared<Shape>();
   shape->vertices = as_points(rows_of_doubles(vertices, "vertices"));
   shape->triangles = triangles_of(faces);
   shape->unit = unit_named(unit);
-  shape->part_names = parts.value_or(Names{"part"});
+  shape->part_names = names_of(parts);
   if (face_parts.is_none())
     shape->triangle_part.assign(static_cast<std::size_t>(shape->triangle_count()), 0);
   else
-    shape->triangle_part = part_rows(face_parts);
+    shape->triangle_part = whole_numbers(face_parts, "face_parts");
   validate(*shape);
   return shape;
 }
@@ -120,6 +130,19 @@ void add_mesh(py::module_& module) {
           ".3mf,\n"
           ".glb, .gltf or .vtp. Raises InputError for another extension, OutputError when it cannot be "
           "written.")
+      .def(py::pickle(
+          [](const py::object& self) {
+            const py::dict all =
+                py::dict("parts"_a = self.attr("parts"), "face_parts"_a = self.attr("face_parts"),
+                         "unit"_a = self.attr("unit"));
+            return py::make_tuple(self.attr("vertices"), self.attr("faces"), all);
+          },
+          [](const py::tuple& state) {
+            const py::dict all = state[2];
+            std::optional<std::string> unit;
+            if (!all["unit"].is_none()) unit = all["unit"].cast<std::string>();
+            return mesh_of(state[0], state[1], all["parts"], all["face_parts"], unit);
+          }))
       .def("__repr__", &repr);
 }
 

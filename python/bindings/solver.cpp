@@ -4,14 +4,14 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/common_options.h"
-#include "apps/interrupt.h"
 #include "apps/measurement.h"
 #include "apps/values.h"
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
-#include "bindings/watch.h"
+#include "bindings/job.h"
 #include "stackabilization/envelope/separation_gradient.h"
 #include "stackabilization/stacking/measure_many.h"
 
@@ -75,46 +75,41 @@ class Solver {
     options.semantics = semantics_named(semantics);
     options.boxes = boxes_named(boxes);
     options.flat_shapes = FlatShapes::measure;
-    const py::gil_scoped_release unlocked;
-    solver_.emplace(*mesh, options);
+    solver_ = run_as_job(py::none(), [mesh, options](JobState&) {
+      return std::make_shared<StackabilitySolver>(*mesh, options);
+    });
   }
 
   py::object separation(const py::object& along) const {
     const Direction direction(vector_of(along, "direction"));
-    Separation found;
-    {
-      const py::gil_scoped_release unlocked;
-      found = solver_->separation(direction);
-    }
+    const Separation found = run_as_job(
+        py::none(), [solver = solver_, direction](JobState&) { return solver->separation(direction); });
     return separation_tuple(*mesh_, *mesh_, direction, found);
   }
 
   std::string measure(const std::string& name, const py::object& along) const {
     const Direction direction(vector_of(along, "direction"));
-    const py::gil_scoped_release unlocked;
-    const apps::Model model{name, *mesh_, inspect(*mesh_)};
-    apps::Json document = apps::document_head("measure", model);
-    apps::add_measurement(document, apps::measure_exactly(*solver_, direction), model);
-    document["findings"] = apps::to_json(model.findings);
-    return document.dump();
+    return run_as_job(py::none(), [name, direction, mesh = mesh_, solver = solver_](JobState&) {
+      const apps::Model model{name, *mesh, inspect(*mesh)};
+      apps::Json document = apps::document_head("measure", model);
+      apps::add_measurement(document, apps::measure_exactly(*solver, direction), model);
+      document["findings"] = apps::to_json(model.findings);
+      return document.dump();
+    });
   }
 
   py::tuple measure_many(const py::object& rows, const py::object& threads,
                          const py::object& progress) const {
-    const py::array_t<double> directions = rows_of_doubles(rows, "directions");
+    const std::shared_ptr<const py::array_t<double>> directions = shared(rows_of_doubles(rows, "directions"));
     apps::CommonOptions common;
     if (!threads.is_none()) common.threads = apps::parse_threads(py::str(threads));
-    Watch watch(progress);
-    std::vector<Stackability> measured;
-    {
-      const py::gil_scoped_release unlocked;
-      const apps::ThreadLimit limit(common);
-      measured =
-          stackabilization::measure_many(*solver_, as_points(directions),
-                                         {[&watch](double fraction) { watch.tell("Measuring", fraction); },
-                                          [&watch] { return watch.stopped(); }});
-    }
-    watch.raise_if_stopped();
+    const std::vector<Stackability> measured =
+        run_as_job(progress, [solver = solver_, common, directions](JobState& job) {
+          const apps::ThreadLimit limit(common);
+          return stackabilization::measure_many(*solver, as_points(*directions),
+                                                {[&job](double fraction) { job.tell("Measuring", fraction); },
+                                                 [&job] { return job.stopped.load(); }});
+        });
     const auto count = static_cast<py::ssize_t>(measured.size());
     py::array_t<double> f_max(count), height(count), stackability(count);
     for (py::ssize_t i = 0; i < count; ++i) {
@@ -130,7 +125,7 @@ class Solver {
 
  private:
   std::shared_ptr<Shape> mesh_;
-  std::optional<StackabilitySolver> solver_;
+  std::shared_ptr<const StackabilitySolver> solver_;
 };
 
 py::object separation_of(const std::shared_ptr<Shape>& below, const std::shared_ptr<Shape>& above,
@@ -138,13 +133,11 @@ py::object separation_of(const std::shared_ptr<Shape>& below, const std::shared_
   const Direction direction(vector_of(along, "direction"));
   SeparationOptions options;
   options.semantics = semantics_named(semantics);
-  Separation found;
-  {
-    const py::gil_scoped_release unlocked;
+  const Separation found = run_as_job(py::none(), [=](JobState&) {
     const SeparationTree tree_below(*below);
-    found = below == above ? separation(tree_below, tree_below, direction, options)
-                           : separation(tree_below, SeparationTree(*above), direction, options);
-  }
+    return below == above ? separation(tree_below, tree_below, direction, options)
+                          : separation(tree_below, SeparationTree(*above), direction, options);
+  });
   return separation_tuple(*below, *above, direction, found);
 }
 

@@ -11,12 +11,15 @@ object of trimesh, Open3D, PyVista or VTK. Results cannot be changed; `to_dict()
 writes with `--json`.
 
 Lengths are in model units; directions are three numbers, not all zero, of any length, used exactly as given.
-Errors say what was expected: `InputError` and `UsageError` are ValueErrors. Ctrl-C stops a long call, and
+Errors say what was expected: `InputError` and `UsageError` are ValueErrors. Ctrl-C ends a call at once, and
 `progress=f` calls f(step, fraction) now and then.
 
 The same input gives the same numbers, whatever the number of threads.
 """
 
+import atexit as _atexit
+
+from . import _core
 from ._commands import (compare, deform, gap, inspect, map, measure, search, separation, stack, structure, suggest,
                         validate)
 from ._core import Error, InputError, Mesh, OutputError, RenderError, UsageError
@@ -26,6 +29,8 @@ from ._mesh import load
 from ._results import (Comparison, Contact, Deformation, Findings, Gap, Gradient, Inspection, Map, Measurement, Nest, Result,
                        Search, Separation, Stack, Structure, Suggestion, Suggestions, Validation, Witness)
 from ._solver import Measurements, Solver
+
+_atexit.register(_core.end_of_interpreter)
 
 __all__ = [
     "Comparison", "Contact", "Deformation", "Design", "Error", "Findings", "Gap", "Gradient", "Improvement", "InputError",

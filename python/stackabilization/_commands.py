@@ -7,7 +7,7 @@ import typing
 import numpy
 
 from . import _core, _results
-from ._mesh import arguments_of, as_mesh, is_path
+from ._mesh import arguments_of, as_mesh, checked_text, is_path
 
 
 class Answer(typing.NamedTuple):
@@ -18,6 +18,10 @@ class Answer(typing.NamedTuple):
     texts: dict
 
 
+#: Commands that go on from a structure instead of analysing a mesh.
+_OF_PROJECTS = {"structure", "deform", "suggest", "compare", "improve"}
+
+
 class Inputs:
     """Meshes and projects in memory, under names that are no files."""
 
@@ -25,11 +29,11 @@ class Inputs:
         self.meshes = {}
         self.projects = {}
 
-    def name_of(self, mesh, name):
+    def name_of(self, mesh, name, command=None):
         """What the program is told to read: a path, or the name of something in memory."""
         if is_path(mesh):
-            return os.fspath(mesh)
-        if isinstance(mesh, _results.Structured) and mesh.project is not None:
+            return checked_text("a path", os.fspath(mesh))
+        if command in _OF_PROJECTS and isinstance(mesh, _results.Structured) and mesh.project is not None:
             self.projects[name] = mesh.project
         else:
             self.meshes[name] = as_mesh(mesh)
@@ -44,7 +48,7 @@ def command_line(command, positionals, options):
 def run_command(command, mesh, options, progress=None, *, after=None, above=None):
     """Run a command of the program in this process."""
     inputs = Inputs()
-    positionals = [inputs.name_of(mesh, "<mesh>")]
+    positionals = [inputs.name_of(mesh, "<mesh>", command)]
     if after is not None:
         positionals.append(inputs.name_of(after, "<after>"))
     if above is not None:
@@ -196,7 +200,7 @@ def deform(mesh, *, edit, model=None, follow=None, direction=None, keep_extent=N
     edit: a text such as 'seat scale 1.1 along 1 0 0', or several, made in order: a handle (PART,
     PART/face=-z, PART/corner=0, PART/section=3, point=7, wire=2, shape) and 'move X Y Z',
     'rotate DEGREES about X Y Z' or 'scale FACTOR [along X Y Z]'.
-    model: what moves the mesh: 'controllers' (default), 'arap', 'iwires' or 'gap-scaling'; follow: 'free'
+    model: what moves the mesh: 'controllers' (default), 'surface', 'iwires' or 'gap-scaling'; follow: 'free'
     (default) or 'smooth', how other parts follow with controllers; direction: of gap scaling.
     keep_extent: direction along which the extent is kept; extent_ends: 'free' (default) or 'fixed'.
     box_tolerance: fraction by which the box may change; fix: parts that stay; fix_point: points that stay.

@@ -42,13 +42,16 @@ class Design(_results.Structured):
 class Improvement(_results.OfModel):
     """How a search for designs ended."""
 
-    __slots__ = ("_designs",)
+    __slots__ = ("_meshes", "_texts")
     _shown = ("reached", "solutions")
 
     def __init__(self, document, meshes, texts):
         super().__init__(document)
-        object.__setattr__(self, "_designs", {
-            name: lambda one, name=name: Design(one, meshes[name], texts[name]) for name in meshes})
+        object.__setattr__(self, "_meshes", meshes)
+        object.__setattr__(self, "_texts", texts)
+
+    def _design(self, one):
+        return Design(one, self._meshes[one["name"]], self._texts[one["name"]])
 
     reached: bool = _results.field("Is there a solution, and is each of them good?")
     target: dict = _results.field("What was asked for.", convert=_results.copied)
@@ -61,13 +64,13 @@ class Improvement(_results.OfModel):
     @property
     def solutions(self):
         """The solutions, a Design each, that of least change first."""
-        return tuple(self._designs[one["name"]](one) for one in self._document["solutions"])
+        return tuple(self._design(one) for one in self._document["solutions"])
 
     @property
     def nearest(self):
         """Without solutions, the Design that came nearest; else None."""
         one = self._document["nearest"]
-        return None if one is None else self._designs[one["name"]](one)
+        return None if one is None else self._design(one)
 
 
 def improve(mesh, *, target=None, copies=None, within=None, solutions=None, front=False, direction=None,
@@ -109,18 +112,18 @@ def improve(mesh, *, target=None, copies=None, within=None, solutions=None, fron
                "joint_reach": joint_reach, "ctrl": ctrl, "grp": grp, "format": format, "unit": unit, "up": up,
                "labels": labels, "threads": threads, "no_pictures": True, "output": "designs"}
     inputs = Inputs()
-    arguments = command_line("improve", [inputs.name_of(mesh, "<mesh>")], options)
-    return _designs(_core.ImprovementThread(arguments, inputs.meshes, inputs.projects), progress)
+    arguments = command_line("improve", [inputs.name_of(mesh, "<mesh>", "improve")], options)
+    return _designs(_core.ImprovementRun(arguments, inputs.meshes, inputs.projects), progress)
 
 
-def _designs(thread, progress):
+def _designs(run, progress):
     try:
-        while (found := thread.next(progress)) is not None:
+        while (found := run.next(progress)) is not None:
             text, mesh = found
             yield Design(json.loads(text), mesh, None)
-        _, text, meshes, texts = thread.result()
+        _, text, meshes, texts = run.result()
     finally:
-        thread.stop()
+        run.stop()
     improvement = Improvement(json.loads(text), meshes, texts)
     yield from improvement.solutions
     return improvement

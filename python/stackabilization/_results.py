@@ -1,14 +1,26 @@
 """Results: frozen views of the JSON that the program writes."""
 
+from __future__ import annotations
+
 import copy
 import fractions
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy
 
+from ._core import Mesh
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Floats = NDArray[numpy.float64]
+
+Document = dict[str, Any]
 _DIGITS_AT_ONCE = 4000  # Python converts no more than 4300 at once
 
 
-def _integer(text):
+def _integer(text: str) -> int:
     """The number of a decimal text of any length."""
     sign, digits = (-1, text[1:]) if text.startswith("-") else (1, text)
     value = 0
@@ -18,82 +30,113 @@ def _integer(text):
     return sign * value
 
 
-def fraction_of(numerator, denominator):
+def fraction_of(numerator: str, denominator: str) -> fractions.Fraction:
     """A Fraction of two decimal texts."""
     return fractions.Fraction(_integer(numerator), _integer(denominator))
 
 
-def fraction(value):
+def fraction(value: Mapping[str, str]) -> fractions.Fraction:
     return fraction_of(value["numerator"], value["denominator"])
 
 
-def _fractions(values):
+def _fractions(values: Sequence[Mapping[str, str]]) -> tuple[fractions.Fraction, ...]:
     return tuple(fraction(value) for value in values)
 
 
-def vector(values):
-    vector = numpy.array(values, dtype=float)
+def vector(values: Any) -> Floats:
+    vector: Floats = numpy.array(values, dtype=float)
     vector.setflags(write=False)
     return vector
 
 
-def _names(values):
+def _names(values: Sequence[Any]) -> tuple[Any, ...]:
     return tuple(values)
 
 
-def copied(value):
+def copied(value: Any) -> Any:
     """A copy that may be changed."""
     return copy.deepcopy(value)
 
 
-class field:
+class _Field:
     """An attribute that reads a value of the document."""
 
-    def __init__(self, doc, key=None, convert=None):
+    def __init__(self, doc: str, key: str | None, convert: Callable[[Any], object] | None) -> None:
         self.__doc__ = doc
         self.key = key
         self.convert = convert
 
-    def __set_name__(self, owner, name):
+    def __set_name__(self, owner: type, name: str) -> None:
         self.key = self.key or name
 
-    def __get__(self, result, owner=None):
+    def __get__(self, result: Result | None, owner: type | None = None) -> Any:
         if result is None:
             return self
         value = result._document.get(self.key)
         return value if self.convert is None or value is None else self.convert(value)
 
-    def __set__(self, result, value):
+    def __set__(self, result: Result, value: object) -> None:
+        raise AttributeError("results cannot be changed")
+
+    def __delete__(self, result: Result) -> None:
         raise AttributeError("results cannot be changed")
 
 
-class Result:
+def field(doc: str, key: str | None = None, convert: Callable[[Any], object] | None = None) -> Any:
+    """An attribute that reads the value `key` of the document, by default of its own name."""
+    return _Field(doc, key, convert)
+
+
+class Frozen:
+    """It cannot be changed, but copied and pickled."""
+
+    __slots__ = ()
+
+    def __setattr__(self, name: str, value: object) -> None:
+        raise AttributeError("results cannot be changed")
+
+    def __delattr__(self, name: str) -> None:
+        raise AttributeError("results cannot be changed")
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        slots = [slot for kind in type(self).__mro__ for slot in getattr(kind, "__slots__", ())]
+        return _remade, (type(self), {slot: getattr(self, slot) for slot in slots})
+
+
+def _remade(kind: type, values: Mapping[str, Any]) -> Any:
+    made = object.__new__(kind)
+    for slot, value in values.items():
+        if isinstance(value, numpy.ndarray):
+            value.setflags(write=False)
+        object.__setattr__(made, slot, value)
+    return made
+
+
+class Result(Frozen):
     """Something that was found. It cannot be changed; results with the same values are equal."""
 
     __slots__ = ("_document",)
-    _shown = ()
+    _shown: tuple[str, ...] = ()
+    _document: Document
 
-    def __init__(self, document):
+    def __init__(self, document: Document) -> None:
         object.__setattr__(self, "_document", document)
 
-    def to_dict(self):
-        """A copy of the whole result, as the program writes it with --json --no-timing."""
+    def to_dict(self) -> Document:
+        """A copy of the whole result; of a command, what the program writes with --json --no-timing."""
         return copy.deepcopy(self._document)
 
-    def __setattr__(self, name, value):
-        raise AttributeError("results cannot be changed")
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Result) and type(self) is type(other) and self._document == other._document
 
-    def __eq__(self, other):
-        return type(self) is type(other) and self._document == other._document
+    __hash__ = None  # type: ignore[assignment]
 
-    __hash__ = None
-
-    def __repr__(self):
+    def __repr__(self) -> str:
         shown = ", ".join(f"{name}={_short(getattr(self, name))}" for name in self._shown)
         return f"<{type(self).__name__}: {shown}>"
 
 
-def _short(value):
+def _short(value: object) -> str:
     if isinstance(value, float):
         return f"{value:.6g}"
     if isinstance(value, numpy.ndarray) and value.ndim == 1:
@@ -118,13 +161,13 @@ class Findings(Result):
     boundary_edges: int = field("Edges of one face only.")
     non_manifold_edges: int = field("Edges of more than two faces.")
     inconsistent_edges: int = field("Edges whose faces have opposite orientations.")
-    self_intersections: "int | None" = field("Pairs of faces that intersect; None where not counted.")
+    self_intersections: int | None = field("Pairs of faces that intersect; None where not counted.")
     closed: bool = field("Is it a closed surface?")
-    volume: "float | None" = field("Enclosed volume, model units cubed; None where it is open.")
+    volume: float | None = field("Enclosed volume, model units cubed; None where it is open.")
     oriented_outward: bool = field("Do the faces point outwards?")
-    lower: numpy.ndarray = field("(3,) lowest corner of the axis-aligned box, model units.", convert=vector)
-    upper: numpy.ndarray = field("(3,) highest corner of the axis-aligned box, model units.", convert=vector)
-    likely_up: "str | None" = field("Axis that probably points up; None where it cannot be told.")
+    lower: Floats = field("(3,) lowest corner of the axis-aligned box, model units.", convert=vector)
+    upper: Floats = field("(3,) highest corner of the axis-aligned box, model units.", convert=vector)
+    likely_up: str | None = field("Axis that probably points up; None where it cannot be told.")
     up_reason: str = field("Why that axis.")
 
 
@@ -134,7 +177,7 @@ class OfModel(Result):
     __slots__ = ()
     command: str = field("Command of the program that says the same.")
     model: str = field("Path of the mesh, or '<mesh>' for one in memory.")
-    unit: "str | None" = field("Unit of lengths; None where it is unknown.")
+    unit: str | None = field("Unit of lengths; None where it is unknown.")
     findings: Findings = field("What is in the mesh.", convert=Findings)
 
 
@@ -143,7 +186,7 @@ class Inspection(OfModel):
 
     __slots__ = ()
     _shown = ("findings", "part_names")
-    part_names: tuple = field("Names of the parts.", convert=_names)
+    part_names: tuple[str, ...] = field("Names of the parts.", convert=_names)
 
 
 class Witness(Result):
@@ -153,17 +196,17 @@ class Witness(Result):
     _shown = ("upper_triangle", "lower_triangle", "upper_point", "lower_point")
 
     @property
-    def upper_triangle(self):
+    def upper_triangle(self) -> int:
         """Row of the face of the mesh below that is touched."""
         return self._document["triangles"][0]
 
     @property
-    def lower_triangle(self):
+    def lower_triangle(self) -> int:
         """Row of the face of the mesh above that touches it."""
         return self._document["triangles"][1]
 
-    upper_point: numpy.ndarray = field("(3,) point of that face below, model units, rounded.", "point", vector)
-    lower_point: numpy.ndarray = field("(3,) point of the face above, before the lift, model units, rounded.",
+    upper_point: Floats = field("(3,) point of that face below, model units, rounded.", "point", vector)
+    lower_point: Floats = field("(3,) point of the face above, before the lift, model units, rounded.",
                                         convert=vector)
 
 
@@ -173,14 +216,14 @@ class Contact(Result):
     __slots__ = ()
     _shown = ("type", "parts", "area")
     type: str = field("'dot', 'line' or 'ring'.")
-    parts: tuple = field("Names of the parts that touch: of the copy below, and of the one above.", convert=_names)
+    parts: tuple[str, str] = field("Names of the parts that touch: of the copy below, and of the one above.", convert=_names)
     area: float = field("Model units squared.")
-    centre: numpy.ndarray = field("(3,) on the copy below, model units.", convert=vector)
-    lower_centre: numpy.ndarray = field("(3,) on the copy above, before the lift.", convert=vector)
-    long_axis: numpy.ndarray = field("(3,) unit vector along the region.", convert=vector)
+    centre: Floats = field("(3,) on the copy below, model units.", convert=vector)
+    lower_centre: Floats = field("(3,) on the copy above, before the lift.", convert=vector)
+    long_axis: Floats = field("(3,) unit vector along the region.", convert=vector)
 
 
-def _contacts(values):
+def _contacts(values: Sequence[Document]) -> tuple[Contact, ...]:
     return tuple(Contact(value) for value in values)
 
 
@@ -198,7 +241,7 @@ class Separation(Result):
     witness: Witness = field("What causes it.", convert=Witness)
 
     @property
-    def gradient(self):
+    def gradient(self) -> Gradient | None:
         """A subgradient of `length`; None where a face without area attains it."""
         values = self._document["gradient"]
         return None if values is None else Gradient(values)
@@ -212,14 +255,14 @@ class Gradient(Result):
 
     __slots__ = ()
     _shown = ("direction",)
-    upper: numpy.ndarray = field("(3, 3): row i by corner i of witness.upper_triangle, of the mesh below.",
+    upper: Floats = field("(3, 3): row i by corner i of witness.upper_triangle, of the mesh below.",
                                  convert=vector)
-    lower: numpy.ndarray = field("(3, 3): row i by corner i of witness.lower_triangle, of the mesh above.",
+    lower: Floats = field("(3, 3): row i by corner i of witness.lower_triangle, of the mesh above.",
                                  convert=vector)
-    direction: numpy.ndarray = field("(3,) by the direction.", convert=vector)
+    direction: Floats = field("(3,) by the direction.", convert=vector)
 
 
-def separation_of(found):
+def separation_of(found: tuple[Any, ...] | None) -> Separation | None:
     """A Separation of what the compiled part returns."""
     if found is None:
         return None
@@ -237,22 +280,22 @@ class Measurement(OfModel):
 
     __slots__ = ()
     _shown = ("stackability", "f_max", "height", "direction")
-    direction: numpy.ndarray = field("(3,) as given.", convert=vector)
+    direction: Floats = field("(3,) as given.", convert=vector)
     method: str = field("'exact', 'rays' or 'raster'.")
     semantics: str = field("'solid': walls may slide along each other; 'closed': touching counts.")
     boxes: str = field("'oriented' or 'frame'.")
     f_max: float = field("Smallest lift that sets a copy free, model units: the pitch of the stack.")
     height: float = field("Of one copy along the direction, model units.")
-    f_max_over_height: "float | None" = field("f_max / height; None for a flat mesh across the direction.")
-    stackability: "float | None" = field("S: the share of space that a tall stack saves; None for a flat mesh.")
+    f_max_over_height: float | None = field("f_max / height; None for a flat mesh across the direction.")
+    stackability: float | None = field("S: the share of space that a tall stack saves; None for a flat mesh.")
     nesting_increment: float = field("What each further copy adds to the stack, model units.")
     box_volume: float = field("Box of one copy, model units cubed.")
     stack_box_volume: float = field("Box of one copy with a side along the direction, model units cubed.")
-    f_max_exact: "fractions.Fraction | None" = field("f_max in units of the direction; None where sampled.", "exact",
+    f_max_exact: fractions.Fraction | None = field("f_max in units of the direction; None where sampled.", "exact",
                                                       fraction)
-    witness: "Witness | None" = field("What causes f_max; None where nothing does, or sampled.", convert=Witness)
-    contacts: "tuple | None" = field("Where a copy rests on the one below; None where sampled.", convert=_contacts)
-    sampling: "dict | None" = field("What sampling did to f_max; None where exact.", convert=copied)
+    witness: Witness | None = field("What causes f_max; None where nothing does, or sampled.", convert=Witness)
+    contacts: tuple[Contact, ...] | None = field("Where a copy rests on the one below; None where sampled.", convert=_contacts)
+    sampling: Document | None = field("What sampling did to f_max; None where exact.", convert=copied)
 
 
 class Optimum(Result):
@@ -260,7 +303,7 @@ class Optimum(Result):
 
     __slots__ = ()
     _shown = ("stackability", "direction")
-    direction: numpy.ndarray = field("(3,) unit vector.", convert=vector)
+    direction: Floats = field("(3,) unit vector.", convert=vector)
     stackability: float = field("S along it.")
 
 
@@ -270,16 +313,17 @@ class Search(Measurement):
     __slots__ = ()
     evaluated: int = field("Directions tried.")
     abandoned: int = field("Of these, given up too far below the best.")
-    optima: tuple = field("Local optima, best first.", convert=lambda values: tuple(map(Optimum, values)))
+    optima: tuple[Optimum, ...] = field("Local optima, best first.", convert=lambda values: tuple(map(Optimum, values)))
 
 
 class Map(OfModel):
     """S over the hemisphere above the xy plane, k directions; opposite directions stack alike."""
 
     __slots__ = ("_samples",)
+    _samples: Floats
     _shown = ("step_degrees", "best", "mean_stackability")
 
-    def __init__(self, document, samples):
+    def __init__(self, document: Document, samples: Floats) -> None:
         super().__init__(document)
         samples.setflags(write=False)
         object.__setattr__(self, "_samples", samples)
@@ -290,32 +334,32 @@ class Map(OfModel):
     mean_stackability: float = field("Mean over the directions, which are spread evenly.")
 
     @property
-    def theta_degrees(self):
+    def theta_degrees(self) -> Floats:
         """(k,) angles from +z."""
         return self._samples[:, 0]
 
     @property
-    def phi_degrees(self):
+    def phi_degrees(self) -> Floats:
         """(k,) angles from +x towards +y."""
         return self._samples[:, 1]
 
     @property
-    def directions(self):
+    def directions(self) -> Floats:
         """(k, 3) unit vectors, rings from +z downwards."""
         return self._samples[:, 2:5]
 
     @property
-    def f_max_over_height(self):
+    def f_max_over_height(self) -> Floats:
         """(k,) in [0, 1]."""
         return self._samples[:, 5]
 
     @property
-    def stackability(self):
+    def stackability(self) -> Floats:
         """(k,) S along each."""
         return self._samples[:, 6]
 
 
-def _transforms(copies):
+def _transforms(copies: Sequence[Document]) -> Floats:
     transforms = numpy.zeros((len(copies), 4, 4))
     transforms[:, 3, 3] = 1
     for transform, one in zip(transforms, copies):
@@ -330,23 +374,23 @@ class Stack(OfModel):
 
     __slots__ = ()
     _shown = ("n", "height", "nesting_increment", "stackability")
-    direction: numpy.ndarray = field("(3,) as given; copies come from above along it.", convert=vector)
+    direction: Floats = field("(3,) as given; copies come from above along it.", convert=vector)
     n: int = field("Number of copies.")
-    transforms: numpy.ndarray = field("(n, 4, 4): takes the mesh to its place as each copy, bottom first.", "copies",
+    transforms: Floats = field("(n, 4, 4): takes the mesh to its place as each copy, bottom first.", "copies",
                                        _transforms)
-    offsets: tuple = field("(n,) lifts along the direction, model units.", convert=_names)
-    exact_offsets: tuple = field("(n,) the same as Fractions, in units of the direction.", convert=_fractions)
+    offsets: tuple[float, ...] = field("(n,) lifts along the direction, model units.", convert=_names)
+    exact_offsets: tuple[fractions.Fraction, ...] = field("(n,) the same as Fractions, in units of the direction.", convert=_fractions)
     twist_degrees: float = field("Turn of each copy against the one below.")
     period: int = field("Length of the cycle of poses.")
-    poses: tuple = field("Per copy of a period, how it is turned.", convert=_names)
+    poses: tuple[Document, ...] = field("Per copy of a period, how it is turned.", convert=_names)
     clearance: float = field("Air along the direction, model units.")
     lateral_clearance: float = field("Sideways play, model units.")
     copy_height: float = field("Of one copy, model units.")
     height: float = field("Of the stack, model units.")
     nesting_increment: float = field("What each further copy adds, model units.")
     stackability: float = field("Share of space that this stack saves.")
-    conflicts: list = field("Pairs of copies that are no neighbours and would overlap.", convert=copied)
-    within: "dict | None" = field("Whether the stack fits the length asked for: 'met' says so.", convert=copied)
+    conflicts: list[Any] = field("Pairs of copies that are no neighbours and would overlap.", convert=copied)
+    within: Document | None = field("Whether the stack fits the length asked for: 'met' says so.", convert=copied)
 
 
 class Nest(OfModel):
@@ -355,19 +399,19 @@ class Nest(OfModel):
     __slots__ = ()
     _shown = ("offset", "height", "saving", "on_floor")
     into: str = field("The container.")
-    direction: numpy.ndarray = field("(3,) as given.", convert=vector)
+    direction: Floats = field("(3,) as given.", convert=vector)
     offset: float = field("Lift from where the file puts the mesh, model units; negative: it comes down.")
     exact_offset: fractions.Fraction = field("The same in units of the direction.", convert=fraction)
     on_floor: bool = field("Does it stand on the floor below the container?")
-    witness: "Witness | None" = field("What it rests on; None on the floor.", convert=Witness)
+    witness: Witness | None = field("What it rests on; None on the floor.", convert=Witness)
     container_height: float = field("Model units.")
     content_height: float = field("Model units.")
     height: float = field("Of both, model units.")
     saving: float = field("How much less that is than both heights, model units.")
-    stackability: "float | None" = field("Share of space that nesting saves.")
+    stackability: float | None = field("Share of space that nesting saves.")
 
     @property
-    def transform(self):
+    def transform(self) -> Floats:
         """(4, 4): takes the mesh from its place to where it rests."""
         transform = numpy.eye(4)
         transform[:3, 3] = float(self.exact_offset) * self.direction
@@ -381,12 +425,12 @@ class Gap(OfModel):
     __slots__ = ()
     _shown = ("gap", "witness")
     above: str = field("The mesh that comes down.")
-    direction: numpy.ndarray = field("(3,) as given.", convert=vector)
+    direction: Floats = field("(3,) as given.", convert=vector)
     semantics: str = field("'solid' or 'closed'.")
-    gap: "float | None" = field("How far it can come down, model units; negative: it has to be lifted by as much to "
+    gap: float | None = field("How far it can come down, model units; negative: it has to be lifted by as much to "
                                 "be free; None: the two pass each other.")
-    exact: "fractions.Fraction | None" = field("The same in units of the direction.", convert=fraction)
-    witness: "Witness | None" = field("What touches first.", convert=Witness)
+    exact: fractions.Fraction | None = field("The same in units of the direction.", convert=fraction)
+    witness: Witness | None = field("What touches first.", convert=Witness)
 
 
 class Validation(OfModel):
@@ -395,26 +439,28 @@ class Validation(OfModel):
     __slots__ = ()
     _shown = ("passed", "checks")
     passed: bool = field("Do all agree?")
-    checks: list = field("A dict per method: name, value, error, verdict and note.", convert=copied)
+    checks: list[Document] = field("A dict per method: name, value, error, verdict and note.", convert=copied)
 
 
 class Structured(OfModel):
     """A result that has a mesh of its own."""
 
     __slots__ = ("_mesh", "_project")
+    _mesh: Mesh | None
+    _project: str | None
 
-    def __init__(self, document, mesh, project):
+    def __init__(self, document: Document, mesh: Mesh | None, project: str | None) -> None:
         super().__init__(document)
         object.__setattr__(self, "_mesh", mesh)
         object.__setattr__(self, "_project", project)
 
     @property
-    def mesh(self):
+    def mesh(self) -> Mesh | None:
         """The Mesh; None where there is none."""
         return self._mesh
 
     @property
-    def project(self):
+    def project(self) -> str | None:
         """Text of a project file, which holds mesh and structure; None where there is none.
 
         Written to a file it is read by the program. The result itself may stand for a mesh in `deform`,
@@ -429,18 +475,18 @@ class Structure(Structured):
     __slots__ = ()
     _shown = ("part_names",)
     diagonal: float = field("Of the mesh, model units: residuals are fractions of it.")
-    parts: list = field("A dict per part: name, triangles.", convert=copied)
-    primitives: list = field("A dict per part: its cuboid or generalized cylinder.", convert=copied)
-    symmetries: list = field("A dict per symmetry of the whole.", convert=copied)
-    relations: list = field("A dict per relation: type, parts, residual.", convert=copied)
+    parts: list[Document] = field("A dict per part: name, triangles.", convert=copied)
+    primitives: list[Document] = field("A dict per part: its cuboid or generalized cylinder.", convert=copied)
+    symmetries: list[Document] = field("A dict per symmetry of the whole.", convert=copied)
+    relations: list[Document] = field("A dict per relation: type, parts, residual.", convert=copied)
 
     @property
-    def part_names(self):
+    def part_names(self) -> tuple[str, ...]:
         """Names of the parts."""
         return tuple(part["name"] for part in self._document["parts"])
 
 
-def lines(explanation):
+def lines(explanation: Mapping[str, Any]) -> tuple[str, ...]:
     return tuple(explanation["lines"])
 
 
@@ -450,15 +496,15 @@ class Deformation(Structured):
     __slots__ = ()
     _shown = ("edits", "refusal", "explanation")
     deformation: str = field("What moved the mesh: the `model` asked for.")
-    edits: tuple = field("What was done.", convert=_names)
-    refusal: "dict | None" = field("Why it was refused: reason, relation, amount; None: it was not.",
+    edits: tuple[str, ...] = field("What was done.", convert=_names)
+    refusal: Document | None = field("Why it was refused: reason, relation, amount; None: it was not.",
                                     convert=copied)
-    explanation: "tuple | None" = field("What changes, in words.", convert=lines)
-    displacement: "dict | None" = field("Of the vertices, model units: root_mean_square and largest.",
+    explanation: tuple[str, ...] | None = field("What changes, in words.", convert=lines)
+    displacement: Document | None = field("Of the vertices, model units: root_mean_square and largest.",
                                          convert=copied)
-    residuals: "dict | None" = field("Largest residuals of joints and symmetries, fractions of the diagonal.",
+    residuals: Document | None = field("Largest residuals of joints and symmetries, fractions of the diagonal.",
                                       convert=copied)
-    relations: "list | None" = field("As in Structure, after the edits.", convert=copied)
+    relations: list[Document] | None = field("As in Structure, after the edits.", convert=copied)
 
 
 class Suggestion(Result):
@@ -466,13 +512,13 @@ class Suggestion(Result):
 
     __slots__ = ()
     _shown = ("number", "edit", "stackability")
-    number: "int | None" = field("For `apply`; None where it is refused.")
+    number: int | None = field("For `apply`; None where it is refused.")
     edit: str = field("What to do, as `deform` takes it.")
     words: str = field("The same in words.")
     why: str = field("What it is good for.")
-    stackability: "float | None" = field("S after it.")
-    energy: "dict | None" = field("E of the paper after it, and what it is made of.", convert=copied)
-    refusal: "str | None" = field("Why it cannot be made.")
+    stackability: float | None = field("S after it.")
+    energy: Document | None = field("E of the paper after it, and what it is made of.", convert=copied)
+    refusal: str | None = field("Why it cannot be made.")
 
 
 class Suggestions(Structured):
@@ -480,15 +526,15 @@ class Suggestions(Structured):
 
     __slots__ = ()
     _shown = ("possible", "suggestions")
-    direction: numpy.ndarray = field("(3,) along which copies are stacked.", convert=vector)
-    now: dict = field("Where the shape stands: S, E, f_max.", convert=copied)
-    contacts: tuple = field("Where copies touch now.", convert=_contacts)
+    direction: Floats = field("(3,) along which copies are stacked.", convert=vector)
+    now: Document = field("Where the shape stands: S, E, f_max.", convert=copied)
+    contacts: tuple[Contact, ...] = field("Where copies touch now.", convert=_contacts)
     possible: int = field("How many can be made.")
     refused: int = field("How many cannot.")
-    suggestions: tuple = field("What was asked for of them.",
+    suggestions: tuple[Suggestion, ...] = field("What was asked for of them.",
                                 convert=lambda values: tuple(Suggestion(value) for value in values))
-    applied: "int | None" = field("The number that was applied.")
-    history: dict = field("The tree of what was tried: current and nodes.", convert=copied)
+    applied: int | None = field("The number that was applied.")
+    history: Document = field("The tree of what was tried: current and nodes.", convert=copied)
 
 
 class Comparison(OfModel):
@@ -498,5 +544,5 @@ class Comparison(OfModel):
     _shown = ("acceptable", "explanation")
     after: str = field("The changed shape.")
     acceptable: bool = field("Are all limits kept?")
-    explanation: tuple = field("What changes, in words.", convert=lines)
-    quality: list = field("A dict per measure: name, value, limit, unit, kept, part, other.", convert=copied)
+    explanation: tuple[str, ...] = field("What changes, in words.", convert=lines)
+    quality: list[Document] = field("A dict per measure: name, value, limit, unit, kept, part, other.", convert=copied)

@@ -1,6 +1,8 @@
 """measure, inspect, search, map and validate."""
 
+import copy
 import fractions
+import pickle
 
 import numpy
 import pytest
@@ -44,6 +46,18 @@ def test_results_cannot_be_changed(cup):
     assert measured.contacts and measured == st.measure(cup)
 
 
+def test_results_are_copied_and_pickled(cup):
+    for result in (st.measure(cup), st.stack(cup), st.map(cup, step_degrees=45), st.structure(cup)):
+        for again in (copy.deepcopy(result), pickle.loads(pickle.dumps(result))):
+            assert again == result and repr(again) == repr(result)
+            with pytest.raises(AttributeError):
+                again.model = "other"
+            with pytest.raises(AttributeError):
+                del again.model
+    assert numpy.array_equal(pickle.loads(pickle.dumps(st.map(cup, step_degrees=45))).stackability,
+                             st.map(cup, step_degrees=45).stackability)
+
+
 def test_sampling_says_what_it_did(cup):
     sampled = st.measure(cup, method="raster", resolution=64)
     assert sampled.sampling["resolution"] == 64 and sampled.witness is None and sampled.f_max_exact is None
@@ -68,9 +82,24 @@ def test_options_are_refused_in_the_words_of_the_program(cup, keywords, argument
     assert str(refusal.value) == program_error("measure", cup, *arguments)
 
 
-def test_values_of_other_types_are_refused(cup):
-    with pytest.raises(st.UsageError, match="direction expects a number, a text or a list of these, found object"):
-        st.measure(cup, direction=object())
+@pytest.mark.parametrize("keywords, words", [
+    ({"direction": (0, 0, 1, 1)}, r"direction expects three numbers, found \(0, 0, 1, 1\)"),
+    ({"direction": []}, r"direction expects three numbers, found \[\]"),
+    ({"direction": "0 0 1"}, "direction expects three numbers, found '0 0 1'"),
+    ({"direction": 7}, "direction expects three numbers, found 7"),
+    ({"resolution": object}, "resolution expects a number, a text or a list of these, found <class 'object'>"),
+    ({"threads": True}, "threads expects a number, a text or a list of these, found True"),
+    ({"semantics": "so\0lid"}, "semantics expects a text in UTF-8, found 'so\\\\x00lid'"),
+])
+def test_values_of_other_types_are_refused(cup, keywords, words):
+    with pytest.raises(st.UsageError, match=words):
+        st.measure(cup, **keywords)
+
+
+def test_flags_are_true_or_false(cup):
+    with pytest.raises(st.UsageError, match="self_intersections expects True or False, found 1"):
+        st.inspect(cup, self_intersections=1)
+    assert st.inspect(cup, self_intersections=numpy.bool_(True)).findings.self_intersections == 0
 
 
 def test_a_search_finds_what_no_sample_of_the_map_beats(cup):

@@ -1,6 +1,7 @@
 """Meshes in and arrays out: what is taken, what is refused, and what is copied."""
 
 import pathlib
+import pickle
 import tracemalloc
 import types
 import weakref
@@ -74,6 +75,12 @@ def test_other_orders_and_precisions_are_converted():
     (numpy.eye(3), [[0.0, 1.0, 2.0]], "faces expects whole numbers, found float64"),
     ([["a", "b", "c"]], [[0, 1, 2]], "vertices expects numbers, found <U1"),
     (numpy.eye(3), [[0, 1, -1]], "row 0 of faces refers to vertex -1"),
+    (numpy.eye(3), [[0, 1, 2], [0, 2**32, 2]], "row 1 of faces refers to vertex 4294967296"),
+    (numpy.eye(3), numpy.array([[0, 1, 2**63]], numpy.uint64), "row 0 of faces refers to vertex 9223372036854775808"),
+    (numpy.ma.masked_less(numpy.eye(3), 0.5), [[0, 1, 2]],
+     "vertices expects an array of shape (n, 3) without masked values"),
+    ([[0, 0, 0], [1, 0]], [[0, 1, 2]], "vertices expects an array of shape (n, 3)"),
+    (numpy.eye(3).astype(object), [[0, 1, 2]], "vertices expects numbers, found object"),
     (numpy.eye(3), [[0, 1, 2], [0, 1, 3]], "triangle 1 refers to vertex 3 of 3"),
     ([[0, 0, 0], [1, 0, 0], [0, numpy.nan, 0]], [[0, 1, 2]],
      "vertex 2 of triangle 0 has a coordinate that is not a finite number"),
@@ -86,12 +93,54 @@ def test_bad_arrays_are_refused_by_row(vertices, faces, words):
     assert isinstance(refusal.value, ValueError)
 
 
+def test_what_an_object_raises_instead_of_numbers_is_the_cause():
+    class Broken:
+        def __init__(self, error):
+            self.error = error
+
+        def __array__(self, *_):
+            raise self.error
+
+    with pytest.raises(st.InputError, match="vertices expects an array") as refusal:
+        st.measure((Broken(RuntimeError("no GPU here")), [[0, 1, 2]]))
+    assert "no GPU here" in str(refusal.value.__cause__)
+    with pytest.raises(KeyboardInterrupt):
+        st.measure((Broken(KeyboardInterrupt()), [[0, 1, 2]]))
+
+
+def test_memory_of_any_layout_gives_the_same_mesh():
+    vertices, faces = box((0, 0, 0), (1, 1, 1))
+    frozen = vertices.copy()
+    frozen.setflags(write=False)
+    unaligned = numpy.frombuffer(b"-" + vertices.tobytes(), numpy.uint8)[1:].view(numpy.float64).reshape(-1, 3)
+    for other in (frozen, unaligned, vertices.astype(">f8"), numpy.asfortranarray(vertices), vertices[::-1][::-1],
+                  numpy.repeat(vertices, 2, axis=0)[::2]):
+        assert numpy.array_equal(st.Mesh(other, faces).vertices, vertices)
+    for other in (numpy.asfortranarray(faces), faces.astype(">i2"), faces[::-1][::-1]):
+        assert numpy.array_equal(st.Mesh(vertices, other).faces, faces)
+
+
+def test_a_mesh_keeps_what_it_was_made_of():
+    vertices, faces = box((0, 0, 0), (1, 1, 1))
+    mesh = st.Mesh(vertices, faces)
+    vertices[:], faces[:] = 7, 0
+    assert mesh.vertices.max() == 1 and mesh.faces.max() == 7
+
+
 def test_bad_parts_and_units_are_refused():
     vertices, faces = box((0, 0, 0), (1, 1, 1))
     with pytest.raises(st.InputError, match="one part index per triangle"):
         st.Mesh(vertices, faces, face_parts=[0])
     with pytest.raises(st.InputError, match="triangle 0 belongs to a part that does not exist"):
         st.Mesh(vertices, faces, face_parts=[3] * 12)
+    with pytest.raises(st.InputError, match="row 2 of face_parts is 4294967296"):
+        st.Mesh(vertices, faces, face_parts=numpy.array([0, 0, 2**32] + [0] * 9))
+    with pytest.raises(st.InputError, match="face_parts expects whole numbers, found float64"):
+        st.Mesh(vertices, faces, face_parts=[0.5] * 12)
+    with pytest.raises(st.InputError, match="parts expects a list of names, found 'seat'"):
+        st.Mesh(vertices, faces, parts="seat")
+    with pytest.raises(st.InputError, match=r"the part name '\\udcff' is not UTF-8"):
+        st.Mesh(vertices, faces, parts=["\udcff"])
     with pytest.raises(st.InputError, match="the part name 'a' occurs twice"):
         st.Mesh(vertices, faces, parts=["a", "a"])
     with pytest.raises(st.UsageError, match="unit expects one of um, mm, cm, m, in, ft, found 'yard'"):
@@ -141,6 +190,43 @@ def test_objects_of_vtk_stand_for_a_mesh():
         st.measure(cube.GetOutput())
 
 
+def test_meshes_of_vtk_are_read_without_a_loop():
+    sources = pytest.importorskip("vtkmodules.vtkFiltersSources")
+    core = pytest.importorskip("vtkmodules.vtkFiltersCore")
+    modelling = pytest.importorskip("vtkmodules.vtkCommonDataModel")
+    sphere, triangles = sources.vtkSphereSource(), core.vtkTriangleFilter()
+    triangles.SetInputConnection(sphere.GetOutputPort())
+    triangles.Update()
+    mesh = st.Solver(triangles.GetOutput()).mesh
+    assert len(mesh.faces) == triangles.GetOutput().GetNumberOfPolys()
+    assert numpy.linalg.norm(mesh.vertices, axis=1) == pytest.approx(0.5)
+    strips = core.vtkStripper()
+    strips.SetInputConnection(triangles.GetOutputPort())
+    strips.Update()
+    with pytest.raises(st.InputError, match="triangle strips: triangulate|has no polygons"):
+        st.measure(strips.GetOutput())
+    with pytest.raises(st.InputError, match="the vtkPolyData has no polygons"):
+        st.measure(modelling.vtkPolyData())
+
+
+def test_meshes_of_open3d_are_read():
+    open3d = pytest.importorskip("open3d")
+    ball = open3d.geometry.TriangleMesh.create_sphere(radius=2)
+    mesh = st.Solver(ball).mesh
+    assert numpy.array_equal(mesh.vertices, numpy.asarray(ball.vertices))
+    assert st.measure(ball).height == 4
+
+
+def test_meshes_of_trimesh_are_read():
+    trimesh = pytest.importorskip("trimesh")
+    assert st.measure(trimesh.creation.box((1, 2, 3))).f_max == 3
+
+
+def test_meshes_of_pyvista_are_read():
+    pyvista = pytest.importorskip("pyvista")
+    assert st.measure(pyvista.Cube(z_length=3).triangulate()).f_max == 3
+
+
 def test_polygons_are_refused_by_row():
     vertices, _ = box((0, 0, 0), (1, 1, 1))
     with pytest.raises(st.InputError, match="face 1 has 4 corners, expected 3"):
@@ -172,6 +258,20 @@ def test_files_are_refused_in_the_words_of_the_program(tmp_path):
         with pytest.raises(st.InputError) as refusal:
             st.load(path)
         assert str(refusal.value) == program_error("measure", path)
+
+
+@pytest.mark.parametrize("path", ["\udcff.obj", "a\0b.obj"])
+def test_paths_that_no_file_can_have_are_refused(path):
+    for call in (st.load, st.measure):
+        with pytest.raises(st.UsageError, match="path expects a text in UTF-8"):
+            call(path)
+
+
+def test_meshes_go_through_pickle():
+    mesh = st.Mesh(*box((0, 0, 0), (1, 1, 1)), parts=["a", "b"], face_parts=[0] * 5 + [1] * 7, unit="mm")
+    again = pickle.loads(pickle.dumps(mesh))
+    assert numpy.array_equal(again.vertices, mesh.vertices) and numpy.array_equal(again.faces, mesh.faces)
+    assert (again.parts, again.unit, again.face_parts.tolist()) == (mesh.parts, mesh.unit, mesh.face_parts.tolist())
 
 
 def test_a_mesh_in_memory_has_no_file_to_be_read():

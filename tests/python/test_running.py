@@ -56,9 +56,9 @@ def test_an_interrupt_ends_a_long_call(chair, call):
         told = False
         def progress(step, fraction):
             global told
-            if not told:
+            first, told = not told, True
+            if first:
                 print("running", flush=True)
-            told = True
         try:
             {call}
         except KeyboardInterrupt:
