@@ -117,16 +117,16 @@ class EditingSession {
   /// Lets running jobs end soon. Their results are dropped.
   void cancel();
 
-  const Document& document() const;         ///< everything that is saved
-  const DeformationModel& space() const;    ///< designs of the shape
-  const Direction& direction() const;       ///< r of the current node
-  const Stackability& at_rest() const;      ///< S of the shape at rest along `direction`
-  const MeasuredDesign& current() const;    ///< design of the current node
-  const MeasuredDesign& shown() const;      ///< the dragged design while dragging, else the current one
-  const std::optional<Edit>& drag() const;  ///< edit that `shown` has beyond the current node, while dragging
-  bool dragging() const;                    ///< whether a drag was not ended yet
-  bool can_undo() const;                    ///< whether Undo has an effect
-  bool can_redo() const;                    ///< whether Redo has an effect
+  const Document& document() const;       ///< everything that is saved
+  const DeformationModel& space() const;  ///< designs of the shape
+  const Direction& direction() const;     ///< r of the current node
+  const Stackability& at_rest() const;    ///< S of the shape at rest along `direction`
+  const MeasuredDesign& current() const;  ///< design of the current node
+  const MeasuredDesign& shown() const;    ///< the dragged design while dragging, else the current one
+  std::optional<Edit> drag() const;       ///< edit that `shown` has beyond the current node, while dragging
+  bool dragging() const;                  ///< whether a drag was not ended yet
+  bool can_undo() const;                  ///< whether Undo has an effect
+  bool can_redo() const;                  ///< whether Redo has an effect
   const std::optional<Review>& review() const;          ///< of the current design, once it is known
   const std::vector<OfferedEdit>& suggestions() const;  ///< best first; grows in the background
   bool suggestions_complete() const;                    ///< whether all suggestions are known
