@@ -4,10 +4,19 @@
 
 #include "editing/session/session_implementation.h"
 #include "stackabilization/deformation/rebase.h"
+#include "stackabilization/stacking/search.h"
 
 namespace stackabilization::editing {
 
 namespace {
+
+/// Of a map of directions.
+constexpr double map_step_degrees = 5;
+constexpr std::int64_t max_map_directions = 4000;
+
+/// Gain of S below which a suggestion is no answer, and the work that goes into a diagnosis then.
+constexpr double min_gain = 0.005;
+constexpr double max_diagnosis_designs = 200;
 
 std::size_t possible_of(const std::vector<Suggestion>& list) {
   return static_cast<std::size_t>(
@@ -30,13 +39,12 @@ std::vector<ObstacleCount> refusals_of(const std::vector<Suggestion>& list, cons
   return counts;
 }
 
-std::vector<OfferedEdit> offers(const EditedFrom& from, const std::vector<Suggestion>& list,
-                                const SessionOptions& options) {
+std::vector<OfferedEdit> offers(const EditedFrom& from, const std::vector<Suggestion>& list, int limit) {
   const DeformationModel& space = from.workspace->space();
   const StructuredShape before = rebase(space.rest(), *from.design);
   std::vector<OfferedEdit> result;
   for (const Suggestion& one : list) {
-    if (one.refusal || result.size() == static_cast<std::size_t>(options.max_suggestions)) break;
+    if (one.refusal || result.size() == static_cast<std::size_t>(limit)) break;
     OfferedEdit offered;
     offered.suggestion = one;
     offered.design = std::make_shared<const Design>(
@@ -48,6 +56,25 @@ std::vector<OfferedEdit> offers(const EditedFrom& from, const std::vector<Sugges
     result.push_back(std::move(offered));
   }
   return result;
+}
+
+/// Returns what blocks and what would help, where no suggestion raises S.
+std::optional<Diagnosis> diagnosis_without_gain(const EditedFrom& from, const std::vector<Suggestion>& list,
+                                                const Cancelled& cancelled) {
+  for (const Suggestion& one : list)
+    if (!one.refusal && one.measured.value > from.now + min_gain) return std::nullopt;
+  BestFirstResult stuck;
+  Candidate& candidate = stuck.nearest.emplace_back();
+  candidate.design = *from.design;
+  candidate.reasons.resize(candidate.design.edits.size());
+  candidate.direction = from.direction.vector();
+  const MeasuredDesign measured = from.workspace->measured(from.design, from.direction, from.at_rest);
+  candidate.measured = measured.assessment.measured;
+  candidate.energy = measured.energy;
+  DiagnosisOptions how;
+  how.designs = max_diagnosis_designs;
+  how.cancelled = [&] { return cancelled->load(); };
+  return diagnose(from.workspace->checker(), stuck, how);
 }
 
 SuggestionOptions smooth_suggestions(double alpha) {
@@ -76,12 +103,13 @@ JobWork EditingSession::Implementation::review_work() {
 }
 
 JobWork EditingSession::Implementation::suggestion_work() {
-  return [this, from = from_current()](const Cancelled& cancelled, const Deliver& deliver) {
-    SuggestionOptions how = smooth_suggestions(options_.alpha);
+  return [this, from = from_current(), alpha = options_.alpha, limit = options_.max_suggestions](
+             const Cancelled& cancelled, const Deliver& deliver) {
+    SuggestionOptions how = smooth_suggestions(alpha);
     std::size_t shown = 0;
     how.found = [&](const std::vector<Suggestion>& list) {
       const std::size_t possible = possible_of(list);
-      if (possible > shown) deliver_suggestions(from, list, cancelled, deliver);
+      if (possible > shown) deliver_suggestions(offers(from, list, limit), cancelled, deliver);
       shown = possible;
     };
     how.cancelled = [&] { return cancelled->load(); };
@@ -91,8 +119,10 @@ JobWork EditingSession::Implementation::suggestion_work() {
     const std::vector<Suggestion> list =
         stackabilization::suggestions(from.workspace->checker(), *from.design, from.direction, how);
     std::vector<ObstacleCount> refusals = refusals_of(list, from.workspace->space().rest().structure);
-    deliver(unless(cancelled, [this, refusals] {
+    const std::optional<Diagnosis> diagnosis = diagnosis_without_gain(from, list, cancelled);
+    deliver(unless(cancelled, [this, refusals, diagnosis] {
       advice_.refused = refusals;
+      advice_.diagnosis = diagnosis;
       advice_.complete = true;
       emit(Changed{Change::suggestions});
       emit(Progress{Work::suggestions, 1});
@@ -100,12 +130,11 @@ JobWork EditingSession::Implementation::suggestion_work() {
   };
 }
 
-void EditingSession::Implementation::deliver_suggestions(const EditedFrom& from,
-                                                         const std::vector<Suggestion>& list,
+void EditingSession::Implementation::deliver_suggestions(std::vector<OfferedEdit> offered,
                                                          const Cancelled& cancelled, const Deliver& deliver) {
-  auto offered = std::make_shared<const std::vector<OfferedEdit>>(offers(from, list, options_));
-  deliver(unless(cancelled, [this, offered] {
-    advice_.suggestions = *offered;
+  const auto shared = std::make_shared<const std::vector<OfferedEdit>>(std::move(offered));
+  deliver(unless(cancelled, [this, shared] {
+    advice_.suggestions = *shared;
     emit(Changed{Change::suggestions});
   }));
 }
@@ -117,6 +146,30 @@ JobWork EditingSession::Implementation::range_work() {
     deliver(unless(cancelled, [this, range] {
       advice_.range = range;
       emit(Changed{Change::range});
+    }));
+  };
+}
+
+JobWork EditingSession::Implementation::map_work() {
+  map_wanted_ = false;
+  return [this, from = from_current()](const Cancelled& cancelled, const Deliver& deliver) {
+    const StackabilitySolver solver(from.design->shape, from.workspace->checker().requirements().measure);
+    DirectionMap map;
+    MapOptions how;
+    how.step_degrees = map_step_degrees;
+    how.cancelled = [&] { return cancelled->load(); };
+    map.map = stackability_map(solver, how);
+    SearchOptions search;
+    search.candidates = {from.direction.vector()};
+    search.max_directions = max_map_directions;
+    search.cancelled = how.cancelled;
+    const SearchResult found = best_direction(solver, search);
+    map.best_direction = found.optima.front().direction;
+    map.best = found.optima.front().stackability;
+    deliver(unless(cancelled, [this, map, design = from.design] {
+      if (current_.design != design) return;
+      advice_.map = map;
+      emit(Changed{Change::map});
     }));
   };
 }

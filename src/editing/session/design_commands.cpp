@@ -54,6 +54,10 @@ void EditingSession::Implementation::run(const EndDrag& command) {
     emit(Changed{Change::design});
     return;
   }
+  keep_edit(edit, made);
+}
+
+void EditingSession::Implementation::keep_edit(const Edit& edit, const MeasuredDesign& made) {
   const Explanation words = explain(rebase(workspace_->space().rest(), *current_.design), made.design->shape,
                                     {.edits = {edit}, .reasons = {}});
   HistoryNode node = node_with({edit}, node_name(words, describe(edit, part_names())));
@@ -102,6 +106,18 @@ void EditingSession::Implementation::run(const TakeDesign& command) {
   if (again.refusal) throw UsageError(describe(*again.refusal, structure()));
   history() = roll_back(std::move(history()), 0);
   add_node(std::move(node), std::make_shared<const Design>(again.design));
+}
+
+void EditingSession::Implementation::run(const TakeEdit& command) {
+  expect_row(command.node, history().nodes.size(), "node");
+  const std::vector<Edit> edits = history().nodes[static_cast<std::size_t>(command.node)].edits;
+  expect_row(command.edit, edits.size(), "edit");
+  const Edit& edit = edits[static_cast<std::size_t>(command.edit)];
+  const TriedEdit tried = try_edit(from_current(), edit);
+  if (!tried.made)
+    throw UsageError("this edit cannot be made here: " +
+                     describe(*tried.obstacle, workspace_->space().rest().structure));
+  keep_edit(edit, *tried.made);
 }
 
 }  // namespace stackabilization::editing

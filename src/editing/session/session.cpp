@@ -16,6 +16,10 @@ void EditingSession::execute(const Command& command) {
   implementation_->execute(command);
 }
 
+void EditingSession::open(Document document, std::filesystem::path autosave) {
+  implementation_->open(std::move(document), std::move(autosave));
+}
+
 std::optional<EditingSession::Job> EditingSession::next_job(Lane lane) {
   return implementation_->next_job(lane);
 }
@@ -84,12 +88,20 @@ const std::vector<ObstacleCount>& EditingSession::refused() const {
   return implementation_->advice_.refused;
 }
 
+const std::optional<Diagnosis>& EditingSession::diagnosis() const {
+  return implementation_->advice_.diagnosis;
+}
+
 const std::optional<HandleRange>& EditingSession::range() const {
   return implementation_->advice_.range;
 }
 
 const FoundDesigns& EditingSession::found() const {
   return implementation_->found_;
+}
+
+const std::optional<DirectionMap>& EditingSession::map() const {
+  return implementation_->advice_.map;
 }
 
 std::shared_ptr<const Design> EditingSession::design_of(int node) const {

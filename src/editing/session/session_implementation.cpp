@@ -32,7 +32,9 @@ EditingSession::Implementation::Implementation(Document document, SessionOptions
 std::optional<EditingSession::Job> EditingSession::Implementation::next_job(Lane lane) {
   if (lanes_.is_running(lane)) return std::nullopt;
   JobWork work;
-  if (lane == Lane::automatic)
+  if (lane == Lane::automatic && map_wanted_)
+    work = map_work();
+  else if (lane == Lane::automatic)
     work = automatic_work();
   else if ((range_runs_ = wanted_range_.has_value()))
     work = range_work();
@@ -48,6 +50,7 @@ void EditingSession::Implementation::forget_advice() {
   lanes_.cancel(Lane::advice);
   advice_ = {};
   wanted_range_.reset();
+  map_wanted_ = false;
   drag_.reset();
 }
 

@@ -18,7 +18,9 @@ struct Advice {
   std::vector<OfferedEdit> suggestions;
   std::vector<ObstacleCount> refused;
   bool complete = false;  ///< whether all suggestions are known
+  std::optional<Diagnosis> diagnosis;
   std::optional<HandleRange> range;
+  std::optional<DirectionMap> map;
 };
 
 /// A drag that was not ended yet.
@@ -38,9 +40,10 @@ class EditingSession::Implementation {
     std::visit([this](const auto& one) { run(one); }, command);
   }
   std::optional<Job> next_job(Lane lane);
+  void open(Document document, std::filesystem::path autosave);
 
   Document document_;
-  const SessionOptions options_;
+  SessionOptions options_;
   Listener listener_;
   std::shared_ptr<const Workspace> workspace_;
   mutable NodeDesigns designs_;
@@ -76,6 +79,8 @@ class EditingSession::Implementation {
   /// Adds a node with a design that was measured along its direction.
   void add_node(HistoryNode node, std::shared_ptr<const Design> design);
   HistoryNode node_with(std::vector<Edit> edits, std::string name) const;
+  /// Adds a node with one more edit, from which `made` came.
+  void keep_edit(const Edit& edit, const MeasuredDesign& made);
   /// Replaces the requirements.
   void require(const Requirements& requirements);
   /// Starts anew with a document.
@@ -103,19 +108,24 @@ class EditingSession::Implementation {
   void run(const Segment& command);
   void run(const SetKind& command);
   void run(const RemoveRelations& command);
+  void run(const RemoveParts& command);
+  void run(const Join& command);
+  void run(const TakeEdit& command);
+  void run(const MapDirections& command);
 
   JobWork review_work();
   JobWork suggestion_work();
   JobWork range_work();
   JobWork automatic_work();
-  void deliver_suggestions(const EditedFrom& from, const std::vector<Suggestion>& list,
-                           const Cancelled& cancelled, const Deliver& deliver);
+  JobWork map_work();
+  void deliver_suggestions(std::vector<OfferedEdit> offered, const Cancelled& cancelled,
+                           const Deliver& deliver);
   void deliver_found(const Workspace& workspace, const Improvement& improvement, const Cancelled& cancelled,
                      const Deliver& deliver);
 
   std::optional<Edit> wanted_range_;
   bool range_runs_ = false;  ///< whether the job of the lane of advice is a range
-  bool finding_wanted_ = false;
+  bool finding_wanted_ = false, map_wanted_ = false;
 };
 
 /// Throws UsageError naming `what` if there is no such row.

@@ -4,12 +4,21 @@
 #include <utility>
 
 #include "editing/session/session_implementation.h"
+#include "editing/structure/pair_joints.h"
 #include "editing/structure/strokes.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/removal.h"
 #include "stackabilization/structure/analysis.h"
 
 namespace stackabilization::editing {
+
+void EditingSession::Implementation::open(Document document, std::filesystem::path autosave) {
+  load(std::move(document));
+  earlier_.clear();
+  options_.autosave = std::move(autosave);
+  save();
+  emit(Changed{Change::tree});
+}
 
 void EditingSession::Implementation::load(Document document) {
   auto workspace = std::make_shared<const Workspace>(document.project, document.requirements);
@@ -31,7 +40,8 @@ void EditingSession::Implementation::replace_structure(StructuredShape structure
   const HistoryNode& old = document_.project.history.nodes.front();
   HistoryNode& root = fresh.project.history.nodes.front();
   root.direction = old.direction;
-  root.stackability = old.stackability;
+  root.stackability =
+      stackability(fresh.project.rest.shape, Direction(root.direction), fresh.requirements.measure).value;
   fresh.source = document_.source;
   const Requirements& wishes = document_.requirements;
   fresh.requirements.target = wishes.target;
@@ -80,6 +90,23 @@ void EditingSession::Implementation::run(const RemoveRelations& command) {
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   for (const int row : rows) expect_row(row, relations.size(), "relation");
   for (auto row = rows.rbegin(); row != rows.rend(); ++row) relations.erase(relations.begin() + *row);
+  replace_structure(std::move(structured));
+}
+
+void EditingSession::Implementation::run(const RemoveParts& command) {
+  if (command.parts.empty()) throw UsageError("no part was named");
+  replace_structure(without_parts(workspace_->space().rest(), command.parts));
+}
+
+void EditingSession::Implementation::run(const Join& command) {
+  StructuredShape structured = workspace_->space().rest();
+  for (const int part : command.parts) expect_row(part, structured.structure.parts.size(), "part");
+  for (Relation& joint : joints_between(structured, command.parts[0], command.parts[1]))
+    structured.structure.relations.push_back(std::move(joint));
+  std::stable_sort(structured.structure.relations.begin(), structured.structure.relations.end(),
+                   [](const Relation& a, const Relation& b) {
+                     return std::pair(is_joint(a), a.parts) < std::pair(is_joint(b), b.parts);
+                   });
   replace_structure(std::move(structured));
 }
 

@@ -69,7 +69,9 @@ void EditingSession::Implementation::run(const StopFinding& /*command*/) {
 
 void EditingSession::Implementation::run(const AcceptRemedy& command) {
   const std::vector<Remedy> none;
-  const std::vector<Remedy>& remedies = found_.diagnosis ? found_.diagnosis->remedies : none;
+  const std::optional<Diagnosis>& diagnosis =
+      command.source == AcceptRemedy::Source::search ? found_.diagnosis : advice_.diagnosis;
+  const std::vector<Remedy>& remedies = diagnosis ? diagnosis->remedies : none;
   expect_row(command.number, remedies.size(), "offer");
   const Remedy remedy = remedies[static_cast<std::size_t>(command.number)];
   Requirements requirements = document_.requirements;
@@ -82,7 +84,7 @@ void EditingSession::Implementation::run(const AcceptRemedy& command) {
       });
       break;
     case Remedy::Kind::remove_part:
-      throw UsageError("parts cannot be left out here; `improve --remove` does it");
+      return run(RemoveParts{remedy.parts});
     case Remedy::Kind::relax_height:
       requirements.keep_height = false;
       break;
@@ -94,6 +96,10 @@ void EditingSession::Implementation::run(const AcceptRemedy& command) {
       break;
   }
   require(requirements);
+}
+
+void EditingSession::Implementation::run(const MapDirections& /*command*/) {
+  if (!advice_.map) map_wanted_ = true;
 }
 
 }  // namespace stackabilization::editing
