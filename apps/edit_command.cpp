@@ -199,12 +199,15 @@ int run_study(const EditCommandOptions& options) {
   const ThreadLimit limit(options.common);
   RoomOptions room_options;
   room_options.study = study_options(options);
-  const editing::StudyPlan& plan = room_options.study->plan;
-  for (const editing::StudyPlanTask& task : plan.tasks)
-    task_document(options, task);  // refused now, if at all
+  // Models that cannot be read are refused now, not in the middle of a study.
+  std::optional<editing::Document> first;
+  for (const editing::StudyPlanTask& task : room_options.study->plan.tasks) {
+    editing::Document document = task_document(options, task);
+    if (!first) first = std::move(document);
+  }
   room_options.name = "Study";
   room_options.stem = "study";
-  EditingRoom room(task_document(options, plan.tasks.front()), std::move(room_options), web_options(options));
+  EditingRoom room(std::move(*first), std::move(room_options), web_options(options));
   serve(options, room);
   return status_done;
 }

@@ -40,7 +40,7 @@ test('the view shows the object as given beside its solutions, under one camera'
       const { data } = pen.getImageData(k * width, 0, width, bitmap.height);
       let yellow = 0, green = 0;
       for (let p = 0; p < data.length; p += 4) {
-        if (data[p] - data[p + 2] < 60) continue;
+        if (Math.max(data[p], data[p + 1]) - data[p + 2] < 40) continue;
         if (data[p] > data[p + 1]) ++yellow;
         else ++green;
       }

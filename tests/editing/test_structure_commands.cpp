@@ -21,7 +21,8 @@ std::vector<int> joint_rows(const EditingSession& session, int first, int second
   for (std::size_t row = 0; row < relations.size(); ++row) {
     const Relation& one = relations[row];
     const bool joint = one.type == RelationType::point_joint || one.type == RelationType::line_joint;
-    if (joint && (one.parts == std::vector<int>{first, second} || one.parts == std::vector<int>{second, first}))
+    if (joint &&
+        (one.parts == std::vector<int>{first, second} || one.parts == std::vector<int>{second, first}))
       rows.push_back(static_cast<int>(row));
   }
   return rows;
@@ -105,7 +106,8 @@ TEST_CASE("a map of directions has S of the design, and goes with it") {
   for (std::size_t k = 0; k < map.map.samples.size(); k += 97) {
     const MapSample& sample = map.map.samples[k];
     CHECK(sample.stackability ==
-          Approx(stackability(session.current().design->shape, Direction(sample.direction)).value).margin(1e-9));
+          Approx(stackability(session.current().design->shape, Direction(sample.direction)).value)
+              .margin(1e-9));
   }
   for (const MapSample& sample : map.map.samples) best_sample = std::max(best_sample, sample.stackability);
   CHECK(map.best >= best_sample - 1e-9);

@@ -62,7 +62,7 @@ TEST_CASE("a plan that is none is refused with the place") {
   refused("\"table.obj\"", "7", "/tasks/0/model");
   refused("\"without\"", "\"whithout\"", "/tasks/0");
   refused("\"version\": 1,", "\"version\": 1, \"questions\": [\"Why?\"],", "/questions");
-  refused("\"format\"", "format", "line 1");
+  refused("\"format\": ", "\"format\" ", "plan.json:1");
 }
 
 TEST_CASE("conditions are in balanced order") {

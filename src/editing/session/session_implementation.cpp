@@ -13,6 +13,11 @@ void expect_row(int row, std::size_t size, const std::string& what) {
                      " counted from 0");
 }
 
+void expect_nodes(const Document& document) {
+  if (document.project.history.nodes.empty() || document.visited.empty())
+    throw UsageError("a document has at least the node at rest");
+}
+
 std::string node_name(const Explanation& change, const std::string& otherwise) {
   return change.groups.empty() ? otherwise : describe(change.groups.front(), change);
 }
@@ -23,8 +28,7 @@ EditingSession::Implementation::Implementation(Document document, SessionOptions
       listener_(std::move(listener)),
       lanes_([this](const std::string& sentence) { emit(Failed{sentence}); }) {
   if (options_.max_suggestions < 1) throw UsageError("at least one suggestion has to be offered");
-  if (document_.project.history.nodes.empty() || document_.visited.empty())
-    throw UsageError("a document has at least the node at rest");
+  expect_nodes(document_);
   workspace_ = std::make_shared<const Workspace>(document_.project, document_.requirements);
   load_node();
 }

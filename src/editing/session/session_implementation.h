@@ -85,6 +85,7 @@ class EditingSession::Implementation {
   void require(const Requirements& requirements);
   /// Starts anew with a document.
   void load(Document document);
+  void load(Document document, std::shared_ptr<const Workspace> workspace);
   /// Goes on with another structure of the same shape and the same wishes.
   void replace_structure(StructuredShape structured);
   /// Analyses a shape with its parts as they are. `forced`: kinds of primitives, by part name.
@@ -130,6 +131,9 @@ class EditingSession::Implementation {
 
 /// Throws UsageError naming `what` if there is no such row.
 void expect_row(int row, std::size_t size, const std::string& what);
+
+/// Throws UsageError for a document without a node at rest.
+void expect_nodes(const Document& document);
 
 /// Returns the name of a node: what changed most, or `otherwise` where nothing is seen.
 std::string node_name(const Explanation& change, const std::string& otherwise);

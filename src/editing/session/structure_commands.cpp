@@ -13,15 +13,19 @@
 namespace stackabilization::editing {
 
 void EditingSession::Implementation::open(Document document, std::filesystem::path autosave) {
-  load(std::move(document));
+  expect_nodes(document);
+  auto workspace = std::make_shared<const Workspace>(document.project, document.requirements);
   earlier_.clear();
   options_.autosave = std::move(autosave);
-  save();
-  emit(Changed{Change::tree});
+  load(std::move(document), std::move(workspace));
 }
 
 void EditingSession::Implementation::load(Document document) {
   auto workspace = std::make_shared<const Workspace>(document.project, document.requirements);
+  load(std::move(document), std::move(workspace));
+}
+
+void EditingSession::Implementation::load(Document document, std::shared_ptr<const Workspace> workspace) {
   lanes_.cancel(Lane::automatic);
   found_ = {};
   finding_wanted_ = false;
