@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "apps/explanation_report.h"
+#include "apps/improve_view.h"
 #include "apps/text.h"
 #include "stackabilization/core/direction_text.h"
 
@@ -34,6 +35,18 @@ ul, ol { margin: .2rem 0; padding-left: 1.4rem; overflow-wrap: anywhere; }
 .strip a { color: var(--faint); font-size: .85rem; text-decoration: none; }
 details { font-size: .85rem; margin: .4rem 0; }
 summary { cursor: pointer; }
+.view { margin: 1.2rem 0 1.6rem; border: 1px solid var(--line); border-radius: 8px; overflow: hidden; }
+.view:empty { display: none; }
+.view .panes { position: relative; height: min(34rem, 70vh); }
+.view canvas { display: block; width: 100%; height: 100%; touch-action: pan-y; }
+.view .labels { position: absolute; inset: 0; display: flex; pointer-events: none; }
+.view .labels span { flex: 1; padding: .5rem .9rem; border-left: 1px solid var(--line); font-size: .95rem; }
+.view .labels span:first-child { border-left: 0; }
+.view .tools { display: flex; flex-wrap: wrap; gap: .5rem 1.2rem; align-items: center; padding: .5rem .9rem;
+  border-top: 1px solid var(--line); font-size: .9rem; color: var(--faint); }
+.view .tools label { display: inline-flex; gap: .5rem; align-items: center; }
+.view .tools button, .view .tools select { font: inherit; color: var(--ink); background: #fff; border: 1px solid var(--line);
+  border-radius: 7px; padding: .15rem .7rem; cursor: pointer; }
 pre { white-space: pre-wrap; font: inherit; margin: 0; }
 )";
 
@@ -207,14 +220,15 @@ std::string improvement_page(const ImproveReport& report) {
       "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
       "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, "
       "initial-scale=1\"/>\n";
-  page +=
-      element("title", model + ", made to stack") + "\n<style>" + page_style + "</style>\n</head>\n<body>\n";
+  const PageView view = page_view(report);
+  page += element("title", model + ", made to stack") + "\n<style>" + page_style + "</style>\n" + view.head +
+          "</head>\n<body>\n";
   page += element("h1", model + ", made to stack") + "\n" + verdict(report) + "\n";
   page += element("h3", "Asked for") + "\n" + list("ul", wish_lines(report));
   if (report.run.result.diagnosis && !(report.run.front && report.reached()))
     page += element("h3", "Why it was not reached, and what would help") + "\n" +
             element("pre", text(*report.run.result.diagnosis, report.task.rest().structure)) + "\n";
-  page += front(report) + comparison(report);
+  page += view.element + front(report) + comparison(report);
   if (!report.pictures_missing.empty())
     page += element("p class=\"faint\"", "No pictures: " + report.pictures_missing + ".") + "\n";
   page += "<div class=\"solutions\">\n";

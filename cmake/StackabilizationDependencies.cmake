@@ -9,6 +9,7 @@ find_package(TBB CONFIG REQUIRED)
 find_package(pugixml REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(minizip REQUIRED IMPORTED_TARGET minizip)
+find_package(ZLIB REQUIRED)
 # What CGAL's numbers stand on.
 pkg_check_modules(gmp REQUIRED IMPORTED_TARGET gmpxx mpfr gmp)
 # tinygltf is header-only and parses with nlohmann-json.

@@ -39,7 +39,20 @@ class PageCommand {
         {"segment", [&] { return segment(); }},
         {"kind", [&] { return kind(); }},
         {"remove-relations", [&] { return editing::RemoveRelations{rows("relations")}; }},
-        {"accept", [&] { return AcceptRemedy{whole("number")}; }}};
+        {"remove-parts", [&] { return editing::RemoveParts{rows("parts")}; }},
+        {"join", [&] { return join(); }},
+        {"take-edit",
+         [&] {
+           return editing::TakeEdit{whole("node"), whole("edit")};
+         }},
+        {"map", [] { return editing::MapDirections{}; }},
+        {"accept-advice",
+         [&] {
+           return AcceptRemedy{whole("number"), AcceptRemedy::Source::advice};
+         }},
+        {"accept", [&] {
+           return AcceptRemedy{whole("number"), AcceptRemedy::Source::search};
+         }}};
     const std::string word = text("do");
     const auto found = commands.find(word);
     if (found == commands.end()) throw UsageError("there is no command '" + word + "'");
@@ -97,6 +110,11 @@ class PageCommand {
     return result;
   }
   std::vector<int> rows(const char* key) const { return numbers(entry(key)); }
+  editing::Command join() const {
+    const std::vector<int> parts = rows("parts");
+    if (parts.size() != 2) fail("parts", "two parts");
+    return editing::Join{{parts[0], parts[1]}};
+  }
   editing::Command kind() const {
     const std::string name = text("kind");
     if (name != "cuboid" && name != "cylinder") fail("kind", "cuboid or cylinder");

@@ -17,6 +17,9 @@ namespace stackabilization::apps {
 ///     {"do": "segment", "strokes": [{"part": "handle", "triangles": [7, 8]}]}
 ///     {"do": "kind", "part": 0, "kind": "cuboid"}       {"do": "remove-relations", "relations": [4]}
 ///     {"do": "find"}, {"do": "stop"}, {"do": "take", "number": 0}, {"do": "accept", "number": 0}
+///     {"do": "accept-advice", "number": 0}              {"do": "take-edit", "node": 2, "edit": 0}
+///     {"do": "remove-parts", "parts": [3]}              {"do": "join", "parts": [0, 3]}
+///     {"do": "map"}
 ///
 /// Edits are those of edit_grammar.h. Throws UsageError, in words for people, for anything else.
 editing::Command page_command(const std::string& text, const StructuredShape& rest);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <future>
 #include <optional>
 #include <utility>
@@ -34,6 +35,25 @@ struct Export {
   std::optional<Format> format;  ///< none: the project
 };
 
+/// The name in a query "name=...", with what was escaped.
+std::string decoded(const std::string& query) {
+  const std::string key = "name=";
+  if (query.compare(0, key.size(), key) != 0) throw UsageError("'open' expects the name of a file");
+  std::string text;
+  for (std::size_t k = key.size(); k < query.size(); ++k) {
+    unsigned value = 0;
+    const char* const digits = query.data() + k + 1;
+    if (query[k] == '%' && k + 2 < query.size() &&
+        std::from_chars(digits, digits + 2, value, 16).ptr == digits + 2) {
+      text += static_cast<char>(value);
+      k += 2;
+    } else {
+      text += query[k];
+    }
+  }
+  return text;
+}
+
 constexpr const char* binary_type = "application/octet-stream";
 
 const Export* export_of(const std::string& path) {
@@ -60,6 +80,7 @@ class EditingRoom::Implementation {
     auto session = std::make_unique<EditingSession>(std::move(document), options_.session,
                                                     [this](const Event& event) { tell(event); });
     session_ = session.get();
+    if (options_.study) study_.emplace(std::move(*options_.study));
     loop_.emplace(std::move(session));
   }
 
@@ -97,6 +118,8 @@ class EditingRoom::Implementation {
     if (request.path.empty()) request.path = "index.html";
     if (const auto file = page_file(request.path); file && request.method == "GET")
       return reply({200, file->type, std::string(file->bytes), ""});
+    if (request.path == "open" && request.method == "POST")
+      return post([this, request = std::move(request), reply] { reply(dropped(request)); });
     const Export* const wanted = export_of(request.path);
     if (!wanted || request.method != "GET") return reply({404, "text/plain; charset=utf-8", "not found", ""});
     post([this, wanted, reply] { reply(exported(*wanted)); });
@@ -115,12 +138,31 @@ class EditingRoom::Implementation {
     }
   }
 
+  /// Goes on with the file that a person has dropped.
+  WebReply dropped(const WebRequest& request) {
+    constexpr const char* plain = "text/plain; charset=utf-8";
+    try {
+      if (study_) throw UsageError("a study has its own models");
+      if (!options_.open) throw UsageError("files cannot be opened here");
+      DroppedModel model = options_.open(decoded(request.query), request.body);
+      options_.name = model.name;
+      options_.stem = model.stem;
+      options_.resumed = false;
+      session_->open(std::move(model.document), model.autosave);
+      return {200, plain, "opened", ""};
+    } catch (const Error& error) {
+      return {422, plain, error.what(), ""};
+    }
+  }
+
   void opened(PageId page) {
     pages_.push_back(page);
     if (!writer_) writer_ = page;
     tell_writers();
-    for (const Change change : {Change::structure, Change::wishes, Change::design, Change::tree,
-                                Change::review, Change::suggestions, Change::range, Change::found})
+    if (study_) send(page, study_->state());
+    for (const Change change :
+         {Change::structure, Change::wishes, Change::design, Change::tree, Change::review,
+          Change::suggestions, Change::range, Change::found, Change::map})
       show(change, {page});
   }
 
@@ -149,8 +191,14 @@ class EditingRoom::Implementation {
                                       session_->design_of(node.get<int>())->shape.vertices));
       } else if (writer_ != page) {
         throw UsageError("another page is editing; this one looks on");
+      } else if (word == "\"study\"") {
+        if (!study_) throw UsageError("this is no study");
+        study_->step(json, *session_);
+        for (const PageId one : pages_) send(one, study_->state());
       } else {
-        session_->execute(page_command(text, session_->space().rest()));
+        const editing::Command command = page_command(text, session_->space().rest());
+        if (study_) study_->check(command);
+        session_->execute(command);
       }
     } catch (const Error& error) {
       send(page, {{"type", "error"}, {"words", error.what()}});
@@ -160,7 +208,10 @@ class EditingRoom::Implementation {
   }
 
   void tell(const Event& event) {
-    if (const auto* changed = std::get_if<Changed>(&event)) return show(changed->what, pages_);
+    if (const auto* changed = std::get_if<Changed>(&event)) {
+      if (changed->what == Change::tree && study_) note_study();
+      return show(changed->what, pages_);
+    }
     Json json;
     std::uint32_t replaces = keeps_all;
     if (const auto* refused = std::get_if<Refused>(&event)) {
@@ -211,12 +262,22 @@ class EditingRoom::Implementation {
       }
       case Change::range:
         return all(range_json(*session_));
+      case Change::map:
+        return all(map_json(*session_));
       case Change::found: {
         std::uint32_t number = 0;
         for (const Candidate& design : session_->found().designs)
           frames(pages, vertex_frame(FrameKind::found, number++, stamp_, design.design.shape.vertices));
         return all(found_json(*session_));
       }
+    }
+  }
+
+  void note_study() {
+    try {
+      study_->note(*session_);
+    } catch (const Error& error) {
+      tell(editing::Failed{error.what()});
     }
   }
 
@@ -242,6 +303,7 @@ class EditingRoom::Implementation {
   }
 
   RoomOptions options_;
+  std::optional<StudyDesk> study_;
   std::vector<PageId> pages_;
   std::optional<PageId> writer_;
   std::uint32_t stamp_ = 0;

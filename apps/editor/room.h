@@ -1,19 +1,33 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "apps/editor/server.h"
+#include "apps/editor/study_desk.h"
 #include "stackabilization/editing/session.h"
 
 namespace stackabilization::apps {
+
+/// A model that takes the place of the first one.
+struct DroppedModel {
+  editing::Document document;
+  std::string name, stem;          ///< see RoomOptions
+  std::filesystem::path autosave;  ///< of its session
+};
 
 struct RoomOptions {
   std::string name;      ///< of the model, for people
   std::string stem;      ///< of files that are exported, without folder and ending
   bool resumed = false;  ///< whether the session goes on with what was saved
   editing::SessionOptions session;
+  /// Makes a document of a file that a person drops onto the page: its name, and its bytes. The shape is
+  /// written beside the model under that name. Throws Error.
+  std::function<DroppedModel(const std::string& name, const std::string& bytes)> open;
+  std::optional<StudyOptions> study;  ///< tasks for a participant, instead of a free session
 };
 
 /// An editing session, the pages that look at it, and one page that edits: the first one, and when it leaves

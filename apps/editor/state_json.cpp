@@ -98,6 +98,21 @@ std::string first_line(const Explanation& explanation) {
                                     : describe(explanation.groups.front(), explanation);
 }
 
+Json diagnosis_json(const std::optional<Diagnosis>& diagnosis, const Structure& rest) {
+  if (!diagnosis) return nullptr;
+  Json blockers = Json::array();
+  for (const Blocker& blocker : diagnosis->blockers) blockers.push_back(describe(blocker, rest));
+  return {{"reached", diagnosis->reached}, {"blockers", blockers}};
+}
+
+Json offers_json(const std::optional<Diagnosis>& diagnosis, const Structure& rest) {
+  Json offers = Json::array();
+  if (diagnosis)
+    for (const Remedy& remedy : diagnosis->remedies)
+      offers.push_back({{"words", describe(remedy, rest)}, {"stackability", remedy.stackability}});
+  return offers;
+}
+
 class Frame {
  public:
   Frame(FrameKind kind, std::uint32_t number, Eigen::Index count, std::uint32_t stamp) {
@@ -131,7 +146,8 @@ std::string obstacle_words(const Obstacle& obstacle, const Structure& rest) {
 
 Json model_json(const EditingSession& session, const std::string& name) {
   const StructuredShape& rest = session.space().rest();
-  Json parts = Json::array(), joints = Json::array(), symmetries = Json::array(), measures = Json::array();
+  Json parts = Json::array(), joints = Json::array(), pairs = Json::array(), symmetries = Json::array(),
+       measures = Json::array();
   for (const Part& part : rest.structure.parts)
     parts.push_back(
         {{"name", part.name},
@@ -142,6 +158,9 @@ Json model_json(const EditingSession& session, const std::string& name) {
     if (relation.type == RelationType::point_joint || relation.type == RelationType::line_joint)
       joints.push_back(
           {{"relation", row}, {"parts", relation.parts}, {"points", points_json(relation.points)}});
+    else
+      pairs.push_back(
+          {{"relation", row}, {"parts", relation.parts}, {"kind", words_for(relation.symmetry.kind)}});
   }
   for (const Symmetry& symmetry : rest.structure.symmetries)
     symmetries.push_back({{"kind", words_for(symmetry.kind)},
@@ -162,6 +181,7 @@ Json model_json(const EditingSession& session, const std::string& name) {
           {"triangles", rest.shape.triangle_count()},
           {"parts", parts},
           {"joints", joints},
+          {"pairs", pairs},
           {"symmetries", symmetries},
           {"measures", measures}};
 }
@@ -234,6 +254,7 @@ Json wishes_json(const EditingSession& session) {
 }
 
 Json suggestions_json(const EditingSession& session) {
+  const Structure& rest = session.space().rest().structure;
   Json list = Json::array(), refused = Json::array();
   for (const editing::OfferedEdit& offered : session.suggestions()) {
     list.push_back({{"words", first_line(offered.explanation)},
@@ -248,12 +269,13 @@ Json suggestions_json(const EditingSession& session) {
                     {"excess", offered.suggestion.excess},
                     {"reaches", offered.suggestion.reaches_target}});
   }
-  for (const ObstacleCount& count : session.refused())
-    refused.push_back(describe(count, session.space().rest().structure));
+  for (const ObstacleCount& count : session.refused()) refused.push_back(describe(count, rest));
   return {{"type", "suggestions"},
           {"complete", session.suggestions_complete()},
           {"list", list},
-          {"refused", refused}};
+          {"refused", refused},
+          {"diagnosis", diagnosis_json(session.diagnosis(), rest)},
+          {"offers", offers_json(session.diagnosis(), rest)}};
 }
 
 Json range_json(const EditingSession& session) {
@@ -275,28 +297,39 @@ Json range_json(const EditingSession& session) {
           {"above", words(range.above)}};
 }
 
+Json map_json(const EditingSession& session) {
+  if (!session.map()) return {{"type", "map"}, {"ready", false}};
+  const editing::DirectionMap& map = *session.map();
+  Json samples = Json::array();
+  for (const MapSample& sample : map.map.samples) {
+    const Eigen::Vector3d& at = sample.direction;
+    samples.push_back({at.x(), at.y(), at.z(), sample.stackability});
+  }
+  return {{"type", "map"},
+          {"ready", true},
+          {"samples", samples},
+          {"best",
+           {{"direction", to_json(map.best_direction)},
+            {"words", direction_text(map.best_direction)},
+            {"stackability", map.best}}}};
+}
+
 Json found_json(const EditingSession& session) {
   const editing::FoundDesigns& found = session.found();
   const Structure& rest = session.space().rest().structure;
-  Json list = Json::array(), offers = Json::array();
+  Json list = Json::array();
   for (std::size_t k = 0; k < found.designs.size(); ++k)
     list.push_back({{"words", explanation_lines(found.explanations[k])},
                     {"stackability", found.designs[k].measured.value},
                     {"f_max", found.designs[k].measured.f_max},
                     {"change", found.changes[k].root_mean_square},
                     {"energy", found.designs[k].energy.value}});
-  Json diagnosis = nullptr;
-  if (found.diagnosis) {
-    Json blockers = Json::array();
-    for (const Blocker& blocker : found.diagnosis->blockers) blockers.push_back(describe(blocker, rest));
-    diagnosis = {{"reached", found.diagnosis->reached}, {"blockers", blockers}};
-    for (const Remedy& remedy : found.diagnosis->remedies)
-      offers.push_back({{"words", describe(remedy, rest)},
-                        {"stackability", remedy.stackability},
-                        {"possible", remedy.kind != Remedy::Kind::remove_part}});
-  }
-  return {{"type", "found"}, {"target", found.target}, {"running", found.running},
-          {"list", list},    {"diagnosis", diagnosis}, {"offers", offers}};
+  return {{"type", "found"},
+          {"target", found.target},
+          {"running", found.running},
+          {"list", list},
+          {"diagnosis", diagnosis_json(found.diagnosis, rest)},
+          {"offers", offers_json(found.diagnosis, rest)}};
 }
 
 std::string mesh_frame(const Shape& shape) {

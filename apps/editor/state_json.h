@@ -24,10 +24,12 @@ Json tree_json(const editing::EditingSession& session);
 /// {type: "wishes", target, keep_height, kept, limits}
 Json wishes_json(const editing::EditingSession& session);
 /// {type: "suggestions", complete, list: [{words, reason, edit, part, gain, stackability, energy, change,
-/// reaches}], refused}
+/// reaches}], refused, diagnosis, offers}
 Json suggestions_json(const editing::EditingSession& session);
 /// {type: "range", edit, samples, low, high, below, above}; edit is null where there is none
 Json range_json(const editing::EditingSession& session);
+/// {type: "map", ready, samples: [[x, y, z, S]], best: {direction, words, stackability}}
+Json map_json(const editing::EditingSession& session);
 /// {type: "found", target, running, list: [{words, stackability, change, energy}], diagnosis, offers}
 Json found_json(const editing::EditingSession& session);
 

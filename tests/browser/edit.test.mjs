@@ -1,8 +1,9 @@
 // The editor in a real browser: what a person sees and does.
 import assert from 'node:assert/strict';
 import fs from 'node:fs';
+import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { canvasFacts, Editor, Folder, keepPicture, openBrowser, openPage, stackability, suggestionsOf } from './editor.mjs';
+import { canvasFacts, Editor, Folder, keepPicture, models, openBrowser, openPage, stackability, suggestionsOf } from './editor.mjs';
 
 let browser;
 before(async () => { browser = await openBrowser(); });
@@ -173,7 +174,7 @@ editing('a part is picked in the view', 'table.obj', async (page) => {
     const { viewer, state } = window.editor, top = state.model.parts.findIndex((part) => /top/.test(part.name));
     const points = state.design.primitives[top].points, highest = Math.max(...points.map((p) => p[2]));
     const corners = points.filter((p) => p[2] > highest - 0.001), middle = [0, 1].map((k) => corners.reduce((sum, p) => sum + p[k], 0) / corners.length);
-    const place = viewer.screenOf(viewer.centre.clone().set(middle[0], middle[1], highest));
+    const place = viewer.screenOf(viewer.main.centre.clone().set(middle[0], middle[1], highest));
     return { ...place, top };
   });
   await page.mouse.click(at.x, at.y);
@@ -308,7 +309,7 @@ editing('strokes cut a part in two; undo joins it again', 'mug_with_handle.obj',
   const count = await page.evaluate(() => window.editor.state.model.parts.length);
   await page.keyboard.press('k');
   const box = await page.locator('#view').boundingBox();
-  const middle = await page.evaluate(() => window.editor.viewer.screenOf(window.editor.viewer.centre));
+  const middle = await page.evaluate(() => window.editor.viewer.screenOf(window.editor.viewer.main.centre));
   const stroke = async (dy) => {
     await page.mouse.move(middle.x - 30, middle.y + dy);
     await page.mouse.down();
@@ -316,7 +317,7 @@ editing('strokes cut a part in two; undo joins it again', 'mug_with_handle.obj',
     await page.mouse.up();
   };
   assert.ok(box);
-  const own = await page.evaluate(({ x, y }) => window.editor.state.model.parts[window.editor.viewer.pick(x, y).part].name, { x: middle.x, y: middle.y + 40 });
+  const own = await page.evaluate(({ x, y }) => window.editor.state.model.parts[window.editor.picker.pick(x, y).part].name, { x: middle.x, y: middle.y + 40 });
   await page.fill('.paint input', 'lower');
   await stroke(40);
   await page.fill('.paint input', own);
@@ -329,6 +330,88 @@ editing('strokes cut a part in two; undo joins it again', 'mug_with_handle.obj',
   await page.keyboard.press('Escape');
   await page.keyboard.press('Control+z');
   await page.waitForFunction((n) => window.editor.state.model.parts.length === n, count);
+});
+
+editing('two designs are compared under one camera, and an edit is taken from one into the other', 'table.obj', async (page) => {
+  await suggestionsOf(page);
+  await page.locator('.card').first().click();
+  await page.waitForFunction(() => window.editor.state.tree.current === 1);
+  const wanted = await page.evaluate(() => Array.from(window.editor.viewer.design));
+  await page.keyboard.press('Control+z');
+  await page.waitForFunction(() => window.editor.state.tree.current === 0);
+  await page.click('#cameras button:has-text("Compare")');
+  await page.selectOption('#compare select', '1');
+  await page.waitForFunction(() => window.editor.viewer.stages.length === 2 && window.editor.viewer.stages[1].changed);
+  assert.deepEqual(await page.evaluate(() => Array.from(window.editor.viewer.stages[1].surface.vertices)), wanted);
+  await page.evaluate(() => window.editor.viewer.turn(0.2, 0.1));
+  await keepPicture(page, 'compare');
+  await page.click('#compare button:has-text("Take")');
+  await page.waitForFunction(() => window.editor.state.tree.nodes.length === 3);
+  assert.deepEqual(await page.evaluate(() => Array.from(window.editor.viewer.design)), wanted);
+  await page.keyboard.press('x');
+  await page.waitForFunction(() => window.editor.viewer.stages.length === 1);
+});
+
+editing('a direction is dragged over the map, and snaps to the best one', 'chair.obj', async (page) => {
+  await page.click('#direction');
+  await page.waitForFunction(() => window.editor.directions.map);
+  const map = await page.evaluate(() => window.editor.directions.map);
+  assert.ok(map.samples.length > 500);
+  for (const sample of map.samples) assert.ok(map.best.stackability >= sample[3] - 1e-9);
+  await keepPicture(page, 'direction_map');
+  // From the mark, which is at z in the middle, to a place near the best direction.
+  const box = await page.locator('#direction-map canvas').boundingBox();
+  const [x, y, z] = map.best.direction.map((c) => (map.best.direction[2] < 0 ? -c : c)), angle = Math.acos(z / Math.hypot(x, y, z)), far = Math.hypot(x, y) || 1;
+  const r = (angle / (Math.PI / 2)) * (box.width / 2) * (98 / 108), at = { x: box.x + box.width / 2 + (r * x) / far + 2, y: box.y + box.height / 2 - (r * y) / far };
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.mouse.down();
+  await page.mouse.move(at.x, at.y, { steps: 5 });
+  await page.mouse.up();
+  await page.waitForFunction(() => window.editor.state.tree.nodes.length === 2);
+  assert.ok(Math.abs((await stackability(page)) - map.best.stackability) < 1e-9, 'the best direction exactly');
+  await page.keyboard.press('Control+z');
+  await page.waitForFunction(() => window.editor.state.tree.current === 0);
+});
+
+editing('a mesh file that is dropped is opened, and written beside the first one', 'cup.obj', async (page, editor, folder) => {
+  const bytes = fs.readFileSync(path.join(models, 'table.obj'), 'utf8');
+  const drop = (name, text) => page.evaluate(({ name, text }) => {
+    const files = new DataTransfer();
+    files.items.add(new File([text], name));
+    document.dispatchEvent(new DragEvent('drop', { dataTransfer: files, bubbles: true, cancelable: true }));
+  }, { name, text });
+  await drop('my table.obj', bytes);
+  await page.waitForFunction(() => window.editor.state.model.name === 'my table.obj' && window.editor.state.design);
+  assert.equal(await page.evaluate(() => window.editor.state.model.parts.length), 12);
+  assert.equal(fs.readFileSync(path.join(folder.path, 'my table.obj'), 'utf8'), bytes);
+  assert.ok(fs.existsSync(path.join(folder.path, 'my table.obj.session.json')));
+  for (const [name, text, words] of [['bad.obj', 'v 1 2\n', /bad\.obj/], ['cup.obj', bytes, /another file/], ['x.exe', bytes, /x\.exe/], ['empty.obj', '', /empty\.obj/]]) {
+    await drop(name, text);
+    await page.waitForFunction((source) => new RegExp(source).test(document.getElementById('hint').textContent), words.source);
+    assert.equal(await page.evaluate(() => window.editor.state.model.name), 'my table.obj');
+  }
+  page.failures.length = 0; // the refused files, which a browser reports too
+});
+
+editing('a part is left out, two parts are joined, and undo brings both back', 'table.obj', async (page) => {
+  const parts = await page.evaluate(() => window.editor.state.model.parts.map((part) => part.name));
+  await pick(page, 'middle_bar');
+  await page.click('button:has-text("Leave this part out")');
+  await page.waitForFunction((n) => window.editor.state.model.parts.length === n, parts.length - 1);
+  await page.keyboard.press('Control+z');
+  await page.waitForFunction((n) => window.editor.state.model.parts.length === n, parts.length);
+  await pick(page, 'middle_bar');
+  const joints = await page.evaluate(() => window.editor.state.model.joints.length);
+  await page.locator('.joints .tag').first().click();
+  await page.waitForFunction((n) => window.editor.state.model.joints.length < n, joints);
+  await pick(page, 'middle_bar');
+  const other = await page.evaluate(() => {
+    const { model } = window.editor.state, bar = model.parts.findIndex((part) => part.name === 'middle_bar');
+    const joined = new Set(model.joints.filter((joint) => joint.parts.includes(bar)).flatMap((joint) => joint.parts));
+    return model.parts.findIndex((part, row) => /side_bar/.test(part.name) && !joined.has(row));
+  });
+  await page.selectOption('.joints select', String(other));
+  await page.waitForFunction((n) => window.editor.state.model.joints.length === n, joints);
 });
 
 test('the program ends when the last page leaves', { timeout: 300_000 }, async () => {

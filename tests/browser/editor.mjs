@@ -5,8 +5,8 @@ import os from 'node:os';
 import path from 'node:path';
 import { chromium } from 'playwright-core';
 
-const program = process.env.STACKABILIZE ?? '';
-const models = process.env.STACKABILIZATION_MODELS ?? '';
+export const program = process.env.STACKABILIZE ?? '';
+export const models = process.env.STACKABILIZATION_MODELS ?? '';
 const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 /** Pictures of every test are left there, to be looked at. */
 const pictures = process.env.BROWSER_PICTURES ?? '';

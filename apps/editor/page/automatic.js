@@ -1,10 +1,11 @@
 // The automatic search: a target, designs as they are found, and what is in the way.
 import { create, element, walkWithArrows } from './dom.js';
+import { diagnosisLines } from './offers.js';
 import * as format from './format.js';
 
 export class Automatic {
   /**
-   * @param {import('./viewer.js').Viewer} viewer
+   * @param {import('./viewer/viewer.js').Viewer} viewer
    * @param {{send: (command: object) => void, leave: () => void, preview: (offer: any) => void}} actions
    */
   constructor(viewer, actions) {
@@ -78,7 +79,7 @@ export class Automatic {
     card.append(picture, facts);
     card.setAttribute('aria-label', `S ${format.stackability(design.stackability)}, change ${format.percent(design.change)}, ${design.words.join(', ')}`);
     const vertices = this.vertices[k];
-    if (vertices) this.viewer.thumbnail(picture, vertices, { step: design.f_max, against: this.viewer.surface?.mesh.vertices ?? null });
+    if (vertices) this.viewer.thumbnail(picture, vertices, { step: design.f_max, against: this.viewer.main.surface?.mesh.vertices ?? null });
     card.onclick = () => { this.actions.leave(); this.actions.send({ do: 'take', number: k }); };
     const offer = { ...design, vertices };
     card.onmousemove = card.onfocus = () => vertices && this.actions.preview(offer);
@@ -87,20 +88,7 @@ export class Automatic {
   }
 
   #diagnose() {
-    this.reasons.replaceChildren();
-    const { diagnosis, offers } = this.message;
-    if (!diagnosis || this.message.list.length) return;
-    const list = create('ul', 'words');
-    list.append(...diagnosis.blockers.map((/** @type {string} */ words) => create('li', 'bad', words)));
-    this.reasons.append(create('h3', '', 'What blocks'), list);
-    if (!offers.length) return;
-    this.reasons.append(create('h3', '', 'What would help'));
-    offers.forEach((/** @type {any} */ offer, /** @type {number} */ k) => {
-      const button = create('button', 'offer', offer.words);
-      button.append(create('b', '', `S ${format.stackability(offer.stackability)}`));
-      button.disabled = !offer.possible;
-      button.addEventListener('click', () => this.actions.send({ do: 'accept', number: k }));
-      this.reasons.append(button);
-    });
+    const { diagnosis, list, offers } = this.message;
+    this.reasons.replaceChildren(...(list.length ? [] : diagnosisLines(diagnosis, offers, (number) => this.actions.send({ do: 'accept', number }))));
   }
 }

@@ -26,7 +26,7 @@ export function verticesOf(frame) {
   return new Float32Array(frame.buffer, headBytes, 3 * frame.count);
 }
 
-/** The mesh of a frame. @param {Frame} frame @returns {import('./mesh_surface.js').MeshData} */
+/** The mesh of a frame. @param {Frame} frame @returns {import('./viewer/mesh_surface.js').MeshData} */
 export function meshOf(frame) {
   const vertices = verticesOf(frame);
   const at = headBytes + vertices.byteLength;

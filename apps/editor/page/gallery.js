@@ -1,13 +1,14 @@
 // Suggestions as small pictures, best first.
 import { create, element, walkWithArrows } from './dom.js';
+import { diagnosisLines } from './offers.js';
 import * as format from './format.js';
 
 /** @typedef {{words: string, reason: string, edit: string, part: number, gain: number, stackability: number, f_max: number, energy: number, change: number, reaches: boolean, vertices: Float32Array}} Offer */
 
 export class Gallery {
   /**
-   * @param {import('./viewer.js').Viewer} viewer
-   * @param {{preview: (offer: Offer) => void, leave: () => void, apply: (number: number) => void}} actions
+   * @param {import('./viewer/viewer.js').Viewer} viewer
+   * @param {{preview: (offer: Offer) => void, leave: () => void, apply: (number: number) => void, accept: (number: number) => void}} actions
    */
   constructor(viewer, actions) {
     this.viewer = viewer;
@@ -21,6 +22,8 @@ export class Gallery {
     /** Cards by the edit that they show: those that stay are not painted again. @type {Map<string, HTMLButtonElement>} */
     this.cards = new Map();
     this.done = false;
+    /** Whether an offer raises S. */
+    this.gains = false;
     this.fraction = 0;
     walkWithArrows(this.list);
   }
@@ -49,7 +52,10 @@ export class Gallery {
     });
     this.cards = cards;
     this.done = message.complete;
-    this.list.replaceChildren(...cards.values(), ...this.#reasons(message.refused ?? []));
+    this.gains = this.offers.some((offer) => offer.gain >= 0.005);
+    const reasons = create('div', 'whole');
+    reasons.append(...diagnosisLines(message.diagnosis, message.offers, this.actions.accept), ...this.#reasons(message.refused));
+    this.list.replaceChildren(...cards.values(), reasons);
     if (focused) cards.get(focused)?.focus();
     this.#say();
   }
@@ -86,7 +92,6 @@ export class Gallery {
   #reasons(refused) {
     if (!refused.length) return [];
     const reasons = create('details', 'reasons');
-    reasons.style.gridColumn = '1 / -1';
     reasons.append(create('summary', '', 'What else was tried, and why not'));
     const list = create('ul');
     list.append(...refused.slice(0, 8).map((words) => create('li', '', words)));
@@ -104,8 +109,9 @@ export class Gallery {
     const count = this.offers.length;
     this.note.textContent = !this.done
       ? `Looking for edits that help … ${Math.round(100 * this.fraction)} %`
-      : count ? `${count === 1 ? 'One edit helps' : count + ' edits help'}, best first. Hover to see, click to apply.`
-        : 'No single edit helps from here. Try the automatic search, or allow more under Quality.';
+      : count && !this.gains ? 'No single edit raises S from here; these prepare one.'
+        : count ? `${count === 1 ? 'One edit helps' : count + ' edits help'}, best first. Hover to see, click to apply.`
+          : 'No single edit helps from here. Try the automatic search, or allow more under Quality.';
   }
 
   /** Paints all pictures again, after the view has other colours. */

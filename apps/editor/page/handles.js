@@ -2,7 +2,7 @@
 import * as THREE from 'three';
 import { exact } from './format.js';
 
-/** @typedef {import('./viewer.js').Primitive} Primitive */
+/** @typedef {import('./viewer/primitive_lines.js').Primitive} Primitive */
 /** @typedef {'part' | 'face' | 'corner' | 'end'} Element */
 /** @typedef {'move' | 'rotate' | 'scale'} Tool */
 
@@ -165,7 +165,7 @@ export class PickedHandle {
 /** Draws the handles, and turns the mouse into drags. */
 export class Gizmo {
   /**
-   * @param {import('./viewer.js').Viewer} viewer
+   * @param {import('./viewer/viewer.js').Viewer} viewer
    * @param {{begin: (edit: string) => void, drag: (edit: string) => void, end: (keep: boolean) => void}} actions
    */
   constructor(viewer, actions) {
@@ -179,7 +179,7 @@ export class Gizmo {
     /** Whether the next click ends a drag. */
     this.dragged = false;
     this.range = /** @type {any} */ (null);
-    viewer.scene.add(this.group);
+    viewer.main.scene.add(this.group);
     viewer.onDraw = () => this.#size();
     const { canvas } = viewer;
     canvas.addEventListener('pointermove', (event) => this.#move(event));
@@ -251,7 +251,7 @@ export class Gizmo {
   /** The part of the axis on which all limits hold, and its ends. */
   #drawRange() {
     const { handle, active, range, tool, viewer } = this;
-    if (this.bar) viewer.scene.remove(this.bar);
+    if (this.bar) viewer.main.scene.remove(this.bar);
     this.bar = undefined;
     const direction = active?.axis.direction;
     if (!handle?.centre || !direction || !range || tool === 'rotate') return;
@@ -270,7 +270,7 @@ export class Gizmo {
     }
     bar.traverse((object) => (object.renderOrder = 9));
     this.bar = bar;
-    viewer.scene.add(bar);
+    viewer.main.scene.add(bar);
   }
 
   /** Length of an arm: about 80 pixels. */
@@ -285,7 +285,7 @@ export class Gizmo {
 
   /** @param {PointerEvent} event @returns {Axis | null} */
   #axisAt(event) {
-    if (!this.group.children.length) return null;
+    if (!this.group.children.length || !this.viewer.isMain(event.clientX)) return null;
     this.group.updateMatrixWorld(true);
     const hit = this.viewer.rayAt(event.clientX, event.clientY).intersectObjects(this.group.children, true)[0];
     let object = /** @type {THREE.Object3D | null} */ (hit?.object ?? null);

@@ -1,6 +1,7 @@
 // The page: what the program tells goes into the view and the panels; what a person does becomes commands.
 import { Connection, frameKind, meshOf, verticesOf } from './connection.js';
-import { Viewer } from './viewer.js';
+import { Viewer } from './viewer/viewer.js';
+import { Picker } from './picker.js';
 import { Measures } from './measures.js';
 import { Gallery } from './gallery.js';
 import { Tree } from './tree.js';
@@ -13,9 +14,13 @@ import { Parts } from './parts.js';
 import { Quality } from './quality.js';
 import { Strokes } from './strokes.js';
 import { showRange } from './range_card.js';
+import { DirectionMap } from './direction_map.js';
+import { Compare } from './compare.js';
+import { bindDrop } from './drop.js';
+import { Study } from './study.js';
 
 const canvas = /** @type {HTMLCanvasElement} */ (element('view'));
-const viewer = new Viewer(canvas);
+const viewer = new Viewer(canvas), picker = new Picker(viewer);
 
 /** What the program has told. @type {Record<string, any>} */
 const state = { model: null, design: null, review: null, tree: null, wishes: null, suggestions: { list: [] }, found: { list: [] }, writes: false };
@@ -31,16 +36,16 @@ const send = (/** @type {object} */ command) => connection.send(command);
 function startPreview(vertices, step, value) {
   if (preview?.vertices === vertices) return;
   preview = { vertices, step };
-  viewer.setBefore(shown);
-  viewer.show(vertices, step, true);
+  viewer.main.setBefore(shown);
+  viewer.main.show(vertices, step, true);
   measures.preview(value, step);
 }
 
 function endPreview() {
   if (!preview || !shown) return;
   preview = null;
-  viewer.setBefore(null);
-  viewer.show(shown, state.design?.measured.f_max ?? 0, true);
+  viewer.main.setBefore(null);
+  viewer.main.show(shown, state.design?.measured.f_max ?? 0, true);
   measures.preview(null, null);
 }
 
@@ -49,6 +54,7 @@ const gallery = new Gallery(viewer, {
   preview: (offer) => startPreview(offer.vertices, offer.f_max, offer.stackability),
   leave: endPreview,
   apply: (number) => { endPreview(); send({ do: 'apply', number }); },
+  accept: (number) => { endPreview(); send({ do: 'accept-advice', number }); },
 });
 const tree = new Tree(viewer, {
   go: (node) => { endPreview(); send({ do: 'roll-back', node }); },
@@ -63,15 +69,44 @@ const automatic = new Automatic(viewer, {
   preview: (offer) => startPreview(offer.vertices, offer.f_max, offer.stackability),
 });
 const quality = new Quality(send);
+const compare = new Compare(viewer, tree, send);
+const study = new Study(send);
+bindDrop({
+  busy: (words) => { element('veil').hidden = !words; element('veil-text').textContent = words; },
+  failed: (words) => hint(words, true),
+});
+
+/** Extent of vertices along a direction. @param {Float32Array} vertices @param {number[]} d */
+function extentAlong(vertices, d) {
+  let low = Infinity, high = -Infinity;
+  for (let v = 0; v < vertices.length; v += 3) {
+    const at = vertices[v] * d[0] + vertices[v + 1] * d[1] + vertices[v + 2] * d[2];
+    low = Math.min(low, at);
+    high = Math.max(high, at);
+  }
+  return high - low;
+}
+
+const directions = new DirectionMap({
+  wanted: () => send({ do: 'map' }),
+  look: (direction, overHeight) => {
+    if (!shown) return;
+    viewer.main.setDirection(direction);
+    viewer.main.show(shown, overHeight * extentAlong(shown, direction));
+  },
+  leave: () => showDesign(),
+  take: (direction) => send({ do: 'direction', direction }),
+});
+element('direction').addEventListener('click', () => directions.show(!directions.open));
 
 const gizmo = new Gizmo(viewer, {
   begin: (edit) => { endPreview(); send({ do: 'range', edit }); },
   drag: (edit) => send({ do: 'drag', edit }),
   end: (keep) => { send({ do: 'end-drag', keep }); showRange(null, null); },
 });
-const parts = new Parts(gizmo, send, () => viewer.select(parts.part < 0 ? [] : [parts.part]));
+const parts = new Parts(gizmo, send, () => viewer.main.select(parts.part < 0 ? [] : [parts.part]));
 
-const strokes = new Strokes(viewer, send);
+const strokes = new Strokes(viewer, picker, send);
 
 /** Where a drag is on its axis, as ranges have it. */
 function dragShare() {
@@ -86,7 +121,7 @@ canvas.addEventListener('click', (event) => {
   const dragged = gizmo.dragged;
   gizmo.dragged = false;
   if (dragged || gizmo.active || strokes.active || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 4) return;
-  const hit = viewer.pick(event.clientX, event.clientY);
+  const hit = picker.pick(event.clientX, event.clientY);
   parts.pick(hit ? hit.part : -1, hit?.point ?? null);
   if (hit) openTab('parts');
 });
@@ -110,11 +145,11 @@ let hintEnd = 0;
 function showDesign() {
   if (!shown || !state.design || preview) return;
   const { design } = state;
-  viewer.setDirection(design.direction);
-  viewer.setChanged(design.change > 1e-9);
+  viewer.main.setDirection(design.direction);
+  viewer.main.setChanged(design.change > 1e-9);
   // Few copies where they stand far apart, more where they nest.
-  viewer.copiesAbove = Math.max(1, Math.min(4, Math.round(1 / Math.max(1 - design.measured.stackability, 0.01))));
-  viewer.show(shown, design.measured.f_max, seen && !design.dragging);
+  viewer.main.setCopies(Math.max(1, Math.min(4, Math.round(1 / Math.max(1 - design.measured.stackability, 0.01)))), 1);
+  viewer.main.show(shown, design.measured.f_max, seen && !design.dragging);
   seen = true;
 }
 let seen = false;
@@ -133,6 +168,8 @@ function receive(message) {
       strokes.setNames(message.parts.map((/** @type {any} */ part) => part.name));
       strokes.set(false);
       state.design = null;
+      compare.show(false);
+      directions.set({ ready: false });
       shown = null;
       seen = false;
       tree.clear();
@@ -150,26 +187,28 @@ function receive(message) {
       state.design = message;
       showDesign();
       if (message.primitives) {
-        viewer.setPrimitives(message.primitives);
+        viewer.main.setPrimitives(message.primitives);
         parts.setPrimitives(message.primitives);
       }
       gizmo.follow(message.dragged ?? '');
       if (gizmo.active && state.range) showRange(state.range, dragShare());
       quality.setChecks(message.checks);
       measures.setDesign(message);
-      if (first) { viewer.setRelations(state.model.joints.flatMap((/** @type {any} */ j) => j.points), state.model.symmetries); viewer.fit(); }
+      directions.setDirection(message.direction);
+      if (first) { viewer.main.setRelations(state.model.joints.flatMap((/** @type {any} */ j) => j.points), state.model.symmetries); viewer.fit(); }
       break;
     }
     case 'review':
       state.review = message;
       measures.setReview(message);
       if (message.ready) quality.setChecks(message.checks);
-      if (!message.ready) viewer.setContacts(new Float32Array(), []);
-      else viewer.setContacts(contactCorners, message.contacts.filter((/** @type {any} */ c) => c.type === 'dot').map((/** @type {any} */ c) => c.centre));
+      if (!message.ready) viewer.main.setContacts(new Float32Array(), []);
+      else viewer.main.setContacts(contactCorners, message.contacts.filter((/** @type {any} */ c) => c.type === 'dot').map((/** @type {any} */ c) => c.centre));
       break;
     case 'tree':
       state.tree = message;
       tree.set(message, state.design);
+      compare.follow();
       /** @type {HTMLButtonElement} */ (element('undo')).disabled = !message.can_undo;
       /** @type {HTMLButtonElement} */ (element('redo')).disabled = !message.can_redo;
       break;
@@ -186,6 +225,12 @@ function receive(message) {
       break;
     case 'progress':
       (message.work === 'suggestions' ? gallery : automatic).progress(message.fraction);
+      break;
+    case 'map':
+      directions.set(message);
+      break;
+    case 'study':
+      study.set(message);
       break;
     case 'found':
       state.found = message;
@@ -222,6 +267,7 @@ function receiveFrame(frame) {
       break;
     case frameKind.node:
       tree.setVertices(frame.number, verticesOf(frame));
+      compare.follow();
       break;
     case frameKind.found:
       automatic.setVertices(frame.number, verticesOf(frame));
@@ -270,10 +316,10 @@ for (const [layer, words, key] of layers) {
   const button = document.createElement('button');
   button.textContent = words;
   button.title = `${words} (${key.toUpperCase()})`;
-  const mark = () => button.setAttribute('aria-pressed', String(viewer.layers[layer]));
+  const mark = () => button.setAttribute('aria-pressed', String(viewer.main.layers[layer]));
   toggles[key] = () => {
-    viewer.setLayers({ [layer]: !viewer.layers[layer] });
-    if (layer === 'before') viewer.setBefore(null);
+    viewer.main.setLayers({ [layer]: !viewer.main.layers[layer] });
+    if (layer === 'before') viewer.main.setBefore(null);
     mark();
   };
   button.addEventListener('click', toggles[key]);
@@ -295,6 +341,16 @@ for (const [words, key, from] of cameras) {
 const undo = () => send({ do: 'undo' }), redo = () => send({ do: 'redo' });
 element('undo').addEventListener('click', undo);
 element('redo').addEventListener('click', redo);
+
+const comparing = document.createElement('button');
+comparing.textContent = 'Compare';
+comparing.title = 'Compare two designs side by side (X)';
+comparing.setAttribute('aria-pressed', 'false');
+toggles.x = () => compare.show(!compare.open);
+toggles.v = () => directions.show(!directions.open);
+comparing.addEventListener('click', toggles.x);
+compare.changed = (/** @type {boolean} */ open) => comparing.setAttribute('aria-pressed', String(open));
+element('cameras').append(comparing);
 
 let dark = matchMedia('(prefers-color-scheme: dark)').matches;
 function setTheme() {
@@ -320,7 +376,7 @@ bindKeys({
   controlShift: { z: redo },
   list: element('keys-list'),
   words: [...layers.map(([, words, key]) => [key, 'Show or hide: ' + words]), ...cameras.map(([words, key]) => [key, 'View: ' + words]),
-    ['Ctrl Z', 'Undo'], ['Ctrl Shift Z', 'Redo'], ['k', 'Paint parts'], ['m', 'Handle: move'], ['t', 'Handle: turn'], ['s', 'Handle: scale'], ['Escape', 'Give up a drag, or let go of the part'], ['d', 'Light or dark'], ['Arrows', 'In the view: turn; in a list: move'], ['Enter', 'Apply or go there'], ['?', 'This list']],
+    ['x', 'Compare two designs'], ['v', 'Choose a direction'], ['Ctrl Z', 'Undo'], ['Ctrl Shift Z', 'Redo'], ['k', 'Paint parts'], ['m', 'Handle: move'], ['t', 'Handle: turn'], ['s', 'Handle: scale'], ['Escape', 'Give up a drag, or let go of the part'], ['d', 'Light or dark'], ['Arrows', 'In the view: turn; in a list: move'], ['Enter', 'Apply or go there'], ['?', 'This list']],
 });
 canvas.addEventListener('keydown', (event) => {
   const turns = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] });
@@ -330,4 +386,4 @@ canvas.addEventListener('keydown', (event) => {
 });
 
 // For tests: what the page holds and shows.
-Object.assign(window, { editor: { viewer, state, send, gizmo, parts, strokes } });
+Object.assign(window, { editor: { viewer, picker, directions, compare, state, send, gizmo, parts, strokes } });

@@ -63,7 +63,7 @@ export class Parts {
     this.part = part;
     const primitive = this.primitives[part];
     if (near) this.near = near;
-    else if (primitive) this.near = new PickedHandle(part, '', primitive, 'part', this.gizmo.viewer.centre.clone()).centre;
+    else if (primitive) this.near = new PickedHandle(part, '', primitive, 'part', this.gizmo.viewer.main.centre.clone()).centre;
     if (primitive && !PickedHandle.elementsOf(primitive).includes(this.element)) this.element = 'part';
     if (!toolsOf[this.element].includes(this.tool)) this.tool = 'move';
     this.#show();
@@ -96,7 +96,7 @@ export class Parts {
         if (!toolsOf[one].includes(this.tool)) this.tool = 'move';
       }),
       this.#chips('How', toolsOf[this.element], toolWords, this.tool, (one) => (this.tool = one)));
-    this.form.replaceChildren(this.#amounts(), this.#keep(), this.#kind(), this.#joints());
+    this.form.replaceChildren(this.#amounts(), this.#keep(), this.#kind(), this.#joints(), this.#symmetries(), this.#more());
     this.changed();
   }
 
@@ -154,20 +154,48 @@ export class Parts {
     return row;
   }
 
-  /** What it is joined to, to be taken apart. */
-  #joints() {
-    const box = create('div', 'joints'), joints = this.model.joints.filter((/** @type {any} */ joint) => joint.parts.includes(this.part));
-    if (!joints.length) return box;
-    box.append(create('span', 'note', 'Joined to '));
-    for (const other of new Set(joints.map((/** @type {any} */ joint) => joint.parts.find((/** @type {number} */ part) => part !== this.part)))) {
-      const relations = joints.filter((/** @type {any} */ joint) => joint.parts.includes(other)).map((/** @type {any} */ joint) => joint.relation);
+  /**
+   * Other parts with a tag each, which takes relations to them apart.
+   * @param {string} words @param {{relation: number, parts: number[]}[]} relations @param {string} title
+   */
+  #tags(words, relations, title) {
+    const box = create('div', 'joints'), own = relations.filter((one) => one.parts.includes(this.part) && one.parts.length === 2);
+    if (!own.length) return box;
+    box.append(create('span', 'note', words));
+    for (const other of new Set(own.map((one) => one.parts.find((part) => part !== this.part)))) {
       const name = this.model.parts[/** @type {number} */ (other)].name, button = create('button', 'tag', name + ' ×');
-      button.title = 'Take this joint apart';
-      button.setAttribute('aria-label', `Take the joint with ${name} apart`);
-      button.addEventListener('click', () => this.send({ do: 'remove-relations', relations }));
+      button.title = title;
+      button.setAttribute('aria-label', `${title}: ${name}`);
+      button.addEventListener('click', () =>
+        this.send({ do: 'remove-relations', relations: own.filter((one) => one.parts.includes(/** @type {number} */ (other))).map((one) => one.relation) }));
       box.append(button);
     }
     return box;
+  }
+
+  /** What it is joined to, to be taken apart; and others, to be joined. */
+  #joints() {
+    const box = this.#tags('Joined to ', this.model.joints, 'Take this joint apart'), { part } = this;
+    const joined = new Set(this.model.joints.filter((/** @type {any} */ joint) => joint.parts.includes(part)).flatMap((/** @type {any} */ joint) => joint.parts));
+    const others = this.model.parts.map((/** @type {any} */ one, /** @type {number} */ row) => ({ name: one.name, row })).filter((/** @type {any} */ one) => one.row !== part && !joined.has(one.row));
+    if (!others.length) return box;
+    const choice = create('select');
+    choice.setAttribute('aria-label', 'Join to another part');
+    choice.append(new Option('Join to …', ''), ...others.map((/** @type {any} */ one) => new Option(one.name, String(one.row))));
+    choice.addEventListener('change', () => choice.value && this.send({ do: 'join', parts: [part, Number(choice.value)] }));
+    box.append(choice);
+    return box;
+  }
+
+  /** Parts that follow it, to be let go. */
+  #symmetries() { return this.#tags('Symmetric to ', this.model.pairs, 'Let it change on its own'); }
+
+  #more() {
+    const row = create('div', 'row kind'), remove = create('button', '', 'Leave this part out');
+    remove.addEventListener('click', () => this.send({ do: 'remove-parts', parts: [this.part] }));
+    remove.disabled = this.model.parts.length < 2;
+    row.append(remove);
+    return row;
   }
 
   #keep() {

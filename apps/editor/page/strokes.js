@@ -1,11 +1,17 @@
 // Painting parts on the object: strokes of two names say what is cut from what.
 import { MOUSE } from 'three';
 import { create, element } from './dom.js';
+import { strokeColour } from './viewer/palettes.js';
 
 export class Strokes {
-  /** @param {import('./viewer.js').Viewer} viewer @param {(command: object) => void} send */
-  constructor(viewer, send) {
+  /**
+   * @param {import('./viewer/viewer.js').Viewer} viewer
+   * @param {import('./picker.js').Picker} picker
+   * @param {(command: object) => void} send
+   */
+  constructor(viewer, picker, send) {
     this.viewer = viewer;
+    this.picker = picker;
     this.send = send;
     this.active = false;
     /** @type {Map<string, Set<number>>} */
@@ -88,7 +94,7 @@ export class Strokes {
     const to = { x: event.clientX, y: event.clientY }, from = this.last ?? to;
     const steps = Math.max(1, Math.ceil(Math.hypot(to.x - from.x, to.y - from.y) / 3));
     for (let k = 1; k <= steps; ++k) {
-      const hit = this.viewer.pick(from.x + ((to.x - from.x) * k) / steps, from.y + ((to.y - from.y) * k) / steps);
+      const hit = this.picker.pick(from.x + ((to.x - from.x) * k) / steps, from.y + ((to.y - from.y) * k) / steps);
       if (!hit) continue;
       for (const [name, triangles] of this.strokes) if (name !== this.name.value) triangles.delete(hit.triangle);
       if (!this.strokes.has(this.name.value)) this.strokes.set(this.name.value, new Set());
@@ -100,10 +106,10 @@ export class Strokes {
 
   #show() {
     for (const [name, triangles] of this.strokes) if (!triangles.size) this.strokes.delete(name);
-    this.viewer.setStrokes([...this.strokes.values()]);
+    this.viewer.main.setStrokes([...this.strokes.values()]);
     this.legend.replaceChildren(...[...this.strokes.keys()].map((name, k) => {
       const line = create('li', '', name), colour = create('i');
-      colour.style.background = this.viewer.strokeColour(k);
+      colour.style.background = strokeColour(k);
       line.prepend(colour);
       return line;
     }));

@@ -6,7 +6,7 @@ const width = 140, height = 56;
 
 export class Tree {
   /**
-   * @param {import('./viewer.js').Viewer} viewer
+   * @param {import('./viewer/viewer.js').Viewer} viewer
    * @param {{go: (node: number) => void, picture: (node: number) => void, leave: () => void,
    *   preview: (node: {vertices: Float32Array, step: number, stackability: number}) => void}} actions
    */
@@ -81,7 +81,7 @@ export class Tree {
     button.addEventListener('click', () => this.actions.go(k));
     const look = () => {
       const vertices = this.vertices.get(k);
-      if (vertices && k !== this.message.current) this.actions.preview({ vertices, step: this.#step(k), stackability: node.stackability });
+      if (vertices && k !== this.message.current) this.actions.preview({ vertices, step: this.stepOf(k), stackability: node.stackability });
     };
     button.addEventListener('mouseenter', look);
     button.addEventListener('mouseleave', () => this.actions.leave());
@@ -91,14 +91,14 @@ export class Tree {
   }
 
   /** f_max of a node, from its S. @param {number} k */
-  #step(k) {
+  stepOf(k) {
     return (1 - this.message.nodes[k].stackability) / (this.loss || 1);
   }
 
   /** @param {number} k */
   #paint(k) {
     const vertices = this.vertices.get(k), picture = this.nodes.get(k)?.querySelector('canvas');
-    if (vertices && picture) this.viewer.thumbnail(picture, vertices, { step: this.#step(k), against: this.viewer.surface?.mesh.vertices ?? null });
+    if (vertices && picture) this.viewer.thumbnail(picture, vertices, { step: this.stepOf(k), against: this.viewer.main.surface?.mesh.vertices ?? null });
   }
 
   /** Paints all pictures again. */

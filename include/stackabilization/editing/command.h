@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <variant>
@@ -77,10 +78,15 @@ struct TakeDesign {
   int number = 0;  ///< row of EditingSession::found
 };
 
-/// Accepts a change that the diagnosis of the automatic search offers, where it is one of requirements or of
-/// the direction.
+/// Accepts a change that a diagnosis offers.
 struct AcceptRemedy {
-  int number = 0;  ///< row of Diagnosis::remedies
+  /// Whose diagnosis.
+  enum class Source {
+    search,  ///< EditingSession::found
+    advice,  ///< EditingSession::diagnosis
+  };
+  int number = 0;                  ///< row of Diagnosis::remedies
+  Source source = Source::search;  ///< whose diagnosis
 };
 
 /// Segments the parts in which there are strokes anew, each triangle to the nearest stroke. Strokes of a new
@@ -102,9 +108,31 @@ struct RemoveRelations {
   std::vector<int> relations;  ///< rows of Structure::relations; not empty
 };
 
+/// Leaves parts out of the shape. The history begins anew; Undo brings the old one back.
+struct RemoveParts {
+  std::vector<int> parts;  ///< rows of Structure::parts; not empty, and not all
+};
+
+/// Joins two parts where they come nearest to each other, within a quarter of the smallest ball around
+/// both. The history begins anew; Undo brings the old one back.
+struct Join {
+  std::array<int, 2> parts = {0, 1};  ///< rows of Structure::parts
+};
+
+/// Makes one edit of a node again, from the current design: a new node. Throws UsageError, with the cause,
+/// where a limit does not allow it.
+struct TakeEdit {
+  int node = 0;  ///< row of History::nodes
+  int edit = 0;  ///< row of its edits
+};
+
+/// Measures the current design along all directions: EditingSession::map.
+struct MapDirections {};
+
 /// A command.
-using Command = std::variant<ApplySuggestion, Drag, EndDrag, FindRange, RollBack, Undo, Redo, SetTarget,
-                             SetDirection, SetLimit, KeepParts, FindDesigns, StopFinding, TakeDesign,
-                             AcceptRemedy, Segment, SetKind, RemoveRelations>;
+using Command =
+    std::variant<ApplySuggestion, Drag, EndDrag, FindRange, RollBack, Undo, Redo, SetTarget, SetDirection,
+                 SetLimit, KeepParts, FindDesigns, StopFinding, TakeDesign, AcceptRemedy, Segment, SetKind,
+                 RemoveRelations, RemoveParts, Join, TakeEdit, MapDirections>;
 
 }  // namespace stackabilization::editing

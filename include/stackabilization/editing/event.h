@@ -19,6 +19,7 @@ enum class Change {
   suggestions,  ///< EditingSession::suggestions
   range,        ///< EditingSession::range
   found,        ///< EditingSession::found
+  map,          ///< EditingSession::map
 };
 
 /// Something in the session changed.

@@ -14,6 +14,7 @@
 #include "stackabilization/improvement/improve.h"
 #include "stackabilization/improvement/shape_change.h"
 #include "stackabilization/improvement/suggestions.h"
+#include "stackabilization/stacking/map.h"
 
 namespace stackabilization::editing {
 
@@ -56,6 +57,13 @@ struct HandleRange {
   std::optional<Obstacle> above;  ///< what stands above `high`; none if it is 1
 };
 
+/// S of a design along all directions.
+struct DirectionMap {
+  StackabilityMap map;                                        ///< even samples of the hemisphere z >= 0
+  Eigen::Vector3d best_direction = Eigen::Vector3d::UnitZ();  ///< of largest S, as `best_direction` finds it
+  double best = 0;                                            ///< S along it
+};
+
 /// What the automatic search has found.
 struct FoundDesigns {
   double target = 0;                      ///< S that was asked for
@@ -77,7 +85,7 @@ struct SessionOptions {
 /// Threads on which jobs may run at the same time, one job each.
 enum class Lane {
   advice,     ///< the review and the suggestions of the current design, the range of a handle: seconds
-  automatic,  ///< the automatic search: minutes
+  automatic,  ///< the automatic search: minutes; a map of directions, before it
 };
 
 /// Returns the edit times `amount`: the same handle and operation, with the translation or the angle times
@@ -111,28 +119,36 @@ class EditingSession {
   /// handle that the shape does not have, and values out of range.
   void execute(const Command& command);
 
+  /// Goes on with another document, whose changes are saved in `autosave`; nothing of the last one can be
+  /// undone. Throws as the constructor, and leaves the session as it is.
+  void open(Document document, std::filesystem::path autosave);
+
   /// Returns the next job of a lane, if there is one to do and none is running there. The caller has to run
   /// it.
   std::optional<Job> next_job(Lane lane);
   /// Lets running jobs end soon. Their results are dropped.
   void cancel();
 
-  const Document& document() const;         ///< everything that is saved
-  const DeformationModel& space() const;    ///< designs of the shape
-  const Direction& direction() const;       ///< r of the current node
-  const Stackability& at_rest() const;      ///< S of the shape at rest along `direction`
-  const MeasuredDesign& current() const;    ///< design of the current node
-  const MeasuredDesign& shown() const;      ///< the dragged design while dragging, else the current one
-  const std::optional<Edit>& drag() const;  ///< edit that `shown` has beyond the current node, while dragging
-  bool dragging() const;                    ///< whether a drag was not ended yet
-  bool can_undo() const;                    ///< whether Undo has an effect
-  bool can_redo() const;                    ///< whether Redo has an effect
+  const Document& document() const;       ///< everything that is saved
+  const DeformationModel& space() const;  ///< designs of the shape
+  const Direction& direction() const;     ///< r of the current node
+  const Stackability& at_rest() const;    ///< S of the shape at rest along `direction`
+  const MeasuredDesign& current() const;  ///< design of the current node
+  const MeasuredDesign& shown() const;    ///< the dragged design while dragging, else the current one
+  std::optional<Edit> drag() const;       ///< edit that `shown` has beyond the current node, while dragging
+  bool dragging() const;                  ///< whether a drag was not ended yet
+  bool can_undo() const;                  ///< whether Undo has an effect
+  bool can_redo() const;                  ///< whether Redo has an effect
   const std::optional<Review>& review() const;          ///< of the current design, once it is known
   const std::vector<OfferedEdit>& suggestions() const;  ///< best first; grows in the background
   bool suggestions_complete() const;                    ///< whether all suggestions are known
   const std::vector<ObstacleCount>& refused() const;    ///< why other suggestions cannot be made
-  const std::optional<HandleRange>& range() const;      ///< of the last FindRange
-  const FoundDesigns& found() const;                    ///< by the automatic search
+  /// Returns what blocks the current design and what would help, once all suggestions are known and none of
+  /// them raises S.
+  const std::optional<Diagnosis>& diagnosis() const;
+  const std::optional<HandleRange>& range() const;  ///< of the last FindRange
+  const FoundDesigns& found() const;                ///< by the automatic search
+  const std::optional<DirectionMap>& map() const;   ///< of the last MapDirections for the current design
   /// Returns the design of a node. Throws UsageError when there is no such node.
   std::shared_ptr<const Design> design_of(int node) const;
   /// Returns the limits and requirements of the designs.

@@ -13,6 +13,7 @@ struct EditedFrom {
   std::shared_ptr<const Design> design;
   Direction direction;
   double at_rest = 0;  ///< S of the shape at rest along `direction`
+  double now = 0;      ///< S of the design along `direction`
 };
 
 /// A design with an edit, or what stands against it.

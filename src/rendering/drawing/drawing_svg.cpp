@@ -4,6 +4,7 @@
 
 #include "io/formats/formats.h"
 #include "stackabilization/core/number_text.h"
+#include "stackabilization/io/encodings.h"
 #include "stackabilization/rendering/drawing.h"
 
 namespace stackabilization {
@@ -21,19 +22,6 @@ std::string hex(const Colour& colour) {
     const auto value = static_cast<std::size_t>(std::lround(255 * component));
     text += digits[value / 16];
     text += digits[value % 16];
-  }
-  return text;
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k)
-      group = group << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63U] : '=';
   }
   return text;
 }
@@ -75,7 +63,7 @@ std::string element(const PlacedImage& placed) {
          number(placed.place.width) + "\" height=\"" + number(placed.place.height) +
          "\" preserveAspectRatio=\"none\"" +
          (placed.sampling == Sampling::cells ? " image-rendering=\"pixelated\"" : "") +
-         " xlink:href=\"data:image/png;base64," + base64(png_bytes(placed.image)) + "\"/>\n";
+         " xlink:href=\"data:image/png;base64," + base64_text(png_bytes(placed.image)) + "\"/>\n";
 }
 
 }  // namespace

@@ -1,0 +1,189 @@
+// The 3-D view: one or more designs side by side, seen by one camera.
+import * as THREE from 'three';
+import { OrbitControls } from 'three/controls';
+import { palettes } from './palettes.js';
+import { Stage } from './stage.js';
+import { ThumbnailPainter } from './thumbnails.js';
+
+/** Where the eye is at first, seen from the object. */
+const firstView = [1.6, -2.4, 1.15];
+
+export class Viewer {
+  /** @param {HTMLCanvasElement} canvas */
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: false });
+    this.renderer.autoClear = false;
+    this.camera = new THREE.PerspectiveCamera(32, 1, 0.1, 100);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener('change', () => this.draw());
+    this.controls.zoomToCursor = true;
+    this.palette = palettes.light;
+    /** From left to right. @type {Stage[]} */
+    this.stages = [new Stage(() => this.draw())];
+    /** Of the box of the object at rest. */
+    this.diagonal = 1;
+    /** The current design, which pictures are compared with. @type {Float32Array | null} */
+    this.design = null;
+    this.waits = false;
+    this.framesDrawn = 0;
+    this.painter = /** @type {ThumbnailPainter | null} */ (null);
+    new ResizeObserver(() => this.resize()).observe(canvas);
+    canvas.addEventListener('webglcontextrestored', () => this.draw());
+  }
+
+  /** The design that is edited: the one on the left. */
+  get main() { return this.stages[0]; }
+
+  /** @param {import('./mesh_surface.js').MeshData} data */
+  setMesh(data) {
+    while (this.stages.length > 1) this.removeStage();
+    this.main.setMesh(data);
+    this.main.setPalette(this.palette);
+    this.fit();
+  }
+
+  /** Adds a stage on the right for another design of the same mesh. */
+  addStage() {
+    const stage = new Stage(() => this.draw());
+    if (this.main.surface) stage.setMesh(this.main.surface.mesh);
+    stage.setPalette(this.palette);
+    this.stages.push(stage);
+    this.resize();
+    return stage;
+  }
+
+  /** Removes the stage on the right; the first one stays. */
+  removeStage() {
+    if (this.stages.length > 1) this.stages.pop()?.surface?.dispose();
+    this.resize();
+  }
+
+  /** @param {boolean} dark */
+  setTheme(dark) {
+    this.palette = dark ? palettes.dark : palettes.light;
+    for (const stage of this.stages) stage.setPalette(this.palette);
+  }
+
+  /** Part of the window that the first stage has. */
+  #pane() {
+    const box = this.canvas.getBoundingClientRect();
+    return { left: box.left, top: box.top, width: box.width / this.stages.length, height: box.height };
+  }
+
+  /** @param {number} x @param {number} y  of the window */
+  rayAt(x, y) {
+    const box = this.#pane(), ray = new THREE.Raycaster();
+    ray.setFromCamera(new THREE.Vector2((2 * (x - box.left)) / box.width - 1, 1 - (2 * (y - box.top)) / box.height), this.camera);
+    return ray;
+  }
+
+  /** Says whether a place of the window shows the first stage. @param {number} x */
+  isMain(x) {
+    const box = this.#pane();
+    return x <= box.left + box.width;
+  }
+
+  /** Where a point of the first stage is in the window. @param {THREE.Vector3} point */
+  screenOf(point) {
+    const box = this.#pane(), at = point.clone().project(this.camera);
+    return { x: box.left + ((at.x + 1) / 2) * box.width, y: box.top + ((1 - at.y) / 2) * box.height };
+  }
+
+  /** Looks at everything. @param {number[]} [from]  direction from the object to the eye */
+  fit(from = firstView) {
+    const { centre: middle, radius: own, direction, layers, copiesAbove, copiesBelow, step } = this.main;
+    const high = layers.ghosts ? copiesAbove * step : 0, low = layers.ghosts ? copiesBelow * step : 0;
+    const centre = middle.clone().addScaledVector(direction, Math.min((high - low) / 2, 0.25 * own));
+    // The object fills the view; of copies far away only a part is seen.
+    const radius = 1.12 * own + Math.min((high + low) / 2, 0.4 * own);
+    this.look(centre, radius, from);
+  }
+
+  /** Looks at a ball. @param {THREE.Vector3} centre @param {number} radius @param {number[]} [from] */
+  look(centre, radius, from = firstView) {
+    const narrow = Math.min(1, this.camera.aspect);
+    const distance = radius / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
+    this.controls.target.copy(centre);
+    this.camera.position.copy(centre).addScaledVector(new THREE.Vector3().fromArray(from).normalize(), distance);
+    this.camera.near = distance / 200;
+    this.camera.far = distance * 20;
+    this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.draw();
+  }
+
+  /** Turns the eye. @param {number} sideways @param {number} upwards  radians */
+  turn(sideways, upwards) {
+    const offset = this.camera.position.clone().sub(this.controls.target), polar = new THREE.Spherical();
+    const toY = new THREE.Quaternion().setFromUnitVectors(this.camera.up, new THREE.Vector3(0, 1, 0));
+    polar.setFromVector3(offset.applyQuaternion(toY));
+    polar.theta += sideways;
+    polar.phi -= upwards;
+    polar.makeSafe();
+    this.camera.position.copy(this.controls.target).add(offset.setFromSpherical(polar).applyQuaternion(toY.invert()));
+    this.controls.update();
+    this.draw();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (!width || !height) return;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / this.stages.length / height;
+    this.camera.updateProjectionMatrix();
+    // With several panes the place of the mouse in the window is not its place in the picture.
+    this.controls.zoomToCursor = this.stages.length === 1;
+    this.draw();
+  }
+
+  /** Draws with the next frame of the window. */
+  draw() {
+    if (this.waits) return;
+    this.waits = true;
+    requestAnimationFrame(() => {
+      this.waits = false;
+      this.#render();
+    });
+  }
+
+  #render() {
+    if (!this.main.surface) return;
+    const { camera, renderer } = this, size = renderer.getSize(new THREE.Vector2()), width = size.x / this.stages.length;
+    this.onDraw?.();
+    renderer.setScissorTest(true);
+    this.stages.forEach((stage, k) => {
+      const left = Math.round(k * width), right = Math.round((k + 1) * width);
+      stage.light.position.copy(camera.position).add(new THREE.Vector3(0, 0, 2 * stage.radius)).addScaledVector(new THREE.Vector3(1, 0, 0).applyQuaternion(camera.quaternion), -2 * stage.radius);
+      stage.light.target.position.copy(this.controls.target);
+      renderer.setViewport(left, 0, right - left, size.y);
+      renderer.setScissor(left, 0, right - left, size.y);
+      renderer.clear();
+      renderer.render(stage.scene, camera);
+    });
+    ++this.framesDrawn;
+  }
+
+  /** Called before each frame. @type {(() => void) | undefined} */
+  onDraw = undefined;
+
+  /** The window as a picture. @returns {Promise<Blob | null>} */
+  picture() {
+    this.#render();
+    return new Promise((resolve) => this.canvas.toBlob(resolve));
+  }
+
+  /**
+   * Draws a design small, as it is seen now, with one copy above it.
+   * @param {HTMLCanvasElement} canvas
+   * @param {Float32Array} vertices
+   * @param {{step: number, against: Float32Array | null}} look  parts that differ from `against` are green
+   */
+  thumbnail(canvas, vertices, look) {
+    if (!this.main.surface) return;
+    this.painter ??= new ThumbnailPainter(this);
+    this.painter.paint(canvas, vertices, look);
+  }
+}

@@ -1,0 +1,157 @@
+// Parts left out and joined, edits taken from another design, maps of directions, and other documents.
+#include <cmath>
+
+#include "sessions.h"
+#include "stackabilization/core/errors.h"
+#include "stackabilization/improvement/removal.h"
+#include "stackabilization/io/read_file.h"
+#include "support/catch.h"
+#include "support/meshes.h"
+#include "support/messages.h"
+
+using namespace stackabilization;
+using namespace stackabilization::editing;
+using sessions::Observed;
+
+namespace {
+
+std::vector<int> joint_rows(const EditingSession& session, int first, int second) {
+  std::vector<int> rows;
+  const std::vector<Relation>& relations = session.space().rest().structure.relations;
+  for (std::size_t row = 0; row < relations.size(); ++row) {
+    const Relation& one = relations[row];
+    const bool joint = one.type == RelationType::point_joint || one.type == RelationType::line_joint;
+    if (joint &&
+        (one.parts == std::vector<int>{first, second} || one.parts == std::vector<int>{second, first}))
+      rows.push_back(static_cast<int>(row));
+  }
+  return rows;
+}
+
+}  // namespace
+
+TEST_CASE("parts that are left out are gone until Undo, and S is that of the rest") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const std::vector<std::string> names = session.space().rest().shape.part_names;
+  std::vector<int> legs;
+  for (const char* name : {"leg_1", "leg_2", "leg_3", "leg_4"})
+    legs.push_back(structures::part_named(session.space().rest(), name));
+  const StructuredShape top = without_parts(session.space().rest(), legs);
+  session.execute(RemoveParts{legs});
+  CHECK(session.space().rest().shape.part_names == top.shape.part_names);
+  CHECK(session.current().assessment.measured.value == stackability(top.shape, {0, 0, 1}).value);
+  CHECK(session.document().project.history.nodes[0].stackability ==
+        session.current().assessment.measured.value);
+  session.execute(Undo{});
+  CHECK(session.space().rest().shape.part_names == names);
+  CHECK_THROWS_AS(session.execute(RemoveParts{{}}), UsageError);
+  CHECK_THROWS_AS(session.execute(RemoveParts{{99}}), UsageError);
+  CHECK(session.space().rest().shape.part_names == names);
+}
+
+TEST_CASE("a joint that was taken out comes back where it was when the parts are joined") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const int leg = structures::part_named(session.space().rest(), "leg_1");
+  const int top = structures::part_named(session.space().rest(), "top");
+  const std::vector<int> rows = joint_rows(session, leg, top);
+  REQUIRE(rows.size() == 1);
+  const Relation before = session.space().rest().structure.relations[static_cast<std::size_t>(rows[0])];
+  CHECK(mentions(message_of<UsageError>([&] { session.execute(Join{{leg, top}}); }), "joined already"));
+  session.execute(RemoveRelations{rows});
+  REQUIRE(joint_rows(session, leg, top).empty());
+  session.execute(Join{{top, leg}});
+  const std::vector<int> again = joint_rows(session, leg, top);
+  REQUIRE(again.size() == 1);
+  const Relation after = session.space().rest().structure.relations[static_cast<std::size_t>(again[0])];
+  CHECK((after.points.colwise().mean() - before.points.colwise().mean()).norm() <
+        0.01 * session.space().rest().structure.diagonal);
+  CHECK(mentions(message_of<UsageError>([&] { session.execute(Join{{leg, leg}}); }), "itself"));
+  CHECK_THROWS_AS(session.execute(Join{{leg, 99}}), UsageError);
+}
+
+TEST_CASE("an edit is taken from another design, and one that a limit does not allow is refused") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  observed.work();
+  session.execute(ApplySuggestion{0});
+  const Points wanted = session.current().design->shape.vertices;
+  session.execute(RollBack{0});
+  session.execute(TakeEdit{1, 0});
+  CHECK(session.document().project.history.current == 2);
+  CHECK(session.document().project.history.nodes[2].parent == 0);
+  CHECK(session.current().design->shape.vertices == wanted);
+  // The same edit once more, until a limit stands against it.
+  std::string refusal = "accepted";
+  for (int k = 0; k < 20 && refusal == "accepted"; ++k)
+    refusal = message_of<UsageError>([&] { session.execute(TakeEdit{1, 0}); });
+  CHECK(mentions(refusal, "cannot be made here"));
+  CHECK_THROWS_AS(session.execute(TakeEdit{99, 0}), UsageError);
+  CHECK_THROWS_AS(session.execute(TakeEdit{1, 1}), UsageError);
+  CHECK_THROWS_AS(session.execute(TakeEdit{0, 0}), UsageError);
+}
+
+TEST_CASE("a map of directions has S of the design, and goes with it") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  observed.work(Lane::automatic);
+  CHECK(!session.map());
+  session.execute(MapDirections{});
+  observed.work(Lane::automatic);
+  REQUIRE(session.map());
+  const DirectionMap map = *session.map();
+  CHECK(map.map.samples.size() > 500);
+  double best_sample = -1;
+  for (std::size_t k = 0; k < map.map.samples.size(); k += 97) {
+    const MapSample& sample = map.map.samples[k];
+    CHECK(sample.stackability ==
+          Approx(stackability(session.current().design->shape, Direction(sample.direction)).value)
+              .margin(1e-9));
+  }
+  for (const MapSample& sample : map.map.samples) best_sample = std::max(best_sample, sample.stackability);
+  CHECK(map.best >= best_sample - 1e-9);
+  session.execute(SetDirection{map.best_direction});
+  CHECK(session.current().assessment.measured.value == Approx(map.best).margin(1e-9));
+  CHECK(!session.map());
+}
+
+TEST_CASE("where no suggestion raises S it is said what blocks and what would help") {
+  // A box: its copies lie on it whatever is done to it.
+  Observed observed(new_document(structures::box_alone({1, 1, 1})));
+  EditingSession& session = observed.session;
+  observed.work();
+  REQUIRE(session.suggestions_complete());
+  for (const OfferedEdit& one : session.suggestions()) CHECK(one.gain < 0.005);
+  REQUIRE(session.diagnosis());
+  CHECK(!session.diagnosis()->blockers.empty());
+  CHECK_THROWS_AS(session.execute(AcceptRemedy{99, AcceptRemedy::Source::advice}), UsageError);
+  Observed table(sessions::table_document());
+  table.work();
+  REQUIRE(table.session.suggestions().front().gain > 0.005);
+  CHECK(!table.session.diagnosis());
+}
+
+TEST_CASE("another document takes the place of the first one, with a file of its own") {
+  const test::ScratchFolder scratch("editing_other_document");
+  const std::filesystem::path folder = scratch.path();
+  SessionOptions options;
+  options.autosave = folder / "first.json";
+  Observed observed(sessions::table_document(), options);
+  EditingSession& session = observed.session;
+  observed.work();
+  session.execute(ApplySuggestion{0});
+  const std::string first = read_file(folder / "first.json");
+  Document other = new_document(structures::box_alone({1, 1, 1}));
+  other.requirements.target = 0.3;
+  session.open(other, folder / "second.json");
+  CHECK(session.space().rest().shape.part_names == other.project.rest.shape.part_names);
+  CHECK(session.document().requirements.target == 0.3);
+  CHECK(!session.can_undo());
+  CHECK(session.suggestions().empty());
+  CHECK(read_file(folder / "first.json") == first);
+  CHECK(read_file(folder / "second.json") == document_text(session.document()));
+  other.visited.clear();
+  CHECK_THROWS_AS(session.open(other, folder / "third.json"), UsageError);
+  CHECK(read_file(folder / "second.json") == document_text(session.document()));
+}
