@@ -18,7 +18,7 @@ case $purpose in
   packages) packages+=("${for_packages[@]}") ;;
   all)
     packages+=("${for_packages[@]}" catch2 libopenmesh-dev libembree-dev libfcl-dev doxygen python3
-      python3-pytest python3-hypothesis python3-nbclient python3-ipykernel python3-matplotlib)
+      python3-pytest python3-hypothesis python3-nbclient python3-ipykernel python3-matplotlib mypy)
     # For the tests of the page of `edit`. Ubuntu has no package of Chromium but a snap; there they are skipped.
     command -v npm >/dev/null || packages+=(nodejs npm)
     grep -qx 'ID=debian' /etc/os-release && packages+=(chromium)

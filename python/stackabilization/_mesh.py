@@ -5,7 +5,7 @@ from __future__ import annotations
 import numbers
 import os
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy
 
@@ -96,7 +96,7 @@ def checked_text(what: str, text: object) -> str:
 
 def _from_polydata(polydata: Any) -> tuple[Any, Any]:
     """The arrays of a vtkPolyData."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.util.numpy_support import vtk_to_numpy  # type: ignore[import]
 
     if polydata.GetPoints() is None or polydata.GetPolys() is None or polydata.GetPolys().GetNumberOfCells() == 0:
         raise InputError("the vtkPolyData has no polygons")
@@ -134,7 +134,7 @@ def _arrays_of(mesh: Any) -> tuple[Any, Any] | None:
     return None
 
 
-def is_path(mesh: object) -> bool:
+def is_path(mesh: object) -> TypeGuard[Path]:
     """Does it name a file?"""
     return isinstance(mesh, (str, os.PathLike))
 

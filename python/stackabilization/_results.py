@@ -72,7 +72,7 @@ class _Field:
     def __get__(self, result: Result | None, owner: type | None = None) -> Any:
         if result is None:
             return self
-        value = result._document.get(self.key)
+        value = result._document.get(str(self.key))
         return value if self.convert is None or value is None else self.convert(value)
 
     def __set__(self, result: Result, value: object) -> None:
@@ -104,7 +104,7 @@ class Frozen:
 
 
 def _remade(kind: type, values: Mapping[str, Any]) -> Any:
-    made = object.__new__(kind)
+    made: Any = object.__new__(kind)
     for slot, value in values.items():
         if isinstance(value, numpy.ndarray):
             value.setflags(write=False)
@@ -198,12 +198,12 @@ class Witness(Result):
     @property
     def upper_triangle(self) -> int:
         """Row of the face of the mesh below that is touched."""
-        return self._document["triangles"][0]
+        return int(self._document["triangles"][0])
 
     @property
     def lower_triangle(self) -> int:
         """Row of the face of the mesh above that touches it."""
-        return self._document["triangles"][1]
+        return int(self._document["triangles"][1])
 
     upper_point: Floats = field("(3,) point of that face below, model units, rounded.", "point", vector)
     lower_point: Floats = field("(3,) point of the face above, before the lift, model units, rounded.",

@@ -2,8 +2,10 @@
 
 import ast
 import inspect
+import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -71,6 +73,53 @@ def test_stubs_name_what_the_compiled_part_has():
              if isinstance(node, (ast.ClassDef, ast.FunctionDef, ast.AnnAssign))}
     assert stubs == {name for name in dir(_core) if not name.startswith("_")}
     assert (PACKAGE / "py.typed").exists()
+
+
+EXAMPLE = """
+import numpy
+import stackabilization as st
+
+measured: st.Measurement = st.measure("chair.obj", direction=(0, 0, 1), threads=1)
+pitch: float = measured.f_max
+exact = measured.f_max_exact
+if exact is not None:
+    half = exact / 2
+solver = st.Solver((numpy.eye(3), [[0, 1, 2]]), semantics="closed")
+rows = solver.measure_many(numpy.eye(3)).f_max
+print(rows.shape, st.stack(solver.mesh, n=3).transforms[2], st.gap("a.obj", "b.obj").gap)
+for design in st.improve(st.structure("chair.obj"), target=0.6, keep=["seat"], progress=print):
+    design.vertices.sum()
+    print(design.name, design.edits, design.stackability)
+"""
+
+
+@pytest.mark.skipif(shutil.which("mypy") is None, reason="mypy is not installed")
+def test_strict_type_checks_pass_and_find_mistakes(tmp_path):
+    def checked(name, text):
+        (tmp_path / name).write_text(text)
+        return subprocess.run(["mypy", "--strict", "--python-executable", sys.executable, "--cache-dir",
+                               tmp_path / "cache", name], capture_output=True, text=True, check=False, cwd=tmp_path,
+                              env={**os.environ, "MYPYPATH": str(PACKAGE.parent)})
+
+    right = checked("right.py", EXAMPLE)
+    assert right.returncode == 0, right.stdout
+    wrong = checked("wrong.py", EXAMPLE + "st.measure(7)\nst.measure('a.obj', semantics='soft')\nst.stack('a', m=3)\n")
+    assert wrong.returncode == 1 and wrong.stdout.count("error:") == 3, wrong.stdout
+
+
+def signatures(path):
+    """By function, names, kinds and defaults of what it takes."""
+    found = {}
+    for node in ast.parse(path.read_text()).body:
+        if isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
+            defaults = [default and ast.unparse(default) for default in node.args.defaults + node.args.kw_defaults]
+            found[node.name] = ([arg.arg for arg in node.args.args], [arg.arg for arg in node.args.kwonlyargs], defaults)
+    return found
+
+
+def test_stubs_have_the_signatures_of_the_functions():
+    assert signatures(PACKAGE / "_commands.pyi") == signatures(PACKAGE / "_commands.py")
+    assert signatures(PACKAGE / "_improvement.pyi")["improve"] == signatures(PACKAGE / "_improvement.py")["improve"]
 
 
 def test_the_package_loads_quickly_and_without_vtk():
