@@ -43,9 +43,24 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "libraries that measure how well 3D 
  Static libraries and headers of stackabilization, with a CMake package, the
  documentation, and a first project.")
 
+# What Debian asks of every package, and of man pages. gzip without its time: the same bytes from every build.
+find_program(GZIP_PROGRAM gzip)
+function(stackabilization_install_compressed source name destination component)
+  install(CODE "
+    set(folder \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${destination}\")
+    file(MAKE_DIRECTORY \"\${folder}\")
+    execute_process(COMMAND ${GZIP_PROGRAM} -9nc \"${PROJECT_SOURCE_DIR}/${source}\"
+      OUTPUT_FILE \"\${folder}/${name}.gz\" COMMAND_ERROR_IS_FATAL ANY)" COMPONENT ${component})
+endfunction()
+if(GZIP_PROGRAM)
+  stackabilization_install_compressed(docs/stackabilize.1 stackabilize.1 ${CMAKE_INSTALL_MANDIR}/man1 program)
+endif()
 foreach(component program python development)
   string(TOUPPER ${component} upper)
-  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME} RENAME copyright
-    COMPONENT ${component})
+  set(folder ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${upper}_PACKAGE_NAME})
+  install(FILES cmake/copyright DESTINATION ${folder} COMPONENT ${component})
+  if(GZIP_PROGRAM)
+    stackabilization_install_compressed(CHANGELOG.md changelog ${folder} ${component})
+  endif()
 endforeach()
 include(CPack)

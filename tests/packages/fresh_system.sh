@@ -15,9 +15,11 @@ skip() {
 command -v debootstrap >/dev/null || skip "debootstrap is not installed"
 
 cpack --config "$build/CPackConfig.cmake" >/dev/null
+mirror=$(apt-get indextargets --format '$(REPO_URI)' "Codename: $VERSION_CODENAME" "Origin: Debian" "Component: main" | head -n 1)
+[[ -n $mirror ]] || skip "no mirror of $VERSION_CODENAME among the sources of apt"
 root=$(mktemp -d)
 trap 'rm -rf --one-file-system "$root"' EXIT
-debootstrap --variant=minbase "$VERSION_CODENAME" "$root" >"$build/debootstrap.log" 2>&1 ||
+debootstrap --variant=minbase "$VERSION_CODENAME" "$root" "$mirror" >"$build/debootstrap.log" 2>&1 ||
   skip "no fresh system, see $build/debootstrap.log"
 # Packages come from where this machine has them from.
 cp -rT /etc/apt "$root/etc/apt"
