@@ -67,7 +67,7 @@ declare -A parts=(
   [structure]='model fitting symmetry joints segmentation analysis project'
   [deformation]='model controllers carried arap iwires gap_scaling factory'
   [improvement]='design quality requirements history contacts explanation search advice refinement run'
-  [editing]='document structure session'
+  [editing]='document structure session study'
   [rendering]='gl drawing scene pictures'
 )
 for folder in src/*/ include/stackabilization/*/; do
