@@ -10,9 +10,9 @@ import { Folder, keepPicture, openBrowser, program } from './editor.mjs';
 let browser, folder, out;
 before(async () => {
   browser = await openBrowser();
-  folder = new Folder('cup.obj');
+  folder = new Folder('table.obj');
   out = path.join(folder.path, 'out');
-  execFileSync(program, ['improve', folder.model, '--target', '0.83', '--direction', '0', '0', '1', '--solutions', '2', '-o', out, '--quiet']);
+  execFileSync(program, ['improve', folder.model, '--target', '0.3', '--direction', '0', '0', '1', '--solutions', '1', '--effort', '0.1', '-o', out, '--quiet']);
 });
 after(async () => {
   await browser?.close();
