@@ -1,7 +1,7 @@
 // Question: what does the automatic method gain over editing by hand, with the same tool?
 //
 //     study [--seeds N] [--edits N] [--compared N] [--expansions N] [--threads N] [--paper-data FOLDER]
-//           [-o FOLDER] [TASK...]
+//           [--people FILE] [-o FOLDER] [TASK...]
 //
 // After the user study of the paper (section 6), with simulated users instead of people. TASK is one of seven
 // objects of the shipped models, each with a target for S along one direction; with --paper-data those of the
@@ -10,7 +10,11 @@
 // random edits with the same handles, operations, deformation model and constraints, see S after each, and
 // give up after `--edits` of them: 200, an hour at 18 seconds for taking hold, dragging, waiting, looking,
 // and keeping or undoing. One row per task, user and seed; `summary`: medians and quartiles. `edits_tried` of
-// the automatic method is the number of designs that it made.
+// the automatic method is the number of designs that it made. With --people, those who did the
+// tasks in the editor (`stackabilize edit experiments/study/plan.json --study FILE --boxes frame`) have rows
+// too, with the number of the participant as seed.
+
+#include "stackabilization/editing/study.h"
 
 #include <tbb/parallel_for.h>
 
@@ -23,6 +27,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/shape_change.h"
+#include "stackabilization/io/read_file.h"
 #include "study/automatic_work.h"
 #include "study/manual_work.h"
 #include "study/study_summary.h"
@@ -33,7 +38,7 @@ namespace {
 struct Settings {
   int seeds = 20, edits = 200, compared = 8;
   std::int64_t expansions = 40;
-  std::filesystem::path paper_data;
+  std::filesystem::path paper_data, people;
   std::vector<std::string> names;
 };
 
@@ -132,6 +137,29 @@ std::vector<StudyTask> tasks_of(const Settings& settings) {
   return chosen;
 }
 
+/// Adds what people came to in the tasks of the runs.
+void add_people(const std::filesystem::path& file, std::vector<StudyRun>& runs) {
+  const std::vector<StudyRun> tasks = runs;
+  for (const editing::StudyResult& result : editing::study_results(read_file(file), file.string())) {
+    const auto task = std::find_if(tasks.begin(), tasks.end(),
+                                   [&](const StudyRun& run) { return run.task == result.task; });
+    if (task == tasks.end()) continue;
+    StudyRun run = *task;
+    run.user = "person, " + name_of(result.condition);
+    run.seed = result.participant;
+    run.target = result.target;
+    run.reached = result.reached;
+    run.stackability = result.stackability;
+    run.energy = {};
+    run.energy.distortion = result.distortion;
+    run.change = result.change;
+    run.kept = result.edits;
+    run.tried = result.made;
+    run.processor_seconds = 0;
+    runs.push_back(std::move(run));
+  }
+}
+
 void add_options(Settings& settings, CLI::App& app) {
   app.add_option("--seeds", settings.seeds, "simulated users of each habit, seeds 1, 2 ...")
       ->check(CLI::Range(1, 10000));
@@ -143,6 +171,8 @@ void add_options(Settings& settings, CLI::App& app) {
       ->check(CLI::PositiveNumber);
   app.add_option("--paper-data", settings.paper_data,
                  "folder of the authors' data; tasks of their study too");
+  app.add_option("--people", settings.people,
+                 "CSV of `stackabilize edit --study`: people who did tasks of these names");
   app.add_option("tasks", settings.names, "names of tasks; by default all")->type_name("TASK");
 }
 
@@ -163,6 +193,7 @@ int main(int argc, char** argv) {
       } catch (const InputError& error) {
         report.failed(error.what());
       }
+    if (!settings.people.empty()) add_people(settings.people, runs);
     report_study(runs, report);
   });
 }

@@ -12,7 +12,7 @@ namespace stackabilization::experiments {
 /// One user, or one preset of the automatic method, at one task.
 struct StudyRun {
   std::string task, model, input_hash, user;
-  std::optional<std::int64_t> seed;  ///< of a simulated user
+  std::optional<std::int64_t> seed;  ///< of a simulated user; of people the number of the participant
   double target = 0, before = 0;     ///< S asked for, and at rest
   bool reached = false;              ///< the target, all requirements held
   double stackability = 0;           ///< at the end

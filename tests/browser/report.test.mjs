@@ -10,9 +10,9 @@ import { Folder, keepPicture, openBrowser, program } from './editor.mjs';
 let browser, folder, out;
 before(async () => {
   browser = await openBrowser();
-  folder = new Folder('cup.obj');
+  folder = new Folder('table.obj');
   out = path.join(folder.path, 'out');
-  execFileSync(program, ['improve', folder.model, '--target', '0.83', '--direction', '0', '0', '1', '--solutions', '2', '-o', out, '--quiet']);
+  execFileSync(program, ['improve', folder.model, '--target', '0.3', '--direction', '0', '0', '1', '--solutions', '1', '--effort', '0.1', '-o', out, '--quiet']);
 });
 after(async () => {
   await browser?.close();
@@ -32,7 +32,7 @@ test('the view shows the object as given beside its solutions, under one camera'
   assert.match(labels[1], /^Solution 1, S /);
   const facts = await page.evaluate(async () => {
     const view = window.reportView, bitmap = await createImageBitmap(await view.picture());
-    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), pen = canvas.getContext('2d');
+    const canvas = new OffscreenCanvas(bitmap.width, bitmap.height), pen = canvas.getContext('2d', { willReadFrequently: true });
     pen.drawImage(bitmap, 0, 0);
     const width = Math.floor(bitmap.width / view.stages.length);
     // Colours of each pane: that of the object as given is yellow, those of solutions are green.

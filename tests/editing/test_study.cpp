@@ -148,6 +148,49 @@ TEST_CASE("a row has a field per column, numbers to the last digit, and no more 
   CHECK(named["answer_3"] == "5");
 }
 
+TEST_CASE("results come back from what was written down") {
+  StudyEntry entry;
+  entry.task = "a, \"b\"";
+  entry.condition = StudyCondition::automatic;
+  entry.target = 0.6;
+  entry.energy.distortion = {0.1, 0.2, 1.0 / 3, 0};
+  entry.change = 0.03;
+  std::string csv = study_heading();
+  const auto add = [&](const std::string& event, double seconds) {
+    entry.event = event;
+    entry.seconds = seconds;
+    csv += study_row(entry, {});
+  };
+  add("begin", 0);
+  add("edit", 1);
+  add("go", 2);
+  add("edit", 3);
+  entry.participant = 2;
+  add("begin", 0);
+  add("edit", 5);
+  entry.participant = 1;
+  entry.assessment.measured.value = 0.61;
+  entry.edits = 1;
+  entry.answers = {2, 3, 4};
+  add("done", 61.5);
+  const std::vector<StudyResult> results = study_results(csv, "r.csv");
+  REQUIRE(results.size() == 1);
+  CHECK(results[0].participant == 1);
+  CHECK(results[0].task == entry.task);
+  CHECK(results[0].condition == StudyCondition::automatic);
+  CHECK(results[0].seconds == 61.5);
+  CHECK(results[0].target == 0.6);
+  CHECK(results[0].stackability == 0.61);
+  CHECK(results[0].reached);
+  CHECK(results[0].distortion.total() == entry.energy.distortion.total());
+  CHECK(results[0].change == 0.03);
+  CHECK(results[0].edits == 1);
+  CHECK(results[0].made == 2);
+  CHECK(results[0].answers == entry.answers);
+  csv.replace(csv.rfind("automatic"), 9, "by magic!");
+  CHECK(mentions(message_of<InputError>([&] { study_results(csv, "r.csv"); }), "r.csv, line 8"));
+}
+
 TEST_CASE("the next participant has the number after the last one") {
   CHECK(last_participant(study_heading(), "r.csv") == 0);
   StudyEntry entry;

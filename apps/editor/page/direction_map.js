@@ -8,10 +8,10 @@ const snap = (6 * Math.PI) / 180;
 /** Of keys, in radians. */
 const keyStep = (3 * Math.PI) / 180;
 
-/** From pale to deep: S from 0 to 1. @type {[number, number, number][]} */
+/** From pale to deep: S from 0 to the largest one. @type {[number, number, number][]} */
 const ramp = [[241, 244, 248], [190, 214, 236], [120, 170, 216], [58, 117, 182], [22, 62, 122]];
 
-/** @param {number} s */
+/** @param {number} s  share of the largest S */
 function colourOf(s) {
   const at = Math.max(0, Math.min(1, s)) * (ramp.length - 1), k = Math.min(Math.floor(at), ramp.length - 2), t = at - k;
   return `rgb(${ramp[k].map((a, i) => Math.round(a + t * (ramp[k + 1][i] - a))).join(' ')})`;
@@ -158,9 +158,10 @@ export class DirectionMap {
     pen.beginPath();
     pen.arc(middle, middle, rim, 0, 2 * Math.PI);
     pen.clip();
+    const most = Math.max(this.map?.best.stackability ?? 0, 0.05);
     for (const [x, y, z, s] of this.map?.samples ?? []) {
       const at = placeOf([x, y, z]);
-      pen.fillStyle = colourOf(s);
+      pen.fillStyle = colourOf(s / most);
       pen.fillRect(at.x - 4.2, at.y - 4.2, 8.4, 8.4);
     }
     pen.restore();

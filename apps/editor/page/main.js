@@ -347,7 +347,7 @@ comparing.textContent = 'Compare';
 comparing.title = 'Compare two designs side by side (X)';
 comparing.setAttribute('aria-pressed', 'false');
 toggles.x = () => compare.show(!compare.open);
-toggles.v = () => directions.show(!directions.open);
+toggles.v = () => { if (!document.body.dataset.study) directions.show(!directions.open); };
 comparing.addEventListener('click', toggles.x);
 compare.changed = (/** @type {boolean} */ open) => comparing.setAttribute('aria-pressed', String(open));
 element('cameras').append(comparing);

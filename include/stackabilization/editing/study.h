@@ -81,6 +81,25 @@ std::string study_heading();
 /// Returns a row of the CSV, with a line end. There is nothing of a person in it but a number. `limits`:
 /// those of quality, of which the nearest one is named.
 std::string study_row(const StudyEntry& entry, const QualityLimits& limits);
+/// What a participant came to in one task.
+struct StudyResult {
+  int participant = 1;
+  std::string task;
+  StudyCondition condition = StudyCondition::manual;
+  double seconds = 0;                   ///< from the begin of the task to its end
+  double target = 0, stackability = 0;  ///< S that was wanted, and of the design at the end
+  bool reached = false;                 ///< whether all checks passed at the end
+  Distortion distortion;                ///< of the design at the end
+  double change = 0;                    ///< of the design at the end
+  int edits = 0;                        ///< from rest to the design at the end
+  int made = 0;                         ///< edits that were made, also those that were given up later
+  std::array<int, 3> answers = {};      ///< 1 to 5
+};
+
+/// Returns the results in a CSV of studies, in its order; tasks that were not ended are left out. Throws
+/// InputError naming `name` and the line where it is not as `study_row` writes it.
+std::vector<StudyResult> study_results(std::string_view csv, const std::string& name);
+
 /// Returns the largest number of a participant in a CSV, 0 if there is none. Throws InputError naming `name`
 /// and the line if it does not have the columns of `study_heading`.
 int last_participant(std::string_view csv, const std::string& name);

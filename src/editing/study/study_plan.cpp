@@ -21,7 +21,7 @@ const std::array<std::string, 3> default_questions = {"Are you content with the 
 
 std::string text_of(const detail::JsonNode& node, const char* what) {
   const std::string text = node.text();
-  if (text.empty()) node.fail_expected(what);
+  if (text.empty() || text.find_first_of("\r\n") != std::string::npos) node.fail_expected(what);
   return text;
 }
 
