@@ -143,14 +143,23 @@ class Parser {
 
   Operation operation() {
     const std::string verb = next_ < words_.size() ? words_[next_] : "";
-    if (verb != "move" && verb != "rotate" && verb != "scale")
-      fail("expected move, rotate or scale, " + found());
+    if (verb != "move" && verb != "rotate" && verb != "scale" && verb != "taper")
+      fail("expected move, rotate, scale or taper, " + found());
     ++next_;
     if (verb == "move") return Move{vector("move")};
     const double amount = number(verb);
     if (verb == "rotate") {
       expect("about");
       return Rotate{vector("about"), amount * radians_per_degree};
+    }
+    if (verb == "taper") {
+      expect("towards");
+      Taper taper{amount, vector("towards"), {}};
+      if (next_ < words_.size()) {
+        expect("along");
+        taper.along = vector("along");
+      }
+      return taper;
     }
     Scale scale{amount, {}};
     if (next_ < words_.size() && words_[next_] != linear_word) {
@@ -247,6 +256,9 @@ std::string edit_text(const Edit& edit, const std::vector<std::string>& part_nam
     return handle + " move " + vector_text(move->by) + how;
   if (const auto* rotate = std::get_if<Rotate>(&edit.operation))
     return handle + " rotate " + degrees_text(rotate->radians) + " about " + vector_text(rotate->axis);
+  if (const auto* taper = std::get_if<Taper>(&edit.operation))
+    return handle + " taper " + exact_digits(taper->factor) + " towards " + vector_text(taper->axis) +
+           (taper->along ? " along " + vector_text(*taper->along) : std::string());
   const Scale& scale = std::get<Scale>(edit.operation);
   return handle + " scale " + exact_digits(scale.factor) +
          (scale.along ? " along " + vector_text(*scale.along) : std::string()) + how;

@@ -65,6 +65,10 @@ Json edit_json(const Edit& edit, const std::string& reason, const std::vector<st
   } else if (const auto* const scale = std::get_if<Scale>(&edit.operation)) {
     document["scale"] = {{"factor", scale->factor},
                          {"along", scale->along ? to_json(*scale->along) : Json(nullptr)}};
+  } else if (const auto* const taper = std::get_if<Taper>(&edit.operation)) {
+    document["taper"] = {{"factor", taper->factor},
+                         {"axis", to_json(taper->axis)},
+                         {"along", taper->along ? to_json(*taper->along) : Json(nullptr)}};
   }
   document["falloff"] = edit.falloff == Falloff::linear ? "linear" : "gaussian";
   return document;
@@ -138,6 +142,13 @@ Json parts_json(const std::vector<int>& parts, const StructuredShape& rest) {
   return list;
 }
 
+Json closed_json(const std::optional<ClosedPair>& pair, const StructuredShape& rest) {
+  if (!pair) return nullptr;
+  return {{"parts", parts_json({pair->upper_part, pair->lower_part}, rest)},
+          {"stackability", pair->stackability},
+          {"reason", describe(*pair, rest.structure)}};
+}
+
 Json diagnosis_json(const Diagnosis& diagnosis, const StructuredShape& rest) {
   Json blockers = Json::array(), constraints = Json::array(), remedies = Json::array();
   for (const Blocker& blocker : diagnosis.blockers)
@@ -158,6 +169,7 @@ Json diagnosis_json(const Diagnosis& diagnosis, const StructuredShape& rest) {
   return {{"target", diagnosis.target},
           {"reached", diagnosis.reached},
           {"direction", to_json(diagnosis.direction)},
+          {"closed", closed_json(diagnosis.closed, rest)},
           {"blockers", blockers},
           {"constraints", constraints},
           {"remedies", remedies},

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "stackabilization/improvement/best_first.h"
+#include "stackabilization/improvement/closed.h"
 
 namespace stackabilization {
 
@@ -72,9 +73,13 @@ std::string describe(const Remedy& remedy, const Structure& rest);
 struct Diagnosis {
   double target = 0, reached = 0;                        ///< S required, and S of the best candidate
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< r of the best candidate
+  std::optional<ClosedPair> closed;                      ///< what closes the shape to copies of itself
   std::vector<Blocker> blockers;                         ///< blocking pairs, largest f first; at most 4
   std::vector<ObstacleCount> constraints;                ///< the most frequent obstacles; at most 3
   std::vector<Remedy> remedies;                          ///< changes that would help, largest S first
+  /// The best design that one more edit of the best candidate makes, as asked, if it is better and passes every
+  /// check but the target.
+  std::optional<Candidate> better;
 };
 
 /// Options of `diagnose`.

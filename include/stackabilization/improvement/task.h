@@ -26,7 +26,8 @@ struct ImprovementTaskOptions {
 ///
 /// Starting directions, where none are given: up, which is the z axis, or an axis of symmetry within one
 /// degree of it along which the shape stacks better; and the best direction of a search if it raises S by
-/// more than 0.1. With a length limit or gap scaling only up.
+/// more than 0.1. With a length limit or gap scaling only up. With limits of quality the search looks at
+/// directions within 30 degrees of up, in which the object still stands; the diagnosis offers others.
 ///
 /// With a length limit the target is S at which the copies fit the length with the height and the boxes at
 /// rest (plan_stack).

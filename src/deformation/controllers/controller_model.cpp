@@ -6,6 +6,7 @@
 
 #include "deformation/controllers/edit_solution.h"
 #include "deformation/controllers/part_edit.h"
+#include "deformation/controllers/taper.h"
 #include "deformation/model/hollow.h"
 #include "deformation/model/joint_slides.h"
 #include "stackabilization/core/errors.h"
@@ -59,7 +60,10 @@ struct ControllerModel::Data {
     validate(constraints, rest.shape);
     check(now);
     detail::EditTask task{rest.shape, now, {}, constraints};
-    if (edit.handle.kind == HandleKind::shape) {
+    if (const auto* taper = std::get_if<Taper>(&edit.operation)) {
+      task.wanted = detail::tapered(now, *taper, rest.structure);
+      task.is_taper = true;
+    } else if (edit.handle.kind == HandleKind::shape) {
       task.wanted = detail::edit_handle(now, edit.operation);
     } else {
       const Part& edited = part(edit.handle);

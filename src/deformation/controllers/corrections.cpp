@@ -24,8 +24,8 @@ Eigen::MatrixXd row_space(const Eigen::MatrixXd& rows) {
 
 }  // namespace
 
-CorrectionSpace::CorrectionSpace(const Rig& rig)
-    : rig_(rig), bases_(rig.bases), straight_(rig.bases.size()) {}
+CorrectionSpace::CorrectionSpace(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases)
+    : rig_(rig), bases_(bases), straight_(bases.size()) {}
 
 void CorrectionSpace::fix(int of_class) {
   bases_[at(of_class)].resize(bases_[at(of_class)].rows(), 0);

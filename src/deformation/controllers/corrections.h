@@ -13,7 +13,8 @@ namespace stackabilization::detail {
 /// Corrections that a solver may apply to every class of parts, and the restrictions on them.
 class CorrectionSpace {
  public:
-  explicit CorrectionSpace(const Rig& rig);
+  /// `bases`: those of the rig, or its free ones.
+  CorrectionSpace(const Rig& rig, const std::vector<Eigen::MatrixXd>& bases);
 
   /// Forbids all corrections of the class.
   void fix(int of_class);

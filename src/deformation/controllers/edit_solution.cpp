@@ -27,6 +27,10 @@ constexpr int extent_rounds = 10;
 constexpr int remainder_rounds = 4;
 constexpr double settled_remainder = 0.1, largest_remainder = 10;
 
+/// Largest distance of a taper from a symmetry of a part that it is made to have, fraction of the diagonal.
+/// Parts of real objects are symmetric to planes that miss those of the whole by a little.
+constexpr double taper_symmetry = 0.002;
+
 bool changes_nothing(const PartEdit& edit) {
   return edit.changes.isZero(0) && edit.rotation.vec().isZero(0);
 }
@@ -40,7 +44,7 @@ class EditSolution {
         edit_(task.wanted.front()),
         class_(rig.space.class_of(edit_.part)),
         progress_(at(rig.space.class_count()), Progress::open),
-        corrections_(rig),
+        corrections_(rig, task.is_taper ? rig.free_bases : rig.bases),
         extents_(mesh.by_class, extent_bounds(task.shape, task.constraints)) {}
 
   EditOutcome run() {
@@ -107,7 +111,7 @@ class EditSolution {
     for (std::size_t row = 0; row < residuals.size(); ++row) {
       const RelationType type = rig_.rest.relations[row].type;
       const bool symmetry = type == RelationType::symmetry || type == RelationType::self_symmetry;
-      if (symmetry && residuals[row] > tolerance::relation)
+      if (symmetry && residuals[row] > (task_.is_taper ? taper_symmetry : tolerance::relation))
         return Refusal{.cause = RefusalCause::symmetry_of_shape,
                        .relation = static_cast<int>(row),
                        .amount = residuals[row]};

@@ -47,6 +47,10 @@ Rig::Rig(const Structure& structure, Following following) : rest(structure), spa
     edit_kernels.push_back(space.invariant_columns(c, half.transpose()));
     strains.push_back(strain_scale(first, rest.diagonal));
     bases.push_back(invariant_basis(space, c, reduced_basis(first, strains.back(), following)));
+    free_bases.push_back(
+        following == Following::free
+            ? bases.back()
+            : invariant_basis(space, c, reduced_basis(first, strains.back(), Following::free)));
     const auto* cylinder = std::get_if<GeneralizedCylinder>(&first);
     slides.push_back(cylinder && !cylinder->closed ? slide_functions(*cylinder) : Eigen::MatrixXd());
     turnings.push_back(cylinder ? turning(*cylinder) : Eigen::MatrixXd());

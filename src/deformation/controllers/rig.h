@@ -32,6 +32,9 @@ struct Rig {
   /// Per class: edit_kernel, projected to the subspace of its self-symmetries.
   std::vector<Eigen::MatrixXd> edit_kernels;
   std::vector<Eigen::MatrixXd> bases;   ///< per class: reduced_basis, projected likewise
+  /// Per class: the basis of Following::free, projected likewise. Tapers make no affine maps of parts, and so
+  /// need these to close joints.
+  std::vector<Eigen::MatrixXd> free_bases;
   std::vector<double> strains;          ///< per class: strain_scale
   std::vector<Eigen::MatrixXd> slides;  ///< per class: slide_functions of an open cylinder, otherwise empty
   /// Per class: `turning` of a generalized cylinder, empty for a cuboid.

@@ -103,6 +103,19 @@ void check(const Scale& scale) {
   if (scale.along) check_axis(*scale.along, "a scaling along an axis");
 }
 
+void check(const Taper& taper) {
+  check_number(taper.factor > 0, "a taper needs a positive factor", taper.factor);
+  check_number(taper.factor >= 1 / edit_limits::max_scale && taper.factor <= edit_limits::max_scale,
+               "a taper needs a factor from " + text(1 / edit_limits::max_scale) + " to " +
+                   text(edit_limits::max_scale),
+               taper.factor);
+  check_axis(taper.axis, "a taper");
+  if (!taper.along) return;
+  check_axis(*taper.along, "a taper along one direction");
+  const double cosine = taper.along->normalized().dot(taper.axis.normalized());
+  check_number(std::abs(cosine) <= tolerance::relative, "a taper needs a direction across its axis", cosine);
+}
+
 }  // namespace
 
 const std::vector<std::string>& handle_kind_names() {
@@ -116,6 +129,9 @@ void validate(const Edit& edit) {
     if (!move->by.allFinite()) throw UsageError("a move needs a finite translation, found " + text(move->by));
   } else if (const auto* rotate = std::get_if<Rotate>(&edit.operation)) {
     check(*rotate);
+  } else if (const auto* taper = std::get_if<Taper>(&edit.operation)) {
+    if (edit.handle.kind != HandleKind::shape) throw UsageError("only the shape can be tapered");
+    check(*taper);
   } else {
     check(std::get<Scale>(edit.operation));
   }
@@ -155,7 +171,7 @@ void validate(const DeformationConstraints& constraints, const Shape& rest) {
 
 bool falls_off_linearly(const Edit& edit) {
   return edit.falloff == Falloff::linear && edit.handle.kind == HandleKind::section &&
-         !std::holds_alternative<Rotate>(edit.operation);
+         (std::holds_alternative<Move>(edit.operation) || std::holds_alternative<Scale>(edit.operation));
 }
 
 std::string describe(const Edit& edit, const std::vector<std::string>& part_names) {
@@ -166,6 +182,9 @@ std::string describe(const Edit& edit, const std::vector<std::string>& part_name
   if (const auto* rotate = std::get_if<Rotate>(&edit.operation))
     return "rotate " + name + " by " + text(rotate->radians * 180 / std::numbers::pi) + " degrees about " +
            text(rotate->axis);
+  if (const auto* taper = std::get_if<Taper>(&edit.operation))
+    return "taper " + name + " by " + text(taper->factor) + " towards " + text(taper->axis) +
+           (taper->along ? " along " + text(*taper->along) : "");
   const Scale& scale = std::get<Scale>(edit.operation);
   return "scale " + name + " by " + text(scale.factor) + (scale.along ? " along " + text(*scale.along) : "") +
          how;

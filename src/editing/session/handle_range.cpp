@@ -11,6 +11,8 @@ Edit scaled(Edit edit, double amount) {
     move->by *= amount;
   else if (auto* rotate = std::get_if<Rotate>(&edit.operation))
     rotate->radians *= amount;
+  else if (auto* taper = std::get_if<Taper>(&edit.operation))
+    taper->factor = std::pow(taper->factor, amount);
   else
     std::get<Scale>(edit.operation).factor = std::pow(std::get<Scale>(edit.operation).factor, amount);
   return edit;

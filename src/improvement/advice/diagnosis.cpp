@@ -64,6 +64,7 @@ std::int64_t whole_directions(double count) {
 struct Trial {
   double best = 0;  ///< largest S after one edit, at least the S before
   std::map<Obstacle, std::int64_t> refusals;
+  std::optional<Edit> best_edit;  ///< edit that gives it, if any is better
   int made = 0;
   bool stopped = false;  ///< whether the trial ended before all edits were tried
 };
@@ -94,6 +95,7 @@ class DiagnosisBuilder {
     if (!stopped()) remove_parts();
     if (!stopped()) take_apart();
     if (!stopped()) look_elsewhere();
+    make_better();
     std::stable_sort(diagnosis_.remedies.begin(), diagnosis_.remedies.end(),
                      [](const Remedy& a, const Remedy& b) { return a.stackability > b.stackability; });
     return std::move(diagnosis_);
@@ -153,7 +155,10 @@ class DiagnosisBuilder {
     const Separation apart = separation(below, above, direction_, options);
     blocker.f = apart.blocked ? apart.length : measured.f_max;
     blocker.stackability = measured.value_at(blocker.f);
-    if (const auto trial = tried({region}, checker_)) explain(blocker, *trial);
+    if (const auto trial = tried({region}, checker_)) {
+      explain(blocker, *trial);
+      note(*trial);
+    }
     return blocker;
   }
 
@@ -188,13 +193,41 @@ class DiagnosisBuilder {
     trial.stopped = cut_short;
     trial.best = best_.measured.value;
     for (std::size_t k = 0; k < edits.size(); ++k) {
-      trial.best = std::max(trial.best, reached[k]);
+      if (reached[k] > trial.best) {
+        trial.best = reached[k];
+        trial.best_edit = edits[k].edit;
+      }
       if (refusals[k])
         ++trial.refusals[*refusals[k]];
       else
         ++trial.made;
     }
     return trial;
+  }
+
+  /// Keeps the edit of the best trial as asked.
+  void note(const Trial& trial) {
+    if (!trial.best_edit || trial.best <= noted_) return;
+    noted_ = trial.best;
+    noted_edit_ = trial.best_edit;
+  }
+
+  void make_better() {
+    if (!noted_edit_ || !helps(noted_)) return;
+    const DeformationConstraints constraints =
+        deformation_constraints(checker_.requirements(), rest_, direction_);
+    DeformationResult made = checker_.space().edited(best_.design, *noted_edit_, constraints);
+    if (made.refusal) return;
+    const Assessment assessment = checker_.check(made.design, direction_);
+    for (const Check& check : assessment.checks)
+      if (!check.passed && check.kind != CheckKind::target && check.kind != CheckKind::room) return;
+    Candidate candidate = best_;
+    candidate.measured = assessment.measured;
+    const double gain = best_.energy.gain + assessment.measured.value - best_.measured.value;
+    candidate.energy = checker_.rest_shape().energy_meter().energy(made.design, gain);
+    candidate.design = std::move(made.design);
+    candidate.reasons.clear();
+    diagnosis_.better = std::move(candidate);
   }
 
   void explain(Blocker& blocker, const Trial& trial) const {
@@ -287,7 +320,10 @@ class DiagnosisBuilder {
 
   std::optional<double> best_as_asked() {
     if (!as_asked_)
-      if (const auto trial = tried(regions_, checker_)) as_asked_ = trial->best;
+      if (const auto trial = tried(regions_, checker_)) {
+        as_asked_ = trial->best;
+        note(*trial);
+      }
     return as_asked_;
   }
 
@@ -340,6 +376,8 @@ class DiagnosisBuilder {
   StackabilitySolver solver_;
   std::vector<ContactRegion> regions_;  ///< one region per class of symmetric regions
   std::optional<double> as_asked_;      ///< largest S after one edit under the requirements given
+  double noted_ = 0;                    ///< largest S of `note`
+  std::optional<Edit> noted_edit_;      ///< edit that gives it
   std::int64_t designs_ = 0;            ///< designs made
   Diagnosis diagnosis_;
 };
@@ -404,6 +442,7 @@ std::string text(const Diagnosis& diagnosis, const Structure& rest) {
   std::string text = "S = " + number(diagnosis.target) + " was not reached; the best is S = " +
                      number_unlike(diagnosis.reached, diagnosis.target) + " " +
                      direction_text(diagnosis.direction) + ".\n";
+  if (diagnosis.closed) text += describe(*diagnosis.closed, rest) + "\n";
   for (const Blocker& blocker : diagnosis.blockers) text += describe(blocker, rest) + "\n";
   if (!diagnosis.constraints.empty()) text += "What stood against edits most often:\n";
   for (const ObstacleCount& constraint : diagnosis.constraints)

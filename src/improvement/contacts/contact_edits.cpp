@@ -30,6 +30,9 @@ constexpr double off_centre = 0.25;
 /// creep out of the contact in tiny steps.
 constexpr double min_steps = 0.2, max_steps = 6;
 
+/// Sizes of tapers, in steps of a scaling.
+constexpr std::array<double, 3> taper_sizes = {0.5, 1, 2};
+
 /// A direction is across r if the absolute value of its cosine to r is at most this.
 constexpr double across_r = 0.1;
 /// A further size tried, as a multiple of the size that just clears the other part.
@@ -64,6 +67,7 @@ class ContactEditor {
   std::vector<ContactEdit> run() {
     for (const int row : different_regions(situation_.regions, symmetry_, options_.max_regions))
       for (const ContactSide& side : contact_sides(situation_, row, frame_)) look_at(side);
+    if (options_.family == EditFamily::smooth && situation_.capabilities.edits_primitives) taper_whole();
     return std::move(edits_);
   }
 
@@ -88,6 +92,17 @@ class ContactEditor {
       if (handle.role == Role::whole)
         for (const Eigen::Vector3d& axis : {frame_.u, frame_.v, frame_.w}) scale_whole(side, handle, axis);
     }
+  }
+
+  /// Tapers the whole shape, for the sake of the largest region.
+  void taper_whole() {
+    if (situation_.regions.empty()) return;
+    const ContactRegion& region = situation_.regions.front();
+    for (const double size : taper_sizes)
+      for (const double sign : {-1.0, 1.0})
+        for (const Edit& edit : tapers(frame_, 1 + sign * size * options_.scale_step))
+          edits_.push_back({edit, region.type, 0, true,
+                            {sign < 0 ? EditEffect::narrower : EditEffect::wider, true, region.upper_part}});
   }
 
   void add(const ContactSide& side, const ContactHandle& handle, const Operation& operation,
@@ -286,7 +301,7 @@ std::vector<ContactEdit> gap_scalings(const ContactSituation& situation, const C
 
 bool is_smooth(const Edit& edit, const Primitive& primitive) {
   const Handle& handle = edit.handle;
-  if (handle.kind == HandleKind::part) return true;
+  if (handle.kind == HandleKind::part || std::holds_alternative<Taper>(edit.operation)) return true;
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&primitive))
     return handle.kind == HandleKind::section && !cylinder->closed && edit.falloff == Falloff::linear &&
            (handle.index == 0 || handle.index == cylinder->centres.rows() - 1);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "deformation/controllers/straightness.h"
 #include "stackabilization/structure/tolerances.h"
@@ -230,6 +231,15 @@ std::vector<ContactHandle> contact_handles(const ContactSituation& situation, co
   whole.centre = mean(control_points(primitive));
   handles.push_back(whole);
   return handles;
+}
+
+std::vector<Edit> tapers(const ContactFrame& frame, double factor) {
+  std::vector<Edit> edits;
+  const std::array<std::optional<Eigen::Vector3d>, 3> widths = {std::nullopt, frame.u, frame.v};
+  for (const Eigen::Vector3d& axis : {Eigen::Vector3d(-frame.w), frame.w})
+    for (const std::optional<Eigen::Vector3d>& along : widths)
+      edits.push_back({{HandleKind::shape, 0, 0}, Taper{factor, axis, along}});
+  return edits;
 }
 
 }  // namespace stackabilization::detail

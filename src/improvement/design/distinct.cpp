@@ -49,6 +49,10 @@ EditSignature SolutionDiversity::signature(const Edit& edit) const {
   if (const auto* move = std::get_if<Move>(&edit.operation)) set_direction(signature, move->by);
   if (const auto* turn = std::get_if<Rotate>(&edit.operation)) set_direction(signature, turn->axis);
   if (const auto* scale = std::get_if<Scale>(&edit.operation)) signature.x = scale->factor > 1 ? 1 : -1;
+  if (const auto* taper = std::get_if<Taper>(&edit.operation)) {
+    signature.x = taper->factor > 1 ? 1 : -1;
+    if (taper->along) set_direction(signature, *taper->along);
+  }
   return signature;
 }
 

@@ -62,6 +62,13 @@ Operation operation_from_json(const JsonNode& node) {
     rotate.expect_keys({"axis", "radians"});
     return Rotate{rotate["axis"].numbers(3), rotate["radians"].number()};
   }
+  if (node.has("taper")) {
+    const JsonNode taper = node["taper"];
+    taper.expect_keys({"factor", "axis", "along"}, 2);
+    Taper operation{taper["factor"].number(), taper["axis"].numbers(3), {}};
+    if (taper.has("along")) operation.along = taper["along"].numbers(3);
+    return operation;
+  }
   const JsonNode scale = node["scale"];
   scale.expect_keys({"factor", "along"}, 1);
   Scale operation{scale["factor"].number(), {}};
@@ -85,6 +92,9 @@ Json to_json(const Edit& edit, const std::vector<std::string>& part_names) {
     json["move"] = to_json(move->by);
   } else if (const auto* rotate = std::get_if<Rotate>(&edit.operation)) {
     json["rotate"] = {{"axis", to_json(rotate->axis)}, {"radians", rotate->radians}};
+  } else if (const auto* taper = std::get_if<Taper>(&edit.operation)) {
+    json["taper"] = {{"factor", taper->factor}, {"axis", to_json(taper->axis)}};
+    if (taper->along) json["taper"]["along"] = to_json(*taper->along);
   } else {
     const Scale& scale = std::get<Scale>(edit.operation);
     json["scale"] = {{"factor", scale.factor}};
@@ -113,9 +123,9 @@ Eigen::Vector3d direction_from_json(const JsonNode& node) {
 
 Edit edit_from_json(const JsonNode& node, const StructuredShape& rest,
                     const DeformationCapabilities& capabilities) {
-  node.expect_keys({"handle", "move", "rotate", "scale", "falloff"}, 4);
-  if (int{node.has("move")} + int{node.has("rotate")} + int{node.has("scale")} != 1)
-    node.fail("expected one of the keys 'move', 'rotate' and 'scale'");
+  node.expect_keys({"handle", "move", "rotate", "scale", "taper", "falloff"}, 5);
+  if (int{node.has("move")} + int{node.has("rotate")} + int{node.has("scale")} + int{node.has("taper")} != 1)
+    node.fail("expected one of the keys 'move', 'rotate', 'scale' and 'taper'");
   Edit edit;
   edit.handle = handle_from_json(node["handle"], rest, capabilities);
   edit.operation = operation_from_json(node);

@@ -296,7 +296,11 @@ class ChangeDescription {
     for (std::size_t k = 0; k < options_.edits.size(); ++k) {
       const std::optional<int> part = edited_part(options_.edits[k]);
       const EditReason& reason = options_.reasons[k];
-      if (!part || !own.contains(class_of_[at(*part)]) || reason.effect == EditEffect::compensation) continue;
+      if (reason.effect == EditEffect::compensation) continue;
+      // An edit of the whole shape has its reason for all parts but the one that is avoided.
+      const bool whole = options_.edits[k].handle.kind == HandleKind::shape &&
+                         !(reason.away_from >= 0 && own.contains(class_of_[at(reason.away_from)]));
+      if (!whole && (!part || !own.contains(class_of_[at(*part)]))) continue;
       const std::string name =
           reason.away_from < 0 ? "the next copy"
                                : "the " + phrases_->phrase(classes_[class_of_[at(reason.away_from)]]).words +

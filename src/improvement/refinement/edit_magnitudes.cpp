@@ -47,6 +47,13 @@ struct Merge {
     if (product < 1 / edit_limits::max_scale || product > edit_limits::max_scale) return std::nullopt;
     return Scale{std::abs(product - 1) <= tolerance::relative ? 1 : product, a.along};
   }
+  std::optional<Operation> operator()(const Taper& a, const Taper& b) const {
+    if (a.along.has_value() != b.along.has_value() || same_line(a.axis, b.axis) != 1) return std::nullopt;
+    if (a.along && same_line(*a.along, *b.along) == 0) return std::nullopt;
+    const double product = a.factor * b.factor;
+    if (product < 1 / edit_limits::max_scale || product > edit_limits::max_scale) return std::nullopt;
+    return Taper{std::abs(product - 1) <= tolerance::relative ? 1 : product, a.axis, a.along};
+  }
   template <typename A, typename B>
   std::optional<Operation> operator()(const A&, const B&) const {
     return std::nullopt;
@@ -63,6 +70,7 @@ std::optional<Edit> merge(const Edit& a, const Edit& b) {
 bool changes_nothing(const Edit& edit) {
   if (const auto* move = std::get_if<Move>(&edit.operation)) return move->by.isZero(0);
   if (const auto* turn = std::get_if<Rotate>(&edit.operation)) return turn->radians == 0;
+  if (const auto* taper = std::get_if<Taper>(&edit.operation)) return taper->factor == 1;
   return std::get<Scale>(edit.operation).factor == 1;
 }
 
@@ -159,6 +167,11 @@ std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edit
   for (const std::vector<int>& members : symmetric_classes(rest.structure))
     stands_for_others[static_cast<std::size_t>(members.front())] = true;
   std::vector<MagnitudeEdit> result;
+  if (family == EditFamily::smooth)
+    for (const Edit& edit : tapers(frame, unit_factor))
+      if (std::none_of(edits.begin(), edits.end(),
+                       [&](const MagnitudeEdit& there) { return merge(there.edit, edit).has_value(); }))
+        result.push_back({edit, std::nullopt});
   for (const Handle& handle : handles) {
     if (handle.kind == HandleKind::shape || !stands_for_others[static_cast<std::size_t>(handle.part)])
       continue;
@@ -179,7 +192,9 @@ Edit with_magnitude(Edit edit, double x) {
     move->by *= x;
   else if (auto* turn = std::get_if<Rotate>(&edit.operation))
     turn->radians *= x;
-  else {
+  else if (auto* taper = std::get_if<Taper>(&edit.operation)) {
+    if (x != 1) taper->factor = std::pow(taper->factor, x);
+  } else {
     auto& scale = std::get<Scale>(edit.operation);
     if (x != 1) scale.factor = std::pow(scale.factor, x);
   }

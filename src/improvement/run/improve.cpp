@@ -26,6 +26,8 @@ constexpr double first_share = 0.7;
 constexpr double min_search = 0.05;
 /// Without a solution refinement ends at this share. The rest is for the diagnosis.
 constexpr double diagnosis_begin = 0.85;
+/// Share of the work at which the diagnosis of a closed shape ends.
+constexpr double closed_share = 0.1;
 
 /// Largest number of designs measured to refine one list of edits.
 constexpr int first_evaluations = 300;
@@ -206,6 +208,14 @@ class ImprovementRun {
 
   Improvement run() {
     const BestFirstOptions search = search_options();
+    if (const std::optional<ClosedPair> closed = closed_shape()) {
+      BestFirstResult nothing;
+      nothing.nearest.push_back(at_rest(checker_, options_.search.directions.front()));
+      diagnosis_end_ = closed_share;
+      finish(nothing);
+      result_.diagnosis->closed = closed;
+      return std::move(result_);
+    }
     if (!state_ && search.save) search.save(search_at_start(checker_, search));
     std::vector<Candidate> starts = options_.starts;
     if (refines_)
@@ -235,6 +245,22 @@ class ImprovementRun {
     else
       search.edits.family = EditFamily::paper;
     return search;
+  }
+
+  /// Returns what closes the shape to copies of itself along every starting direction, where limits of quality
+  /// and the height are kept: then there is nothing to search for.
+  std::optional<ClosedPair> closed_shape() const {
+    const Requirements& asked = checker_.requirements();
+    if (!refines_ || !asked.quality || !asked.keep_height || state_) return std::nullopt;
+    std::optional<ClosedPair> first;
+    for (const Eigen::Vector3d& r : options_.search.directions) {
+      const Direction direction(r);
+      const Stackability rest = checker_.rest_shape().measure(direction);
+      const auto pair = closed_pair(checker_.rest_shape().shape(), direction, rest, asked.target);
+      if (!pair || pair->stackability >= asked.target) return std::nullopt;
+      if (!first) first = pair;
+    }
+    return first;
   }
 
   bool late(double share) { return budget_.late(share) || cancelled(); }
@@ -310,16 +336,35 @@ class ImprovementRun {
       result_.end = SearchEnd::solved;
   }
 
-  void finish(const BestFirstResult& found) {
+  /// Returns whether a design holds all that is asked but the target.
+  bool is_acceptable(const Candidate& candidate) const {
+    const Assessment assessment = checker_.check(candidate.design, Direction(candidate.direction));
+    return std::all_of(assessment.checks.begin(), assessment.checks.end(), [](const Check& check) {
+      return check.passed || check.kind == CheckKind::target || check.kind == CheckKind::room;
+    });
+  }
+
+  /// Leaves out what came near but breaks a limit of quality. The shape at rest is always near.
+  void keep_acceptable(std::vector<Candidate>& nearest) const {
+    if (!refines_ || !checker_.requirements().quality) return;
+    const auto first = std::find_if(nearest.begin(), nearest.end(),
+                                    [this](const Candidate& candidate) { return is_acceptable(candidate); });
+    nearest.erase(nearest.begin(), first);
+    if (nearest.empty()) nearest.push_back(at_rest(checker_, options_.search.directions.front()));
+  }
+
+  void finish(BestFirstResult found) {
     for (const Candidate& solution : result_.solutions)
       result_.assessments.push_back(checker_.check(solution.design, Direction(solution.direction)));
     Eigen::Vector3d direction = options_.search.directions.front();
+    if (result_.solutions.empty()) keep_acceptable(found.nearest);
     if (!result_.solutions.empty()) {
       direction = result_.solutions.front().direction;
     } else if (!found.nearest.empty()) {
       direction = found.nearest.front().direction;
       diagnose(found);
       result_.nearest = found.nearest.front();
+      if (result_.diagnosis->better) result_.nearest = result_.diagnosis->better;
     }
     result_.before = at_rest(checker_, direction);
     if (cancelled())
@@ -330,7 +375,7 @@ class ImprovementRun {
 
   void diagnose(const BestFirstResult& found) {
     DiagnosisOptions options;
-    options.designs = static_cast<double>(budget_.designs_until(1, min_search));
+    options.designs = static_cast<double>(budget_.designs_until(diagnosis_end_, min_search));
     options.directions_per_design =
         static_cast<double>(directions_of_effort(1, checker_.space().rest().shape)) /
         designs_of_effort(1, checker_.rest_shape());
@@ -343,6 +388,7 @@ class ImprovementRun {
   const std::optional<SavedSearch>& state_;
   bool refines_;
   WorkBudget budget_;
+  double diagnosis_end_ = 1;  ///< share of the work at which the diagnosis ends
   Improvement result_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
@@ -21,6 +22,8 @@ namespace {
 constexpr double directions_share = 0.15;
 /// Another direction than up is worth the work of a search if it raises S by more than this.
 constexpr double clearly_better = 0.1;
+/// With limits of quality the object stands: its copies lean by at most this angle, 30 degrees.
+constexpr double max_lean = std::numbers::pi / 6;
 /// Cosine of one degree. An axis of the shape may differ by this angle from the z axis and still be up: a hat
 /// that stands slightly aslant stacks along its own axis.
 constexpr double nearly_up = 0.99985;
@@ -80,6 +83,7 @@ ImprovementTask::ImprovementTask(StructuredShape rest, Requirements requirements
     directions_ = {up.direction};
     if (!requirements.length_limit && !capabilities_of(options.kind).edits_along_one_direction) {
       SearchOptions search;
+      if (requirements.quality) search.cone = DirectionCone{up.direction, max_lean};
       search.max_directions = directions_of_effort(directions_share * options.effort, rest.shape);
       search.progress = options.progress;
       search.cancelled = options.cancelled;

@@ -20,6 +20,11 @@ bool takes_back(const Edit& edit, const Edit& earlier) {
     const Eigen::Vector3d& by = std::get<Move>(earlier.operation).by;
     return move->by.dot(by) < -tolerance::same_symmetry * move->by.norm() * by.norm();
   }
+  if (const auto* taper = std::get_if<Taper>(&edit.operation)) {
+    const auto& before = std::get<Taper>(earlier.operation);
+    return (taper->factor > 1) != (before.factor > 1) && taper->axis.dot(before.axis) > 0 &&
+           taper->along == before.along;
+  }
   const auto *scale = std::get_if<Scale>(&edit.operation), *before = std::get_if<Scale>(&earlier.operation);
   if (scale == nullptr || (scale->factor > 1) == (before->factor > 1)) return false;
   if (scale->along.has_value() != before->along.has_value()) return false;

@@ -18,6 +18,8 @@ TEST_CASE("edits are described by part, operation and amount") {
         "scale cross-section 7 of leg by 0.9");
   CHECK(describe({{HandleKind::shape, 0, 0}, Scale{2, Eigen::Vector3d(1, 0, 0)}}, names) ==
         "scale the shape by 2 along (1, 0, 0)");
+  CHECK(describe({{HandleKind::shape, 0, 0}, Taper{0.9, {0, 0, -1}, Eigen::Vector3d(1, 0, 0)}}, names) ==
+        "taper the shape by 0.9 towards (0, 0, -1) along (1, 0, 0)");
   CHECK(describe({{HandleKind::section, 1, 7}, Scale{0.9, {}}, Falloff::linear}, names) ==
         "scale cross-section 7 of leg by 0.9, linearly");
   CHECK(describe({{HandleKind::section, 0, 0}, Move{{1, 0, 0}}, Falloff::linear}, names) ==
