@@ -12,6 +12,7 @@
 
 #include "envelope/separation/shear.h"
 #include "envelope/separation/triangle_copies.h"
+#include "stackabilization/core/errors.h"
 
 namespace stackabilization {
 namespace {
@@ -240,6 +241,35 @@ SeparationTree::SeparationTree(const Shape& shape) {
   std::vector<TriangleCopy> copies = take_copies(triangles);
   const std::array<double, 3> origin = exact_origin(triangles);
   data_ = std::make_unique<const Data>(build(std::move(triangles), std::move(copies), origin));
+}
+
+SeparationTree::SeparationTree(std::unique_ptr<const Data> data) : data_(std::move(data)) {}
+
+SeparationTree SeparationTree::translated(const Eigen::Vector3d& shift) const {
+  if (!shift.allFinite()) throw UsageError("a tree is translated by a finite vector");
+  auto moved = std::make_unique<Data>(*data_);
+  const std::array<double, 3> origin = std::exchange(moved->origin, {});
+  // Rounded additions are monotonic, so the box of moved corners is the moved box.
+  const auto move = [&](std::array<double, 3>& point) {
+    for (int axis = 0; axis < 3; ++axis) point[axis] = (point[axis] + origin[axis]) + shift[axis];
+  };
+  moved->magnitude = 0;
+  for (TreeTriangle& triangle : moved->triangles)
+    for (auto& corner : triangle.corners) {
+      move(corner);
+      for (const double coordinate : corner)
+        moved->magnitude = std::max(moved->magnitude, std::abs(coordinate));
+    }
+  const double rounding = 32 * unit_roundoff * std::max(moved->magnitude, shift.cwiseAbs().maxCoeff());
+  for (TreeNode& node : moved->nodes) {
+    move(node.low);
+    move(node.high);
+    double offset = 0;
+    for (int axis = 0; axis < 3; ++axis) offset += node.normal[axis] * (origin[axis] + shift[axis]);
+    node.slab_low += offset - rounding;
+    node.slab_high += offset + rounding;
+  }
+  return SeparationTree(std::move(moved));
 }
 
 SeparationTree::SeparationTree(SeparationTree&&) noexcept = default;

@@ -1,0 +1,235 @@
+#include "stacking/place/place_bounds.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include "stackabilization/core/tolerances.h"
+
+namespace stackabilization::detail {
+namespace {
+
+constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// Rectangles that are examined for one cell and one side.
+constexpr int max_steps = 40;
+/// Width of the rectangles around points that touch, fraction of the width of a cell.
+constexpr double part_near = 0.125;
+/// Rectangles smaller than this fraction of the shapes are not cut further.
+constexpr double finest_part = 0x1p-14;
+
+ProjectedMesh projected(const WeldedMesh& mesh, const EdgeTable& edges, double sign, double error) {
+  ProjectedMesh result{mesh.points, &mesh.triangles, &edges, error};
+  result.points.col(2) *= sign;
+  return result;
+}
+
+/// A box around a rectangle turned by `yaw` about the origin.
+Rectangle turned(const Rectangle& box, double yaw) {
+  const double c = std::cos(yaw), s = std::sin(yaw);
+  const double x = box.x_low / 2 + box.x_high / 2, y = box.y_low / 2 + box.y_high / 2;
+  const double half_x = (std::abs(c) * box.width() + std::abs(s) * box.height()) / 2;
+  const double half_y = (std::abs(s) * box.width() + std::abs(c) * box.height()) / 2;
+  const double turned_x = c * x - s * y, turned_y = s * x + c * y;
+  return {turned_x - half_x, turned_x + half_x, turned_y - half_y, turned_y + half_y};
+}
+
+double radius(const Rectangle& box) {
+  return std::hypot(std::max(std::abs(box.x_low), std::abs(box.x_high)),
+                    std::max(std::abs(box.y_low), std::abs(box.y_high)));
+}
+
+Rectangle grown(const Rectangle& box, double margin) {
+  return {box.x_low - margin, box.x_high + margin, box.y_low - margin, box.y_high + margin};
+}
+
+/// Where the points of a rectangle of the shape can be at the places of a cell.
+Rectangle reach(const Rectangle& part, const PlaceCell& cell) {
+  Rectangle box = cell.yaw == 0 && cell.half_turn == 0 ? part : turned(part, cell.yaw);
+  if (cell.half_turn > 0) box = grown(box, radius(part) * cell.half_turn);
+  return {box.x_low + cell.box.x_low, box.x_high + cell.box.x_high, box.y_low + cell.box.y_low,
+          box.y_high + cell.box.y_high};
+}
+
+/// Where the points of a rectangle of the base can be, seen from the shape, at the places of a cell.
+Rectangle reach_back(const Rectangle& part, const PlaceCell& cell) {
+  const Rectangle moved{part.x_low - cell.box.x_high, part.x_high - cell.box.x_low,
+                        part.y_low - cell.box.y_high, part.y_high - cell.box.y_low};
+  if (cell.yaw == 0 && cell.half_turn == 0) return moved;
+  return grown(turned(moved, -cell.yaw), radius(moved) * cell.half_turn);
+}
+
+/// What a rectangle shows, and an upper bound of what its parts can show.
+struct Part {
+  Rectangle box;
+  double low, high;
+
+  friend bool operator<(const Part& a, const Part& b) {
+    return a.high != b.high ? a.high < b.high : a.low < b.low;
+  }
+};
+
+std::array<Rectangle, 4> quarters(const Rectangle& box) {
+  const double x = box.x_low / 2 + box.x_high / 2, y = box.y_low / 2 + box.y_high / 2;
+  return {Rectangle{box.x_low, x, box.y_low, y}, Rectangle{x, box.x_high, box.y_low, y},
+          Rectangle{box.x_low, x, y, box.y_high}, Rectangle{x, box.x_high, y, box.y_high}};
+}
+
+}  // namespace
+
+PlaceBounds::Surface::Surface(const Shape& shape, double error)
+    : mesh(weld(shape)),
+      edges(mesh.triangles),
+      up(projected(mesh, edges, 1, error)),
+      down(projected(mesh, edges, -1, error)) {}
+
+/// One of the two ways round: rectangles of one surface, and where they can be on the other one.
+class PlaceBounds::Side {
+ public:
+  Side(PlaceBounds& bounds, const PlaceCell& cell, bool of_shape)
+      : own_(of_shape ? bounds.shape_.down : bounds.base_.up),
+        other_(of_shape ? bounds.base_.up : bounds.shape_.down),
+        cell_(cell),
+        of_shape_(of_shape),
+        margin_(tolerance::product_rounding * bounds.size_) {}
+
+  /// Examines parts of the rectangle until one shows `enough`: the most promising part, the most promising
+  /// quarter of it and so on, then the next part.
+  void search(const Rectangle& start, double enough, CellBound& best) const {
+    const double finest = finest_part * std::max(start.width(), start.height());
+    std::priority_queue<Part> parts;
+    parts.push(examined(start));
+    for (int step = 0; step < max_steps && !parts.empty();) {
+      Part part = parts.top();
+      parts.pop();
+      for (; step < max_steps && part.high >= enough; ++step) {
+        take(part, best);
+        if (best.low >= enough) return;
+        if (std::max(part.box.width(), part.box.height()) <= finest) break;
+        std::array<Part, 4> next;
+        std::size_t i = 0;
+        for (const Rectangle& quarter : quarters(part.box)) next[i++] = examined(quarter);
+        std::sort(next.begin(), next.end());
+        for (i = 0; i < 3; ++i)
+          if (next[i].high >= enough) parts.push(next[i]);
+        part = next[3];
+      }
+    }
+  }
+
+  void take(const Part& part, CellBound& best) const {
+    if (part.low > best.low) best = {part.low, BoundWitness{of_shape_, part.box}};
+  }
+
+  Part examined(const Rectangle& box) const {
+    const Rectangle there = grown(of_shape_ ? reach(box, cell_) : reach_back(box, cell_), margin_);
+    const HeightBound here = own_.over(box);
+    if (here.high == -unbounded) return {box, -unbounded, -unbounded};
+    const HeightBound far = other_.over(there);
+    Part part{box, here.low + far.low - margin_, here.high + far.high + margin_};
+    if (part.high > -unbounded) {
+      narrow(part, there);
+      part.high = std::min(part.high, here.high + lowest_there(box) + margin_);
+    }
+    return part;
+  }
+
+  /// An upper bound of how low the other surface gets where every point of the rectangle can be: at the turn
+  /// in the middle of the cell, at the centre and the corners of the places that all of them reach.
+  double lowest_there(const Rectangle& box) const {
+    const Rectangle& shifts = cell_.box;
+    const Rectangle own = of_shape_ && cell_.yaw != 0 ? turned(box, cell_.yaw) : box;
+    const Rectangle all = of_shape_ ? Rectangle{own.x_high + shifts.x_low, own.x_low + shifts.x_high,
+                                                own.y_high + shifts.y_low, own.y_low + shifts.y_high}
+                                    : Rectangle{own.x_high - shifts.x_high, own.x_low - shifts.x_low,
+                                                own.y_high - shifts.y_high, own.y_low - shifts.y_low};
+    if (all.width() < 0 || all.height() < 0) return unbounded;
+    const Eigen::Rotation2Dd back(of_shape_ ? 0 : -cell_.yaw);
+    double lowest = unbounded;
+    for (const auto& [s, t] : {std::pair(0.5, 0.5), {0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}}) {
+      const Eigen::Vector2d point =
+          back * Eigen::Vector2d(all.x_low + s * all.width(), all.y_low + t * all.height());
+      lowest =
+          std::min(lowest, other_.over(grown({point.x(), point.x(), point.y(), point.y()}, margin_)).high);
+    }
+    return lowest;
+  }
+
+  /// Compares the surfaces along the slope that they have in common where they slide along each other.
+  void narrow(Part& part, const Rectangle& there) const {
+    const Rectangle& box = part.box;
+    const Eigen::Vector2d slope =
+        -own_.slope_at(box.x_low / 2 + box.x_high / 2, box.y_low / 2 + box.y_high / 2);
+    if (slope.isZero(0)) return;
+    // u(p) - slope_there . p over there, slope_there . p - slope . q for the places p of q.
+    const Eigen::Vector2d slope_there = Eigen::Rotation2Dd(of_shape_ ? cell_.yaw : -cell_.yaw) * slope;
+    const Eigen::Vector2d shift_slope = of_shape_ ? slope_there : Eigen::Vector2d(-slope);
+    const Rectangle& shifts = cell_.box;
+    const double middle = shift_slope.x() * (shifts.x_low + shifts.x_high) / 2 +
+                          shift_slope.y() * (shifts.y_low + shifts.y_high) / 2;
+    const double spread =
+        (std::abs(shift_slope.x()) * shifts.width() + std::abs(shift_slope.y()) * shifts.height()) / 2 +
+        slope.norm() * (turned_radius(box) * cell_.half_turn + 8 * margin_) + margin_;
+    const HeightBound here = own_.over(box, -slope), far = other_.over(there, slope_there);
+    part.low = std::max(part.low, here.low + far.low + middle - spread);
+    part.high = std::min(part.high, here.high + far.high + middle + spread);
+  }
+
+  /// Largest distance from the axis of what turns.
+  double turned_radius(const Rectangle& box) const {
+    if (of_shape_) return radius(box);
+    const Rectangle& shifts = cell_.box;
+    return radius({box.x_low - shifts.x_high, box.x_high - shifts.x_low, box.y_low - shifts.y_high,
+                   box.y_high - shifts.y_low});
+  }
+
+  Rectangle box() const { return own_.box(); }
+
+ private:
+  HeightBounds& own_;
+  HeightBounds& other_;
+  const PlaceCell& cell_;
+  bool of_shape_;
+  double margin_;  ///< for the rounding of places and of heights in the frame of r
+};
+
+PlaceBounds::PlaceBounds(const LocalShapes& shapes)
+    : size_(shapes.size),
+      base_(shapes.base, tolerance::product_rounding * shapes.size),
+      shape_(shapes.shape, tolerance::product_rounding * shapes.size) {}
+
+CellBound PlaceBounds::bound(const PlaceCell& cell, const BoundWitness& of_cell_around) {
+  CellBound best;
+  const Side side(*this, cell, of_cell_around.of_shape);
+  for (const Rectangle& part : quarters(of_cell_around.part)) side.take(side.examined(part), best);
+  return best;
+}
+
+CellBound PlaceBounds::bound_near(const PlaceCell& cell, const Eigen::Vector2d& of_shape,
+                                  const Eigen::Vector2d& of_base) {
+  CellBound best;
+  const double width = std::max(cell.box.width(), cell.box.height());
+  for (const bool is_of_shape : {true, false}) {
+    const Side side(*this, cell, is_of_shape);
+    const Eigen::Vector2d& point = is_of_shape ? of_shape : of_base;
+    for (const double half : {part_near * width, part_near * part_near * width})
+      side.take(side.examined({point.x() - half, point.x() + half, point.y() - half, point.y() + half}),
+                best);
+  }
+  return best;
+}
+
+CellBound PlaceBounds::search(const PlaceCell& cell, double enough) {
+  CellBound best;
+  for (const bool of_shape : {true, false}) {
+    const Side side(*this, cell, of_shape);
+    side.search(side.box(), enough, best);
+    if (best.low >= enough) break;
+  }
+  return best;
+}
+
+}  // namespace stackabilization::detail

@@ -1,0 +1,97 @@
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "envelope/height_bounds/height_bounds.h"
+#include "mesh/welded_mesh.h"
+#include "stackabilization/envelope/height_field.h"
+#include "support/catch.h"
+#include "support/solids.h"
+
+using namespace stackabilization;
+using namespace stackabilization::detail;
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::infinity();
+
+/// Bounds along z.
+struct Bounded {
+  WeldedMesh mesh;
+  EdgeTable edges;
+  HeightBounds bounds;
+
+  explicit Bounded(const Shape& shape)
+      : mesh(weld(shape)), edges(mesh.triangles), bounds({mesh.points, &mesh.triangles, &edges, 1e-15}) {}
+};
+
+}  // namespace
+
+TEST_CASE("a flat top bounds its height from both sides, also across its triangles") {
+  Bounded box(solids::box({0, 0, 0}, {2, 2, 1}));
+  for (const Rectangle& inside : {Rectangle{0.25, 1.75, 0.25, 1.75}, Rectangle{1, 1, 1, 1}}) {
+    CHECK(box.bounds.over(inside).low == Approx(1).margin(1e-12));
+    CHECK(box.bounds.over(inside).high == Approx(1).margin(1e-12));
+  }
+  // Beyond the border nothing is below; beside it there is nothing at all.
+  CHECK(box.bounds.over({1, 2.25, 1, 1.5}).low == -nothing);
+  CHECK(box.bounds.over({1, 2.25, 1, 1.5}).high == Approx(1).margin(1e-12));
+  CHECK(box.bounds.over({3, 4, 0, 1}).high == -nothing);
+}
+
+TEST_CASE("along the slope of a surface the bounds do not depend on the size of the rectangle") {
+  // A ridge: u = 1 - |x| over [-1, 1].
+  Bounded ridge(solids::extruded_profile({{-1, 0}, {1, 0}, {0, 1}}, 2));
+  const HeightBound side = ridge.bounds.over({0.25, 0.75, 0.5, 1.5}, {-1, 0});
+  CHECK(side.low == Approx(1).margin(1e-12));
+  CHECK(side.high == Approx(1).margin(1e-12));
+  CHECK(ridge.bounds.slope_at(0.5, 1).isApprox(Eigen::Vector2d(-1, 0)));
+  const HeightBound level = ridge.bounds.over({0.25, 0.75, 0.5, 1.5});
+  CHECK(level.low == Approx(0.25).margin(1e-12));
+  CHECK(level.high == Approx(0.75).margin(1e-12));
+}
+
+TEST_CASE("a hole is seen, however small it is") {
+  // A plate with a hole of a thousandth of its width: four bars around it, welded at their corners.
+  const double a = 0.4995, b = 0.5005;
+  Shape plate = solids::box({0, 0, 0}, {a, 1, 1});
+  for (const Shape& bar : {solids::box({b, 0, 0}, {1, 1, 1}), solids::box({a, 0, 0}, {b, a, 1}),
+                           solids::box({a, b, 0}, {b, 1, 1})})
+    plate = concatenate(plate, bar);
+  Bounded bounded(plate);
+  CHECK(bounded.bounds.over({0.25, 0.75, 0.25, 0.75}).low == -nothing);
+  CHECK(bounded.bounds.over({0.1, 0.4, 0.1, 0.9}).low == Approx(1).margin(1e-12));
+}
+
+TEST_CASE("bounds over random rectangles hold for the envelope at random points") {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  int covered = 0;
+  for (const Shape& shape : {solids::sphere(1, 3), solids::torus({}), solids::frustum_shell({}),
+                             solids::table({}), solids::stair_plate({})}) {
+    Bounded bounded(shape);
+    const Rectangle box = bounded.bounds.box();
+    for (int i = 0; i < 200; ++i) {
+      const double size = std::pow(unit(random), 3) * box.width();
+      const double x = box.x_low + unit(random) * box.width(), y = box.y_low + unit(random) * box.height();
+      const Rectangle part{x, x + size, y, y + size * unit(random)};
+      const Eigen::Vector2d slope(unit(random) - 0.5, unit(random) - 0.5);
+      const HeightBound level = bounded.bounds.over(part), tilted = bounded.bounds.over(part, slope);
+      Window window{part.x_low, part.y_low, std::max(part.width(), 1e-9) / 4, 4, 1};
+      const HeightField field = height_field_by_rays(shape, Direction(0, 0, 1), window);
+      for (int k = 0; k < 4; ++k) {
+        const Eigen::Vector2d p = window.sample(k, 0);
+        if (p.y() > part.y_high) continue;
+        const double u = field.upper(k, 0);
+        CHECK(u >= level.low - 1e-12);
+        CHECK(u <= level.high + 1e-12);
+        if (level.low > -nothing) {
+          ++covered;
+          CHECK(u - slope.dot(p) >= tilted.low - 1e-12);
+        }
+        CHECK(u - slope.dot(p) <= tilted.high + 1e-12);
+      }
+    }
+  }
+  CHECK(covered > 300);  // it does not hold because nothing is claimed
+}
