@@ -17,7 +17,7 @@ Errors say what was expected: `InputError` and `UsageError` are ValueErrors. Ctr
 The same input gives the same numbers, whatever the number of threads.
 """
 
-from ._commands import (compare, deform, gap, inspect, map, measure, search, separation, stack, structure, suggest,
+from ._commands import (compare, deform, drop, gap, inspect, map, measure, search, separation, stack, structure, suggest,
                         validate)
 from ._core import Error, InputError, Mesh, OutputError, RenderError, UsageError
 from ._core import version as __version__
@@ -31,6 +31,6 @@ __all__ = [
     "Comparison", "Contact", "Deformation", "Design", "Error", "Findings", "Gap", "Gradient", "Improvement", "InputError",
     "Inspection", "Map", "Measurement", "Measurements", "Mesh", "Nest", "OutputError", "RenderError", "Result",
     "Search", "Separation", "Solver", "Stack", "Structure", "Suggestion", "Suggestions", "UsageError",
-    "Validation", "Witness", "compare", "deform", "gap", "improve", "improvement", "inspect", "load", "map", "measure", "search",
+    "Validation", "Witness", "compare", "deform", "drop", "gap", "improve", "improvement", "inspect", "load", "map", "measure", "search",
     "separation", "stack", "structure", "suggest", "validate",
 ]
