@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "apps/run_program.h"
 #include "stackabilization/core/rational.h"
 #include "support/catch.h"
