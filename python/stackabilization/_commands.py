@@ -55,6 +55,8 @@ def run_command(command, mesh, options, progress=None, *, after=None, above=None
         positionals.append(inputs.name_of(above, "<above>"))
     if options.get("into") is not None:
         options = {**options, "into": inputs.name_of(options["into"], "<into>")}
+    if options.get("onto") is not None:
+        options = {**options, "onto": inputs.name_of(options["onto"], "<onto>")}
     arguments = command_line(command, positionals, options)
     _, text, meshes, texts = _core.run(arguments, inputs.meshes, inputs.projects, progress)
     return Answer(json.loads(text), meshes, texts)
@@ -147,6 +149,23 @@ def gap(mesh, above, *, direction=None, semantics=None, format=None, unit=None, 
     options = {"direction": direction, "semantics": semantics, "format": format, "unit": unit, "up": up,
                "labels": labels, "threads": threads}
     return _results.Gap(run_command("gap", mesh, options, above=above).document)
+
+
+def drop(mesh, *, onto, place=None, turn=False, corner=None, eps=None, max_cells=None, direction=None, semantics=None,
+         format=None, unit=None, up=None, labels=None, threads=None, progress=None):
+    """Let a mesh come down onto another one, at its place or where it comes to rest lowest; a Drop.
+
+    onto: what it falls on. place: 'given' (default), or 'best', with a proof; turn: it may turn, too.
+    corner: corners (x, y) of a polygon that its centre stays in. eps: how close the proof comes, model units or
+    a text such as '1mm'; max_cells: cells of places to examine at most.
+    direction: it comes down against it (default: 0, 0, 1). semantics: as in `measure`.
+    format, unit, up, labels: how a file is read, see `load`. threads: at most so many (default: all).
+    progress: called as progress(step, fraction).
+    """
+    options = {"onto": onto, "place": place, "turn": turn, "corner": corner, "eps": eps, "max_cells": max_cells,
+               "direction": direction, "semantics": semantics, "format": format, "unit": unit, "up": up,
+               "labels": labels, "threads": threads}
+    return _results.Drop(run_command("drop", mesh, options, progress).document)
 
 
 def validate(mesh, *, direction=None, format=None, unit=None, up=None, labels=None, threads=None):

@@ -4,7 +4,7 @@ from typing import Any, Literal, NamedTuple, overload
 from . import _results
 from ._core import Mesh
 from ._results import (
-    Comparison, Deformation, Gap, Inspection, Map, Measurement, Nest, Search, Separation, Stack, Structure,
+    Comparison, Deformation, Drop, Gap, Inspection, Map, Measurement, Nest, Search, Separation, Stack, Structure,
     Suggestions, Validation,
 )
 from ._types import (
@@ -67,6 +67,14 @@ def gap(
     format: str | None = None, unit: Unit | None = None, up: Up | None = None, labels: Path | None = None,
     threads: int | None = None,
 ) -> Gap: ...
+
+def drop(
+    mesh: MeshLike, *, onto: MeshLike, place: Literal["given", "best"] | None = None, turn: bool = False,
+    corner: Sequence[Sequence[float]] | None = None, eps: Length | None = None, max_cells: int | None = None,
+    direction: Vector | None = None, semantics: Semantics | None = None, format: str | None = None,
+    unit: Unit | None = None, up: Up | None = None, labels: Path | None = None, threads: int | None = None,
+    progress: Progress | None = None,
+) -> Drop: ...
 
 def validate(
     mesh: MeshLike, *, direction: Vector | None = None, format: str | None = None, unit: Unit | None = None,

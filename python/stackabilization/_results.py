@@ -433,6 +433,36 @@ class Gap(OfModel):
     witness: Witness | None = field("What touches first.", convert=Witness)
 
 
+class Drop(OfModel):
+    """Where one mesh comes to rest on another."""
+
+    __slots__ = ()
+    _shown = ("height", "bound", "place")
+    onto: str = field("What it falls on.")
+    direction: numpy.ndarray = field("(3,) as given.", convert=vector)
+    semantics: str = field("'solid' or 'closed'.")
+    place: dict = field("x, y and yaw_degrees: centre of its box across the direction, and its turn.", convert=copied)
+    given_place: dict = field("The same where its coordinates put it.", convert=copied)
+    height: float = field("Of its lowest point above that of the other, model units.")
+    on_floor: bool = field("Does it stand beside the other?")
+    lift: float = field("From the height of its coordinates, model units.")
+    exact_lift: fractions.Fraction = field("The same in units of the direction.", convert=fraction)
+    witness: "Witness | None" = field("What touches; None on the floor.", convert=Witness)
+    bound: "float | None" = field("No place is lower; None without a search.")
+    proven: "bool | None" = field("Is the bound within eps of the height?")
+    eps: "float | None" = field("How close the proof had to come, model units.")
+    cells: "int | None" = field("Cells of places examined.")
+    open_cells: "int | None" = field("Of these, cells that may hold a lower place.")
+
+    @property
+    def transform(self):
+        """(4, 4) matrix that puts it there."""
+        transform = numpy.eye(4)
+        transform[:3, :3] = self._document["rotation"]
+        transform[:3, 3] = self._document["translation"]
+        return transform
+
+
 class Validation(OfModel):
     """The same number by independent methods."""
 

@@ -95,3 +95,12 @@ def test_a_parameter_of_a_cup_descends_to_a_wanted_pitch(cup):
 def test_there_is_no_gradient_where_nothing_is_in_the_way():
     flat = st.Solver(([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]))
     assert flat.gradient((1, 0, 0)) is None and not flat.gradient().any()
+
+
+def test_a_box_drops_to_the_bottom_of_what_it_fits_in():
+    floor, item = box((0, 0, 0), (4, 4, 0.5)), box((7, 7, 7), (8, 8, 8))
+    found = st.drop(item, onto=floor, place="best", eps=0.01)
+    assert found.height == 0.5 and found.proven and 0.49 <= found.bound <= 0.5
+    corner = found.transform @ [7, 7, 7, 1]
+    assert corner[2] == pytest.approx(0.5) and (0 <= corner[:2]).all() and (corner[:2] <= 3).all()
+    assert st.drop(item, onto=floor).on_floor and st.drop(item, onto=floor).bound is None

@@ -19,7 +19,7 @@ constexpr int max_steps = 40;
 /// Width of the rectangles around points that touch, fraction of the width of a cell.
 constexpr double part_near = 0.125;
 /// Rectangles smaller than this fraction of the shapes are not cut further.
-constexpr double finest_part = 1.0 / 16384;
+constexpr double finest_part = 1.0 / (1 << 14);
 
 ProjectedMesh projected(const WeldedMesh& mesh, const EdgeTable& edges, double sign, double error) {
   ProjectedMesh result{mesh.points, &mesh.triangles, &edges, error};
