@@ -66,12 +66,12 @@ struct Scale {
   std::optional<Eigen::Vector3d> along;
 };
 
-/// Taper of the whole shape: legs and walls lean, rims keep their size while a base shrinks or grows. Every point
-/// moves across `axis`, away from the line along `axis` through the centre of the shape: not at the end of the
-/// shape that is lowest along `axis`, by the factor at the highest one, linearly between. Heights along `axis`
-/// do not change. What is thin across `axis` (below tolerance::thin_in_taper of the width of the shape) is
-/// carried along and keeps its thickness, and straight parts stay straight. Only for the shape, with
-/// controllers.
+/// Taper of the whole shape: legs and walls lean, rims keep their size while a base shrinks or grows. Every
+/// point moves across `axis`, away from the line along `axis` through the centre of the shape: not at the end
+/// of the shape that is lowest along `axis`, by the factor at the highest one, linearly between. Heights
+/// along `axis` do not change. What is thin across `axis` (below tolerance::thin_in_taper of the width of the
+/// shape) is carried along and keeps its thickness, and straight parts stay straight. Only for the shape,
+/// with controllers.
 struct Taper {
   double factor = 1;                                ///< ratio of the widths at the highest end, > 0
   Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< axis, of any length that a Direction accepts

@@ -31,7 +31,8 @@ inline constexpr double collapse = 1e-3;
 /// angles would make the system indefinite or ill-conditioned.
 inline constexpr double edge_weight = 1e-3;
 
-/// A part keeps its width across the axis of a taper if that is below this fraction of the width of the shape.
+/// A part keeps its width across the axis of a taper if that is below this fraction of the width of the
+/// shape.
 inline constexpr double thin_in_taper = 0.15;
 
 /// Distance below a slice at which a vertex still belongs to it, fraction of the height of the slice.

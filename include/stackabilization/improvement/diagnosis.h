@@ -74,8 +74,8 @@ struct Diagnosis {
   std::vector<Blocker> blockers;                         ///< blocking pairs, largest f first; at most 4
   std::vector<ObstacleCount> constraints;                ///< the most frequent obstacles; at most 3
   std::vector<Remedy> remedies;                          ///< changes that would help, largest S first
-  /// The best design that one more edit of the best candidate makes, as asked, if it is better and passes every
-  /// check but the target.
+  /// The best design that one more edit of the best candidate makes, as asked, if it is better and passes
+  /// every check but the target.
   std::optional<Candidate> better;
 };
 

@@ -15,9 +15,10 @@ inline constexpr double target = 1e-7;
 /// Relative accuracy at which magnitudes of edits, and the distortion that they cause, count as converged.
 inline constexpr double magnitude = 1e-6;
 
-/// Pieces at the two ends of a shape keep copies apart for good (closed_pair) if they overlap after every move
-/// of closed_move of the diagonal, and after every scaling by 1 - closed_scale or its inverse. They reach at
-/// most closed_depth of the height into the shape. At most closed_pieces pieces at each end are looked at.
+/// Pieces at the two ends of a shape keep copies apart for good (closed_pair) if they overlap after every
+/// move of closed_move of the diagonal, and after every scaling by 1 - closed_scale or its inverse. They
+/// reach at most closed_depth of the height into the shape. At most closed_pieces pieces at each end are
+/// looked at.
 inline constexpr double closed_move = 0.12, closed_scale = 0.2, closed_depth = 0.06;
 inline constexpr std::size_t closed_pieces = 40;
 

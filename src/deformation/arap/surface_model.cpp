@@ -167,7 +167,8 @@ Targets SurfaceModel::targets(const std::vector<Edit>& edits) const {
   targets.held.rotations.assign(count, Eigen::Matrix3d::Identity());
   for (const Edit& edit : edits) {
     validate(edit, diagonal_);
-    if (std::holds_alternative<Taper>(edit.operation)) throw UsageError("only controllers can taper the shape");
+    if (std::holds_alternative<Taper>(edit.operation))
+      throw UsageError("only controllers can taper the shape");
     const Scale* scale = std::get_if<Scale>(&edit.operation);
     if (scale && scale->along && edit.handle.kind != HandleKind::part &&
         edit.handle.kind != HandleKind::shape)

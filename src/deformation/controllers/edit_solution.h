@@ -26,8 +26,8 @@ struct EditTask {
   const std::vector<Primitive>& now;  ///< primitives before the edit
   std::vector<PartEdit> wanted;       ///< one edit of one part, or one edit of every part in order
   const DeformationConstraints& constraints;
-  /// Whether the edits of all parts only say where parts go about: they are made symmetric first, and parts may
-  /// follow in any way to close joints.
+  /// Whether the edits of all parts only say where parts go about: they are made symmetric first, and parts
+  /// may follow in any way to close joints.
   bool is_taper = false;
 };
 

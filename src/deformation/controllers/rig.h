@@ -31,7 +31,7 @@ struct Rig {
   std::vector<int> distinct_joints;                  ///< rows of `joints`, see joint_copies.h
   /// Per class: edit_kernel, projected to the subspace of its self-symmetries.
   std::vector<Eigen::MatrixXd> edit_kernels;
-  std::vector<Eigen::MatrixXd> bases;   ///< per class: reduced_basis, projected likewise
+  std::vector<Eigen::MatrixXd> bases;  ///< per class: reduced_basis, projected likewise
   /// Per class: the basis of Following::free, projected likewise. Tapers make no affine maps of parts, and so
   /// need these to close joints.
   std::vector<Eigen::MatrixXd> free_bases;

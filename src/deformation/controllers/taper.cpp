@@ -90,7 +90,8 @@ class TaperMap {
     std::vector<std::pair<double, const Symmetry*>> own;
     for (const Relation& relation : rest.relations)
       if (relation.type == RelationType::self_symmetry)
-        own.emplace_back(-width_of(now[static_cast<std::size_t>(relation.parts.front())]), &relation.symmetry);
+        own.emplace_back(-width_of(now[static_cast<std::size_t>(relation.parts.front())]),
+                         &relation.symmetry);
     std::stable_sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     for (const auto& [width, symmetry] : own) settle_on(*symmetry, free);
   }
@@ -122,8 +123,8 @@ class TaperMap {
   std::vector<double> thin_;  ///< per direction, the width below which widths are kept
 };
 
-/// Returns the changes of the corners. Corners of one end, or of one face, move as its middle does where it is
-/// thin.
+/// Returns the changes of the corners. Corners of one end, or of one face, move as its middle does where it
+/// is thin.
 Points changes(const Cuboid& cuboid, const TaperMap& map) {
   const auto edge = [&](int axis) {
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
@@ -149,11 +150,11 @@ Points changes(const Cuboid& cuboid, const TaperMap& map) {
         }
       for (int corner = 0; corner < 8; ++corner)
         if ((corner >> upright & 1) == end)
-          result.row(corner) += map.move(map.keeps(k, width.length())
-                                             ? Eigen::Vector3d(middle.transpose())
-                                             : Eigen::Vector3d(cuboid.corners.row(corner).transpose()),
-                                         k)
-                                    .transpose();
+          result.row(corner) +=
+              map.move(map.keeps(k, width.length()) ? Eigen::Vector3d(middle.transpose())
+                                                    : Eigen::Vector3d(cuboid.corners.row(corner).transpose()),
+                       k)
+                  .transpose();
     }
   return result;
 }
@@ -189,16 +190,14 @@ Eigen::VectorXd radius_changes(const GeneralizedCylinder& cylinder, const TaperM
 void set_changes(PartEdit& edit, const Points& moves, const Eigen::VectorXd& radii) {
   const Eigen::Index count = 3 * moves.rows() + radii.size();
   edit.changes.resize(count);
-  for (Eigen::Index i = 0; i < moves.rows(); ++i)
-    edit.changes.segment<3>(3 * i) = moves.row(i).transpose();
+  for (Eigen::Index i = 0; i < moves.rows(); ++i) edit.changes.segment<3>(3 * i) = moves.row(i).transpose();
   edit.changes.tail(radii.size()) = radii;
   for (int value = 0; value < count; ++value) edit.values.push_back(value);
 }
 
 }  // namespace
 
-std::vector<PartEdit> tapered(const std::vector<Primitive>& now, const Taper& taper,
-                              const Structure& rest) {
+std::vector<PartEdit> tapered(const std::vector<Primitive>& now, const Taper& taper, const Structure& rest) {
   const TaperMap map(now, taper, rest);
   std::vector<PartEdit> edits(now.size());
   for (std::size_t part = 0; part < now.size(); ++part) {

@@ -70,7 +70,8 @@ class PixelGrid {
   void fill(PixelMask& mask, const SlabPolygon& polygon) const {
     if (polygon.size() < 3) return;
     double lowest = polygon.front().y(), highest = lowest;
-    for (const Eigen::Vector3d& p : polygon) lowest = std::min(lowest, p.y()), highest = std::max(highest, p.y());
+    for (const Eigen::Vector3d& p : polygon)
+      lowest = std::min(lowest, p.y()), highest = std::max(highest, p.y());
     for (int row = index(lowest - low_.y()); row <= std::min(index(highest - low_.y()), rows_ - 1); ++row) {
       const double y = low_.y() + (row + 0.5) * pixel_;
       double left = 0, right = 0;
@@ -84,7 +85,8 @@ class PixelGrid {
         crossed = true;
       }
       if (!crossed) continue;
-      for (int column = index(left - low_.x()); column <= std::min(index(right - low_.x()), columns_ - 1); ++column) {
+      for (int column = index(left - low_.x()); column <= std::min(index(right - low_.x()), columns_ - 1);
+           ++column) {
         const double x = low_.x() + (column + 0.5) * pixel_;
         if (x >= left && x <= right) add(mask, column, row);
       }
@@ -202,7 +204,8 @@ class ClosedSearch {
     for (int k = 0; k < move_directions; ++k) {
       const double angle = 2 * std::numbers::pi * k / move_directions;
       for (int distance = 1; distance <= move_distances; ++distance)
-        if (apart(1, distance * farthest / move_distances * Eigen::Vector2d(std::cos(angle), std::sin(angle))))
+        if (apart(1,
+                  distance * farthest / move_distances * Eigen::Vector2d(std::cos(angle), std::sin(angle))))
           return true;
     }
     return false;
@@ -210,15 +213,15 @@ class ClosedSearch {
 
   const Shape& shape_;
   detail::WeldedMesh welded_;
-  Points points_;  ///< in the frame of the direction
+  Points points_;                  ///< in the frame of the direction
   std::optional<PixelGrid> grid_;  ///< none of a shape that is flat along the direction
   double low_ = 0, high_ = 0, diagonal_ = 0;
 };
 
 }  // namespace
 
-std::optional<ClosedPair> closed_pair(const Shape& shape, const Direction& direction, const Stackability& measured,
-                                      double target) {
+std::optional<ClosedPair> closed_pair(const Shape& shape, const Direction& direction,
+                                      const Stackability& measured, double target) {
   const ClosedSearch search(shape, direction);
   const double allowed = (1 - target) / measured.loss_per_length();
   double deep = std::min((search.height() - allowed) / 2, tolerance::closed_depth * search.height());
@@ -238,7 +241,8 @@ std::string describe(const ClosedPair& pair, const Structure& rest) {
   const auto name = [&](int part) { return "'" + rest.parts[at(part)].name + "'"; };
   return "Closed: " + name(pair.upper_part) + " at the top of each copy lies under " +
          (pair.upper_part == pair.lower_part ? "its bottom" : name(pair.lower_part) + " at the bottom") +
-         " of the next one, and neither can be moved or resized out of the way. Nothing can enter: S is at most " +
+         " of the next one, and neither can be moved or resized out of the way. Nothing can enter: S is at "
+         "most " +
          fixed_text(pair.stackability, 3) + ".";
 }
 

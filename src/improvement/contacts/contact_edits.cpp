@@ -101,7 +101,10 @@ class ContactEditor {
     for (const double size : taper_sizes)
       for (const double sign : {-1.0, 1.0})
         for (const Edit& edit : tapers(frame_, 1 + sign * size * options_.scale_step))
-          edits_.push_back({edit, region.type, 0, true,
+          edits_.push_back({edit,
+                            region.type,
+                            0,
+                            true,
                             {sign < 0 ? EditEffect::narrower : EditEffect::wider, true, region.upper_part}});
   }
 

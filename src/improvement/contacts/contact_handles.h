@@ -40,8 +40,8 @@ Points part_points(const Shape& shape, int part);
 std::vector<ContactHandle> contact_handles(const ContactSituation& situation, const ContactSide& side,
                                            const ContactFrame& frame, const ContactEditOptions& options);
 
-/// Returns the tapers of the whole shape with a factor: towards either end of the extent along w, along u, along v
-/// and along both.
+/// Returns the tapers of the whole shape with a factor: towards either end of the extent along w, along u,
+/// along v and along both.
 std::vector<Edit> tapers(const ContactFrame& frame, double factor);
 
 }  // namespace stackabilization::detail

@@ -247,8 +247,8 @@ class ImprovementRun {
     return search;
   }
 
-  /// Returns what closes the shape to copies of itself along every starting direction, where limits of quality
-  /// and the height are kept: then there is nothing to search for.
+  /// Returns what closes the shape to copies of itself along every starting direction, where limits of
+  /// quality and the height are kept: then there is nothing to search for.
   std::optional<ClosedPair> closed_shape() const {
     const Requirements& asked = checker_.requirements();
     if (!refines_ || !asked.quality || !asked.keep_height || state_) return std::nullopt;
