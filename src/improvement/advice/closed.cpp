@@ -241,9 +241,10 @@ std::string describe(const ClosedPair& pair, const Structure& rest) {
   const auto name = [&](int part) { return "'" + rest.parts[at(part)].name + "'"; };
   return "Closed: " + name(pair.upper_part) + " at the top of each copy lies under " +
          (pair.upper_part == pair.lower_part ? "its bottom" : name(pair.lower_part) + " at the bottom") +
-         " of the next one, and neither can be moved or resized out of the way. Nothing can enter: S is at "
-         "most " +
-         fixed_text(pair.stackability, 3) + ".";
+         " of the next one, and no move by " + fixed_text(100 * tolerance::closed_move, 0) +
+         " % of the diagonal, nor a scaling by " + fixed_text(100 * tolerance::closed_scale, 0) +
+         " % takes it out of the way. While it does not, S is at most " + fixed_text(pair.stackability, 3) +
+         ".";
 }
 
 }  // namespace stackabilization
