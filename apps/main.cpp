@@ -1,8 +1,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/interrupt.h"
-#include "apps/program.h"
+#include "apps/common/interrupt.h"
+#include "apps/common/program.h"
 
 int main(int argc, char** argv) {
   using namespace stackabilization::apps;

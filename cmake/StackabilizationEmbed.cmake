@@ -1,5 +1,5 @@
 # stackabilization_embed(TARGET SOURCE PATH=FILE ...): adds a source to the target that holds the bytes of these files
-# under these paths, see apps/editor/embedded_files.h. The assembler reads them, which takes no time to compile.
+# under these paths, see apps/common/embedded_files.h. The assembler reads them, which takes no time to compile.
 function(stackabilization_embed target source)
   set(assembly "")
   set(declarations "")
@@ -16,7 +16,7 @@ function(stackabilization_embed target source)
     string(APPEND rows "      {\"${path}\", bytes(embedded_file_${row}, embedded_file_${row}_end)},\n")
     math(EXPR row "${row} + 1")
   endforeach()
-  set(text "#include \"apps/editor/embedded_files.h\"
+  set(text "#include \"apps/common/embedded_files.h\"
 
 asm(\".pushsection .rodata\\n\"
 ${assembly}    \".byte 0\\n.popsection\\n\");

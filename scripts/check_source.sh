@@ -99,6 +99,14 @@ for module in "${!parts[@]}"; do
   done
 done
 
+# The folders of the program: each may include only those before it.
+before=''
+for folder in common measure stack structure deform suggest improve editor; do
+  before+="${before:+|}$folder"
+  report "Folder $folder of apps reaches back" \
+    "$(grep -rnE '#include "apps/' "apps/$folder" --include=*.h --include=*.cpp | grep -vE "#include \"apps/($before)/" || true)"
+done
+
 # Absolute paths of somebody's machine, in everything that is versioned.
 report "Absolute path" "$(git grep -nIE "(^|[^A-Za-z0-9_.\$}])/(home|root|work|tmp|mnt|Users)/" -- . \
   ':!scripts/check_source.sh' 2>/dev/null || true)"

@@ -3,8 +3,8 @@
 #include <functional>
 #include <map>
 
-#include "apps/edit_grammar.h"
-#include "apps/json.h"
+#include "apps/common/edit_grammar.h"
+#include "apps/common/json.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization::apps {

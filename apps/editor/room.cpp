@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/common/page_files.h"
 #include "apps/editor/page_command.h"
-#include "apps/editor/page_files.h"
 #include "apps/editor/state_json.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/editing/command_loop.h"

@@ -4,11 +4,11 @@
 #include <bit>
 #include <cmath>
 
-#include "apps/design_json.h"
-#include "apps/edit_grammar.h"
-#include "apps/explanation_report.h"
-#include "apps/improve_report.h"
-#include "apps/text.h"
+#include "apps/common/design_json.h"
+#include "apps/common/edit_grammar.h"
+#include "apps/common/explanation_report.h"
+#include "apps/common/text.h"
+#include "apps/improve/improve_report.h"
 #include "stackabilization/core/direction_text.h"
 #include "stackabilization/core/tolerances.h"
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "apps/json.h"
+#include "apps/common/json.h"
 #include "stackabilization/editing/session.h"
 
 /// What a page is told of a session: texts in JSON, and frames of little-endian numbers for what is large.

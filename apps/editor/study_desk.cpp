@@ -3,7 +3,7 @@
 #include <fstream>
 #include <utility>
 
-#include "apps/edit_grammar.h"
+#include "apps/common/edit_grammar.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization::apps {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/json.h"
+#include "apps/common/json.h"
 #include "stackabilization/editing/study.h"
 
 namespace stackabilization::apps {

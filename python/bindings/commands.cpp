@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "apps/caller.h"
-#include "apps/common_options.h"
-#include "apps/program.h"
+#include "apps/common/caller.h"
+#include "apps/common/common_options.h"
+#include "apps/common/program.h"
 #include "bindings/bindings.h"
 #include "bindings/job.h"
 #include "stackabilization/core/shape.h"

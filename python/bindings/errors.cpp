@@ -3,7 +3,7 @@
 #include <CLI/Error.hpp>
 #include <string>
 
-#include "apps/interrupt.h"
+#include "apps/common/interrupt.h"
 #include "bindings/bindings.h"
 
 namespace stackabilization::python {

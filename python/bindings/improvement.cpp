@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "apps/caller.h"
-#include "apps/program.h"
+#include "apps/common/caller.h"
+#include "apps/common/program.h"
 #include "bindings/bindings.h"
 #include "bindings/job.h"
 #include "stackabilization/core/errors.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/values.h"
+#include "apps/common/values.h"
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "stackabilization/io/write.h"

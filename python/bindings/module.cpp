@@ -1,4 +1,4 @@
-#include "apps/version.h"
+#include "apps/common/version.h"
 #include "bindings/bindings.h"
 
 PYBIND11_MODULE(_core, module) {

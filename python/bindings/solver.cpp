@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "apps/common_options.h"
-#include "apps/measurement.h"
-#include "apps/values.h"
+#include "apps/common/common_options.h"
+#include "apps/common/measurement.h"
+#include "apps/common/values.h"
 #include "bindings/arrays.h"
 #include "bindings/bindings.h"
 #include "bindings/job.h"

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/edit_grammar.h"
+#include "apps/common/edit_grammar.h"
 #include "stackabilization/core/errors.h"
 #include "support/catch.h"
 #include "support/messages.h"

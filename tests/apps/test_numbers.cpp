@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-#include "apps/program.h"
+#include "apps/common/program.h"
 #include "apps/run_program.h"
 #include "stackabilization/core/errors.h"
 #include "support/catch.h"

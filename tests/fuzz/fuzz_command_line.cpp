@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/program.h"
+#include "apps/common/program.h"
 #include "stackabilization/core/errors.h"
 
 using namespace stackabilization;

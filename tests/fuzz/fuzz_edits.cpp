@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "apps/edit_grammar.h"
+#include "apps/common/edit_grammar.h"
 #include "stackabilization/core/errors.h"
 
 using namespace stackabilization;

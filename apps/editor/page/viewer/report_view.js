@@ -8,7 +8,7 @@ import { Viewer } from './viewer.js';
 const maxPanes = 4;
 
 /**
- * Reads what the program wrote (apps/improve_view.cpp).
+ * Reads what the program wrote (apps/improve/improve_view.cpp).
  * @param {ArrayBuffer} buffer
  * @returns {{designs: ShownDesign[], mesh: import('./mesh_surface.js').MeshData}}
  */

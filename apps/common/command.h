@@ -1,0 +1,42 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+
+#include "apps/common/common_options.h"
+
+/// The subcommands of `stackabilize`. Each one parses into its options, calls the library and hands the
+/// result over as text, JSON, meshes and pictures; nothing is computed here.
+namespace stackabilization::apps {
+
+/// Exit statuses of the program; see also `guarded` in program.h.
+enum ExitStatus {
+  status_done = 0,
+  status_no = 1,     ///< it ran, but the answer is no: validation failed, a wish is not met
+  status_usage = 2,  ///< wrong usage, or an output that cannot be written
+  status_input = 3,  ///< unreadable or unusable input
+};
+
+/// A subcommand that knows how to run once the command line is parsed.
+struct Command {
+  CLI::App* app;
+  std::function<int()> run;  ///< returns the exit status; throws the errors of the library
+  CommonOptions* common;     ///< lives as long as `run`
+};
+
+Command make_inspect_command(CLI::App& program);
+Command make_measure_command(CLI::App& program);
+Command make_search_command(CLI::App& program);
+Command make_map_command(CLI::App& program);
+Command make_stack_command(CLI::App& program);
+Command make_gap_command(CLI::App& program);
+Command make_drop_command(CLI::App& program);
+Command make_validate_command(CLI::App& program);
+Command make_structure_command(CLI::App& program);
+Command make_deform_command(CLI::App& program);
+Command make_suggest_command(CLI::App& program);
+Command make_compare_command(CLI::App& program);
+Command make_improve_command(CLI::App& program);
+Command make_edit_command(CLI::App& program);
+
+}  // namespace stackabilization::apps

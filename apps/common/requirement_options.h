@@ -1,0 +1,49 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/common/values.h"
+#include "stackabilization/improvement/requirements.h"
+
+namespace stackabilization::apps {
+
+/// What is asked of designs besides S, as typed; what is left out is not asked for.
+struct RequirementArguments {
+  std::vector<std::string> kept, editable;  ///< names of parts
+  bool change_height = false;
+  std::optional<double> box_tolerance;  ///< fraction
+  std::optional<Length> thickness, clearance, lateral_clearance;
+  std::optional<double> draft_degrees, tipping_degrees;
+  std::optional<int> standing;
+  std::vector<std::string> relaxed;  ///< NAME or NAME=VALUE
+  bool any_quality = false;
+};
+
+/// Limits of quality with those that were relaxed. Throws UsageError for a name or a value that is none.
+QualityLimits quality_limits_of(const std::vector<std::string>& relaxed);
+/// --relax.
+void add_relax_option(CLI::App& command, std::vector<std::string>& relaxed);
+
+/// --keep, --only, --change-height, --box-tolerance, --thickness, --clearance, --lateral-clearance,
+/// --draft-degrees, --standing, --tilt-degrees, --relax, --any-quality.
+void add_requirement_options(CLI::App& command, RequirementArguments& arguments);
+
+/// --target, a stackability that can be reached.
+Number target_option(const std::string& description);
+/// --alpha.
+Number alpha_option();
+
+/// Throws UsageError for options that contradict each other.
+void check(const RequirementArguments& arguments);
+
+/// Whether the quality of designs is looked at when no option says so.
+enum class QualityDefault { any, limited };
+
+/// As the library has them, without target. Throws UsageError for parts that do not exist and lengths in
+/// a unit that `rest` cannot be told in.
+Requirements requirements_of(const RequirementArguments& arguments, const Shape& rest,
+                             const StackabilityOptions& measure, QualityDefault quality);
+
+}  // namespace stackabilization::apps

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/improve/improve_run.h"
+#include "stackabilization/envelope/contacts.h"
+#include "stackabilization/improvement/explanation.h"
+#include "stackabilization/improvement/shape_change.h"
+#include "stackabilization/stacking/stack_search.h"
+
+namespace stackabilization::apps {
+
+/// One question put to the mesh as it was written, and the answer.
+struct WrittenCheck {
+  enum class Verdict { agrees, skipped, disagrees } verdict = Verdict::agrees;
+  std::string name;
+  std::string note;  ///< what was found, or why it was not asked
+};
+
+/// Copies on top of each other, before and after.
+struct StackHeights {
+  int copies = 0;
+  double before = 0, after = 0;  ///< model units
+  std::optional<double> room;    ///< that was asked for
+
+  bool fits() const;
+};
+
+/// Everything there is to say about one solution, or about what came nearest.
+struct SolutionReport {
+  std::string name;   ///< "solution_1", "nearest"
+  double target = 0;  ///< S that was asked for
+  Candidate candidate;
+  Assessment assessment;
+  Stackability before;  ///< of the shape at rest, along the direction of the candidate
+  ShapeChange change;
+  Explanation explanation;
+  std::vector<double> residuals;  ///< per relation, fraction of the diagonal
+  StackHeights stack;
+  std::optional<TwistResult> twist;  ///< with --twist
+  std::vector<WrittenCheck> written;
+
+  Direction direction() const { return Direction(candidate.direction); }
+  /// Does the written mesh say what the report says?
+  bool confirmed() const;
+  /// Is the target reached, every requirement met and the mesh confirmed?
+  bool good() const;
+};
+
+/// Measures a candidate, which was held against the requirements before, in all respects but `written`.
+SolutionReport solution_report(const ImproveCommandOptions& options, const ImproveTask& task,
+                               const Candidate& candidate, const Assessment& assessment);
+
+/// Asks the mesh of a solution, as it is read again from its file: is S what was said, is f_max the same
+/// rational number, is the height kept, and do collision tests find copies free or colliding around f_max as
+/// it says?
+std::vector<WrittenCheck> check_written(const Shape& shape, const ImproveTask& task,
+                                        const SolutionReport& report);
+
+/// Where copies of a shape touch along a direction.
+std::vector<ContactRegion> contacts_along(const Shape& shape, const Direction& direction,
+                                          ContactSemantics semantics);
+
+}  // namespace stackabilization::apps

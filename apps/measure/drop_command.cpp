@@ -1,0 +1,258 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "apps/common/command.h"
+#include "apps/common/interrupt.h"
+#include "apps/common/measurement.h"
+#include "apps/common/output.h"
+#include "apps/common/progress.h"
+#include "apps/common/values.h"
+#include "stackabilization/mesh/convex_hull.h"
+#include "stackabilization/stacking/place.h"
+
+namespace stackabilization::apps {
+
+namespace {
+
+/// Default of --eps, fraction of the extent of the higher one of the two along the direction.
+constexpr double default_accuracy = 0x1p-10;
+/// Places along the longer side of a map, where no step is given.
+constexpr double default_map_places = 32;
+
+enum class PlaceChoice { given, best };
+
+struct DropCommandOptions {
+  CommonOptions common;
+  std::string onto;
+  std::optional<Eigen::Vector3d> direction;
+  ContactSemantics semantics = ContactSemantics::solid;
+  PlaceChoice place = PlaceChoice::given;
+  bool turn = false;
+  std::vector<Eigen::Vector2d> region;
+  std::optional<Length> eps, step;
+  std::optional<std::int64_t> max_cells;
+  std::optional<std::string> output, map;
+};
+
+/// The shape that falls, and what it falls on.
+struct Scene {
+  Model item, base;
+  Direction direction;
+};
+
+void check(const DropCommandOptions& options) {
+  check_outputs(options.common, {{{"--output", options.output, OutputKind::mesh}, {"--map", options.map}},
+                                 {{"what it falls on", options.onto}}});
+  refuse_option(options.common.model == "-" && options.onto == "-", "--onto",
+                "and MODEL cannot both be standard input");
+  const bool best = options.place == PlaceChoice::best;
+  refuse_option(options.turn && !best, "--turn", "needs --place best");
+  refuse_option(options.eps && !best, "--eps", "needs --place best");
+  refuse_option(options.max_cells && !best, "--max-cells", "needs --place best");
+  refuse_option(!options.region.empty() && !best && !options.map, "--corner",
+                "limits the places of --place best and of --map");
+  refuse_option(!options.region.empty() && options.region.size() < 3, "--corner",
+                "is given three times at least, for a polygon");
+  refuse_option(options.step && !options.map, "--step", "needs --map");
+}
+
+PlaceOptions place_options(const DropCommandOptions& options, const Scene& scene) {
+  PlaceOptions place;
+  place.semantics = options.semantics;
+  place.region = options.region;
+  place.turn = options.turn;
+  if (options.max_cells) place.max_cells = *options.max_cells;
+  const double extent = std::max(HullSupport(scene.item.shape).extent(scene.direction),
+                                 HullSupport(scene.base.shape).extent(scene.direction));
+  place.accuracy = options.eps ? options.eps->in(scene.item.shape.unit) : default_accuracy * extent;
+  if (!(place.accuracy > 0)) throw UsageError("--eps is needed: both shapes are flat along the direction");
+  return place;
+}
+
+/// A search or a map that shows its progress, and can be interrupted.
+template <class Work>
+auto with_progress(const std::string& what, const Caller* caller, PlaceOptions options, const Work& work) {
+  ProgressBar bar(what, caller);
+  const DeferredInterrupts interrupts(caller);
+  options.progress = [&bar](double fraction) { bar.show(fraction); };
+  options.cancelled = [&interrupts] { return interrupts.requested(); };
+  auto result = work(options);
+  if (interrupts.requested()) throw Interrupted();
+  return result;
+}
+
+Json place_json(const Place& place) {
+  return {{"x", place.x}, {"y", place.y}, {"yaw_degrees", place.yaw_degrees}};
+}
+
+void add_drop(Json& document, const Scene& scene, const Drop& drop) {
+  document["place"] = place_json(drop.place);
+  document["given_place"] = place_json(given_place(scene.item.shape, scene.direction));
+  document["height"] = drop.height;
+  document["on_floor"] = drop.on_floor;
+  document["lift"] = drop.lift_length;
+  document["exact_lift"] = to_json(drop.lift);
+  document["rotation"] = to_json(drop.transform.rotation);
+  const Eigen::Vector3d lifted =
+      drop.transform.translation + drop.lift.to_double() * scene.direction.vector();
+  document["translation"] = to_json(lifted);
+  document["witness"] = drop.on_floor ? Json(nullptr) : to_json(drop.separation.witness);
+}
+
+void add_proof(Json& document, const std::optional<BestPlace>& best, double accuracy) {
+  if (!best) return;
+  document["bound"] = best->bound;
+  document["eps"] = accuracy;
+  document["proven"] = best->proven;
+  document["cells"] = best->cells;
+  document["open_cells"] = best->open;
+}
+
+std::string drop_text(const Scene& scene, const Drop& drop, const std::optional<BestPlace>& best) {
+  const Unit unit = scene.item.shape.unit;
+  TextTable table;
+  add_model_line(table, scene.item);
+  table.add("Onto", display_name(scene.base) + ": " + brief(scene.base.findings));
+  table.add("Height", quantity(drop.height, unit),
+            drop.on_floor ? "of its lowest point above the floor: it stands there"
+                          : "of its lowest point above that of what it rests on");
+  if (best)
+    table.add(best->proven ? "Proven" : "Bound", quantity(best->bound, unit),
+              std::string(best->proven ? "nowhere lower than this; "
+                                       : "nowhere lower, but not as close as asked for; ") +
+                  counted(best->cells, "cell") + " of places examined, " + std::to_string(best->open) +
+                  " left open");
+  table.add(
+      "Place", quantity(drop.place.x, unit) + ", " + quantity(drop.place.y, unit),
+      "centre of its box across the direction" +
+          (drop.place.yaw_degrees != 0 ? ", turned by " + exact_digits(drop.place.yaw_degrees) + " degrees"
+                                       : std::string()));
+  table.add("Lift", quantity(drop.lift_length, unit), "from where its file puts it");
+  if (!drop.on_floor) {
+    const Witness& witness = drop.separation.witness;
+    const double size = HullSupport(scene.base.shape).extent(scene.direction);
+    table.add("Touching", "triangle " + std::to_string(witness.upper_triangle),
+              "of " + title_of(scene.base) + " at " + point_text(witness.upper_point, size));
+    table.add("", "triangle " + std::to_string(witness.lower_triangle), "of " + title_of(scene.item));
+  }
+  return table.text();
+}
+
+std::string csv_text(const DropMap& map) {
+  std::string text = "x,y,height\n";
+  for (std::size_t k = 0; k < map.heights.size(); ++k)
+    text += exact_digits(map.x[k % map.x.size()]) + "," + exact_digits(map.y[k / map.x.size()]) + "," +
+            exact_digits(map.heights[k]) + "\n";
+  return text;
+}
+
+/// The map of `--map`, with the turn of the place that was chosen.
+DropMap map_of(const DropCommandOptions& options, const Scene& scene, const PlaceOptions& place,
+               const Drop& drop) {
+  double step = length_in(options.step, scene.item.shape.unit);
+  if (!options.step) {
+    const Frame frame = frame_of(scene.direction);
+    const double width = range_along(scene.base.shape, frame.u).length();
+    const double depth = range_along(scene.base.shape, frame.v).length();
+    step = std::max(width, depth) / default_map_places;
+  }
+  return with_progress("Mapping", options.common.caller, place, [&](const PlaceOptions& mapping) {
+    return drop_map(scene.base.shape, scene.item.shape, scene.direction, step, drop.place.yaw_degrees,
+                    mapping);
+  });
+}
+
+int run_drop_command(const CLI::App& command, const DropCommandOptions& options) {
+  const Stopwatch watch;
+  check(options);
+  const Direction direction(options.direction.value_or(Eigen::Vector3d::UnitZ()));
+  const ThreadLimit limit(options.common);
+  const Scene scene{load_model(options.common), load_other_model(options.common, options.onto), direction};
+  check_same_unit(scene.item, scene.base, "--onto");
+  const PlaceOptions place = place_options(options, scene);
+  std::optional<BestPlace> best;
+  if (options.place == PlaceChoice::best)
+    best = with_progress("Placing", options.common.caller, place, [&](const PlaceOptions& searching) {
+      return best_place(scene.base.shape, scene.item.shape, direction, searching);
+    });
+  const Drop drop = best ? best->drop
+                         : drop_at(scene.base.shape, scene.item.shape, direction,
+                                   given_place(scene.item.shape, direction), options.semantics);
+  if (options.map)
+    write_text_output(options.common, *options.map, csv_text(map_of(options, scene, place, drop)));
+  if (options.output) {
+    const RigidTransform lift{Eigen::Matrix3d::Identity(), drop.lift.to_double() * direction.vector()};
+    write_mesh_output(
+        options.common, *options.output,
+        concatenate(scene.base.shape, transformed(scene.item.shape, composed(lift, drop.transform))));
+  }
+  Json document = document_head(command, scene.item);
+  document["onto"] = scene.base.name;
+  document["direction"] = to_json(direction.vector());
+  document["semantics"] = name_of(options.semantics);
+  add_drop(document, scene, drop);
+  add_proof(document, best, place.accuracy);
+  add_document_tail(document, options.common, scene.item, watch);
+  const std::string text =
+      options.common.quiet ? exact_digits(drop.height) + "\n" : drop_text(scene, drop, best);
+  deliver(options.common, document, options.map == "-" ? "" : text);
+  return best && !best->proven ? status_no : status_done;
+}
+
+void add_region(CLI::App& command, std::vector<Eigen::Vector2d>& region) {
+  const auto take = [&region](const std::vector<std::string>& words) {
+    region.clear();
+    for (std::size_t i = 0; i + 1 < words.size(); i += 2)
+      region.emplace_back(parse_number("--corner", words[i]), parse_number("--corner", words[i + 1]));
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--corner", take,
+          "Corner of a polygon that the centre of MODEL stays in, in order, three or more times")
+      ->type_size(2)
+      ->expected(-1)
+      ->allow_extra_args(false)
+      ->type_name("X Y");
+}
+
+}  // namespace
+
+Command make_drop_command(CLI::App& program) {
+  const auto options = std::make_shared<DropCommandOptions>();
+  CLI::App* const command = add_command(
+      program, "drop", "Let a shape come down onto another one, at its place or at the lowest one",
+      "stackabilize drop bowl.obj --onto crate.obj --place best -o both.obj");
+  add_common_options(*command, options->common);
+  command->add_option("--onto", options->onto, "Mesh file of the shape that MODEL falls on")
+      ->type_name("FILE")
+      ->required();
+  add_direction(*command, "--direction", options->direction,
+                "MODEL comes down against this direction, exact doubles (default: 0 0 1)");
+  add_semantics_option(*command, options->semantics);
+  const Choices<PlaceChoice> places = {{"given", PlaceChoice::given}, {"best", PlaceChoice::best}};
+  add_choice(
+      *command, "--place", options->place, places,
+      "given: across the direction where its file puts it; best: where it comes to rest lowest, with a "
+      "proof (default: given)");
+  command->add_flag("--turn", options->turn, "It may turn about the direction, too");
+  add_region(*command, options->region);
+  add_length(
+      *command,
+      {"--eps", "How close the proof comes to the height found (default: 1/1024 of the higher extent)", true},
+      options->eps);
+  add_count(*command, {"--max-cells", "Cells of places to examine at most (default: 200000)", 1},
+            options->max_cells);
+  command
+      ->add_option("-o,--output", options->output,
+                   "Write both as a mesh (" + std::string(writable_extensions()) + ")")
+      ->type_name("FILE");
+  command->add_option("--map", options->map, "Write the height at every place of a grid (CSV; - is stdout)")
+      ->type_name("FILE");
+  add_length(*command,
+             {"--step", "Distance between places of the map (default: 1/32 of what it falls on)", true},
+             options->step);
+  return {command, [command, options] { return run_drop_command(*command, *options); }, &options->common};
+}
+
+}  // namespace stackabilization::apps
