@@ -20,6 +20,7 @@ h1 { font-size: 1.7rem; margin: 0 0 .3rem; overflow-wrap: anywhere; }
 h2 { font-size: 1.25rem; margin: 0 0 .6rem; }
 h3 { font-size: 1rem; margin: 1rem 0 .3rem; }
 .verdict { font-size: 1.15rem; margin: 0 0 1rem; }
+.headline { margin: 0 0 .6rem; }
 .good { color: var(--good); }
 .bad { color: var(--bad); }
 .faint, .faint a { color: var(--faint); }
@@ -81,7 +82,7 @@ std::string comparison(const ImproveReport& report) {
     return row(label, solutions, number);
   };
   using Solution = SolutionReport;
-  std::string text = "<div class=\"scroll\"><table>\n<thead><tr><th></th>";
+  std::string text = element("h3", "All numbers") + "\n<div class=\"scroll\"><table>\n<thead><tr><th></th>";
   for (const SolutionReport* solution : solutions) text += element("th scope=\"col\"", title_of(*solution));
   text += "</tr></thead>\n<tbody>\n";
   text += add("Direction", [](const Solution& s) { return direction_text(s.candidate.direction); });
@@ -113,19 +114,32 @@ std::string picture(const std::string& file, const std::string& words) {
   return "<img src=\"" + escaped(file) + "\" alt=\"" + escaped(words) + "\"/>\n";
 }
 
-std::string checks(const ImproveReport& report, const SolutionReport& solution) {
-  std::string text = "<ul>\n";
-  const auto line = [&text](bool good, const std::string& words) {
-    text += element(good ? "li" : "li class=\"bad\"", words) + "\n";
-  };
+std::string check_line(bool good, const std::string& words) {
+  return element(good ? "li" : "li class=\"bad\"", words) + "\n";
+}
+
+/// The measures of quality that come near their limits, or break them.
+std::string quality(const ImproveReport& report, const SolutionReport& solution) {
+  std::string text;
   for (const Check& check : solution.assessment.checks)
-    if (check.kind != CheckKind::quality || violation(check) > near_limit)
-      line(check.passed, check_text(check, report.task.rest().structure));
+    if (check.kind == CheckKind::quality && violation(check) > near_limit)
+      text += check_line(check.passed, check_text(check, report.task.rest().structure));
+  return text.empty() ? "" : element("h3", "Near a limit of quality") + "\n<ul>\n" + text + "</ul>\n";
+}
+
+/// What else was asked for, and what independent methods say of the mesh as written; folded while all is
+/// well.
+std::string checks(const ImproveReport& report, const SolutionReport& solution) {
+  std::string text;
+  for (const Check& check : solution.assessment.checks)
+    if (check.kind != CheckKind::quality)
+      text += check_line(check.passed, check_text(check, report.task.rest().structure));
   for (const WrittenCheck& check : solution.written) {
     const bool agrees = check.verdict != WrittenCheck::Verdict::disagrees;
-    line(agrees, "written mesh, " + check.name + (agrees ? ": " : " DISAGREES: ") + check.note);
+    text += check_line(agrees, "written mesh, " + check.name + (agrees ? ": " : " DISAGREES: ") + check.note);
   }
-  return text + "</ul>\n";
+  return std::string("<details class=\"faint\"") + (solution.good() ? ">" : " open=\"open\">") +
+         element("summary", "Checks") + "\n<ul>\n" + text + "</ul></details>\n";
 }
 
 std::string links(const SolutionReport& solution) {
@@ -144,11 +158,15 @@ std::string article(const ImproveReport& report, const SolutionReport& solution)
                      escaped(stackability_text(solution.assessment.measured.value) + " " +
                              direction_text(solution.candidate.direction)) +
                      "</span></h2>\n";
+  text += element("p class=\"headline\"", "Each further copy adds " +
+                                              quantity(solution.assessment.measured.f_max, unit) +
+                                              " instead of " + quantity(solution.before.f_max, unit) + ". " +
+                                              saving_text(solution.stack, unit) + ".") +
+          "\n";
   if (report.pictures_missing.empty()) {
     text += picture(solution.name + "_before_after.png", "before and after");
     text += picture(solution.name + "_stack.png", "stacks before and after");
   }
-  text += element("p", saving_text(solution.stack, unit) + ".") + "\n";
   if (solution.twist)
     text +=
         element("p", "Turned by " + rounded(solution.twist->twist_degrees) + " degrees from copy to copy, " +
@@ -157,9 +175,10 @@ std::string article(const ImproveReport& report, const SolutionReport& solution)
                          stackability_text(solution.twist->untwisted_stackability) + ".") +
         "\n";
   text += element("h3", "What changes") + "\n" + list("ul", explanation_lines(solution.explanation));
+  text += quality(report, solution);
   text += "<details class=\"faint\">" + element("summary", "Exact edits") + "\n" +
           list("ol", edit_lines(report.task, solution)) + "</details>\n";
-  text += element("h3", "Checks") + "\n" + checks(report, solution) + links(solution);
+  text += checks(report, solution) + links(solution);
   return text + "</article>\n";
 }
 
@@ -228,12 +247,12 @@ std::string improvement_page(const ImproveReport& report) {
   if (report.run.result.diagnosis && !(report.run.front && report.reached()))
     page += element("h3", "Why it was not reached, and what would help") + "\n" +
             element("pre", text(*report.run.result.diagnosis, report.task.rest().structure)) + "\n";
-  page += view.element + front(report) + comparison(report);
+  page += view.element + front(report);
   if (!report.pictures_missing.empty())
     page += element("p class=\"faint\"", "No pictures: " + report.pictures_missing + ".") + "\n";
   page += "<div class=\"solutions\">\n";
   for (const SolutionReport* solution : report.shown()) page += article(report, *solution);
-  return page + "</div>\n</body>\n</html>\n";
+  return page + "</div>\n" + comparison(report) + "</body>\n</html>\n";
 }
 
 }  // namespace stackabilization::apps
