@@ -37,7 +37,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libstackabilization-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)  # static libraries
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libtbb-dev, libgmp-dev, libmpfr-dev, libpugixml-dev, libminizip-dev")
+  "libeigen3-dev, libtbb-dev, libgmp-dev, libmpfr-dev, libpugixml-dev, libminizip-dev, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "libvtk9-dev, libegl-dev")  # the component rendering
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "libraries that measure how well 3D shapes stack
  Static libraries and headers of stackabilization, with a CMake package, the

@@ -9,7 +9,7 @@ purpose=${1:-all}
 packages=(
   g++ cmake ninja-build ccache pkg-config git
   libcgal-dev libeigen3-dev libboost-dev libtbb-dev libgmp-dev libmpfr-dev
-  libpugixml-dev libminizip-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
+  libpugixml-dev libminizip-dev zlib1g-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
   libvtk9-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
 )
 for_packages=(pybind11-dev python3-dev python3-numpy dpkg-dev file)

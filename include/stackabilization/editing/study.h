@@ -51,8 +51,8 @@ StudyPlan study_plan_of_text(std::string_view text, const std::string& name);
 
 /// A task of one participant.
 struct StudyTurn {
-  int task = 0;  ///< row of StudyPlan::tasks
-  StudyCondition condition = StudyCondition::manual;
+  int task = 0;                                       ///< row of StudyPlan::tasks
+  StudyCondition condition = StudyCondition::manual;  ///< how the task is done
 };
 
 /// Returns the turns of a participant, one per task. Over six participants in a row each task is done twice
@@ -62,11 +62,11 @@ std::vector<StudyTurn> study_turns(int participant, int tasks);
 
 /// What is written down when something happened.
 struct StudyEntry {
-  int participant = 1, turn = 1;  ///< counted from 1
-  std::string task;
-  StudyCondition condition = StudyCondition::manual;
-  double seconds = 0;               ///< since the task was shown
-  std::string event;                ///< "begin", "edit", "go", "done" or "give up"
+  int participant = 1, turn = 1;                      ///< counted from 1
+  std::string task;                                   ///< name of the task
+  StudyCondition condition = StudyCondition::manual;  ///< how the task is done
+  double seconds = 0;                                 ///< since the task was shown
+  std::string event;                                  ///< "begin", "edit", "go", "done" or "give up"
   std::string edit;                 ///< of an edit: what was edited, as `deform --edit` reads it
   double target = 0;                ///< S that is wanted
   Assessment assessment;            ///< of the design then, with all checks that follow a drag
@@ -83,17 +83,17 @@ std::string study_heading();
 std::string study_row(const StudyEntry& entry, const QualityLimits& limits);
 /// What a participant came to in one task.
 struct StudyResult {
-  int participant = 1;
-  std::string task;
-  StudyCondition condition = StudyCondition::manual;
-  double seconds = 0;                   ///< from the begin of the task to its end
-  double target = 0, stackability = 0;  ///< S that was wanted, and of the design at the end
-  bool reached = false;                 ///< whether all checks passed at the end
-  Distortion distortion;                ///< of the design at the end
-  double change = 0;                    ///< of the design at the end
-  int edits = 0;                        ///< from rest to the design at the end
-  int made = 0;                         ///< edits that were made, also those that were given up later
-  std::array<int, 3> answers = {};      ///< 1 to 5
+  int participant = 1;                                ///< counted from 1
+  std::string task;                                   ///< name of the task
+  StudyCondition condition = StudyCondition::manual;  ///< how the task was done
+  double seconds = 0;                                 ///< from the begin of the task to its end
+  double target = 0, stackability = 0;                ///< S that was wanted, and of the design at the end
+  bool reached = false;                               ///< whether all checks passed at the end
+  Distortion distortion;                              ///< of the design at the end
+  double change = 0;                                  ///< of the design at the end
+  int edits = 0;                                      ///< from rest to the design at the end
+  int made = 0;                     ///< edits that were made, also those that were given up later
+  std::array<int, 3> answers = {};  ///< 1 to 5
 };
 
 /// Returns the results in a CSV of studies, in its order; tasks that were not ended are left out. Throws

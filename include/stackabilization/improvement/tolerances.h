@@ -15,11 +15,14 @@ inline constexpr double target = 1e-7;
 /// Relative accuracy at which magnitudes of edits, and the distortion that they cause, count as converged.
 inline constexpr double magnitude = 1e-6;
 
-/// Pieces at the two ends of a shape keep copies apart for good (closed_pair) if they overlap after every
-/// move of closed_move of the diagonal, and after every scaling by 1 - closed_scale or its inverse. They
-/// reach at most closed_depth of the height into the shape. At most closed_pieces pieces at each end are
-/// looked at.
-inline constexpr double closed_move = 0.12, closed_scale = 0.2, closed_depth = 0.06;
+/// Length of the moves across the direction after which two pieces still overlap where they keep copies apart
+/// for good (closed_pair), fraction of the diagonal.
+inline constexpr double closed_move = 0.12;
+/// Scalings after which such pieces still overlap: by 1 minus this, and by the inverse.
+inline constexpr double closed_scale = 0.2;
+/// Depth to which such pieces reach into the shape, fraction of the height.
+inline constexpr double closed_depth = 0.06;
+/// Largest number of pieces at each end that are looked at.
 inline constexpr std::size_t closed_pieces = 40;
 
 }  // namespace stackabilization::tolerance
