@@ -213,12 +213,13 @@ int run_study(const EditCommandOptions& options) {
 }
 
 int run_edit_command(const CLI::App& command, const EditCommandOptions& options) {
-  if (options.study) return run_study(options);
   const Stopwatch watch;
   const std::filesystem::path autosave = session_file(options);
-  CommandFiles files{{}, analysis_inputs(options.analysis)};
-  if (!autosave.empty()) files.outputs = {{"--session", autosave.string(), OutputKind::text}};
+  CommandFiles files{{{"--study", options.study}, {"--session", options.session}},
+                     analysis_inputs(options.analysis)};
+  if (!autosave.empty()) files.outputs.back().path = autosave.string();
   check_outputs(options.common, files);
+  if (options.study) return run_study(options);
   const ThreadLimit limit(options.common);
   std::optional<editing::Document> document = saved_document(options);
   RoomOptions room_options;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 
 #include "apps/common/command.h"
@@ -19,6 +20,8 @@ namespace {
 constexpr double default_accuracy = 0x1p-10;
 /// Places along the longer side of a map, where no step is given.
 constexpr double default_map_places = 32;
+/// Largest number of cells that may be asked for: hours of work.
+constexpr std::uint64_t max_cells_limit = 10000000;
 
 enum class PlaceChoice { given, best };
 
@@ -241,7 +244,8 @@ Command make_drop_command(CLI::App& program) {
       *command,
       {"--eps", "How close the proof comes to the height found (default: 1/1024 of the higher extent)", true},
       options->eps);
-  add_count(*command, {"--max-cells", "Cells of places to examine at most (default: 200000)", 1},
+  add_count(*command,
+            {"--max-cells", "Cells of places to examine at most (default: 200000)", 1, max_cells_limit},
             options->max_cells);
   command
       ->add_option("-o,--output", options->output,

@@ -1,5 +1,7 @@
 #include "apps/file_scenes.h"
 
+#include <algorithm>
+#include <iterator>
 #include <regex>
 
 #include "support/catch.h"
@@ -57,6 +59,9 @@ const std::vector<Output>& outputs() {
       {"suggest", "--json", ".json"},
       {"suggest", "--save", ".json"},
       {"suggest", "--pictures", ""},
+      {"edit", "--json", ".json"},
+      {"edit", "--session", ".json"},
+      {"edit", "--study", ".csv"},
       {"compare", "--json", ".json", {"after.obj"}},
       {"improve", "--json", ".json", {"--target", "0.6", "--output", "elsewhere"}},
       {"improve", "--output", "", {"--target", "0.6"}}};
@@ -83,7 +88,11 @@ Arguments Scene::line(const std::string& mesh, const std::string& written, const
   arguments = joined(arguments, what.further);
   for (std::string& argument : arguments)
     if (argument == "elsewhere") argument = *this / "elsewhere";
-  return input.empty() ? arguments : joined(arguments, {input, read});
+  if (input.empty()) return arguments;
+  const auto given = std::find(arguments.begin(), arguments.end(), input);
+  if (given == arguments.end()) return joined(arguments, {input, read});
+  *std::next(given) = read;
+  return arguments;
 }
 
 void Scene::check_refused(const Arguments& arguments, const std::string& words) const {

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Options that name what is read.
-const std::set<std::string> inputs = {"--labels", "--seeds", "--ctrl", "--grp", "--into"};
+const std::set<std::string> inputs = {"--labels", "--seeds", "--ctrl", "--grp", "--into", "--onto"};
 
 /// Kinds of values of options that are files or folders, and that are none; in choices there are no capitals.
 const std::set<std::string> kinds_of_files = {"FILE", "FOLDER", "PROJECT", "CONTAINER"};

@@ -80,6 +80,7 @@ std::string words_about(const Arguments& arguments) {
 Arguments with(const NumericOption& option, const Arguments& values) {
   Arguments arguments = {option.command, "model.obj"};
   if (option.command == "improve") arguments.insert(arguments.end(), {"-o", "folder"});
+  if (option.command == "drop") arguments.insert(arguments.end(), {"--onto", "other.obj"});
   if (values.size() == 1 && option.name.starts_with("--")) {
     arguments.push_back(option.name + "=" + values.front());
   } else {
