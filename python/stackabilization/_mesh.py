@@ -30,7 +30,7 @@ def load(path: Path, *, format: str | None = None, unit: Unit | None = None, up:
 
 
 #: Keywords that are True or False, and those that are three numbers.
-FLAGS = {"self_intersections", "bend", "change_height", "any_quality", "all", "front", "twist", "no_pictures"}
+FLAGS = {"self_intersections", "bend", "change_height", "any_quality", "all", "front", "twist", "turn", "no_pictures"}
 VECTORS = {"direction", "plane", "keep_extent", "fix_point"}
 
 
@@ -59,6 +59,8 @@ def _repeated(key: str, value: Any) -> list[list[str]]:
         return [[f"{_text(key, name)}={_text(key, one)}"] for name, one in value.items()]
     if key in VECTORS:
         return _vectors(key, value)
+    if key == "corner":
+        return [[_text(key, one) for one in corner] for corner in value]
     if isinstance(value, (list, tuple, set, frozenset)):
         return [[_text(key, one)] for one in value]
     return [[_text(key, value)]]

@@ -100,7 +100,9 @@ def test_there_is_no_gradient_where_nothing_is_in_the_way():
 def test_a_box_drops_to_the_bottom_of_what_it_fits_in():
     floor, item = box((0, 0, 0), (4, 4, 0.5)), box((7, 7, 7), (8, 8, 8))
     found = st.drop(item, onto=floor, place="best", eps=0.01)
+    beside = st.drop(item, onto=floor, place="best", eps=0.01, corner=[(9, 9), (10, 9), (10, 10)])
     assert found.height == 0.5 and found.proven and 0.49 <= found.bound <= 0.5
+    assert beside.on_floor
     corner = found.transform @ [7, 7, 7, 1]
     assert corner[2] == pytest.approx(0.5) and (0 <= corner[:2]).all() and (corner[:2] <= 3).all()
     assert st.drop(item, onto=floor).on_floor and st.drop(item, onto=floor).bound is None
