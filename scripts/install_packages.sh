@@ -21,7 +21,8 @@ case $purpose in
       python3-pytest python3-hypothesis python3-nbclient python3-ipykernel python3-matplotlib mypy)
     # For the tests of the page of `edit`. Ubuntu has no package of Chromium but a snap; there they are skipped.
     command -v npm >/dev/null || packages+=(nodejs npm)
-    grep -qx 'ID=debian' /etc/os-release && packages+=(chromium)
+    # debootstrap: for the packages for Debian, which are installed into a fresh system.
+    grep -qx 'ID=debian' /etc/os-release && packages+=(chromium debootstrap)
     ;;
   *)
     echo "scripts/install_packages.sh: expected 'program', 'packages' or 'all', found '$purpose'" >&2

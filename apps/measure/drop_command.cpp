@@ -46,7 +46,7 @@ struct Scene {
 
 void check(const DropCommandOptions& options) {
   check_outputs(options.common, {{{"--output", options.output, OutputKind::mesh}, {"--map", options.map}},
-                                 {{"what it falls on", options.onto}}});
+                                 {{"the object of --onto", options.onto}}});
   refuse_option(options.common.model == "-" && options.onto == "-", "--onto",
                 "and MODEL cannot both be standard input");
   const bool best = options.place == PlaceChoice::best;

@@ -12,7 +12,7 @@ before(async () => {
   browser = await openBrowser();
   folder = new Folder('table.obj');
   out = path.join(folder.path, 'out');
-  execFileSync(program, ['improve', folder.model, '--target', '0.3', '--direction', '0', '0', '1', '--solutions', '1', '--effort', '0.1', '-o', out, '--quiet']);
+  execFileSync(program, ['improve', folder.model, '--target', '0.4', '--direction', '0', '0', '1', '--solutions', '1', '--effort', '0.3', '-o', out, '--quiet']);
 });
 after(async () => {
   await browser?.close();

@@ -24,8 +24,9 @@ namespace limit = tolerance::explanation;
 constexpr double degrees_of_radian = 180 / std::numbers::pi;
 /// Cosines of the angles within which a direction is upright, points along another, or is level.
 constexpr double upright_cosine = 0.7071067811865476, along_cosine = 0.8, level_cosine = 0.3;
-/// Cosine of the largest angle between a heading and outwards.
-constexpr double heading_cosine = 0.5;
+/// Distance from the middle of the object, as a ratio of half its size along a heading, from which on that
+/// heading leads outwards or inwards: the legs on a long side of a bed lean outwards across it.
+constexpr double heading_share = 0.5;
 /// Ratio of thickness to width up to which a part is a plate.
 constexpr double plate_ratio = 0.25;
 /// Ratio of the level sizes of a part from which on the larger one is its length.
@@ -117,9 +118,13 @@ class PartMeasurement {
   Heading heading(const Eigen::Vector3d& by) const {
     const Eigen::Vector3d out = frame_.level(result_.map.from - frame_.centre), level = frame_.level(by);
     if (out.norm() <= limit::on_axis * frame_.diagonal || !(level.norm() > 0)) return Heading::sideways;
-    const double cosine = out.dot(level) / (out.norm() * level.norm());
-    if (cosine >= heading_cosine) return Heading::outwards;
-    return cosine <= -heading_cosine ? Heading::inwards : Heading::sideways;
+    const Eigen::Vector3d along = level.normalized();
+    double reach = 0;
+    for (Eigen::Index v = 0; v < rest_.vertex_count(); ++v)
+      reach = std::max(reach, std::abs(along.dot(rest_.vertices.row(v).transpose() - frame_.centre)));
+    const double from_middle = along.dot(out);
+    if (from_middle >= heading_share * reach) return Heading::outwards;
+    return from_middle <= -heading_share * reach ? Heading::inwards : Heading::sideways;
   }
 
   void measure_member() {

@@ -42,6 +42,9 @@ constexpr std::size_t more_extended = 4;
 constexpr double edit_price = 0.03;
 constexpr double drop_threshold = 0.25;
 
+/// Gain of S below which a design that does not reach the target is no better than the shape at rest.
+constexpr double min_gain = 0.005;
+
 bool more_stackable(const Candidate& a, const Candidate& b) {
   return a.measured.value > b.measured.value;
 }
@@ -344,13 +347,18 @@ class ImprovementRun {
     });
   }
 
-  /// Leaves out what came near but breaks a limit of quality. The shape at rest is always near.
+  /// Leaves out what came near but breaks a limit of quality, or changes the shape for nothing. The shape at
+  /// rest is always near.
   void keep_acceptable(std::vector<Candidate>& nearest) const {
     if (!refines_ || !checker_.requirements().quality) return;
     const auto first = std::find_if(nearest.begin(), nearest.end(),
                                     [this](const Candidate& candidate) { return is_acceptable(candidate); });
     nearest.erase(nearest.begin(), first);
-    if (nearest.empty()) nearest.push_back(at_rest(checker_, options_.search.directions.front()));
+    const Candidate rest =
+        at_rest(checker_, nearest.empty() ? options_.search.directions.front() : nearest.front().direction);
+    if (nearest.empty() || (!nearest.front().design.edits.empty() &&
+                            nearest.front().measured.value < rest.measured.value + min_gain))
+      nearest.insert(nearest.begin(), rest);
   }
 
   void finish(BestFirstResult found) {

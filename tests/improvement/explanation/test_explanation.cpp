@@ -124,6 +124,26 @@ TEST_CASE("Symmetric legs that lean by an angle are one line with that angle", "
   CHECK(lines_of(rest, leaned_legs(rest, -6.24)) == Lines{"4 legs lean inwards by 6.2 degrees"});
 }
 
+TEST_CASE("Legs at the long sides of a bed lean outwards across it, not sideways", "[explanation]") {
+  StructuredShape bed = structures::table(2);
+  bed.shape = with_parts_mapped(bed.shape, "top", scaled({6, 1, 1}));
+  bed.shape = with_parts_mapped(bed.shape, "leg", [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return p + std::copysign(20.0, p.x()) * Eigen::Vector3d::UnitX();
+  });
+  const double top = range_along(extract_part(bed.shape, 1), Eigen::Vector3d::UnitZ()).high;
+  const auto leaned = [&](double slope, bool across) {
+    return with_parts_mapped(bed.shape, "leg", [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+      const double by = slope * (top - p.z());
+      return across ? Eigen::Vector3d(p.x(), p.y() + std::copysign(1.0, p.y()) * by, p.z())
+                    : Eigen::Vector3d(p.x() + std::copysign(by, p.x()), p.y(), p.z());
+    });
+  };
+  const double slope = std::tan(5 * radians_of_degree);
+  CHECK(lines_of(bed, leaned(slope, true)) == Lines{"4 legs lean outwards by 5 degrees"});
+  CHECK(lines_of(bed, leaned(-slope, true)) == Lines{"4 legs lean inwards by 5 degrees"});
+  CHECK(lines_of(bed, leaned(slope, false)) == Lines{"4 legs lean outwards by 5 degrees"});
+}
+
 TEST_CASE("A rigid rotation of a leg is a lean by its angle, without a change of size", "[explanation]") {
   const StructuredShape rest = structures::table(2);
   const Eigen::AngleAxisd turn(5 * radians_of_degree, Eigen::Vector3d::UnitY());

@@ -14,6 +14,7 @@
 #include "stackabilization/stacking/tolerances.h"
 #include "support/catch.h"
 #include "support/cups.h"
+#include "support/still_designs.h"
 
 using namespace stackabilization;
 using cups::checker;
@@ -213,6 +214,25 @@ TEST_CASE("a deadline that is met is told, and the shape is judged nevertheless"
   const Improvement met = improve(checker(-1), options);
   REQUIRE(met.solutions.size() == 1);
   CHECK(met.solutions.front().design.edits.empty());
+}
+
+TEST_CASE("what comes nearest stacks better, or is the shape at rest") {
+  const auto nearest = [](double smallest_size) {
+    Requirements requirements = designs::frame_requirements(0.9);
+    requirements.quality.emplace();
+    (*requirements.quality)[QualityMeasure::size] = smallest_size;
+    const Improvement found = improve(RequirementChecker(cups::space, requirements), limited(0.05));
+    CHECK(found.solutions.empty());
+    REQUIRE(found.nearest);
+    return *found.nearest;
+  };
+  // A cup cannot enter another before its mouth is wider than its foot by the wall.
+  const Candidate stiff = nearest(0.99);
+  CHECK(stiff.design.edits.empty());
+  CHECK(stiff.measured.value == 0);
+  const Candidate wider = nearest(0.8);
+  CHECK(!wider.design.edits.empty());
+  CHECK(wider.measured.value > 0.005);
 }
 
 TEST_CASE("efforts are shares of a fixed amount of work, less of it for larger shapes") {
