@@ -3,7 +3,7 @@
     >>> import stackabilization as st
     >>> result = st.measure("chair.obj", direction=(0, 0, 1))
     >>> result.f_max, result.height, result.stackability
-    (0.2685..., 0.8800..., 0.6327...)
+    (0.8224..., 0.8623..., 0.0349...)
 
 Functions are named as the commands of the program `stackabilize`, and their keywords as its options, with
 an underscore in the place of a hyphen. A mesh is a path, a pair of arrays (vertices, faces), a `Mesh`, or an

@@ -62,6 +62,12 @@ def run_command(command, mesh, options, progress=None, *, after=None, above=None
     return Answer(json.loads(text), meshes, texts)
 
 
+def _table_of(text):
+    """The numbers of a table with a heading, a row for each of its lines."""
+    heading, _, rows = text.partition("\n")
+    return numpy.array(rows.replace("\n", ",").rstrip(",").split(","), dtype=float).reshape(-1, heading.count(",") + 1)
+
+
 def inspect(mesh, *, self_intersections=False, format=None, unit=None, up=None, labels=None):
     """Say what is in a mesh, and what is wrong with it.
 
@@ -113,9 +119,7 @@ def map(mesh, *, step_degrees=None, semantics=None, boxes=None, format=None, uni
     options = {"step_degrees": step_degrees, "semantics": semantics, "boxes": boxes, "format": format, "unit": unit,
                "up": up, "labels": labels, "threads": threads, "output": "table"}
     answer = run_command("map", mesh, options, progress)
-    heading, _, rows = answer.texts["table"].partition("\n")
-    samples = numpy.array(rows.replace("\n", ",").rstrip(",").split(","), dtype=float)
-    return _results.Map(answer.document, samples.reshape(-1, heading.count(",") + 1))
+    return _results.Map(answer.document, _table_of(answer.texts["table"]))
 
 
 def stack(mesh, *, n=None, into=None, direction=None, twist_degrees=None, period=None, clearance=None,
@@ -151,21 +155,24 @@ def gap(mesh, above, *, direction=None, semantics=None, format=None, unit=None, 
     return _results.Gap(run_command("gap", mesh, options, above=above).document)
 
 
-def drop(mesh, *, onto, place=None, turn=False, corner=None, eps=None, max_cells=None, direction=None, semantics=None,
-         format=None, unit=None, up=None, labels=None, threads=None, progress=None):
+def drop(mesh, *, onto, place=None, turn=False, corner=None, eps=None, max_cells=None, map=False, step=None,
+         direction=None, semantics=None, format=None, unit=None, up=None, labels=None, threads=None, progress=None):
     """Let a mesh come down onto another one, at its place or where it comes to rest lowest; a Drop.
 
     onto: what it falls on. place: 'given' (default), or 'best', with a proof; turn: it may turn, too.
     corner: corners (x, y) of a polygon that its centre stays in. eps: how close the proof comes, model units or
     a text such as '1mm'; max_cells: cells of places to examine at most.
+    map: have the height at every place of a grid, too, as `heights`; step: distance between these places, model units
+    or a text (default: 1/32 of what it falls on).
     direction: it comes down against it (default: 0, 0, 1). semantics: as in `measure`.
     format, unit, up, labels: how a file is read, see `load`. threads: at most so many (default: all).
     progress: called as progress(step, fraction).
     """
     options = {"onto": onto, "place": place, "turn": turn, "corner": corner, "eps": eps, "max_cells": max_cells,
-               "direction": direction, "semantics": semantics, "format": format, "unit": unit, "up": up,
-               "labels": labels, "threads": threads}
-    return _results.Drop(run_command("drop", mesh, options, progress).document)
+               "map": "table" if map else None, "step": step, "direction": direction, "semantics": semantics,
+               "format": format, "unit": unit, "up": up, "labels": labels, "threads": threads}
+    answer = run_command("drop", mesh, options, progress)
+    return _results.Drop(answer.document, _table_of(answer.texts["table"]) if map else None)
 
 
 def validate(mesh, *, direction=None, format=None, unit=None, up=None, labels=None, threads=None):

@@ -71,9 +71,9 @@ def gap(
 def drop(
     mesh: MeshLike, *, onto: MeshLike, place: Literal["given", "best"] | None = None, turn: bool = False,
     corner: Sequence[Sequence[float]] | None = None, eps: Length | None = None, max_cells: int | None = None,
-    direction: Vector | None = None, semantics: Semantics | None = None, format: str | None = None,
-    unit: Unit | None = None, up: Up | None = None, labels: Path | None = None, threads: int | None = None,
-    progress: Progress | None = None,
+    map: bool = False, step: Length | None = None, direction: Vector | None = None, semantics: Semantics | None = None,
+    format: str | None = None, unit: Unit | None = None, up: Up | None = None, labels: Path | None = None,
+    threads: int | None = None, progress: Progress | None = None,
 ) -> Drop: ...
 
 def validate(

@@ -436,8 +436,16 @@ class Gap(OfModel):
 class Drop(OfModel):
     """Where one mesh comes to rest on another."""
 
-    __slots__ = ()
+    __slots__ = ("_samples",)
+    _samples: "Floats | None"
     _shown = ("height", "bound", "place")
+
+    def __init__(self, document: Document, samples: "Floats | None" = None) -> None:
+        super().__init__(document)
+        if samples is not None:
+            samples.setflags(write=False)
+        object.__setattr__(self, "_samples", samples)
+
     onto: str = field("What it falls on.")
     direction: numpy.ndarray = field("(3,) as given.", convert=vector)
     semantics: str = field("'solid' or 'closed'.")
@@ -453,6 +461,11 @@ class Drop(OfModel):
     eps: "float | None" = field("How close the proof had to come, model units.")
     cells: "int | None" = field("Cells of places examined.")
     open_cells: "int | None" = field("Of these, cells that may hold a lower place.")
+
+    @property
+    def heights(self) -> "Floats | None":
+        """(k, 3) rows x, y, height: places of a grid, and its height where it comes to rest there; None without a map."""
+        return self._samples
 
     @property
     def transform(self):

@@ -1,11 +1,13 @@
 """The examples that people copy run, and print what is said beside them."""
 
 import contextlib
+import doctest
 import io
 import re
 
 import pytest
 
+import stackabilization
 from conftest import SOURCE
 
 
@@ -35,3 +37,9 @@ def test_examples_of_the_guide_run(block, monkeypatch):
 
 def test_both_pages_have_examples():
     assert len(python_blocks("README.md")) >= 2 and python_blocks("docs/guide.md")
+
+
+def test_the_example_of_help_prints_what_it_says(monkeypatch):
+    monkeypatch.chdir(SOURCE / "data/models")
+    tried = doctest.testmod(stackabilization, optionflags=doctest.ELLIPSIS)
+    assert tried.attempted >= 3 and tried.failed == 0

@@ -106,3 +106,17 @@ def test_a_box_drops_to_the_bottom_of_what_it_fits_in():
     corner = found.transform @ [7, 7, 7, 1]
     assert corner[2] == pytest.approx(0.5) and (0 <= corner[:2]).all() and (corner[:2] <= 3).all()
     assert st.drop(item, onto=floor).on_floor and st.drop(item, onto=floor).bound is None
+
+
+def test_the_map_of_a_drop_has_the_height_at_each_place():
+    mound = (numpy.array([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0], [1, 2, 3.0]]),
+             [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]])
+    item = box((0, 0, 0), (0.5, 0.5, 0.5))
+    found = st.drop(item, onto=mound, map=True, step=0.7)
+    assert found.heights.shape[1] == 3 and len(found.heights) > 20 and not found.heights.flags.writeable
+    for x, y, height in found.heights:
+        placed = (item[0] + [x - 0.25, y - 0.25, 0], item[1])
+        assert st.drop(placed, onto=mound).height == pytest.approx(height, abs=1e-12)
+    assert found.heights[:, 2].max() > 2 and st.drop(item, onto=mound).heights is None
+    with pytest.raises(st.UsageError, match="--step needs --map"):
+        st.drop(item, onto=mound, step=0.7)

@@ -289,6 +289,7 @@ class ChangeDescription {
 
   /// Returns what the edits of a group avoid, without repetition.
   std::vector<std::string> cleared_by(const Group& group) const {
+    const std::string any_part = "the next copy";
     std::vector<std::string> result;
     if (options_.reasons.size() != options_.edits.size()) return result;
     std::set<std::size_t> own;
@@ -302,11 +303,12 @@ class ChangeDescription {
                          !(reason.away_from >= 0 && own.contains(class_of_[at(reason.away_from)]));
       if (!whole && (!part || !own.contains(class_of_[at(*part)]))) continue;
       const std::string name =
-          reason.away_from < 0 ? "the next copy"
+          reason.away_from < 0 ? any_part
                                : "the " + phrases_->phrase(classes_[class_of_[at(reason.away_from)]]).words +
                                      " of the next copy";
       if (std::find(result.begin(), result.end(), name) == result.end()) result.push_back(name);
     }
+    if (result.size() > 1) std::erase(result, any_part);  // it says less than a name
     return result;
   }
 

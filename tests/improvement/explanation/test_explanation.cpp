@@ -254,6 +254,14 @@ TEST_CASE("The reason of an edit ends the line of its part", "[explanation]") {
   options.reasons = {{EditEffect::outwards, true, 0}};
   CHECK(lines_of(rest, leaned_legs(rest, 5), options) ==
         Lines{"4 legs lean outwards by 5 degrees, to clear the top of the next copy"});
+  options.edits.push_back(options.edits.front());
+  for (const bool named_first : {false, true}) {
+    options.reasons = {{EditEffect::outwards, true, named_first ? 0 : -1},
+                       {EditEffect::outwards, true, named_first ? -1 : 0}};
+    CHECK(lines_of(rest, leaned_legs(rest, 5), options) ==
+          Lines{"4 legs lean outwards by 5 degrees, to clear the top of the next copy"});
+  }
+  options.edits.pop_back();
   options.reasons = {{EditEffect::compensation}};
   CHECK(lines_of(rest, leaned_legs(rest, 5), options) == Lines{"4 legs lean outwards by 5 degrees"});
 }
