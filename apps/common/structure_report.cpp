@@ -70,18 +70,6 @@ std::string symmetry_reference(const Symmetry& symmetry, const Structure& struct
          std::to_string(found - whole.begin() + 1) + " of the whole";
 }
 
-const char* symmetry_kind_name(SymmetryKind kind) {
-  switch (kind) {
-    case SymmetryKind::reflection:
-      return "reflection";
-    case SymmetryKind::rotation:
-      return "rotation";
-    case SymmetryKind::revolution:
-      return "revolution";
-  }
-  return "";
-}
-
 bool is_joint(const Relation& relation) {
   return relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
 }
@@ -211,7 +199,7 @@ std::string structure_text(const StructuredShape& structured, const Model& model
                 "; fits are errors, of the part's diagonal");
   table.add("Symmetries", std::to_string(structure.symmetries.size()), "of the whole shape");
   for (std::size_t i = 0; i < structure.symmetries.size(); ++i)
-    table.add("", std::to_string(i + 1) + " " + symmetry_kind_name(structure.symmetries[i].kind),
+    table.add("", std::to_string(i + 1) + " " + name_of(structure.symmetries[i].kind),
               symmetry_text(structure.symmetries[i], structure.diagonal));
   table.add("Relations", std::to_string(structure.relations.size()), tally_text(structure));
   std::string text = table.text() + "\n" + part_table(structured);

@@ -20,18 +20,6 @@ using editing::EditingSession;
 
 constexpr double alpha_shown = 0.2;  ///< of energies, that of SessionOptions
 
-const char* words_for(SymmetryKind kind) {
-  switch (kind) {
-    case SymmetryKind::reflection:
-      return "reflection";
-    case SymmetryKind::rotation:
-      return "rotation";
-    case SymmetryKind::revolution:
-      break;
-  }
-  return "revolution";
-}
-
 Json points_json(const Points& points) {
   Json list = Json::array();
   for (Eigen::Index row = 0; row < points.rows(); ++row)
@@ -160,10 +148,10 @@ Json model_json(const EditingSession& session, const std::string& name) {
           {{"relation", row}, {"parts", relation.parts}, {"points", points_json(relation.points)}});
     else
       pairs.push_back(
-          {{"relation", row}, {"parts", relation.parts}, {"kind", words_for(relation.symmetry.kind)}});
+          {{"relation", row}, {"parts", relation.parts}, {"kind", name_of(relation.symmetry.kind)}});
   }
   for (const Symmetry& symmetry : rest.structure.symmetries)
-    symmetries.push_back({{"kind", words_for(symmetry.kind)},
+    symmetries.push_back({{"kind", name_of(symmetry.kind)},
                           {"point", to_json(symmetry.point)},
                           {"axis", to_json(symmetry.axis)}});
   const QualityLimits defaults;

@@ -1,9 +1,14 @@
 #include "bindings/job.h"
 
+#include <pthread.h>
+
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
+#include <optional>
 #include <thread>
+#include <vector>
 
 #include "stackabilization/core/errors.h"
 
@@ -19,6 +24,71 @@ constexpr std::chrono::milliseconds moment(500);
 std::atomic<int> running{0};
 std::atomic<bool> ending{false};
 std::thread::id ending_thread;  ///< written before `ending`
+
+/// Threads that computations run in, one after the other. There are as many as ever ran at once: TBB keeps
+/// some memory for every thread that used it, so a thread for each call would let the memory grow.
+class Workers {
+ public:
+  struct Task {
+    std::function<void()> work;
+    std::function<void()> tell;  ///< called after the work, when the thread is free for the next task
+  };
+
+  /// Runs a task in a thread that is idle, or in a new one.
+  void start(Task task) {
+    const std::lock_guard lock(mutex_);
+    if (idle_.empty()) {
+      auto worker = std::make_unique<Worker>();
+      worker->task = std::move(task);
+      std::thread([this, own = worker.get()] { serve(*own); }).detach();
+      worker.release();
+      return;
+    }
+    Worker* const worker = idle_.back();
+    idle_.pop_back();
+    worker->task = std::move(task);
+    worker->changed.notify_one();
+  }
+
+ private:
+  struct Worker {
+    std::optional<Task> task;
+    std::condition_variable changed;
+  };
+
+  void serve(Worker& worker) {
+    while (true) {
+      std::optional<Task> task;
+      {
+        std::unique_lock lock(mutex_);
+        worker.changed.wait(lock, [&] { return worker.task.has_value(); });
+        task.swap(worker.task);
+      }
+      task->work();
+      {
+        const std::lock_guard lock(mutex_);
+        idle_.push_back(&worker);
+      }
+      task->tell();
+    }
+  }
+
+  std::mutex mutex_;
+  std::vector<Worker*> idle_;  ///< threads live as long as the process
+};
+
+/// Never destroyed, because its threads wait on it when the process ends. A fork has none of the threads.
+Workers* workers = nullptr;
+
+void make_workers() {
+  workers = new Workers;
+}
+
+Workers& all_workers() {
+  [[maybe_unused]] static const int registered =
+      (make_workers(), pthread_atfork(nullptr, nullptr, make_workers));
+  return *workers;
+}
 
 /// Computations that were left alone would use what the end of the process takes apart.
 void end_process(int status, void*) {
@@ -52,23 +122,25 @@ Job::Job(std::function<void(JobState&)> work) {
   [[maybe_unused]] static const int registered = on_exit(end_process, nullptr);
   ++running;
   try {
-    std::thread([state = state_, work = std::move(work)]() mutable {
-      std::exception_ptr error;
+    const auto error = std::make_shared<std::exception_ptr>();
+    auto run = [state = state_, error, work = std::move(work)]() mutable {
       try {
         work(*state);
       } catch (...) {
-        error = std::current_exception();
+        *error = std::current_exception();
       }
       work = {};  // what it owns goes before anybody is told
+    };
+    auto tell = [state = state_, error] {
       {
         const std::lock_guard lock(state->mutex);
-        state->error = std::move(error);
+        state->error = std::move(*error);
         state->ended = true;
         state->changed.notify_all();
       }
-      state.reset();
       --running;
-    }).detach();
+    };
+    all_workers().start({std::move(run), std::move(tell)});
   } catch (...) {
     --running;
     throw;

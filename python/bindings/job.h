@@ -30,7 +30,7 @@ struct JobState {
   std::atomic<bool> stopped{false};  ///< asked by the computation: is it to end early?
 };
 
-/// A computation in a thread of its own, so that the calling thread can look after Python meanwhile: it tells
+/// A computation in another thread, so that the calling thread can look after Python meanwhile: it tells
 /// `progress` how far the computation is, and at Ctrl-C, or when `progress` raises, asks it to stop. One that
 /// does not stop within a moment is left alone, and ends without anybody who looks at its result.
 ///

@@ -89,6 +89,10 @@ def test_memory_does_not_grow():
             st.measure(mesh)
 
     calls(500)
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    calls(2500)
-    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 4000  # kB, over 10,000 calls
+    grown = []
+    for _ in range(5):
+        before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+        calls(500)
+        grown.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
+    # A leak grows with every batch; threads that come late take memory of their own once.
+    assert min(grown) < 200  # kB, over 2,000 calls of each batch

@@ -25,9 +25,9 @@ Shape shape(double bottom, double top, int segments) {
 
 }  // namespace
 
-Cups::Cups(int segments) : segments_(segments) {
-  rest_.shape = shape(1, 1, segments);
-  rest_.structure.parts = {{"part", primitive(1, 1), {}}};
+Cups::Cups(int segments, double foot) : segments_(segments) {
+  rest_.shape = shape(foot, 1, segments);
+  rest_.structure.parts = {{"part", primitive(foot, 1), {}}};
   rest_.structure.diagonal = std::sqrt(8 + height * height);
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <string>
 
 namespace stackabilization {
 
@@ -11,6 +12,9 @@ enum class SymmetryKind {
   rotation,    ///< rotation by 2 pi / `order` about the line through `point` along `axis`
   revolution,  ///< rotation by every angle about that line
 };
+
+/// Returns "reflection", "rotation" or "revolution".
+std::string name_of(SymmetryKind kind);
 
 /// A symmetry of a shape or of a part, model units.
 struct Symmetry {

@@ -4,6 +4,18 @@
 
 namespace stackabilization {
 
+std::string name_of(SymmetryKind kind) {
+  switch (kind) {
+    case SymmetryKind::reflection:
+      return "reflection";
+    case SymmetryKind::rotation:
+      return "rotation";
+    case SymmetryKind::revolution:
+      return "revolution";
+  }
+  return {};
+}
+
 Eigen::Isometry3d isometry_of(const Symmetry& symmetry) {
   Eigen::Isometry3d map = Eigen::Isometry3d::Identity();
   if (symmetry.kind == SymmetryKind::reflection)

@@ -97,8 +97,7 @@ std::string text_of(const Part& part) {
 }
 
 std::string text_of(const Symmetry& symmetry) {
-  constexpr std::array<const char*, 3> names = {"reflection", "rotation", "revolution"};
-  std::string text = std::string("{\"kind\": \"") + names[static_cast<std::size_t>(symmetry.kind)] + "\"";
+  std::string text = "{\"kind\": " + quoted(name_of(symmetry.kind));
   text += ", \"point\": " + list(symmetry.point) + ", \"axis\": " + list(symmetry.axis);
   if (symmetry.kind == SymmetryKind::rotation) text += ", \"order\": " + std::to_string(symmetry.order);
   return text + "}";
