@@ -1,12 +1,14 @@
 // Question: what does sampling the sphere of directions lose against the refined search, and does the search
 // ever miss what dense sampling finds?
 //
-//     direction_search [--largest N] [--seeds N] [--threads N] [--paper-data FOLDER] [-o FOLDER] [MODEL...]
+//     direction_search [--largest N] [--seeds N] [--accuracy S] [--max-cells N] [--threads N] [--paper-data
+//     FOLDER] [-o FOLDER] [MODEL...]
 //
 // S of the search and of the best of 100, 1000 ... N uniform directions: evenly spread (one lattice) and
 // drawn at random (`--seeds` times, up to 10,000). One row per model and sampling, with the S that it loses
-// (negative where the search is worse) and its best direction; `summary`: over all models. Exit status 1 when
-// the search is worse by more than 1e-6 anywhere.
+// (negative where the search is worse) and its best direction; `summary`: over all models; `proof`: the bound
+// of `stackability_bound` over all directions. Exit status 1 when the search is worse by more than 1e-6
+// anywhere, or a sampled direction exceeds the bound.
 
 #include <tbb/parallel_for.h>
 
@@ -17,6 +19,7 @@
 #include "common/experiment.h"
 #include "common/lattice.h"
 #include "common/statistics.h"
+#include "stackabilization/stacking/direction_bound.h"
 #include "stackabilization/stacking/search.h"
 
 using namespace stackabilization;
@@ -28,6 +31,7 @@ constexpr int fewest = 100, max_random = 10000;
 
 struct Settings {
   int largest = 100000, seeds = 3;
+  DirectionBoundOptions proof;
 };
 
 /// The best of some directions.
@@ -77,7 +81,18 @@ class Comparison {
                                  {"y"},
                                  {"z"},
                                  {"cpu_seconds", ColumnKind::clock},
-                                 {"seconds", ColumnKind::clock}})) {}
+                                 {"seconds", ColumnKind::clock}})),
+        proofs_(report.table("proof", {{"model", ColumnKind::key},
+                                       {"input_hash", ColumnKind::key},
+                                       {"accuracy", ColumnKind::key},
+                                       {"S"},
+                                       {"bound"},
+                                       {"best_sample"},
+                                       {"proven"},
+                                       {"cells"},
+                                       {"open_cells"},
+                                       {"cpu_seconds", ColumnKind::clock},
+                                       {"seconds", ColumnKind::clock}})) {}
 
   void add(const std::string& model, const std::string& hash, const Shape& shape) {
     model_ = model;
@@ -90,14 +105,17 @@ class Comparison {
             {searched_, found.best.direction, watch.processor_seconds(), watch.seconds()});
     search_directions_.push_back(static_cast<double>(found.evaluated));
     search_seconds_.push_back(watch.processor_seconds());
+    double best_sample = -std::numeric_limits<double>::infinity();
     for (int count = fewest; count <= settings_.largest; count *= 10) {
       const Best even = best_of(solver, hemisphere_lattice(count));
       add_sampling("even", {}, count, even);
+      best_sample = std::max(best_sample, even.S);
       if (even.S - searched_ > 1e-6) report_.deny();
       for (int seed = 1; count <= max_random && seed <= settings_.seeds; ++seed)
         add_sampling("random", std::int64_t{seed}, count,
                      best_of(solver, random_directions(count, static_cast<unsigned>(seed))));
     }
+    prove(solver, found.best, best_sample);
   }
 
   void summarise() {
@@ -123,6 +141,15 @@ class Comparison {
   void add_row(const std::string& sampling, const Cell& seed, std::int64_t count, const Best& best) {
     table_.add({model_, hash_, sampling, seed, count, best.S, searched_ - best.S, best.direction.x(),
                 best.direction.y(), best.direction.z(), best.processor_seconds, best.seconds});
+  }
+
+  void prove(const StackabilitySolver& solver, const Stackability& best, double best_sample) {
+    const Stopwatch watch;
+    const BoundedStackability proof = stackability_bound(solver, best, settings_.proof);
+    if (best_sample > proof.bound.bound) report_.deny();
+    proofs_.add({model_, hash_, settings_.proof.accuracy, proof.best.value, proof.bound.bound, best_sample,
+                 std::int64_t{proof.bound.proven}, proof.bound.cells, proof.bound.open,
+                 watch.processor_seconds(), watch.seconds()});
   }
 
   void add_sampling(const std::string& sampling, const Cell& seed, int count, const Best& best) {
@@ -154,7 +181,7 @@ class Comparison {
 
   const Settings& settings_;
   Report& report_;
-  Table& table_;
+  Table &table_, &proofs_;
   std::string model_, hash_;
   double searched_ = 0;
   std::vector<double> search_directions_, search_seconds_;
@@ -173,6 +200,12 @@ int main(int argc, char** argv) {
   experiment.app()
       .add_option("--seeds", settings.seeds, "random samplings of each size, seeds 1, 2 ...")
       ->check(CLI::Range(0, 1000));
+  experiment.app()
+      .add_option("--accuracy", settings.proof.accuracy, "of S, of the proofs")
+      ->check(CLI::Range(1e-6, 1.0));
+  experiment.app()
+      .add_option("--max-cells", settings.proof.max_cells, "cells of directions of each proof at most")
+      ->check(CLI::Range(std::int64_t{1}, std::int64_t{10000000}));
   return experiment.run(argc, argv, [&](Report& report) {
     Comparison comparison(settings, report);
     for_each_model(experiment.models(), report,

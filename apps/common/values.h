@@ -33,6 +33,9 @@ struct Number {
 };
 double parse_number(const Number& number, const std::string& text);
 
+/// Largest number of cells of a branch and bound that may be asked for: hours of work.
+inline constexpr std::uint64_t max_cells_limit = 10000000;
+
 /// Largest angle between two directions, or between a direction and a surface.
 inline constexpr double max_degrees = 90;
 

@@ -20,8 +20,6 @@ namespace {
 constexpr double default_accuracy = 0x1p-10;
 /// Places along the longer side of a map, where no step is given.
 constexpr double default_map_places = 32;
-/// Largest number of cells that may be asked for: hours of work.
-constexpr std::uint64_t max_cells_limit = 10000000;
 
 enum class PlaceChoice { given, best };
 

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
 
@@ -21,6 +23,8 @@ struct SearchCommandOptions {
   std::optional<double> cone_degrees;
   std::optional<Eigen::Vector3d> direction;
   std::optional<Eigen::Vector3d> plane;
+  std::optional<double> certify;
+  std::optional<std::int64_t> max_cells;
   std::optional<std::string> picture;
 };
 
@@ -35,6 +39,11 @@ SearchOptions search_options(const SearchCommandOptions& options) {
     search.cone = {options.direction.value_or(Eigen::Vector3d::UnitZ()),
                    *options.cone_degrees * std::numbers::pi / 180};
   search.plane_normal = options.plane;
+  refuse_option(options.certify && options.stackability.boxes != BoxModel::oriented, "--certify",
+                "knows a bound for --boxes oriented only");
+  refuse_option(options.max_cells && !options.certify, "--max-cells", "needs --certify");
+  search.certify = options.certify;
+  if (options.max_cells) search.max_cells = *options.max_cells;
   return search;
 }
 
@@ -56,12 +65,37 @@ void add_search(Json& document, const SearchResult& result) {
   for (const DirectionOptimum& optimum : result.optima)
     optima.push_back({{"direction", to_json(optimum.direction)}, {"stackability", optimum.stackability}});
   document["optima"] = optima;
+  if (!result.bound) return;
+  document["bound"] = result.bound->bound;
+  document["accuracy"] = result.bound->accuracy;
+  document["proven"] = result.bound->proven;
+  document["cells"] = result.bound->cells;
+  document["open_cells"] = result.bound->open;
+}
+
+/// A bound stays one in the digits that are printed.
+double rounded_up(double bound) {
+  return std::ceil(bound * 1e5) / 1e5;
+}
+
+/// What is known of all directions.
+void add_bound(TextTable& table, const std::optional<DirectionBound>& bound) {
+  if (!bound) {
+    table.add("Proof", "none", "--certify 0.001 proves that no direction is better by more");
+    return;
+  }
+  table.add(
+      bound->proven ? "Proven" : "Bound", stackability_text(rounded_up(bound->bound)),
+      std::string(bound->proven ? "nowhere above this; " : "nowhere above, but not as close as asked for; ") +
+          counted(bound->cells, "cell") + " of directions examined, " + std::to_string(bound->open) +
+          " left open");
 }
 
 std::string search_text(const SearchResult& result) {
   TextTable table;
   table.add("Directions tried", std::to_string(result.evaluated),
             std::to_string(result.abandoned) + " of them given up, too far below the best");
+  add_bound(table, result.bound);
   for (std::size_t i = 1; i < std::min(result.optima.size(), listed_optima); ++i)
     table.add(i == 1 ? "Also good" : "", stackability_text(result.optima[i].stackability),
               "along " + vector_text(result.optima[i].direction));
@@ -90,7 +124,7 @@ int run_search_command(const CLI::App& command, const SearchCommandOptions& opti
       exact_digits(measurement.values.value) + " " + vector_text(measurement.values.direction) + "\n";
   deliver(options.common, document,
           options.common.quiet ? essential : measurement_text(measurement, model) + search_text(result));
-  return status_done;
+  return result.bound && !result.bound->proven ? status_no : status_done;
 }
 
 }  // namespace
@@ -109,6 +143,15 @@ Command make_search_command(CLI::App& program) {
              options->cone_degrees);
   add_direction(*command, "--direction", options->direction, "Axis of the cone (default: 0 0 1)");
   add_direction(*command, "--plane", options->plane, "Look only in the plane with this normal");
+  add_number(
+      *command,
+      {"--certify", "Prove that no direction has an S larger by more than this (status 1 where that fails)",
+       0, 1, true},
+      options->certify);
+  add_count(*command,
+            {"--max-cells", "Cells of directions to examine at most for that (default: 200000)", 1,
+             max_cells_limit},
+            options->max_cells);
   command
       ->add_option("--picture", options->picture,
                    "Draw the best direction's envelopes and contacts (.png or .svg)")

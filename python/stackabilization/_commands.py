@@ -94,17 +94,20 @@ def measure(mesh, *, direction=None, method=None, resolution=None, semantics=Non
     return _results.Measurement(run_command("measure", mesh, options).document)
 
 
-def search(mesh, *, cone_degrees=None, direction=None, plane=None, semantics=None, boxes=None, format=None, unit=None,
-           up=None, labels=None, threads=None, progress=None):
-    """Find the direction along which a mesh stacks best; not proven to be the best one.
+def search(mesh, *, cone_degrees=None, direction=None, plane=None, certify=None, max_cells=None, semantics=None,
+           boxes=None, format=None, unit=None, up=None, labels=None, threads=None, progress=None):
+    """Find the direction along which a mesh stacks best.
 
     cone_degrees: look only within this angle around `direction` (default: everywhere, 0, 0, 1).
-    plane: look only in the plane with this normal. semantics, boxes: as in `measure`.
+    plane: look only in the plane with this normal.
+    certify: prove that no direction has an S larger by more than this, in (0, 1] (default: no proof). The result's
+    `bound` holds whether or not it comes that close (`proven`). max_cells: cells of directions to examine at most for
+    that (default: 200000). semantics, boxes: as in `measure`; certify is for oriented boxes.
     format, unit, up, labels: how a file is read, see `load`. threads: at most so many (default: all).
     progress: called as progress(step, fraction).
     """
-    options = {"cone_degrees": cone_degrees, "direction": direction, "plane": plane, "semantics": semantics,
-               "boxes": boxes, "format": format, "unit": unit, "up": up, "labels": labels, "threads": threads}
+    options = {"cone_degrees": cone_degrees, "direction": direction, "plane": plane, "certify": certify,
+               "max_cells": max_cells, "semantics": semantics, "boxes": boxes, "format": format, "unit": unit, "up": up, "labels": labels, "threads": threads}
     return _results.Search(run_command("search", mesh, options, progress).document)
 
 

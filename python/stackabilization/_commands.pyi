@@ -43,9 +43,10 @@ def measure(
 
 def search(
     mesh: MeshLike, *, cone_degrees: float | None = None, direction: Vector | None = None,
-    plane: Vector | None = None, semantics: Semantics | None = None, boxes: Boxes | None = None,
-    format: str | None = None, unit: Unit | None = None, up: Up | None = None, labels: Path | None = None,
-    threads: int | None = None, progress: Progress | None = None,
+    plane: Vector | None = None, certify: float | None = None, max_cells: int | None = None,
+    semantics: Semantics | None = None, boxes: Boxes | None = None, format: str | None = None,
+    unit: Unit | None = None, up: Up | None = None, labels: Path | None = None, threads: int | None = None,
+    progress: Progress | None = None,
 ) -> Search: ...
 
 def map(

@@ -314,6 +314,11 @@ class Search(Measurement):
     evaluated: int = field("Directions tried.")
     abandoned: int = field("Of these, given up too far below the best.")
     optima: tuple[Optimum, ...] = field("Local optima, best first.", convert=lambda values: tuple(map(Optimum, values)))
+    bound: "float | None" = field("No direction has a larger S; None without a proof.")
+    accuracy: "float | None" = field("How close to the best S the bound was to come.")
+    proven: "bool | None" = field("Whether the bound is within `accuracy` of the best S.")
+    cells: "int | None" = field("Cells of directions that were examined.")
+    open_cells: "int | None" = field("Of these, cells that may hold an S above the best by more than `accuracy`.")
 
 
 class Map(OfModel):

@@ -8,6 +8,7 @@
 #include "mesh/affine_span.h"
 #include "mesh/hull_faces.h"
 #include "mesh/planar.h"
+#include "mesh/tolerances.h"
 #include "mesh/used_vertices.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
@@ -49,9 +50,8 @@ HullSupport::HullSupport(const Points& points) {
   centre_ = (points_.colwise().minCoeff() + points_.colwise().maxCoeff()).transpose() / 2;
   centred_points_ = points_.rowwise() - centre_.transpose();
   normal_columns_ = face_normals_;
-  // The normals of a set hardly thicker than rounding do not define a silhouette: without them all corners
-  // count.
-  if (affine_span(points_, tolerance::relative * points.cwiseAbs().maxCoeff()).dimension < dimension_)
+  // All corners count where normals do not tell the silhouette.
+  if (affine_span(points_, tolerance::hull_silhouette * points.cwiseAbs().maxCoeff()).dimension < dimension_)
     normal_columns_.setZero();
 }
 

@@ -288,3 +288,26 @@ TEST_CASE("measure takes thousands of parts in one place, and says what it does 
   CHECK(search.status == 0);
   CHECK(search.json()["contacts_omitted"]["coincident_parts"].size() == count - 1);
 }
+
+TEST_CASE("search proves that no direction is better, or says how far it came") {
+  const TemporaryFolder folder;
+  const std::string box = folder.model("box.off", solids::box({1, 2, 3}));
+  const Outcome proven = run_program({"search", box, "--certify", "0.05", "--json", "-"});
+  CHECK(proven.status == 0);
+  const json result = proven.json();
+  CHECK(result["stackability"].get<double>() == Approx(0).margin(1e-9));
+  CHECK(result["proven"] == true);
+  CHECK(result["accuracy"] == 0.05);
+  CHECK(result["bound"].get<double>() >= 0);
+  CHECK(result["bound"].get<double>() <= 0.05 + 1e-12);
+  CHECK(result["open_cells"] == 0);
+  const Outcome early = run_program({"search", box, "--certify", "0.05", "--max-cells", "1", "--json", "-"});
+  CHECK(early.status == 1);
+  CHECK(early.json()["proven"] == false);
+  CHECK(early.json()["bound"].get<double>() >= result["bound"].get<double>());
+  CHECK(early.json()["open_cells"].get<int>() > 0);
+  const Outcome text = run_program({"search", box, "--certify", "0.05"});
+  CHECK(text.out.find("nowhere above this") != std::string::npos);
+  CHECK(run_program({"search", box}).out.find("--certify 0.001") != std::string::npos);
+  CHECK(!run_program({"search", box, "--json", "-"}).json().contains("bound"));
+}

@@ -109,6 +109,21 @@ def test_a_search_finds_what_no_sample_of_the_map_beats(cup):
     assert best.optima[0].stackability == pytest.approx(best.stackability)
 
 
+def test_a_search_proves_that_no_direction_is_better():
+    # A box saves nothing along any direction.
+    corners = numpy.array([[x, y, z] for x in (0, 1) for y in (0, 2) for z in (0, 3)], dtype=float)
+    hull = [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4],
+            [1, 5, 7], [1, 7, 3]]
+    found = st.search((corners, hull), certify=0.05)
+    assert found.proven and found.open_cells == 0 and found.cells > 0
+    assert found.stackability == pytest.approx(0, abs=1e-9) and 0 <= found.bound <= 0.05 and found.accuracy == 0.05
+    early = st.search((corners, hull), certify=0.05, max_cells=1)
+    assert early.proven is False and found.bound <= early.bound <= 1 and early.open_cells > 0
+    assert st.search((corners, hull)).bound is None
+    with pytest.raises(st.UsageError, match="certify"):
+        st.search((corners, hull), certify=0.05, boxes="frame")
+
+
 def test_a_map_agrees_with_its_solver(cup):
     mapped = st.map(cup, step_degrees=15)
     again = st.Solver(cup).measure_many(mapped.directions)

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "stackabilization/stacking/direction_bound.h"
 #include "stackabilization/stacking/direction_region.h"
 #include "stackabilization/stacking/stackability.h"
 
@@ -24,13 +25,17 @@ struct SearchOptions {
   /// Distance between samples, radians, in (0, 1].
   double spacing = 0.04;
   int climbs = 12;  ///< limit of the number of local maxima that are refined, >= 1
-  /// Limit of the number of directions tried, >= 1. It bounds the work independently of the machine. Over the
-  /// whole sphere, the spacing is increased until the even samples use half of it. Default: no limit.
+  /// Limit of the number of directions tried, those of the proof apart, >= 1. It bounds the work
+  /// independently of the machine. Over the whole sphere, the spacing is increased until the even samples use
+  /// half of it. Default: no limit.
   std::int64_t max_directions = std::numeric_limits<std::int64_t>::max();
+  /// Proves the best direction to this accuracy of S, in (0, 1], by `stackability_bound`. Default: no proof.
+  std::optional<double> certify = {};
+  std::int64_t max_cells = DirectionBoundOptions{}.max_cells;  ///< limit of the cells of the proof, >= 1
   /// Called from the calling thread with the completed fraction in [0, 1].
   std::function<void(double)> progress = {};
-  /// Asked from the calling thread, between batches of samples and steps of a climb; true ends the search
-  /// early.
+  /// Asked from the calling thread, between batches of samples or cells and steps of a climb; true ends the
+  /// search early.
   std::function<bool()> cancelled = {};
 };
 
@@ -48,7 +53,8 @@ struct SearchResult {
   /// Distinct local maxima, best first; the first one is the best direction. The search looks only for maxima
   /// within about 0.05 of the best S.
   std::vector<DirectionOptimum> optima;
-  std::int64_t evaluated = 0;  ///< number of directions tried
+  std::optional<DirectionBound> bound;  ///< what no direction exceeds, where `certify` asks for it
+  std::int64_t evaluated = 0;           ///< number of directions tried
   /// Number of these directions whose S is certainly too far below the best S for the start of a climb: by
   /// 0.2 at first, later by less. Most of them were abandoned before S was known.
   std::int64_t abandoned = 0;
@@ -65,12 +71,13 @@ struct SearchResult {
 /// the box and the surface, the normals of large faces, and directions along pairs of such faces. A search in
 /// a plane also tries the intersections with the planes orthogonal to these directions. The search climbs to
 /// local maxima from the best distinct directions, and for the best maximum also along the discontinuities of
-/// S. The result is not proven global: a peak much narrower than `spacing`, away from every candidate, can be
-/// missed.
+/// S. Without `certify` the result is not proven global: a peak much narrower than `spacing`, away from every
+/// candidate, can be missed. The proof finds such a peak where it is higher than the accuracy.
 ///
 /// Of directions equal to tolerance::stackability, the first one wins, in the order: axis of the cone,
 /// candidates of the options, candidates of the shape. Deterministic for any number of threads. Throws
-/// UsageError when an option is out of range, S is undefined, or cone and plane have no common direction.
+/// UsageError when an option is out of range, S is undefined, or cone and plane have no common direction, and
+/// with `certify` where `stackability_bound` does.
 /// Source: section 4.3 of the paper samples uniformly and takes the best sample.
 SearchResult best_direction(const StackabilitySolver& solver, const SearchOptions& options = {});
 

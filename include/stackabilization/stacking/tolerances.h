@@ -17,4 +17,11 @@ inline constexpr double direction_step = 1e-8;
 /// Two directions whose S differ by less than this are equally good; smaller differences are rounding.
 inline constexpr double stackability = 1e-11;
 
+/// Default of the largest difference between the best S and a bound of S over all directions.
+inline constexpr double direction_bound = 1e-3;
+
+/// Radius of the cells of directions that are not cut any more, radians: a cell that small which no pair of
+/// triangles covers stays open.
+inline constexpr double direction_cell = 1e-7;
+
 }  // namespace stackabilization::tolerance

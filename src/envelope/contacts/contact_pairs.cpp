@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "envelope/separation/exact_pair.h"
@@ -70,21 +71,22 @@ class PairSearch {
   bool collect(std::int32_t a, std::int32_t b) {
     if (bounds_of(tree_.triangles[a], tree_.triangles[b], projection_, cut_).high <= cut_) return true;
     const std::int32_t upper = tree_.triangles[a].index, lower = tree_.triangles[b].index;
-    const auto [upper_copy, upper_end] = copies_of(upper);
-    const auto [lower_copy, lower_end] = copies_of(lower);
-    const std::int64_t count = (1 + (upper_end - upper_copy)) * (1 + (lower_end - lower_copy));
-    if (static_cast<std::int64_t>(pairs_.size()) + count > max_pairs_) return false;
-    for (auto one = upper_copy; one <= upper_end; ++one)
-      for (auto other = lower_copy; other <= lower_end; ++other)
-        pairs_.push_back(
-            {one == upper_end ? upper : one->copy, other == lower_end ? lower : other->copy, a, b});
+    const std::span<const TriangleCopy> upper_copies = copies_of(upper), lower_copies = copies_of(lower);
+    const std::size_t count = (1 + upper_copies.size()) * (1 + lower_copies.size());
+    if (static_cast<std::int64_t>(pairs_.size() + count) > max_pairs_) return false;
+    // The copies first, then the triangle itself.
+    for (std::size_t one = 0; one <= upper_copies.size(); ++one)
+      for (std::size_t other = 0; other <= lower_copies.size(); ++other)
+        pairs_.push_back({one == upper_copies.size() ? upper : upper_copies[one].copy,
+                          other == lower_copies.size() ? lower : lower_copies[other].copy, a, b});
     return true;
   }
 
-  using Copies = std::vector<TriangleCopy>::const_iterator;
-  std::pair<Copies, Copies> copies_of(std::int32_t triangle) const {
-    return std::equal_range(tree_.copies.begin(), tree_.copies.end(), TriangleCopy{triangle, 0},
-                            [](const TriangleCopy& x, const TriangleCopy& y) { return x.first < y.first; });
+  std::span<const TriangleCopy> copies_of(std::int32_t triangle) const {
+    const auto [first, last] =
+        std::equal_range(tree_.copies.begin(), tree_.copies.end(), TriangleCopy{triangle, 0},
+                         [](const TriangleCopy& x, const TriangleCopy& y) { return x.first < y.first; });
+    return {first, last};
   }
 
   const SeparationTree::Data& tree_;

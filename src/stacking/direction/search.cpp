@@ -99,9 +99,10 @@ class DirectionSearch {
     measure(evenly, promising_range);
     if (!perfect()) look_closer();
     climb_to_peaks();
+    result_.limited = left() == 0;
+    if (options_.certify && !result_.cancelled) prove();
     report(1);
     result_.separation = solver_.separation(Direction(result_.best.direction));
-    result_.limited = left() == 0;
     return result_;
   }
 
@@ -116,6 +117,9 @@ class DirectionSearch {
   std::vector<Sample> climb_from(std::vector<Sample> starts, double first_step, double last_step);
   void look_around(Sample& top);
   Sample best_on_circle(const Sample& top, double radius);
+  void prove();
+  /// Reports a fraction of the search without its proof, which counts as much.
+  void report_search(double fraction) const { report(options_.certify ? fraction / 2 : fraction); }
   void report(double fraction) const {
     if (options_.progress) options_.progress(fraction);
   }
@@ -199,7 +203,7 @@ void DirectionSearch::look_closer() {
   double spacing = spacing_, range = promising_range;
   std::size_t begin = 0;
   for (int level = 0; level < halvings; ++level) {
-    report(0.3 + 0.2 * level);
+    report_search(0.3 + 0.2 * level);
     const std::vector<Trial> closer = promising(begin, spacing, range);
     begin = samples_.size();
     measure(closer, range / 2);
@@ -277,7 +281,7 @@ void DirectionSearch::climb_to_peaks() {
   std::erase_if(tops, [&](const Sample& top) { return top.at.value < best_ - climbing_range; });
   if (!perfect()) {
     tops = peaks(climb_from(std::move(tops), step, small_step), step);
-    report(0.95);
+    report_search(0.95);
     tops = peaks(climb_from(std::move(tops), small_step, tolerance::direction_step), step);
     look_around(tops.front());
   }
@@ -365,6 +369,23 @@ Sample DirectionSearch::best_on_circle(const Sample& top, double radius) {
     }
   }
   return best;
+}
+
+void DirectionSearch::prove() {
+  DirectionBoundOptions proof;
+  proof.cone = options_.cone;
+  proof.plane_normal = options_.plane_normal;
+  proof.accuracy = *options_.certify;
+  proof.max_cells = options_.max_cells;
+  proof.cancelled = options_.cancelled;
+  proof.progress = [this](double fraction) { report(0.5 + fraction / 2); };
+  const BoundedStackability bounded = stackability_bound(solver_, result_.best, proof);
+  result_.bound = bounded.bound;
+  result_.evaluated += bounded.evaluated;
+  result_.cancelled = bounded.bound.cancelled;
+  if (bounded.best.value <= result_.best.value) return;
+  result_.best = bounded.best;
+  result_.optima.insert(result_.optima.begin(), {bounded.best.direction, bounded.best.value});
 }
 
 }  // namespace

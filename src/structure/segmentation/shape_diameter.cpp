@@ -53,6 +53,13 @@ OutwardMesh outward_mesh(const Shape& shape, const SurfaceGraph& graph) {
   return result;
 }
 
+/// CGAL's graph cut reads beyond an empty list where no two faces have an edge in common.
+bool has_neighbours(const Mesh& mesh) {
+  const auto edges = mesh.edges();
+  return std::any_of(edges.begin(), edges.end(),
+                     [&](Mesh::Edge_index edge) { return !mesh.is_border(edge); });
+}
+
 /// Segments of the faces for a number of clusters.
 std::vector<std::int32_t> segments(const Mesh& mesh, const std::vector<double>& diameters,
                                    std::size_t clusters) {
@@ -88,7 +95,7 @@ std::vector<std::int32_t> reduced(const SurfaceGraph& graph, std::vector<std::in
 std::vector<std::int32_t> shape_diameter_parts(const Shape& shape, const SurfaceGraph& graph, int parts) {
   const std::vector<std::int32_t> whole(static_cast<std::size_t>(graph.size()), 0);
   const OutwardMesh outward = outward_mesh(shape, graph);
-  if (outward.triangle_of_face.empty()) return whole;
+  if (!has_neighbours(outward.mesh)) return whole;
   std::vector<double> diameters(outward.triangle_of_face.size());
   try {
     const auto map =
