@@ -39,6 +39,15 @@ report "Output from the library" \
 report "Word that is not used any more" \
   "$(grep -rnE '\b(least|most|fewest)_[a-z]|[Ii]dealis|[Cc]rumb|Not installed\.' --include=*.h --include=*.cpp \
     src include apps || true)"
+# To the linker they are one class, whose functions it takes from either.
+report "Class with the name of another one in its namespace" \
+  "$(find src include apps -name '*.h' | sort | xargs awk '
+    /^namespace [a-z_:]+ \{/ { space = $2 }
+    /^(class|struct) [A-Za-z0-9_]+( final)?( :.*)? *\{/ {
+      name = space "::" $2
+      if (name in seen && seen[name] != FILENAME) print FILENAME ":" FNR ": " name " is in " seen[name] ", too"
+      seen[name] = FILENAME
+    }')"
 report "Header without include guard" "$(grep -rLx '#pragma once' --include=*.h src include || true)"
 
 # A module may include only these modules: itself and those that it is built on.

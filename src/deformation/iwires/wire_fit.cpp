@@ -14,7 +14,7 @@ constexpr double thin = 0.05;
 
 }  // namespace
 
-AffineFit::AffineFit(std::vector<int> members, const std::vector<Eigen::Vector3d>& points)
+WireFit::WireFit(std::vector<int> members, const std::vector<Eigen::Vector3d>& points)
     : members_(std::move(members)), centre_(moved_centre(points)) {
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
   for (const int k : members_) {
@@ -30,13 +30,13 @@ AffineFit::AffineFit(std::vector<int> members, const std::vector<Eigen::Vector3d
   for (Eigen::Vector3d& arm : arms_) arm = inverse * arm;
 }
 
-Eigen::Vector3d AffineFit::moved_centre(const std::vector<Eigen::Vector3d>& points) const {
+Eigen::Vector3d WireFit::moved_centre(const std::vector<Eigen::Vector3d>& points) const {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   for (const int k : members_) sum += points[static_cast<std::size_t>(k)];
   return sum / static_cast<double>(members_.size());
 }
 
-Eigen::Matrix3d AffineFit::linear(const std::vector<Eigen::Vector3d>& points) const {
+Eigen::Matrix3d WireFit::linear(const std::vector<Eigen::Vector3d>& points) const {
   if (rank_ == 0) return Eigen::Matrix3d::Identity();
   Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
   const Eigen::Vector3d centre = moved_centre(points);

@@ -8,10 +8,10 @@ namespace stackabilization::detail {
 
 /// Least-squares affine map of points to their new positions. In directions that the points do not span, the
 /// map rotates with the spanned directions and does not stretch.
-class AffineFit {
+class WireFit {
  public:
   /// `members`: rows of `points` that take part, at least one. `points`: positions at rest.
-  AffineFit(std::vector<int> members, const std::vector<Eigen::Vector3d>& points);
+  WireFit(std::vector<int> members, const std::vector<Eigen::Vector3d>& points);
 
   /// Returns the centroid of the members at rest.
   const Eigen::Vector3d& centre() const { return centre_; }

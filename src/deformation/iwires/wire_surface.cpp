@@ -218,7 +218,7 @@ std::vector<Eigen::Vector3d> WireSurface::known_displacements(
     if (node_of_[p] >= 0 && !pinned_[p])
       moved[p] = nodes[static_cast<std::size_t>(node_of_[p])] - point(static_cast<int>(p));
   for (const Follower& f : followers_) {
-    const AffineFit& fit = fits_[static_cast<std::size_t>(f.fit)];
+    const WireFit& fit = fits_[static_cast<std::size_t>(f.fit)];
     const Eigen::Vector3d from = point(f.place);
     moved[static_cast<std::size_t>(f.place)] =
         fit.moved_centre(nodes) + maps[static_cast<std::size_t>(f.fit)] * (from - fit.centre()) - from;
@@ -246,7 +246,7 @@ void WireSurface::add_guided(const Element& element, const std::array<Eigen::Mat
 
 Points WireSurface::deformed(const std::vector<Eigen::Vector3d>& nodes) const {
   std::vector<Eigen::Matrix3d> maps, rims;
-  for (const AffineFit& fit : fits_) maps.push_back(fit.linear(nodes));
+  for (const WireFit& fit : fits_) maps.push_back(fit.linear(nodes));
   for (const Rim& rim : rims_) {
     Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
     for (const int fit : rim) sum += maps[static_cast<std::size_t>(fit)] - Eigen::Matrix3d::Identity();

@@ -75,7 +75,7 @@ class WireSurface {
   std::map<int, std::vector<int>> wires_of_;  ///< wires around each patch, ascending; key -1: all wires
   std::map<std::vector<int>, int> fit_numbers_;
   std::map<std::pair<int, int>, int> rim_numbers_;
-  std::vector<AffineFit> fits_;
+  std::vector<WireFit> fits_;
   std::vector<Rim> rims_;
   std::vector<Element> elements_;
   std::vector<Follower> followers_;

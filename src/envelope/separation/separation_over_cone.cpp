@@ -39,8 +39,8 @@ std::optional<SeparationOverCone::Pair> SeparationOverCone::pair(std::int32_t up
   double room = infinity;
   for (Edge& edge : edges_) {
     const DoubleDouble below{std::nextafter(demand * edge.scale, -infinity), 0};
-    const DoubleDouble high = node_bound_(edge.nodes.get(upper, edge.projection),
-                                          edge.nodes.get(lower, edge.projection), below);
+    const DoubleDouble high =
+        node_bound_(edge.nodes.get(upper, edge.projection), edge.nodes.get(lower, edge.projection), below);
     if (high <= below) return std::nullopt;
     room = std::min(room, high.high / edge.scale - demand);
   }

@@ -23,9 +23,10 @@ class SeparationOverCone {
   SeparationOverCone(const SeparationTree& tree, const std::vector<Direction>& edges,
                      ContactSemantics semantics);
 
-  /// Searches a pair of triangles that shows a bound of at least `demand` > 0 and returns that bound, in units
-  /// of the r above. Examines at most `max_node_pairs` pairs of nodes, those first that leave most room above
-  /// the demand. Nothing: there is no such pair, or it was not found. Certified: rounding is allowed for.
+  /// Searches a pair of triangles that shows a bound of at least `demand` > 0 and returns that bound, in
+  /// units of the r above. Examines at most `max_node_pairs` pairs of nodes, those first that leave most room
+  /// above the demand. Nothing: there is no such pair, or it was not found. Certified: rounding is allowed
+  /// for.
   std::optional<double> at_least(double demand, std::int64_t max_node_pairs);
 
  private:

@@ -27,9 +27,7 @@ struct Span {
 
   double width(const Eigen::Vector2d& unit) const { return across.dot(unit); }
   /// What the width along a vector across r loses at most when r turns by the angle.
-  double loss(double angle) const {
-    return std::sin(angle) * along + (1 - std::cos(angle)) * across.norm();
-  }
+  double loss(double angle) const { return std::sin(angle) * along + (1 - std::cos(angle)) * across.norm(); }
 };
 
 std::vector<Corner> corners_of(const HullSupport& hull, const Frame& frame, double resolution) {

@@ -192,7 +192,8 @@ class BranchAndBound {
     if (first_gap <= options_.accuracy || gap <= options_.accuracy)
       options_.progress(1);
     else
-      options_.progress(std::clamp(std::log(first_gap / gap) / std::log(first_gap / options_.accuracy), 0.0, 1.0));
+      options_.progress(
+          std::clamp(std::log(first_gap / gap) / std::log(first_gap / options_.accuracy), 0.0, 1.0));
   }
 
   BoundedStackability result() {

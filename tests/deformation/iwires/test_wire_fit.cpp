@@ -51,7 +51,7 @@ TEST_CASE("an affine map of points that span space is found exactly") {
   for (int trial = 0; trial < 20; ++trial) {
     const Positions rest = spanned<3>(Eigen::Matrix3d::Identity(), random);
     const Eigen::Affine3d map = random_map(random);
-    const AffineFit fit(all_of(rest), rest);
+    const WireFit fit(all_of(rest), rest);
     CHECK((fit.linear(mapped(rest, map)) - map.linear()).norm() < 1e-12);
     CHECK((fit.moved_centre(mapped(rest, map)) - map * fit.centre()).norm() < 1e-13);
     CHECK(fit.linear(rest).isIdentity(1e-13));
@@ -66,7 +66,7 @@ TEST_CASE("of a plane what it spans is found exactly, and its normal becomes the
     if (plane.col(0).cross(plane.col(1)).norm() < 0.5) continue;
     const Positions rest = spanned<2>(plane, random);
     const Eigen::Affine3d map = random_map(random);
-    const Eigen::Matrix3d found = AffineFit(all_of(rest), rest).linear(mapped(rest, map));
+    const Eigen::Matrix3d found = WireFit(all_of(rest), rest).linear(mapped(rest, map));
     CHECK((found * plane - map.linear() * plane).norm() < 1e-11);
     const Eigen::Vector3d normal = plane.col(0).cross(plane.col(1)).normalized(),
                           image =
@@ -81,7 +81,7 @@ TEST_CASE("of a line its stretch is found, and what is across turns with it with
     const Eigen::Vector3d along = random.unit();
     const Positions rest = spanned<1>(along, random);
     const Eigen::Affine3d map = random_map(random);
-    const Eigen::Matrix3d found = AffineFit(all_of(rest), rest).linear(mapped(rest, map));
+    const Eigen::Matrix3d found = WireFit(all_of(rest), rest).linear(mapped(rest, map));
     const Eigen::Vector3d image = map.linear() * along;
     CHECK((found * along - image).norm() < 1e-12);
     Eigen::Matrix<double, 3, 2> across;
@@ -96,7 +96,7 @@ TEST_CASE("of a line its stretch is found, and what is across turns with it with
 TEST_CASE("one point has no linear map, nor has one that is repeated") {
   const Positions rest(3, Eigen::Vector3d(1, 2, 3));
   for (const std::vector<int>& members : {std::vector<int>{1}, std::vector<int>{0, 1, 2}}) {
-    const AffineFit fit(members, rest);
+    const WireFit fit(members, rest);
     CHECK(fit.centre() == Eigen::Vector3d(1, 2, 3));
     CHECK(fit.linear({{0, 0, 0}, {5, 5, 5}, {0, 1, 0}}) == Eigen::Matrix3d::Identity());
   }
@@ -107,7 +107,7 @@ TEST_CASE("points that fit no map leave a residual across all that they span") {
   const Positions rest = spanned<3>(Eigen::Matrix3d::Identity(), random);
   Positions moved = mapped(rest, random_map(random));
   for (Eigen::Vector3d& p : moved) p += random.vector(0.3);
-  const AffineFit fit(all_of(rest), rest);
+  const WireFit fit(all_of(rest), rest);
   const Eigen::Matrix3d linear = fit.linear(moved);
   Eigen::Matrix3d normal_equations = Eigen::Matrix3d::Zero();
   for (std::size_t k = 0; k < rest.size(); ++k) {
@@ -122,7 +122,7 @@ TEST_CASE("only members count, and what is thinner than a twentieth is flat") {
   const auto of_thickness = [&](double thickness) {
     rest[2].z() = rest[3].z() = thickness;
     const Positions tall = mapped(rest, Eigen::Affine3d(Eigen::Scaling(1.0, 1.0, 4.0)));
-    return AffineFit({0, 1, 2, 3}, rest).linear(tall)(2, 2);
+    return WireFit({0, 1, 2, 3}, rest).linear(tall)(2, 2);
   };
   // Heights of +-half the thickness, lengths of +-1 at two of four points.
   CHECK(of_thickness(0.2) == Approx(4).epsilon(1e-9));

@@ -1,9 +1,8 @@
-#include "envelope/separation/separation_over_cone.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "envelope/separation/separation_over_cone.h"
 #include "stackabilization/envelope/separation.h"
 #include "support/catch.h"
 #include "support/point_sets.h"
@@ -58,17 +57,15 @@ double best_bound(SeparationOverCone& separation, double most) {
 
 TEST_CASE("no direction of a cone has a separation below the bound of the cone") {
   point_sets::Random random(17);
-  const std::vector<Shape> shapes = {solids::box({1, 2, 3}), solids::frustum_shell({.segments = 24}),
-                                     solids::boxes_sharing_wall(),
-                                     solids::triangle_soup({.seed = 8, .count = 30}),
-                                     solids::triangle_soup({.seed = 9, .count = 12})};
+  const std::vector<Shape> shapes = {
+      solids::box({1, 2, 3}), solids::frustum_shell({.segments = 24}), solids::boxes_sharing_wall(),
+      solids::triangle_soup({.seed = 8, .count = 30}), solids::triangle_soup({.seed = 9, .count = 12})};
   int shown = 0;
   for (const Shape& shape : shapes) {
     const SeparationTree tree(shape);
     for (const ContactSemantics semantics : {ContactSemantics::solid, ContactSemantics::closed})
       for (int k = 0; k < 12; ++k) {
-        const auto edges =
-            cone_around(random.unit(), k % 3 == 0 ? 0.3 : k % 3 == 1 ? 0.05 : 0.002, random);
+        const auto edges = cone_around(random.unit(), k % 3 == 0 ? 0.3 : k % 3 == 1 ? 0.05 : 0.002, random);
         SeparationOverCone over(tree, edges, semantics);
         const double most = separation(tree, tree, inside(edges, random), {semantics, {}}).value.to_double();
         if (!(most > 0)) continue;

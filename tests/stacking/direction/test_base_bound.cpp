@@ -1,10 +1,9 @@
-#include "stacking/direction/base_bound.h"
-
 #include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "stackabilization/mesh/boxes.h"
+#include "stacking/direction/base_bound.h"
 #include "support/catch.h"
 #include "support/point_sets.h"
 #include "support/solids.h"
@@ -19,7 +18,8 @@ namespace {
 Eigen::Vector3d beside(const Eigen::Vector3d& from, double angle, point_sets::Random& random) {
   const Frame frame = frame_of(Direction(from));
   const double turn = random.uniform(0, 2 * std::numbers::pi);
-  return frame.to_world({std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)});
+  return frame.to_world(
+      {std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)});
 }
 
 std::vector<HullSupport> hulls() {

@@ -1,5 +1,3 @@
-#include "stackabilization/stacking/direction_bound.h"
-
 #include <tbb/global_control.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <vector>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/stacking/direction_bound.h"
 #include "stackabilization/stacking/search.h"
 #include "support/catch.h"
 #include "support/point_sets.h"
@@ -45,8 +44,7 @@ void check_same(const BoundedStackability& a, const BoundedStackability& b) {
 TEST_CASE("a box stacks along no direction, and this is proven") {
   const StackabilitySolver box(solids::box({1, 2, 3}));
   for (const double accuracy : {0.1, 0.01}) {
-    const BoundedStackability found =
-        stackability_bound(box, along(box, 0, 0, 1), {.accuracy = accuracy});
+    const BoundedStackability found = stackability_bound(box, along(box, 0, 0, 1), {.accuracy = accuracy});
     CHECK(found.best.value == Approx(0).margin(1e-12));
     CHECK(found.bound.proven);
     CHECK(found.bound.open == 0);
@@ -77,10 +75,10 @@ TEST_CASE("the best direction of a shell between cones is its axis, and this is 
 }
 
 TEST_CASE("no direction has an S above the bound, however early the work ends") {
-  const std::vector<Shape> shapes = {solids::frustum_shell({.segments = 24}),
-                                     solids::triangle_soup({.seed = 8, .count = 30}),
-                                     solids::boxes_sharing_wall(),
-                                     solids::tetrahedron({Eigen::Vector3d(0, 0, 0), {3, 0, 1}, {0, 1, 0}, {1, 1, 2}})};
+  const std::vector<Shape> shapes = {
+      solids::frustum_shell({.segments = 24}), solids::triangle_soup({.seed = 8, .count = 30}),
+      solids::boxes_sharing_wall(),
+      solids::tetrahedron({Eigen::Vector3d(0, 0, 0), {3, 0, 1}, {0, 1, 0}, {1, 1, 2}})};
   for (const Shape& shape : shapes)
     for (const ContactSemantics semantics : {ContactSemantics::solid, ContactSemantics::closed}) {
       const StackabilitySolver solver(shape, {.semantics = semantics});
@@ -184,5 +182,6 @@ TEST_CASE("a bound refuses what it is not known for") {
     CHECK_THROWS_AS(stackability_bound(solver, best, {.accuracy = accuracy}), UsageError);
   CHECK_THROWS_AS(stackability_bound(solver, best, {.max_cells = 0}), UsageError);
   CHECK_THROWS_AS(stackability_bound(solver.with_play(0.1), best), UsageError);
-  CHECK_THROWS_AS(stackability_bound(StackabilitySolver(shape, {.boxes = BoxModel::frame}), best), UsageError);
+  CHECK_THROWS_AS(stackability_bound(StackabilitySolver(shape, {.boxes = BoxModel::frame}), best),
+                  UsageError);
 }
