@@ -21,8 +21,9 @@ double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 std::vector<Eigen::Vector3d> cap(const Eigen::Vector3d& axis, double half_angle, double spacing) {
   constexpr double golden_angle = 2.399963229728653;
   const double height = 1 - std::cos(half_angle);
-  const int count =
-      std::max(1, static_cast<int>(std::ceil(2 * std::numbers::pi * height / (spacing * spacing))));
+  // A cap so small that its height rounds to 0 has a spacing whose square may underflow.
+  const double points = height > 0 ? std::ceil(2 * std::numbers::pi * height / (spacing * spacing)) : 1;
+  const int count = std::max(1, static_cast<int>(points));
   const Frame frame = frame_of(Direction(axis));
   std::vector<Eigen::Vector3d> directions;
   directions.reserve(count);
