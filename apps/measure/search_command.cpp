@@ -73,9 +73,10 @@ void add_search(Json& document, const SearchResult& result) {
   document["open_cells"] = result.bound->open;
 }
 
-/// A bound stays one in the digits that are printed.
+/// A bound stays one in the five digits that are printed.
 double rounded_up(double bound) {
-  return std::ceil(bound * 1e5) / 1e5;
+  const double digits = std::abs(bound) < 1 ? 1e5 : 1e4;
+  return std::ceil(bound * digits) / digits;
 }
 
 /// What is known of all directions.

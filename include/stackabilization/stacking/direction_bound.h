@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -44,9 +45,10 @@ struct BoundedStackability {
 /// Branch and bound over cells of the sphere. In a cell, S <= 1 - f A / V(M), where f is a lower bound of
 /// f_max and A one of V(M, r) / h(M, r) over all directions of the cell. One pair of triangles that touches
 /// along the four corners of a cell gives f: where it touches is a convex set (see docs/method.md). Bounds
-/// are rounded outwards, so they hold for exact arithmetic and this V(M). A cell ends open where it is
-/// smaller than a direction can be named and no pair of triangles reaches all of it: where copies begin to
-/// pass each other, at directions with an S close to the best. Then both bounds are what is known.
+/// are rounded outwards, so they hold for exact arithmetic and this V(M). Cells down to
+/// tolerance::direction_cell are cut; a smaller one whose corners no pair of triangles has in common, at a
+/// translation that is large enough, stays open. S of the best direction and the bound are then what is
+/// known.
 ///
 /// `best`: S at the best known direction, with its terms. Deterministic for any number of threads. Throws
 /// UsageError for options out of range, S that is undefined, boxes other than `oriented`, and play above 0.

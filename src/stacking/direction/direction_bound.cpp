@@ -147,17 +147,17 @@ class BranchAndBound {
 
   void bound(OpenCell& open) const {
     const DirectionCell& cell = open.cell;
-    const double length = cell.min_length(), volume = solver_.box_volume();
-    const double base = detail::min_base(solver_.hull(), Direction(cell.middle()), cell.radius());
-    if (base <= 0) return;
-    const double air = solver_.options().clearance;
+    const double length = cell.min_length(), air = solver_.options().clearance;
+    Stackability terms;  // with the least base of the cell, so that its S is the largest
+    terms.box_volume = solver_.box_volume();
+    terms.base = detail::min_base(solver_.hull(), Direction(cell.middle()), cell.radius());
+    if (terms.base <= 0) return;
     const auto bound_for = [&](double translation) {
-      return 1 - (translation * length + air) * base / volume * (1 - tolerance::rounding) +
-             tolerance::rounding;
+      return terms.value_at(translation * length * (1 - tolerance::rounding) + air) + tolerance::rounding;
     };
     // The translation for which the bound is `stackability`, rounded up.
     const auto translation_for = [&](double stackability) {
-      return ((1 - stackability + tolerance::rounding) * volume / base - air) / length *
+      return (terms.translation_for(stackability - tolerance::rounding) - air) / length *
              (1 + 4 * tolerance::rounding);
     };
     open.bound = std::min(open.bound, bound_for(open.translation));

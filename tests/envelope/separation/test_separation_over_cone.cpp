@@ -109,6 +109,24 @@ TEST_CASE("along the one direction that a wall slides along, no bound is shown f
   CHECK(!closed.at_least(3.1, all_pairs));
 }
 
+TEST_CASE("a triangle that is seen edge on within a cone shows nothing in solid semantics") {
+  // An upright triangle above a level one: beside z the upright one lands on its copy's level one, along z it
+  // has no columns.
+  Points vertices(6, 3);
+  vertices << 0, -1, 3, 0, 1, 3, 0, 0, 2, -3, -3, 0, 3, -3, 0, 0, 4, 0;
+  Triangles triangles(2, 3);
+  triangles << 0, 1, 2, 3, 4, 5;
+  const SeparationTree tree(make_shape(vertices, triangles));
+  const auto around = [](double x) {
+    return std::vector<Direction>{Direction(x - 0.01, -0.01, 1), Direction(x + 0.01, -0.01, 1),
+                                  Direction(x - 0.01, 0.01, 1), Direction(x + 0.01, 0.01, 1)};
+  };
+  CHECK(separation(tree, tree, Direction(0, 0, 1)).length == 0);
+  CHECK(!SeparationOverCone(tree, around(0), ContactSemantics::solid).at_least(1, all_pairs));
+  CHECK(separation(tree, tree, Direction(0.02, 0, 1)).value.to_double() > 2.9);
+  CHECK(SeparationOverCone(tree, around(0.02), ContactSemantics::solid).at_least(2.9, all_pairs));
+}
+
 TEST_CASE("no pairs examined show nothing") {
   const SeparationTree tree(solids::box({1, 1, 1}));
   SeparationOverCone over(tree, {Direction(0, 0, 1)}, ContactSemantics::solid);

@@ -20,6 +20,14 @@ Stackability along(const StackabilitySolver& solver, double x, double y, double 
   return solver.measure(Direction(x, y, z));
 }
 
+/// Rotates z to the direction.
+Eigen::Matrix3d frame_matrix(const Direction& direction) {
+  const Frame frame = frame_of(direction);
+  Eigen::Matrix3d matrix;
+  matrix << frame.u, frame.v, frame.w;
+  return matrix;
+}
+
 /// Largest S of random directions of a region.
 double best_sample(const StackabilitySolver& solver, const DirectionRegion& region, int count) {
   point_sets::Random random(3);
@@ -57,8 +65,11 @@ TEST_CASE("the best direction of a shell between cones is its axis, and this is 
   const solids::FrustumShell cup{.segments = 24};
   const double f = solids::frustum_shell_f_max(cup);
   point_sets::Random random(4);
-  for (int k = 0; k < 2; ++k) {
-    const Eigen::Matrix3d pose = k == 0 ? Eigen::Matrix3d::Identity() : random.rotation();
+  Eigen::Matrix3d cyclic;
+  cyclic << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  // The axis along z, x and y, and between them.
+  for (const Eigen::Matrix3d& pose : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), cyclic,
+                                      Eigen::Matrix3d(cyclic * cyclic), random.rotation()}) {
     Shape shape = solids::frustum_shell(cup);
     shape.vertices = shape.vertices * pose.transpose();
     const StackabilitySolver solver(shape);
@@ -130,6 +141,23 @@ TEST_CASE("a bound over a cone or a plane holds there, and is no larger than tha
     CHECK(found.bound.bound <= sphere);
     CHECK(found.bound.proven);
   }
+}
+
+TEST_CASE("a cone much smaller than the cells at the start is not missed") {
+  // Away from the middle of every cell.
+  const Eigen::Matrix3d pose = frame_matrix(Direction(0.3, 0.5, 1));
+  Shape shape = solids::frustum_shell({.segments = 24});
+  shape.vertices = shape.vertices * pose.transpose();
+  const StackabilitySolver solver(shape);
+  const auto beside_axis = [&](double x, double y) -> Eigen::Vector3d {
+    return pose * Eigen::Vector3d(x, y, 1);
+  };
+  const double best = solver.measure(Direction(beside_axis(0, 0))).value;
+  const DirectionCone cone{beside_axis(0.02, 0.01), 0.03};
+  const BoundedStackability found = stackability_bound(
+      solver, solver.measure(Direction(beside_axis(0.04, 0.02))), {.cone = cone, .accuracy = 0.01});
+  CHECK(found.bound.bound >= best);
+  CHECK(found.best.value == Approx(best).margin(1e-6));
 }
 
 TEST_CASE("a bound is the same for any number of threads") {
