@@ -18,6 +18,13 @@ ControlJacobian cage_jacobian(const CageBinding& binding) {
   return jacobian;
 }
 
+ControlJacobian box_jacobian(const HollowBoxAtRest& box, const HollowBoxBinding& binding, const Cuboid& now) {
+  const HollowBoxMotion motion = box.motion(now);
+  ControlJacobian jacobian;
+  for (int k = 0; k < 8; ++k) jacobian.points.push_back({k, box.derivative(binding, motion, k)});
+  return jacobian;
+}
+
 /// Returns the sections whose centres influence a point between two neighbouring ones: these two and, because
 /// of their tangents, one more on either side.
 std::vector<int> sections_around(const CurveBinding& binding, const GeneralizedCylinder& cylinder) {
@@ -65,19 +72,26 @@ ControlJacobian curve_jacobian(const CurveAtRest& curve, const CurveBinding& bin
 }  // namespace
 
 PrimitiveBinding::PrimitiveBinding(const Primitive& rest) : rest_(rest) {
-  if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&rest)) curve_ = CurveAtRest(*cylinder);
+  if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&rest))
+    at_rest_ = CurveAtRest(*cylinder);
+  else if (is_hollow(std::get<Cuboid>(rest)))
+    at_rest_ = HollowBoxAtRest(std::get<Cuboid>(rest));
 }
 
 PointBinding PrimitiveBinding::bind(const Eigen::Vector3d& point) const {
-  if (const auto* curve = std::get_if<CurveAtRest>(&curve_)) return curve->bind(point);
-  return CageBinding{point, mean_value_coordinates(std::get<Cuboid>(rest_), point.transpose())};
+  return bind(Points(point.transpose())).front();
 }
 
 std::vector<PointBinding> PrimitiveBinding::bind(const Points& points) const {
   std::vector<PointBinding> bindings(static_cast<std::size_t>(points.rows()));
-  if (const auto* curve = std::get_if<CurveAtRest>(&curve_)) {
+  if (const auto* curve = std::get_if<CurveAtRest>(&at_rest_)) {
     for (std::size_t i = 0; i < bindings.size(); ++i)
       bindings[i] = curve->bind(points.row(static_cast<Eigen::Index>(i)).transpose());
+    return bindings;
+  }
+  if (const auto* box = std::get_if<HollowBoxAtRest>(&at_rest_)) {
+    std::vector<HollowBoxBinding> bound = box->bind(points);
+    std::move(bound.begin(), bound.end(), bindings.begin());
     return bindings;
   }
   const CornerWeights weights = mean_value_coordinates(std::get<Cuboid>(rest_), points);
@@ -89,8 +103,10 @@ std::vector<PointBinding> PrimitiveBinding::bind(const Points& points) const {
 }
 
 Eigen::Vector3d PrimitiveBinding::position_of(const PointBinding& binding, const Primitive& now) const {
-  if (const auto* curve = std::get_if<CurveAtRest>(&curve_))
+  if (const auto* curve = std::get_if<CurveAtRest>(&at_rest_))
     return curve->position_of(std::get<CurveBinding>(binding), std::get<GeneralizedCylinder>(now));
+  if (const auto* box = std::get_if<HollowBoxAtRest>(&at_rest_))
+    return box->position_of(std::get<HollowBoxBinding>(binding), box->motion(std::get<Cuboid>(now)));
   const auto& [point, weights] = std::get<CageBinding>(binding);
   const BoxCorners moved = std::get<Cuboid>(now).corners - std::get<Cuboid>(rest_).corners;
   return point + moved.transpose() * weights;
@@ -99,7 +115,7 @@ Eigen::Vector3d PrimitiveBinding::position_of(const PointBinding& binding, const
 Points PrimitiveBinding::displacements(const std::vector<PointBinding>& bindings,
                                        const Primitive& now) const {
   Points moved(static_cast<Eigen::Index>(bindings.size()), 3);
-  if (const auto* curve = std::get_if<CurveAtRest>(&curve_)) {
+  if (const auto* curve = std::get_if<CurveAtRest>(&at_rest_)) {
     const auto& cylinder = std::get<GeneralizedCylinder>(now);
     std::vector<DualQuaternion> motions;
     for (int i = 0; i < cylinder.centres.rows(); ++i) motions.push_back(curve->motion(cylinder, i));
@@ -113,6 +129,14 @@ Points PrimitiveBinding::displacements(const std::vector<PointBinding>& bindings
     }
     return moved;
   }
+  if (const auto* box = std::get_if<HollowBoxAtRest>(&at_rest_)) {
+    const HollowBoxMotion motion = box->motion(std::get<Cuboid>(now));
+    for (std::size_t i = 0; i < bindings.size(); ++i) {
+      const auto& binding = std::get<HollowBoxBinding>(bindings[i]);
+      moved.row(static_cast<Eigen::Index>(i)) = box->position_of(binding, motion) - binding.point;
+    }
+    return moved;
+  }
   const BoxCorners corners = std::get<Cuboid>(now).corners - std::get<Cuboid>(rest_).corners;
   for (std::size_t i = 0; i < bindings.size(); ++i)
     moved.row(static_cast<Eigen::Index>(i)).noalias() =
@@ -121,8 +145,10 @@ Points PrimitiveBinding::displacements(const std::vector<PointBinding>& bindings
 }
 
 ControlJacobian PrimitiveBinding::jacobian(const PointBinding& binding, const Primitive& now) const {
-  if (const auto* curve = std::get_if<CurveAtRest>(&curve_))
+  if (const auto* curve = std::get_if<CurveAtRest>(&at_rest_))
     return curve_jacobian(*curve, std::get<CurveBinding>(binding), std::get<GeneralizedCylinder>(now));
+  if (const auto* box = std::get_if<HollowBoxAtRest>(&at_rest_))
+    return box_jacobian(*box, std::get<HollowBoxBinding>(binding), std::get<Cuboid>(now));
   return cage_jacobian(std::get<CageBinding>(binding));
 }
 

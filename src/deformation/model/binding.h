@@ -4,18 +4,19 @@
 #include <variant>
 #include <vector>
 
+#include "deformation/model/hollow_box.h"
 #include "deformation/model/mean_value_coordinates.h"
 #include "deformation/model/skinning.h"
 
 namespace stackabilization::detail {
 
-/// A point bound to a cuboid.
+/// A point bound to a solid cuboid.
 struct CageBinding {
   Eigen::Vector3d point;                ///< position at rest
   Eigen::Matrix<double, 8, 1> weights;  ///< mean value coordinates, in the order of Cuboid::corners
 };
 
-using PointBinding = std::variant<CageBinding, CurveBinding>;
+using PointBinding = std::variant<CageBinding, HollowBoxBinding, CurveBinding>;
 
 /// Derivatives of the position of a bound point with respect to the controls of its primitive; only the
 /// blocks that are not zero.
@@ -48,7 +49,7 @@ class PrimitiveBinding {
   /// the kind and size of `rest()`.
   Eigen::Vector3d position_of(const PointBinding& binding, const Primitive& now) const;
   /// Returns the n x 3 displacements of bound points since rest: `carried` minus the point at rest. They are
-  /// exactly zero where the cuboid did not move.
+  /// exactly zero where a solid cuboid did not move.
   Points displacements(const std::vector<PointBinding>& bindings, const Primitive& now) const;
   /// Computes the derivatives of `carried` at `now`. Exact for cuboids; for generalized cylinders, forward
   /// differences over the four sections that influence the point.
@@ -56,7 +57,7 @@ class PrimitiveBinding {
 
  private:
   Primitive rest_;
-  std::variant<std::monostate, CurveAtRest> curve_;
+  std::variant<std::monostate, CurveAtRest, HollowBoxAtRest> at_rest_;  ///< nothing for a solid cuboid
 };
 
 }  // namespace stackabilization::detail

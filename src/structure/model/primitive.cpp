@@ -57,6 +57,8 @@ void validate_one(const Cuboid& cuboid, const std::string& name) {
       (cuboid.corners.colwise().maxCoeff() - cuboid.corners.colwise().minCoeff()).maxCoeff();
   const double rounding = tolerance::product_rounding * std::pow(longest, 3);
   check(std::abs(volume_of(cuboid)) > rounding, name, "has no volume");
+  check(cuboid.inner_sides.minCoeff() > 0 && cuboid.inner_sides.maxCoeff() <= 1, name,
+        "has walls that do not begin between its centre and its faces");
 }
 
 void validate_one(const GeneralizedCylinder& cylinder, const std::string& name) {
