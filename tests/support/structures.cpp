@@ -238,6 +238,21 @@ StructuredShape rough_stool() {
   return stool.done();
 }
 
+StructuredShape trestle() {
+  Assembly trestle;
+  const GeneralizedCylinder left = straight_cylinder({-4, 0, 0}, {-2, 0, 10}, 0.4, 21),
+                            right = straight_cylinder({4, 0, 0}, {2, 0, 10}, 0.4, 21),
+                            rung = straight_cylinder({-3.2, 0, 4}, {3.2, 0, 4}, 0.2, 9);
+  const int a = trestle.add("leg_left", tube(left, 12), left),
+            b = trestle.add("leg_right", tube(right, 12), right),
+            c = trestle.add("rung", tube(rung, 12), rung);
+  trestle.mirror({a, b}, Eigen::Vector3d::UnitX());
+  trestle.mirror({c}, Eigen::Vector3d::UnitX());
+  trestle.joint(a, c, Eigen::RowVector3d(-3.2, 0, 4));
+  trestle.joint(b, c, Eigen::RowVector3d(3.2, 0, 4));
+  return trestle.done();
+}
+
 StructuredShape mug(int around) {
   Assembly mug;
   const GeneralizedCylinder body = straight_cylinder({0, 0, 0}, {0, 0, 10}, 4, 11);

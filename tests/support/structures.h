@@ -44,6 +44,11 @@ StructuredShape board_with_screw();
 /// with point joints. Mirror planes x = 0 and y = 0, which the mesh does not have: leg k has 11 + k sides.
 StructuredShape rough_stool();
 
+/// Trestle in the plane y = 0, 10 high: straight generalized cylinders "leg_left" and "leg_right" that lean
+/// towards each other, from x = -4 and 4 to -2 and 2, and "rung" between them at z = 4, with point joints on
+/// the axes of the legs. Mirror plane x = 0.
+StructuredShape trestle();
+
 /// Mug around the z axis: "body", a straight generalized cylinder, and "handle", a curved one in the plane y
 /// = 0, with two point joints; mirror plane y = 0.
 StructuredShape mug(int around = 24);

@@ -28,7 +28,9 @@ enum class Following {
   free,
   /// Only by affine maps, and straight generalized cylinders also as members of a frame: they lean, stretch
   /// and change their radii linearly. Joints slide in the plane of plates and along straight members, where
-  /// they do not lie at the rim or the end (Relation::carrier). Edits that need more are refused.
+  /// they do not lie at the rim or the end (Relation::carrier). A part that moves as a whole keeps its heights
+  /// along the move; if changes of it across the move close its joints, no other part follows. Edits that need
+  /// more are refused.
   smooth,
 };
 

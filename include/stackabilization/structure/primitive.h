@@ -16,13 +16,13 @@ namespace stackabilization {
 /// 2 = (-,+,-), ..., 7 = (+,+,+). Face f is orthogonal to axis f / 2: on the negative side for even f, on the
 /// positive side for odd f.
 ///
-/// A hollow box such as a crate is represented as well: the faces follow its outer walls. A scaling scales its
-/// walls too, or with `inner_sides` moves their inner and outer sides by the same distance.
+/// A hollow box such as a crate is represented as well: the faces follow its outer walls. A scaling scales
+/// its walls too, or with `inner_sides` moves their inner and outer sides by the same distance.
 struct Cuboid {
   Eigen::Matrix<double, 8, 3, Eigen::RowMajor> corners;  ///< model units
-  /// Per axis, where the walls of a hollow box at rest begin: distances from the centre to their inner sides, in
-  /// the negative and in the positive direction, fractions of half the extent, in (0, 1]; 1 where there is no
-  /// wall. The analysis leaves them at 1; Following::smooth finds them.
+  /// Per axis, where the walls of a hollow box at rest begin: distances from the centre to their inner sides,
+  /// in the negative and in the positive direction, fractions of half the extent, in (0, 1]; 1 where there is
+  /// no wall. The analysis leaves them at 1; Following::smooth finds them.
   Eigen::Matrix<double, 3, 2> inner_sides = Eigen::Matrix<double, 3, 2>::Ones();
 };
 

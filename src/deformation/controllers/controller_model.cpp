@@ -68,6 +68,8 @@ struct ControllerModel::Data {
     } else {
       const Part& edited = part(edit.handle);
       task.wanted = {detail::edit_handle(now[static_cast<std::size_t>(edit.handle.part)], edit, edited.name)};
+      task.gives_way = following == Following::smooth && edit.handle.kind == HandleKind::part &&
+                       std::holds_alternative<Move>(edit.operation);
     }
     return detail::solve_edit(rig, mesh, task);
   }

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/index.h"
+#include "deformation/model/straight_curve.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {

@@ -31,6 +31,10 @@ constexpr double settled_remainder = 0.1, largest_remainder = 10;
 /// Parts of real objects are symmetric to planes that miss those of the whole by a little.
 constexpr double taper_symmetry = 0.002;
 
+/// Largest way of the middle of a part across its move when it gives way, fraction of the move. What would
+/// have to go farther is moved together with its neighbours.
+constexpr double farthest_aside = 0.5;
+
 bool changes_nothing(const PartEdit& edit) {
   return edit.changes.isZero(0) && edit.rotation.vec().isZero(0);
 }
@@ -57,6 +61,7 @@ class EditSolution {
       if (auto refusal = prescribe_all()) return refused(std::move(*refusal));
     } else {
       if (auto refusal = prescribe()) return refused(std::move(*refusal));
+      if (task_.gives_way && give_way()) return finished();
       progress_[at(class_)] = Progress::modified;
       // With fixed ends of an extent, the moved part must not move all others along.
       if (task_.constraints.extent_ends == ExtentEnds::free)
@@ -64,14 +69,18 @@ class EditSolution {
     }
     corrections_.keep_straight(state_.controls);
     solve();
+    return finished();
+  }
+
+ private:
+  EditOutcome refused(Refusal refusal) const { return {std::move(refusal), task_.now}; }
+
+  EditOutcome finished() {
     take_up_remainder();
     primitives_ = current_primitives();
     if (auto refusal = broken()) return refused(std::move(*refusal));
     return {std::nullopt, std::move(primitives_)};
   }
-
- private:
-  EditOutcome refused(Refusal refusal) const { return {std::move(refusal), task_.now}; }
 
   double diagonal() const { return rig_.rest.diagonal; }
 
@@ -120,11 +129,44 @@ class EditSolution {
     return std::nullopt;
   }
 
-  void solve() {
+  /// Returns the constraints of joints and fixed points.
+  std::vector<Constraint> given_constraints() {
     std::vector<Constraint> constraints = joint_constraints(rig_);
-    for (const Constraint& fixed : fixed_point_constraints()) constraints.push_back(fixed);
-    fixed_points_ = {constraints.begin() + static_cast<std::ptrdiff_t>(rig_.distinct_joints.size()),
-                     constraints.end()};
+    fixed_points_ = fixed_point_constraints();
+    constraints.insert(constraints.end(), fixed_points_.begin(), fixed_points_.end());
+    return constraints;
+  }
+
+  /// Closes the joints of the moved part by changes of it across the move alone. Returns false, and changes
+  /// nothing, when this is not enough.
+  bool give_way() {
+    CorrectionSpace corrections(rig_, rig_.bases);
+    for (int c = 0; c < rig_.space.class_count(); ++c)
+      if (c != class_) corrections.fix(c);
+    const Eigen::Vector3d by = edit_.changes.head<3>(), along = by.normalized();
+    const Eigen::Index values = start_[at(class_)].values.size();
+    const auto points = static_cast<int>(control_points(task_.now[at(edit_.part)]).rows());
+    Eigen::MatrixXd heights(points, values);
+    for (int i = 0; i < points; ++i)
+      heights.row(i) =
+          along.transpose() * rig_.space.point_rows(edit_.part, i, Eigen::MatrixXd::Identity(values, values));
+    corrections.hold(edit_, std::move(heights));
+    const SolverState prescribed = state_;
+    corrections.keep_straight(state_.controls);
+    const std::vector<Constraint> constraints = given_constraints();
+    state_ = solve_relations(rig_, corrections, constraints, std::move(state_));
+    const Points moved = control_points(rig_.space.primitive(edit_.part, state_.controls[at(class_)])) -
+                         control_points(task_.now[at(edit_.part)]);
+    const Eigen::Vector3d middle = moved.colwise().mean();
+    const bool closed = largest_gap(rig_, constraints, state_) <= tolerance::relation * diagonal(),
+               near = (middle - by).norm() <= farthest_aside * by.norm();
+    if (closed && near && remains_at_most(settled_remainder, current_vertices())) return true;
+    state_ = prescribed;
+    return false;
+  }
+
+  void solve() {
+    const std::vector<Constraint> constraints = given_constraints();
     if (!solve_with_fixed_ends(constraints))
       state_ = solve_relations(rig_, corrections_, constraints, std::move(state_));
     if (extents_.bounds().empty() ||

@@ -29,6 +29,8 @@ struct EditTask {
   /// Whether the edits of all parts only say where parts go about: they are made symmetric first, and parts
   /// may follow in any way to close joints.
   bool is_taper = false;
+  /// Whether a part that moves as a whole may give way across the move, so that others keep their form.
+  bool gives_way = false;
 };
 
 /// Result of an edit: the primitives after it, or the reason for the refusal.
@@ -40,8 +42,10 @@ struct EditOutcome {
 
 /// Applies the edit subject to all relations and constraints, or returns the reason for the refusal. The
 /// function prescribes the controls of the edited part within its symmetries, propagates, solves and checks.
-/// The solve of an edit of every part starts from the prescriptions of all parts; joints may then shift the
-/// parts by as much as a cylinder deviates from the affine map. See ControllerModel::edited.
+/// A part that gives way first tries to close its joints alone: its control points keep their heights along
+/// the move, and it changes across the move only, as a rung does that moves up between legs that lean. The
+/// solve of an edit of every part starts from the prescriptions of all parts; joints may then shift the parts
+/// by as much as a cylinder deviates from the affine map. See ControllerModel::edited.
 EditOutcome solve_edit(const Rig& rig, const RiggedMesh& mesh, const EditTask& task);
 
 }  // namespace stackabilization::detail

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "deformation/controllers/straightness.h"
+#include "deformation/model/straight_curve.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {

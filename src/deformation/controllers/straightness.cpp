@@ -8,13 +8,12 @@
 
 #include "deformation/controllers/reduced_basis.h"
 #include "deformation/model/skinning.h"
+#include "deformation/model/straight_curve.h"
 
 namespace stackabilization::detail {
 
 namespace {
 
-/// Largest distance of a straight curve or profile from its chord, fraction of the length of the chord.
-constexpr double straight_enough = 0.02;
 /// Length of the end zones, which hardly stretch, as a fraction of the length of the curve, and their stretch
 /// relative to that of the middle.
 constexpr double end_zone = 0.06;
@@ -22,10 +21,6 @@ constexpr double end_stretch = 0.05;
 
 Eigen::Vector3d centre(const GeneralizedCylinder& cylinder, Eigen::Index i) {
   return cylinder.centres.row(i).transpose();
-}
-
-Eigen::Vector3d chord_of(const GeneralizedCylinder& cylinder) {
-  return centre(cylinder, cylinder.centres.rows() - 1) - centre(cylinder, 0);
 }
 
 /// Returns the positions of the sections along the chord, 0 at the first section, 1 at the last.
@@ -48,28 +43,6 @@ Eigen::MatrixXd linear_functions(const Eigen::VectorXd& places) {
 }
 
 }  // namespace
-
-bool is_straight(const GeneralizedCylinder& cylinder) {
-  if (cylinder.closed) return false;
-  const Eigen::Vector3d chord = chord_of(cylinder);
-  for (Eigen::Index i = 1; i + 1 < cylinder.centres.rows(); ++i) {
-    const Eigen::Vector3d offset = centre(cylinder, i) - centre(cylinder, 0);
-    if (!(offset.cross(chord).norm() <= straight_enough * chord.squaredNorm())) return false;
-  }
-  return true;
-}
-
-bool has_straight_wall(const GeneralizedCylinder& cylinder) {
-  if (!is_straight(cylinder)) return false;
-  const Eigen::VectorXd& radii = cylinder.radii;
-  const double first = radii(0), last = radii(radii.size() - 1);
-  const Eigen::VectorXd straight = first + (last - first) * shares_of_chord(cylinder).array();
-  return (radii - straight).cwiseAbs().maxCoeff() <= straight_enough * chord_of(cylinder).norm();
-}
-
-Eigen::VectorXd places_along_chord(const GeneralizedCylinder& cylinder) {
-  return (cylinder.centres.rowwise() - cylinder.centres.row(0)) * chord_of(cylinder).normalized();
-}
 
 Eigen::MatrixXd slide_functions(const GeneralizedCylinder& rest) {
   const Eigen::Index inner = rest.centres.rows() - 2;

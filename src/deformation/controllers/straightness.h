@@ -7,17 +7,6 @@
 
 namespace stackabilization::detail {
 
-/// Returns whether the curve of an open generalized cylinder stays within 2 % of its chord length of its
-/// chord.
-bool is_straight(const GeneralizedCylinder& cylinder);
-
-/// Returns whether, in addition, its radii stay within 2 % of the chord length of those of a cylinder or cone
-/// through its first and last section.
-bool has_straight_wall(const GeneralizedCylinder& cylinder);
-
-/// Returns the n positions of the sections along the chord, model units, 0 at the first section.
-Eigen::VectorXd places_along_chord(const GeneralizedCylinder& cylinder);
-
 /// Computes the n x m basis F of the slides of the n sections of an open cylinder along it. F F^T is the
 /// covariance of a Brownian bridge over the arc length at rest [Wahba], with value 1 in the middle. Hence the
 /// ends stay. Of all slides that move some sections to given positions, the one of least norm is linear

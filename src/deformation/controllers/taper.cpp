@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "deformation/controllers/straightness.h"
+#include "deformation/model/straight_curve.h"
 #include "stackabilization/core/direction.h"
 #include "stackabilization/deformation/tolerances.h"
 

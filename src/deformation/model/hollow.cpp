@@ -13,9 +13,9 @@
 
 #include "core/extract_parts.h"
 #include "mesh/ray_crossings.h"
-#include "structure/model/nearest_box.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/mesh/exact_triangles.h"
+#include "structure/model/nearest_box.h"
 
 namespace stackabilization::detail {
 
@@ -29,9 +29,9 @@ constexpr int rays = 16;
 constexpr double min_share = 0.75;
 /// Distances between which the outer side of the wall lies, radii of the section or half extents of the box.
 constexpr double nearest_outer = 0.75, farthest_outer = 1.25;
-/// Rays start in a grid of places in the middle plane of a box, this far from its centre along either side, half
-/// extents. Those near the rim of the plane meet rounded corners, or miss a box that narrows: they do not decide
-/// whether there is a wall.
+/// Rays start in a grid of places in the middle plane of a box, this far from its centre along either side,
+/// half extents. Those near the rim of the plane meet rounded corners, or miss a box that narrows: they do
+/// not decide whether there is a wall.
 constexpr double ray_step = 0.1;
 constexpr int ray_rim = 9, deciding_rim = 7;
 /// Least distance of a wall of a box from its centre, half extents.

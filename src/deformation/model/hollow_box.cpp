@@ -66,8 +66,8 @@ HollowBoxMotion HollowBoxAtRest::motion(const Cuboid& now) const {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(affine, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
   motion.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  motion.stretch = svd.matrixV() * signs.cwiseProduct(svd.singularValues()).asDiagonal() *
-                   svd.matrixV().transpose();
+  motion.stretch =
+      svd.matrixV() * signs.cwiseProduct(svd.singularValues()).asDiagonal() * svd.matrixV().transpose();
   motion.axes = motion.rotation * axes_;
   return motion;
 }
@@ -85,8 +85,7 @@ Eigen::Vector3d HollowBoxAtRest::position_of(const HollowBoxBinding& binding,
 Eigen::Matrix3d HollowBoxAtRest::derivative(const HollowBoxBinding& binding, const HollowBoxMotion& motion,
                                             int corner) const {
   // With the affine map A = R S, a change dA turns R by the w of (trace(S) I - S) w = axial(R^T dA - dA^T R).
-  const Eigen::Matrix3d strain =
-      motion.stretch.trace() * Eigen::Matrix3d::Identity() - motion.stretch;
+  const Eigen::Matrix3d strain = motion.stretch.trace() * Eigen::Matrix3d::Identity() - motion.stretch;
   const Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> solver(strain);
   const Eigen::Vector3d gradient = gradient_.row(corner).transpose();
   Eigen::Matrix3d derivative = Eigen::Matrix3d::Zero();
@@ -97,8 +96,8 @@ Eigen::Matrix3d HollowBoxAtRest::derivative(const HollowBoxBinding& binding, con
     for (int axis = 0; axis < 3; ++axis) {
       const Eigen::Vector3d along = motion.axes.col(axis), across = spin.cross(along),
                             place = motion.corners.transpose() * binding.weights.col(axis);
-      derivative.col(k) += along.dot(place) * across +
-                           (across.dot(place) + binding.weights(corner, axis) * along(k)) * along;
+      derivative.col(k) +=
+          along.dot(place) * across + (across.dot(place) + binding.weights(corner, axis) * along(k)) * along;
     }
   }
   return derivative;

@@ -12,8 +12,8 @@ struct HollowBoxBinding {
   Eigen::Vector3d point;  ///< position at rest
   /// Offset from the places that move the point: within a wall, from its outer side.
   Eigen::Vector3d offset;
-  /// Per axis of the box, the mean value coordinates of the place that moves the point along this axis, in the
-  /// order of Cuboid::corners.
+  /// Per axis of the box, the mean value coordinates of the place that moves the point along this axis, in
+  /// the order of Cuboid::corners.
   Eigen::Matrix<double, 8, 3> weights;
 };
 
@@ -27,8 +27,8 @@ struct HollowBoxMotion {
   Eigen::Matrix3d axes;                 ///< of the box, rotated; unit columns
 };
 
-/// A box with walls (Cuboid::inner_sides) at rest, to which points are bound. Along the axis across a wall its
-/// points move like its outer side, so that it keeps its thickness, and points between two walls move in
+/// A box with walls (Cuboid::inner_sides) at rest, to which points are bound. Along the axis across a wall
+/// its points move like its outer side, so that it keeps its thickness, and points between two walls move in
 /// proportion; along the other axes all follow the corners by mean value coordinates. Rigid motions of the
 /// corners move all points alike. Immutable, safe to share between threads.
 class HollowBoxAtRest {
@@ -42,7 +42,8 @@ class HollowBoxAtRest {
   /// Returns the position of a bound point after a motion.
   Eigen::Vector3d position_of(const HollowBoxBinding& binding, const HollowBoxMotion& motion) const;
   /// Computes the derivative of the position by corner `corner`.
-  Eigen::Matrix3d derivative(const HollowBoxBinding& binding, const HollowBoxMotion& motion, int corner) const;
+  Eigen::Matrix3d derivative(const HollowBoxBinding& binding, const HollowBoxMotion& motion,
+                             int corner) const;
 
  private:
   Cuboid rest_;

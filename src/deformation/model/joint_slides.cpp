@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/index.h"
+#include "deformation/model/straight_curve.h"
 #include "structure/model/nearest_box.h"
 
 namespace stackabilization::detail {
@@ -30,12 +31,33 @@ std::vector<int> sliding_axes(const OrientedBox& box) {
   return {};
 }
 
-Eigen::Vector3d chord(const GeneralizedCylinder& cylinder) {
-  return (cylinder.centres.row(cylinder.centres.rows() - 1) - cylinder.centres.row(0)).transpose();
+/// Returns the straight members among generalized cylinders, such as round legs: at least `slender` times as
+/// long as wide.
+bool is_member(const GeneralizedCylinder& cylinder) {
+  return is_straight(cylinder) && chord_of(cylinder).norm() >= slender * 2 * cylinder.radii.maxCoeff();
 }
 
 bool is_disc(const GeneralizedCylinder& cylinder) {
-  return !cylinder.closed && chord(cylinder).norm() < cylinder.radii.mean();
+  return !cylinder.closed && chord_of(cylinder).norm() < cylinder.radii.mean();
+}
+
+/// Returns which of both kinds a carrier was at rest: edits change its proportions, but not that much.
+bool is_rather_member(const GeneralizedCylinder& carrier) {
+  return chord_of(carrier).norm() > 2.5 * carrier.radii.mean();
+}
+
+/// Returns the distance of a point from the middle of a member along it, model units.
+double distance_from_middle(const GeneralizedCylinder& member, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d middle =
+      (member.centres.row(0) + member.centres.row(member.centres.rows() - 1)).transpose() / 2;
+  return std::abs((point - middle).dot(chord_of(member).stableNormalized()));
+}
+
+/// Returns the distance of a point from the axis of a disc, model units.
+double distance_from_axis(const GeneralizedCylinder& disc, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d axis = chord_of(disc).stableNormalized(),
+                        offset = point - disc.centres.row(0).transpose();
+  return (offset - offset.dot(axis) * axis).norm();
 }
 
 /// Returns how far from the centre of the carrier the farthest joint point is, 1 at its rim or end. Nothing
@@ -43,11 +65,13 @@ bool is_disc(const GeneralizedCylinder& cylinder) {
 std::optional<double> place_on(const Primitive& carrier, const Points& points) {
   double farthest = 0;
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
-    if (!is_disc(*cylinder)) return std::nullopt;
-    const Eigen::Vector3d axis = chord(*cylinder).normalized();
+    const bool member = is_member(*cylinder);
+    if (!member && !is_disc(*cylinder)) return std::nullopt;
+    const double reach = member ? chord_of(*cylinder).norm() / 2 : cylinder->radii.maxCoeff();
     for (const auto point : points.rowwise()) {
-      const Eigen::Vector3d offset = (point - cylinder->centres.row(0)).transpose();
-      farthest = std::max(farthest, (offset - offset.dot(axis) * axis).norm() / cylinder->radii.maxCoeff());
+      const double distance = member ? distance_from_middle(*cylinder, point.transpose())
+                                     : distance_from_axis(*cylinder, point.transpose());
+      farthest = std::max(farthest, distance / reach);
     }
     return farthest;
   }
@@ -78,9 +102,10 @@ void let_joints_slide(Structure& structure) {
 
 double distance_beyond(const Primitive& carrier, const Eigen::Vector3d& point) {
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
-    const Eigen::Vector3d axis = chord(*cylinder).stableNormalized();
-    const Eigen::Vector3d offset = point - cylinder->centres.row(0).transpose();
-    return std::max(0.0, (offset - offset.dot(axis) * axis).norm() - cylinder->radii.maxCoeff());
+    const double beyond = is_rather_member(*cylinder)
+                              ? distance_from_middle(*cylinder, point) - chord_of(*cylinder).norm() / 2
+                              : distance_from_axis(*cylinder, point) - cylinder->radii.maxCoeff();
+    return std::max(0.0, beyond);
   }
   const OrientedBox box = nearest_box(std::get<Cuboid>(carrier));
   double farthest = 0;
@@ -94,8 +119,9 @@ Eigen::Matrix3d held_directions(const Primitive& carrier) {
   const Eigen::Matrix3d all = Eigen::Matrix3d::Identity();
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
     if (cylinder->closed) return all;
-    const Eigen::Vector3d normal = chord(*cylinder).stableNormalized();
-    return normal * normal.transpose();
+    const Eigen::Vector3d axis = chord_of(*cylinder).stableNormalized();
+    const Eigen::Matrix3d along = axis * axis.transpose();
+    return is_rather_member(*cylinder) ? Eigen::Matrix3d(all - along) : along;
   }
   const auto& corners = std::get<Cuboid>(carrier).corners;
   Eigen::Matrix3d edges = Eigen::Matrix3d::Zero();

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "deformation/controllers/straightness.h"
+#include "deformation/model/straight_curve.h"
 #include "stackabilization/structure/tolerances.h"
 
 namespace stackabilization::detail {

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <set>
 
-#include "deformation/controllers/straightness.h"
+#include "deformation/model/straight_curve.h"
 #include "stackabilization/improvement/tolerances.h"
 #include "structure/model/nearest_box.h"
 

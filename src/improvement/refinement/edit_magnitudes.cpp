@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "deformation/controllers/straightness.h"
+#include "deformation/model/straight_curve.h"
 #include "improvement/contacts/contact_handles.h"
 #include "improvement/contacts/contact_side.h"
 #include "stackabilization/core/tolerances.h"

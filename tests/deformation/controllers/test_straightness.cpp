@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "deformation/controllers/straightness.h"
+#include "deformation/model/straight_curve.h"
 #include "stackabilization/deformation/controller_model.h"
 #include "stackabilization/deformation/relation_residual.h"
 #include "support/catch.h"

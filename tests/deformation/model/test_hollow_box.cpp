@@ -1,8 +1,7 @@
-#include "deformation/model/hollow_box.h"
-
 #include <cmath>
 
 #include "deformation/model/hollow.h"
+#include "deformation/model/hollow_box.h"
 #include "stackabilization/deformation/controller_model.h"
 #include "support/catch.h"
 #include "support/solids.h"
@@ -67,8 +66,8 @@ TEST_CASE("The walls of a crate are found, solid and open sides have none", "[ho
   const double lowest = 3.5 - 0.8 * (6 - 0.6) / 5.5;
   expected.topRows<2>().setConstant(lowest / 4);
   CHECK(inner_sides(drafted.shape, box).isApprox(expected, 1e-12));
-  CHECK(inner_sides(solids::box({-1, -1, -1}, {1, 1, 1}), cuboid_of({{0, 0, 0}, Eigen::Matrix3d::Identity(),
-                                                                      {1, 1, 1}}))
+  CHECK(inner_sides(solids::box({-1, -1, -1}, {1, 1, 1}),
+                    cuboid_of({{0, 0, 0}, Eigen::Matrix3d::Identity(), {1, 1, 1}}))
             .isOnes(0));
 }
 
@@ -116,8 +115,7 @@ TEST_CASE("Points within a wall keep their distance from its outer side, others 
   Points points(5, 3);
   const Eigen::RowVector3d centre(0, 0, 3), first = across.transpose();
   const std::array<double, 5> before = {-4, -3, 0.25, 3.5, 4}, after = {-5, -4, 0.25, 4.5, 5};
-  for (Eigen::Index i = 0; i < 5; ++i)
-    points.row(i) = centre + before[static_cast<std::size_t>(i)] * first;
+  for (Eigen::Index i = 0; i < 5; ++i) points.row(i) = centre + before[static_cast<std::size_t>(i)] * first;
   Cuboid now = box;
   for (Eigen::Index k = 0; k < 8; ++k) now.corners.row(k) += (k & 1 ? 1 : -1) * first;
   const HollowBoxMotion motion = rest.motion(now);
@@ -143,9 +141,9 @@ TEST_CASE("The derivatives of points of a hollow box are those of differences", 
         Cuboid above = now, below = now;
         above.corners(corner, k) += step;
         below.corners(corner, k) -= step;
-        const Eigen::Vector3d difference = (rest.position_of(binding, rest.motion(above)) -
-                                            rest.position_of(binding, rest.motion(below))) /
-                                           (2 * step);
+        const Eigen::Vector3d difference =
+            (rest.position_of(binding, rest.motion(above)) - rest.position_of(binding, rest.motion(below))) /
+            (2 * step);
         CHECK((derivative.col(k) - difference).norm() < 1e-7);
       }
     }

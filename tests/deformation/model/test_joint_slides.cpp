@@ -45,6 +45,14 @@ TEST_CASE("Joints slide on plates and along members, but not at rims and ends", 
   const Primitive disc = structures::straight_cylinder({0, 0, 0}, {0, 0, 0.5}, 3, 4);
   CHECK(carrier_of(joined(disc, bar, {1, 1, 0.25})) == 0);
   CHECK(carrier_of(joined(disc, bar, {2.95, 0, 0.05})) == -1);
+  const Primitive arm = box_of({2, 0, 3}, {4, 0.4, 0.4});
+  const Primitive leg = structures::straight_cylinder({0, 0, 0}, {0, 0, 6}, 0.3, 13);
+  CHECK(carrier_of(joined(leg, arm, {0, 0, 3})) == 0);
+  CHECK(carrier_of(joined(leg, arm, {0, 0, 5.95})) == -1);
+  CHECK(carrier_of(joined(structures::straight_cylinder({0, 0, 0}, {0, 0, 5.9}, 1, 13), arm, {0, 0, 3})) ==
+        -1);
+  CHECK(carrier_of(joined(structures::arc_cylinder(3, 0.3, -1, 1, 13), box_of({5, 0, 0}, {4, 0.4, 0.4}),
+                          {3, 0, 0})) == -1);
 }
 
 TEST_CASE("A joint is held along the normal of a plate and across a member, in every pose", "[joints]") {
@@ -60,6 +68,11 @@ TEST_CASE("A joint is held along the normal of a plate and across a member, in e
   CHECK(detail::held_directions(turned(bar))
             .isApprox(Eigen::Matrix3d::Identity() - normal * normal.transpose(), 1e-12));
   CHECK(detail::held_directions(box_of({0, 0, 0}, {1, 1, 1})).isIdentity());
+  const Eigen::Vector3d top = 6 * normal;
+  CHECK(detail::held_directions(structures::straight_cylinder({0, 0, 0}, top, 0.3, 5))
+            .isApprox(Eigen::Matrix3d::Identity() - normal * normal.transpose(), 1e-12));
+  CHECK(detail::held_directions(structures::straight_cylinder({0, 0, 0}, top, 8, 5))
+            .isApprox(normal * normal.transpose(), 1e-12));
 }
 
 TEST_CASE("A joint that slides has no residual along its carrier", "[joints]") {
@@ -71,6 +84,45 @@ TEST_CASE("A joint that slides has no residual along its carrier", "[joints]") {
   // 3 of the half width of 4 are left from x = 1.
   const std::vector<Primitive> beyond = {plate, box_of({3.5, 0, 3}, {0.5, 0.5, 6})};
   CHECK(relation_residuals(structure, beyond).front() == Approx(0.5 / 10));
+}
+
+TEST_CASE("A joint is beyond a round member past its ends", "[joints]") {
+  const Primitive leg = structures::straight_cylinder({0, 0, 0}, {0, 0, 6}, 0.3, 13);
+  CHECK(detail::distance_beyond(leg, {0.2, 0, 5.5}) == 0);
+  CHECK(detail::distance_beyond(leg, {0.2, 0, 6.5}) == Approx(0.5));
+  CHECK(detail::distance_beyond(leg, {0, 0, -0.25}) == Approx(0.25));
+}
+
+TEST_CASE("A rung that moves up between legs that lean gets shorter, and the legs stay", "[joints]") {
+  const StructuredShape trestle = structures::trestle();
+  const int rung = structures::part_named(trestle, "rung");
+  const ControllerModel smooth(trestle, {}, Following::smooth), free(trestle, {});
+  const auto moved = [&](const ControllerModel& model, const Eigen::Vector3d& by) {
+    return model.edited(model.at_rest(), {{HandleKind::part, rung, 0}, Move{by}});
+  };
+  const DeformationResult up = moved(smooth, {0, 0, 2});
+  REQUIRE_FALSE(up.refusal);
+  for (const char* leg : {"leg_left", "leg_right"}) {
+    const auto row = static_cast<std::size_t>(structures::part_named(trestle, leg));
+    CHECK(control_points(up.design.primitives[row]) ==
+          control_points(trestle.structure.parts[row].primitive));
+  }
+  const Points centres = control_points(up.design.primitives[static_cast<std::size_t>(rung)]);
+  // The axes of the legs are 2.8 from the middle at a height of 6.
+  for (Eigen::Index i = 0; i < centres.rows(); ++i) {
+    const Eigen::RowVector3d expected(-2.8 + 5.6 * static_cast<double>(i) / 8, 0, 6);
+    CHECK((centres.row(i) - expected).norm() < 1e-6);
+  }
+  // With parts that follow in any way the rung keeps its length, and the legs give way.
+  const DeformationResult kept = moved(free, {0, 0, 2});
+  REQUIRE_FALSE(kept.refusal);
+  const Points rigid = control_points(kept.design.primitives[static_cast<std::size_t>(rung)]);
+  CHECK((rigid.row(8) - rigid.row(0)).norm() == Approx(6.4));
+  // No change of the rung alone takes it out of the plane of the legs: they come along.
+  const DeformationResult aside = moved(smooth, {0, 0.5, 0});
+  REQUIRE_FALSE(aside.refusal);
+  for (const double residual : smooth.relation_residuals(aside.design)) CHECK(residual <= 1e-6);
+  CHECK(control_points(aside.design.primitives[static_cast<std::size_t>(rung)])(4, 1) == Approx(0.5));
 }
 
 TEST_CASE("Joints that slide hold after an edit", "[joints]") {
