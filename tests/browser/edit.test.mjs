@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { canvasFacts, Editor, Folder, keepPicture, models, openBrowser, openPage, stackability, suggestionsOf } from './editor.mjs';
+import { canvasFacts, Editor, Folder, keepPicture, models, openBrowser, openPage, seconds, stackability, suggestionsOf } from './editor.mjs';
 
 let browser;
 before(async () => { browser = await openBrowser(); });
@@ -11,7 +11,7 @@ after(() => browser?.close());
 
 /** A test with a model, an editor and a page of its own. */
 function editing(name, model, work) {
-  test(name, { timeout: 300_000 }, async () => {
+  test(name, { timeout: seconds(300) }, async () => {
     const folder = new Folder(model);
     const editor = await Editor.start(folder);
     try {
@@ -89,7 +89,7 @@ editing('what is exported is what is shown', 'cup.obj', async (page) => {
   vertices.forEach((value, k) => assert.ok(Math.abs(value - shown[k]) <= 1e-6 * Math.abs(value) + 1e-12));
 });
 
-test('an editor that was killed comes back as it was', { timeout: 300_000 }, async () => {
+test('an editor that was killed comes back as it was', { timeout: seconds(300) }, async () => {
   const folder = new Folder('cup.obj');
   let editor = await Editor.start(folder);
   try {
@@ -117,7 +117,7 @@ test('an editor that was killed comes back as it was', { timeout: 300_000 }, asy
   }
 });
 
-test('a session of another shape is refused', { timeout: 300_000 }, async () => {
+test('a session of another shape is refused', { timeout: seconds(300) }, async () => {
   const folder = new Folder('cup.obj');
   try {
     const editor = await Editor.start(folder);
@@ -414,7 +414,7 @@ editing('a part is left out, two parts are joined, and undo brings both back', '
   await page.waitForFunction((n) => window.editor.state.model.joints.length === n, joints);
 });
 
-test('the program ends when the last page leaves', { timeout: 300_000 }, async () => {
+test('the program ends when the last page leaves', { timeout: seconds(300) }, async () => {
   const folder = new Folder('cup.obj');
   const editor = await Editor.start(folder);
   const page = await openPage(browser, editor);

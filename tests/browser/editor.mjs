@@ -11,8 +11,10 @@ const executablePath = process.env.CHROMIUM ?? '/usr/bin/chromium';
 /** Pictures of every test are left there, to be looked at. */
 const pictures = process.env.BROWSER_PICTURES ?? '';
 
+/** @param {number} count @returns {number} milliseconds; more where the program is one that sanitizers slow down */
+export const seconds = (count) => 1000 * count * Number(process.env.SLOWDOWN ?? 1);
 /** A first answer of the program may take long on a machine that does other things too. */
-export const patience = 120_000;
+const patience = seconds(120);
 
 /** A folder of its own, with a copy of a model. */
 export class Folder {

@@ -5,7 +5,7 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { after, before, test } from 'node:test';
-import { Folder, keepPicture, openBrowser, program } from './editor.mjs';
+import { Folder, keepPicture, openBrowser, program, seconds } from './editor.mjs';
 
 let browser, folder, out;
 before(async () => {
@@ -19,7 +19,7 @@ after(async () => {
   folder?.remove();
 });
 
-test('the view shows the object as given beside its solutions, under one camera', { timeout: 120_000 }, async () => {
+test('the view shows the object as given beside its solutions, under one camera', { timeout: seconds(120) }, async () => {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
   const failures = [], asked = [];
   page.on('pageerror', (error) => failures.push(String(error)));

@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { Editor, Folder, keepPicture, openBrowser, openPage, suggestionsOf } from './editor.mjs';
+import { Editor, Folder, keepPicture, openBrowser, openPage, seconds, suggestionsOf } from './editor.mjs';
 
 let browser, folder;
 before(async () => {
@@ -29,7 +29,7 @@ async function answer(page, values) {
   await page.click('#study-dialog button.primary');
 }
 
-test('a participant does three tasks, each in its condition', { timeout: 300_000 }, async () => {
+test('a participant does three tasks, each in its condition', { timeout: seconds(300) }, async () => {
   const plan = { model: path.join(folder.path, 'plan.json') };
   const editor = await Editor.start(plan, ['--study', results()]);
   const page = await openPage(browser, editor);
@@ -87,7 +87,7 @@ test('a participant does three tasks, each in its condition', { timeout: 300_000
   assert.deepEqual([rows[1].answer_1, rows[7].answer_1], ['', '4']);
 });
 
-test('the next participant has the next number, and other conditions first', { timeout: 300_000 }, async () => {
+test('the next participant has the next number, and other conditions first', { timeout: seconds(300) }, async () => {
   const editor = await Editor.start({ model: path.join(folder.path, 'plan.json') }, ['--study', results()]);
   const page = await openPage(browser, editor);
   await page.click('#study-dialog button.primary');
@@ -98,7 +98,7 @@ test('the next participant has the next number, and other conditions first', { t
   assert.deepEqual([rows.at(-1).participant, rows.at(-1).event], ['2', 'begin'], 'a killed program loses nothing that was written');
 });
 
-test('plans and results that are none are refused before a page opens', { timeout: 120_000 }, async () => {
+test('plans and results that are none are refused before a page opens', { timeout: seconds(120) }, async () => {
   const plan = path.join(folder.path, 'bad.json');
   fs.writeFileSync(plan, '{"format": "stackabilize study", "version": 1, "tasks": [{"name": "x", "model": "nothing.obj", "target": 0.5}]}');
   await assert.rejects(Editor.start({ model: plan }, ['--study', results()]), /nothing\.obj/);

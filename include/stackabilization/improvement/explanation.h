@@ -69,7 +69,7 @@ struct GroupChange {
 
 /// A change of an object as a person describes it.
 struct Explanation {
-  std::vector<GroupChange> groups;  ///< edited groups first, then by displacement, largest first
+  std::vector<GroupChange> groups;  ///< by displacement, largest first
   double diagonal = 0;              ///< of the object at rest, model units
   double height = 0;                ///< of the object at rest along `up`, model units
   Unit unit = Unit::unknown;        ///< of the object at rest
@@ -87,7 +87,8 @@ struct ExplanationOptions {
 ///
 /// Parts are in one group if they are symmetric or have one noun, and changed alike. A part is left out if no
 /// point of it moved by tolerance::explanation::visible of the diagonal. A change is left out if it moves no
-/// surface so far; ratios count from tolerance::explanation::ratio on also where they move less.
+/// surface so far; ratios count from tolerance::explanation::ratio on also where they move less. Beside a
+/// change of the object that is seen seven times better, a part has only the change that is seen best.
 ///
 /// The place of a part is that of its point that moves least, so a part that only leans or grows from a fixed
 /// end is neither moved nor raised. Displacements are relative to the ground and, in level directions, to the

@@ -31,8 +31,9 @@ constexpr double settled_remainder = 0.1, largest_remainder = 10;
 /// Parts of real objects are symmetric to planes that miss those of the whole by a little.
 constexpr double taper_symmetry = 0.002;
 
-/// Largest way of the middle of a part across its move when it gives way, fraction of the move. What would
-/// have to go farther is moved together with its neighbours.
+/// Farthest that a control point of a part goes across its move when the part gives way, fraction of the
+/// move. What would have to go farther, as along members that the move hardly crosses, is moved together with
+/// its neighbours.
 constexpr double farthest_aside = 0.5;
 
 bool changes_nothing(const PartEdit& edit) {
@@ -157,9 +158,9 @@ class EditSolution {
     state_ = solve_relations(rig_, corrections, constraints, std::move(state_));
     const Points moved = control_points(rig_.space.primitive(edit_.part, state_.controls[at(class_)])) -
                          control_points(task_.now[at(edit_.part)]);
-    const Eigen::Vector3d middle = moved.colwise().mean();
+    const double aside = (moved.rowwise() - by.transpose()).rowwise().norm().maxCoeff();
     const bool closed = largest_gap(rig_, constraints, state_) <= tolerance::relation * diagonal(),
-               near = (middle - by).norm() <= farthest_aside * by.norm();
+               near = aside <= farthest_aside * by.norm();
     if (closed && near && remains_at_most(settled_remainder, current_vertices())) return true;
     state_ = prescribed;
     return false;

@@ -32,8 +32,11 @@ HollowBoxAtRest::HollowBoxAtRest(const Cuboid& rest)
     half_extents_(axis) = edge.norm() / 2;
     axes_.col(axis) = edge.normalized();
   }
-  const Eigen::Matrix<double, 8, 3> corners = rest.corners.rowwise() - centre_.transpose();
-  gradient_ = corners * (corners.transpose() * corners).inverse();
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3d signs((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1,
+                                (corner & 4) != 0 ? 1 : -1);
+    gradient_.row(corner) = (axes_ * signs.cwiseQuotient(8 * half_extents_)).transpose();
+  }
 }
 
 std::vector<HollowBoxBinding> HollowBoxAtRest::bind(const Points& points) const {

@@ -16,6 +16,8 @@ namespace {
 
 /// Ratio of length to width of a member, and of width to thickness of a plate, at least.
 constexpr double slender = 3;
+/// Ratio of length to radius between those of discs, below 1, and those of members, from 6 on.
+constexpr double disc_to_member = 2.5;
 /// A joint is at the rim or the end beyond this fraction of the way from the centre.
 constexpr double rim = 0.97;
 
@@ -31,8 +33,8 @@ std::vector<int> sliding_axes(const OrientedBox& box) {
   return {};
 }
 
-/// Returns the straight members among generalized cylinders, such as round legs: at least `slender` times as
-/// long as wide.
+/// Returns whether a cylinder is a straight member, such as a round leg: at least `slender` times as long as
+/// wide.
 bool is_member(const GeneralizedCylinder& cylinder) {
   return is_straight(cylinder) && chord_of(cylinder).norm() >= slender * 2 * cylinder.radii.maxCoeff();
 }
@@ -41,9 +43,9 @@ bool is_disc(const GeneralizedCylinder& cylinder) {
   return !cylinder.closed && chord_of(cylinder).norm() < cylinder.radii.mean();
 }
 
-/// Returns which of both kinds a carrier was at rest: edits change its proportions, but not that much.
-bool is_rather_member(const GeneralizedCylinder& carrier) {
-  return chord_of(carrier).norm() > 2.5 * carrier.radii.mean();
+/// Returns whether a carrier was a member at rest, not a disc: edits change proportions less than that.
+bool was_member(const GeneralizedCylinder& carrier) {
+  return chord_of(carrier).norm() > disc_to_member * carrier.radii.mean();
 }
 
 /// Returns the distance of a point from the middle of a member along it, model units.
@@ -102,7 +104,7 @@ void let_joints_slide(Structure& structure) {
 
 double distance_beyond(const Primitive& carrier, const Eigen::Vector3d& point) {
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
-    const double beyond = is_rather_member(*cylinder)
+    const double beyond = was_member(*cylinder)
                               ? distance_from_middle(*cylinder, point) - chord_of(*cylinder).norm() / 2
                               : distance_from_axis(*cylinder, point) - cylinder->radii.maxCoeff();
     return std::max(0.0, beyond);
@@ -121,7 +123,7 @@ Eigen::Matrix3d held_directions(const Primitive& carrier) {
     if (cylinder->closed) return all;
     const Eigen::Vector3d axis = chord_of(*cylinder).stableNormalized();
     const Eigen::Matrix3d along = axis * axis.transpose();
-    return is_rather_member(*cylinder) ? Eigen::Matrix3d(all - along) : along;
+    return was_member(*cylinder) ? Eigen::Matrix3d(all - along) : along;
   }
   const auto& corners = std::get<Cuboid>(carrier).corners;
   Eigen::Matrix3d edges = Eigen::Matrix3d::Zero();

@@ -117,19 +117,28 @@ std::string study_heading() {
 std::string study_row(const StudyEntry& entry, const QualityLimits& limits) {
   const Distortion& distortion = entry.energy.distortion;
   const auto [limit, share] = nearest_limit(entry.assessment, limits);
-  std::string row = std::to_string(entry.participant) + "," + std::to_string(entry.turn) + "," +
-                    field(entry.task) + "," + name_of(entry.condition) + "," +
-                    shortest_text(std::round(10 * entry.seconds) / 10) + "," + entry.event + "," +
-                    field(entry.edit);
-  for (const double value : {entry.target, entry.assessment.measured.value})
-    row += "," + shortest_text(value);
-  row += reaches_target(entry.assessment) ? ",true" : ",false";
-  for (const double value :
-       {distortion.volume, distortion.proximity, distortion.box, distortion.symmetry, entry.change})
-    row += "," + shortest_text(value);
-  row += "," + std::to_string(entry.edits) + "," + limit + "," + shortest_text(share);
-  for (const int answer : entry.answers) row += answer == 0 ? "," : "," + std::to_string(answer);
-  return row + "\n";
+  std::vector<std::string> row = {std::to_string(entry.participant),
+                                  std::to_string(entry.turn),
+                                  field(entry.task),
+                                  name_of(entry.condition),
+                                  shortest_text(std::round(10 * entry.seconds) / 10),
+                                  entry.event,
+                                  field(entry.edit),
+                                  shortest_text(entry.target),
+                                  shortest_text(entry.assessment.measured.value),
+                                  reaches_target(entry.assessment) ? "true" : "false",
+                                  shortest_text(distortion.volume),
+                                  shortest_text(distortion.proximity),
+                                  shortest_text(distortion.box),
+                                  shortest_text(distortion.symmetry),
+                                  shortest_text(entry.change),
+                                  std::to_string(entry.edits),
+                                  limit,
+                                  shortest_text(share)};
+  for (const int answer : entry.answers) row.push_back(answer == 0 ? "" : std::to_string(answer));
+  std::string line;
+  for (const std::string& value : row) line.append(line.empty() ? "" : ",").append(value);
+  return line.append("\n");
 }
 
 int last_participant(std::string_view csv, const std::string& name) {

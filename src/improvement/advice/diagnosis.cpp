@@ -439,9 +439,13 @@ std::string describe(const Remedy& remedy, const Structure& rest) {
 }
 
 std::string text(const Diagnosis& diagnosis, const Structure& rest) {
-  std::string text = "S = " + number(diagnosis.target) + " was not reached; the best is S = " +
-                     number_unlike(diagnosis.reached, diagnosis.target) + " " +
+  const double best = diagnosis.better ? diagnosis.better->measured.value : diagnosis.reached;
+  std::string text = "S = " + number(diagnosis.target) +
+                     " was not reached; the best is S = " + number_unlike(best, diagnosis.target) + " " +
                      direction_text(diagnosis.direction) + ".\n";
+  if (diagnosis.better)
+    text += "Without its last edit it has S = " + number_unlike(diagnosis.reached, diagnosis.target) +
+            ", and this holds it:\n";
   if (diagnosis.closed) text += describe(*diagnosis.closed, rest) + "\n";
   for (const Blocker& blocker : diagnosis.blockers) text += describe(blocker, rest) + "\n";
   if (!diagnosis.constraints.empty()) text += "What stood against edits most often:\n";

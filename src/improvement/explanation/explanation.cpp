@@ -80,13 +80,14 @@ class ChangeDescription {
     if (parts_.size() > 1 && changed_as_a_whole()) return std::move(result_);
     for (const PartAtRest& part : parts_)
       changes_.push_back(part.form.fit ? part_changes(part, rest_.shape, now_, frame_) : PartChanges{});
+    leave_out_minor(changes_);
     find_classes();
     find_groups();
     fold_followers();
     for (std::size_t k = 0; k < groups_.size(); ++k)
       if (!folded_[k]) result_.groups.push_back(described(groups_[k]));
     std::stable_sort(result_.groups.begin(), result_.groups.end(), [](const auto& a, const auto& b) {
-      return std::pair(!a.edited, -a.displacement) < std::pair(!b.edited, -b.displacement);
+      return std::pair(-a.displacement, !a.edited) < std::pair(-b.displacement, !b.edited);
     });
     return std::move(result_);
   }
@@ -144,7 +145,9 @@ class ChangeDescription {
     whole.low.setZero();
     whole.high.setZero();
     whole.triangles = std::move(all);
-    PartChanges changes = part_changes(whole, rest_.shape, now_, frame_);
+    std::vector<PartChanges> measured = {part_changes(whole, rest_.shape, now_, frame_)};
+    leave_out_minor(measured);
+    const PartChanges& changes = measured.front();
     if (changes.displacement < frame_.visible()) return true;
     for (const std::int32_t t : whole.triangles)
       for (int k = 0; k < 3; ++k)

@@ -142,8 +142,12 @@ std::string describe(const FormChange& change, const Explanation& explanation, b
 
 std::string describe(const GroupChange& group, const Explanation& explanation) {
   std::string text = group.name;
+  const auto is_width = [](const FormChange& change) { return change.kind == Kind::width; };
+  const bool two_widths = std::count_if(group.changes.begin(), group.changes.end(), is_width) > 1;
+  std::size_t widths = 0;
   for (std::size_t k = 0; k < group.changes.size(); ++k) {
-    const std::string change = describe(group.changes[k], explanation, group.plural);
+    std::string change = describe(group.changes[k], explanation, group.plural);
+    if (two_widths && is_width(group.changes[k])) change += widths++ == 0 ? " one way" : " the other way";
     const bool apart = !end_of(group.changes[k].kind, group.plural).empty() ||
                        (ends_in_a_number(group.name) && is_digit(change.front()));
     text += (k > 0 ? ", " : apart ? ": " : " ") + change;

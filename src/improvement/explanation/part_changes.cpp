@@ -40,8 +40,8 @@ constexpr double stout_length = 6;
 constexpr double open_share = 0.6, rim_share = 0.1;
 /// Departure from a chord or an affine image from which on a part is deformed, in visible displacements.
 constexpr double deformed = 5;
-/// A change is left out beside one that a person sees so much better, as a ratio of multiples of what is
-/// seen.
+/// A change is left out beside one of the object that a person sees so much better, as a ratio of multiples
+/// of what is seen.
 constexpr double minor = 0.15;
 /// Pieces of the surface of a part: enough for a vessel of many triangles.
 constexpr std::size_t max_pieces = 40000;
@@ -76,12 +76,6 @@ class PartMeasurement {
       measure_member();
     else
       measure_body();
-    double telling = 0;
-    for (const SeenChange& one : result_.changes)
-      telling = std::max(telling, std::abs(one.change.amount) / one.least);
-    std::erase_if(result_.changes, [&](const SeenChange& one) {
-      return std::abs(one.change.amount) / one.least < minor * telling;
-    });
     std::stable_sort(result_.changes.begin(), result_.changes.end(),
                      [](const auto& a, const auto& b) { return a.change.kind < b.change.kind; });
     return std::move(result_);
@@ -334,6 +328,21 @@ class PartMeasurement {
 };
 
 }  // namespace
+
+double PartChanges::max_seen() const {
+  double most = 0;
+  for (const SeenChange& one : changes) most = std::max(most, one.seen());
+  return most;
+}
+
+void leave_out_minor(std::vector<PartChanges>& parts) {
+  double most = 0;
+  for (const PartChanges& part : parts) most = std::max(most, part.max_seen());
+  for (PartChanges& part : parts)
+    std::erase_if(part.changes, [least = std::min(part.max_seen(), minor * most)](const SeenChange& one) {
+      return one.seen() < least;
+    });
+}
 
 double ObjectFrame::visible() const {
   return limit::visible * diagonal;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct ObjectFrame {
 struct SeenChange {
   FormChange change;
   double least = 0;
+
+  /// Returns how well a person sees the change, as a multiple of what is named.
+  double seen() const { return std::abs(change.amount) / least; }
 };
 
 /// A part at rest: its form, and its box along its main axes.
@@ -45,11 +49,18 @@ struct PartChanges {
   std::vector<SeenChange> changes;  ///< in the order of FormChangeKind
   AffineMap map;                    ///< of the part, less the displacement of the whole
   double displacement = 0;          ///< largest displacement of a corner, model units
+
+  /// Returns how well a person sees the change that is seen best; 0 without changes.
+  double max_seen() const;
 };
 
 /// Measures the change of a part with a fit.
 PartChanges part_changes(const PartAtRest& part, const Shape& rest, const Shape& now,
                          const ObjectFrame& frame);
+
+/// Leaves out what a person hardly sees beside another change of the object, but for the change of each part
+/// that is seen best.
+void leave_out_minor(std::vector<PartChanges>& parts);
 
 /// Returns what a person calls a part by its form: "upright", "bar", "panel", "board" or "part".
 std::string form_noun(const PartAtRest& part, const ObjectFrame& frame);

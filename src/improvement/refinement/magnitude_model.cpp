@@ -211,8 +211,12 @@ void MagnitudeModel::add(Cut cut) {
 
 MagnitudeModel::Step MagnitudeModel::step(const Magnitudes& lowest, const Magnitudes& highest) const {
   const Eigen::VectorXd centre = vector_of(centre_);
-  const Eigen::VectorXd low = (vector_of(lowest) - centre).cwiseMin(0),
-                        high = (vector_of(highest) - centre).cwiseMax(0);
+  Eigen::VectorXd low = (vector_of(lowest) - centre).cwiseMin(0),
+                  high = (vector_of(highest) - centre).cwiseMax(0);
+  for (std::size_t k = 0; k < slopes_.refused_below.size(); ++k)
+    if (slopes_.refused_below[k]) low(static_cast<Eigen::Index>(k)) = 0;
+  for (std::size_t k = 0; k < slopes_.refused_above.size(); ++k)
+    if (slopes_.refused_above[k]) high(static_cast<Eigen::Index>(k)) = 0;
   const Programme programme(*this);
   const QuadraticMinimum minimum = programme.step(low, high);
   const Eigen::VectorXd by = minimum.x.head(centre.size());

@@ -39,7 +39,8 @@ class MagnitudeModel {
     /// are relaxed.
     Eigen::VectorXd reduced_costs;
   };
-  /// Returns the step to the minimum of the model within the bounds `lowest` and `highest`.
+  /// Returns the step to the minimum of the model within the bounds `lowest` and `highest`. A magnitude does
+  /// not go where its neighbour of the centre could not be made.
   Step step(const Magnitudes& lowest, const Magnitudes& highest) const;
 
  private:

@@ -225,21 +225,32 @@ MagnitudeSlopes MagnitudeProblem::slopes(const Magnitudes& x) {
     return {Eigen::MatrixXd::Zero(at(x).changes.size(), columns),
             Eigen::MatrixXd::Zero(at(x).violations.size(), columns),
             {},
-            std::vector<bool>(size())};
+            std::vector<bool>(size()),
+            {},
+            {}};
   }
+  std::vector<bool> above(size()), below(size());
   std::vector<std::size_t> refused;
   std::vector<Magnitudes> others;
   for (std::size_t k = 0; k < size(); ++k) {
     if (made[k + 1].sample.made) continue;
+    (steps[k] > 0 ? above : below)[k] = true;
     refused.push_back(k);
     steps[k] = -steps[k];
     others.push_back(neighbour(k, steps[k]));
   }
   std::vector<Measured> instead = measured(others, {});
-  for (std::size_t i = 0; i < refused.size(); ++i) made[refused[i] + 1] = std::move(instead[i]);
+  for (std::size_t i = 0; i < refused.size(); ++i) {
+    const std::size_t k = refused[i];
+    made[k + 1] = std::move(instead[i]);
+    if (!made[k + 1].sample.made) (steps[k] > 0 ? above : below)[k] = true;
+  }
   for (std::size_t k = 0; k <= size(); ++k)
     remember(k == 0 ? x : neighbour(k - 1, steps[k - 1]), made[k].sample);
-  return differences(made, steps);
+  MagnitudeSlopes result = differences(made, steps);
+  result.refused_above = std::move(above);
+  result.refused_below = std::move(below);
+  return result;
 }
 
 MagnitudeSlopes MagnitudeProblem::differences(const std::vector<Measured>& made,
@@ -249,7 +260,9 @@ MagnitudeSlopes MagnitudeProblem::differences(const std::vector<Measured>& made,
   MagnitudeSlopes result{Eigen::MatrixXd::Zero(base.changes.size(), columns),
                          Eigen::MatrixXd::Zero(base.violations.size(), columns),
                          {},
-                         std::vector<bool>(steps.size())};
+                         std::vector<bool>(steps.size()),
+                         {},
+                         {}};
   Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(made.front().moved.size(), columns + 1);
   moved.col(0) = made.front().moved.reshaped();
   for (std::size_t k = 0; k < steps.size(); ++k) {

@@ -39,6 +39,8 @@ struct MagnitudeSlopes {
   /// Model of the displacement: its square after a step y is about (1 y) gram (1 y)^T. Empty if not measured.
   Eigen::MatrixXd gram;
   std::vector<bool> made;  ///< per magnitude, whether a neighbour could be made
+  /// Per magnitude, whether the neighbour above, or below, could not be made. Empty: none is known.
+  std::vector<bool> refused_above, refused_below;
 };
 
 /// Optimisation problem over the magnitudes of given edits, along one direction. Remembers its measurements.

@@ -24,9 +24,14 @@ constexpr int max_rounds = 4;
 constexpr double pricing_radius = 0.1;
 constexpr double min_reduced_cost = 0.01;
 constexpr double min_gain = 0.01;
+/// The same for rounds that add edits in order to reach the target: their number, and the least fraction of
+/// what S lacks that a round has to gain.
+constexpr int max_reaching_rounds = 8;
+constexpr double min_reached = 0.02;
 /// Designs measured to make up for one edit that is dropped. Where as few edits as this are left, one that
-/// cannot be dropped ends the dropping.
+/// cannot be dropped ends the dropping; so do as many edits made as this, all designs measured together.
 constexpr int evaluations_per_drop = 80;
+constexpr std::int64_t max_edits_made = 40000;
 constexpr std::size_t max_edits_to_drop = 6;
 /// An edit moves the surface in a new way if at least this share of its squared displacement is none that the
 /// others can make.
@@ -58,12 +63,12 @@ class MagnitudeRefiner {
                  {options.evaluations, options.magnitude_bound, options.objective, options.cancelled}) {}
 
   /// Returns the added edits of largest reduced cost at the start, at most `most`.
-  std::vector<MagnitudeEdit> promising(std::size_t most) {
+  std::vector<MagnitudeEdit> promising(MagnitudeGoal goal, std::size_t most) {
     const Magnitudes x = found();
     if (x.empty() || !problem_.at(x).made) return {};
     problem_.constrain_pairs(x);
     const MagnitudeSlopes slopes = problem_.slopes(x);
-    const MagnitudeModel model(MagnitudeGoal::min_change, x, problem_.at(x), slopes);
+    const MagnitudeModel model(goal, x, problem_.at(x), slopes);
     Magnitudes low = x, high = x;
     for (double& magnitude : low) magnitude -= pricing_radius;
     for (double& magnitude : high) magnitude += pricing_radius;
@@ -212,11 +217,11 @@ std::vector<MagnitudeEdit> every_edit(const RequirementChecker& checker, const C
   return possible_edits(given, checker.space(), Direction(candidate.direction), options.family);
 }
 
-Offer offered(const RequirementChecker& checker, const Candidate& candidate,
-              const RefinementOptions& options) {
+Offer offered(const RequirementChecker& checker, const Candidate& candidate, const RefinementOptions& options,
+              MagnitudeGoal goal) {
   MagnitudeRefiner all(checker, candidate, options, every_edit(checker, candidate, options));
   Offer offer;
-  offer.edits = all.promising(static_cast<std::size_t>(options.max_added_edits));
+  offer.edits = all.promising(goal, static_cast<std::size_t>(options.max_added_edits));
   offer.evaluations = all.evaluations();
   return offer;
 }
@@ -250,16 +255,18 @@ void drop_singly(const RequirementChecker& checker, const RefinementOptions& opt
   const Shape& rest = checker.space().rest().shape;
   RefinementOptions one = options;
   one.evaluations = evaluations_per_drop;
+  std::int64_t made = 0;
   for (bool dropped = true; dropped;) {
     dropped = false;
     for (auto& [k, design] : by_effect(checker, result.candidate)) {
-      if (options.cancelled && options.cancelled()) return;
+      if (made >= max_edits_made || (options.cancelled && options.cancelled())) return;
       Candidate fewer = result.candidate;
       fewer.design = std::move(design);
       if (k < fewer.reasons.size())
         fewer.reasons.erase(fewer.reasons.begin() + static_cast<std::ptrdiff_t>(k));
       RefinementResult next = MagnitudeRefiner(checker, fewer, one).result();
       result.evaluations += next.evaluations;
+      made += next.evaluations * static_cast<std::int64_t>(fewer.design.edits.size());
       const double allowed = size_of(options.objective, result.candidate, rest) * (1 + options.edit_price);
       if (!next.reached || size_of(options.objective, next.candidate, rest) > allowed) {
         if (result.candidate.design.edits.size() <= max_edits_to_drop) break;
@@ -290,16 +297,26 @@ RefinementResult refine_candidate(const RequirementChecker& checker, const Candi
     left.evaluations -= result.evaluations;
     return left;
   };
-  const auto goes_on = [&] {
-    return result.reached && options_left().evaluations >= min_refinement_evaluations &&
+  const auto can_go_on = [&] {
+    return options_left().evaluations >= min_refinement_evaluations &&
            !(options.cancelled && options.cancelled());
   };
+  const auto goes_on = [&] { return result.reached && can_go_on(); };
+  const auto tries_on = [&] { return !result.reached && can_go_on(); };
   const auto take = [&](RefinementResult next) {
     next.evaluations += result.evaluations;
     result = std::move(next);
   };
-  if (!result.reached && options.reach_with_added && options_left().evaluations >= min_refinement_evaluations)
-    take(MagnitudeRefiner(checker, start, options_left(), every_edit(checker, start, options)).result());
+  const double target = checker.requirements().target;
+  const auto lacking = [&] { return target - result.candidate.measured.value; };
+  for (int round = 0; options.reach_with_added && round < max_reaching_rounds && tries_on(); ++round) {
+    const double before = lacking();
+    const Offer offer = offered(checker, result.candidate, options_left(), MagnitudeGoal::feasible);
+    result.evaluations += offer.evaluations;
+    if (offer.edits.empty() || !tries_on()) break;
+    take(MagnitudeRefiner(checker, result.candidate, options_left(), offer.edits).result());
+    if (!(lacking() < before * (1 - min_reached))) break;
+  }
   std::size_t edits = start.design.edits.size();
   for (int restart = 0; restart < max_restarts && goes_on(); ++restart) {
     if (result.candidate.design.edits.size() >= edits) break;
@@ -309,7 +326,7 @@ RefinementResult refine_candidate(const RequirementChecker& checker, const Candi
   const Shape& rest = checker.space().rest().shape;
   for (int round = 0; options.max_added_edits > 0 && round < max_rounds && goes_on(); ++round) {
     const double before = size_of(options.objective, result.candidate, rest);
-    const Offer offer = offered(checker, result.candidate, options_left());
+    const Offer offer = offered(checker, result.candidate, options_left(), MagnitudeGoal::min_change);
     result.evaluations += offer.evaluations;
     if (offer.edits.empty() || !goes_on()) break;
     take(MagnitudeRefiner(checker, result.candidate, options_left(), offer.edits).result());

@@ -71,15 +71,15 @@ bool has_corners(const Primitive& primitive, const MemberRule& rule) {
 
 /// Joins neighbouring pieces whose border is nowhere concave, or hardly.
 Pieces without_smooth_borders(const SurfaceGraph& graph, const Pieces& pieces, double min_concave) {
-  struct Border {
+  struct Concavity {
     double length = 0, concave = 0;
   };
-  std::map<std::pair<std::int32_t, std::int32_t>, Border> borders;
+  std::map<std::pair<std::int32_t, std::int32_t>, Concavity> borders;
   for (const SurfaceLink& link : graph.links) {
     const auto [a, b] =
         std::minmax(pieces[static_cast<std::size_t>(link.a)], pieces[static_cast<std::size_t>(link.b)]);
     if (a == b) continue;
-    Border& border = borders[{a, b}];
+    Concavity& border = borders[{a, b}];
     border.length += link.length;
     border.concave += link.length * concavity(link);
   }

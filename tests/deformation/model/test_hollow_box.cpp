@@ -90,20 +90,23 @@ TEST_CASE("Walls of crates keep their thickness in smooth designs, and scale in 
   }
 }
 
-TEST_CASE("Points of a hollow box move rigidly with it", "[hollow]") {
-  const Cuboid box = hollow_box();
+TEST_CASE("Points of a hollow box of any size move rigidly with it", "[hollow]") {
+  const double size = GENERATE(1.0, 1e-120, 1e120);
+  Cuboid box = hollow_box();
+  box.corners *= size;
   const HollowBoxAtRest rest(box);
-  const Points points = Points::Random(60, 3) * 4;
+  const Points points = Points::Random(60, 3) * 4 * size;
   const std::vector<HollowBoxBinding> bindings = rest.bind(points);
   const Eigen::Matrix3d turn =
       Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, -0.5).normalized()).toRotationMatrix();
-  const Eigen::RowVector3d shift(3, -2, 5);
+  const Eigen::RowVector3d shift = size * Eigen::RowVector3d(3, -2, 5);
   Cuboid now = box;
   now.corners = (box.corners * turn.transpose()).rowwise() + shift;
   const HollowBoxMotion motion = rest.motion(now);
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const Eigen::Vector3d expected = turn * points.row(i).transpose() + shift.transpose();
-    CHECK((rest.position_of(bindings[static_cast<std::size_t>(i)], motion) - expected).norm() < 1e-12);
+    const Eigen::Vector3d found = rest.position_of(bindings[static_cast<std::size_t>(i)], motion);
+    CHECK((found - expected).cwiseAbs().maxCoeff() < 1e-12 * size);
   }
 }
 

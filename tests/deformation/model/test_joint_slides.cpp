@@ -125,6 +125,25 @@ TEST_CASE("A rung that moves up between legs that lean gets shorter, and the leg
   CHECK(control_points(aside.design.primitives[static_cast<std::size_t>(rung)])(4, 1) == Approx(0.5));
 }
 
+TEST_CASE("A rung that would have to tilt far to give way moves as it is, and the legs come along",
+          "[joints]") {
+  StructuredShape trestle = structures::trestle();
+  std::erase_if(trestle.structure.relations, [](const Relation& relation) {
+    return relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry;
+  });
+  const int rung = structures::part_named(trestle, "rung");
+  const ControllerModel smooth(trestle, {}, Following::smooth);
+  // To stay on the axes of the legs, one end would go up and the other down by five times the move.
+  const DeformationResult aside =
+      smooth.edited(smooth.at_rest(), {{HandleKind::part, rung, 0}, Move{{0.1, 0, 0}}});
+  REQUIRE_FALSE(aside.refusal);
+  const Points before = control_points(trestle.structure.parts[static_cast<std::size_t>(rung)].primitive),
+               after = control_points(aside.design.primitives[static_cast<std::size_t>(rung)]);
+  for (Eigen::Index i = 0; i < before.rows(); ++i)
+    CHECK((after.row(i) - before.row(i) - Eigen::RowVector3d(0.1, 0, 0)).norm() < 1e-12);
+  for (const double residual : smooth.relation_residuals(aside.design)) CHECK(residual <= 1e-6);
+}
+
 TEST_CASE("Joints that slide hold after an edit", "[joints]") {
   const StructuredShape table = structures::table();
   const int leg = structures::part_named(table, "leg_1");

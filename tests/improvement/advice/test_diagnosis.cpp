@@ -100,6 +100,18 @@ TEST_CASE("what came very near to the target is told from it") {
                  "S = 0.400 was not reached; the best is S = 0.3999 along z."));
 }
 
+TEST_CASE("where one more edit gave a better design, that is the best") {
+  Diagnosis diagnosis;
+  diagnosis.target = 0.6;
+  diagnosis.reached = 0.52;
+  diagnosis.better.emplace();
+  diagnosis.better->measured.value = 0.55;
+  const std::string words = text(diagnosis, structures::table().structure);
+  CHECK(mentions(words,
+                 "S = 0.600 was not reached; the best is S = 0.550 along z.\n"
+                 "Without its last edit it has S = 0.520, and this holds it:\n"));
+}
+
 TEST_CASE("every outcome of the edits against a blocker, and every remedy, has its words") {
   const Structure table = structures::table().structure;
   const Refusal refusal{.cause = RefusalCause::fixed_part,

@@ -277,6 +277,27 @@ TEST_CASE("Changes beyond the number of lines are summed up", "[explanation]") {
                                  "and 3 more parts by less than 3 % of the height"});
 }
 
+TEST_CASE("A change that is hardly seen beside another one of the object is not named", "[explanation]") {
+  const StructuredShape rest = structures::table(2);
+  const Shape raised = with_parts_mapped(rest.shape, "bar_1", moved({0.02, 0, 0.05}));
+  CHECK(lines_of(rest, raised).front().starts_with("bar 1 higher by"));
+  CHECK(lines_of(rest, raised).front().find("to the side") != std::string::npos);
+  const Lines beside =
+      lines_of(rest, with_parts_mapped(leaned_legs(rest, 5), "bar_1", moved({0.02, 0, 0.05})));
+  REQUIRE(beside.size() == 2);
+  CHECK(beside[0] == "4 legs lean outwards by 5 degrees");
+  CHECK(beside[1].starts_with("bar 1 higher by"));
+  CHECK(beside[1].find("to the side") == std::string::npos);
+}
+
+TEST_CASE("What gets wider one way and narrower the other way says so", "[explanation]") {
+  const StructuredShape rest = structures::box_alone({9, 8, 5});
+  const Lines found = lines_of(rest, mapped(rest.shape, scaled({1.05, 0.96, 1})));
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].find("5 % wider one way") != std::string::npos);
+  CHECK(found[0].find("4 % narrower the other way") != std::string::npos);
+}
+
 TEST_CASE("A part that no affine map describes changes its form", "[explanation]") {
   const StructuredShape rest = structures::box_alone({12, 8, 1});
   const Shape folded = mapped(rest.shape, [](const Eigen::Vector3d& p) {

@@ -33,7 +33,7 @@ struct Problem {
     result.violations = constraints.at(x);
     return result;
   }
-  MagnitudeSlopes slopes() const { return {changes.slope, constraints.slope, {}, {}}; }
+  MagnitudeSlopes slopes() const { return {changes.slope, constraints.slope, {}, {}, {}, {}}; }
 
   MagnitudeModel model(MagnitudeGoal goal, const Magnitudes& centre) const {
     return {goal, centre, sample(centre), slopes()};
@@ -65,7 +65,7 @@ struct Curve {
     return result;
   }
   MagnitudeSlopes slopes(double x) const {
-    return {Eigen::MatrixXd::Ones(1, 1), Eigen::MatrixXd::Constant(1, 1, slope(x)), {}, {}};
+    return {Eigen::MatrixXd::Ones(1, 1), Eigen::MatrixXd::Constant(1, 1, slope(x)), {}, {}, {}, {}};
   }
 };
 
@@ -176,6 +176,22 @@ TEST_CASE("where feasibility is the goal the largest violation is made least") {
   const MagnitudeModel::Step step = model.step(all(-3, 1), all(3, 1));
   CHECK(step.to[0] == Approx(0.7).margin(1e-6));
   CHECK(step.predicted_decrease == Approx(0.9 - 0.3).epsilon(1e-6));
+}
+
+TEST_CASE("a magnitude does not go where its neighbour was refused, so that others do") {
+  Problem problem;  // 1 - 2 x - y, both wanted upwards
+  problem.changes = {Eigen::VectorXd::Zero(1), Eigen::MatrixXd::Ones(1, 2)};
+  problem.constraints = {Eigen::VectorXd::Constant(1, 1), Eigen::RowVector2d(-2, -1)};
+  const MagnitudeSample base = problem.sample({0, 0});
+  for (const bool above : {true, false}) {
+    MagnitudeSlopes slopes = problem.slopes();
+    (above ? slopes.refused_above : slopes.refused_below) = {true, false};
+    const MagnitudeModel model(MagnitudeGoal::feasible, {0, 0}, base, slopes);
+    const MagnitudeModel::Step step = model.step(all(-1), all(1));
+    CHECK(step.to[0] == Approx(above ? 0 : 1).margin(1e-6));
+    CHECK(step.to[1] == Approx(1).margin(1e-6));
+    CHECK(step.predicted_decrease == Approx(above ? 1 : 3).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("a cut from a rejected point makes the kink known between it and the centre") {

@@ -382,6 +382,22 @@ TEST_CASE("a target out of reach gives the largest S, and says so") {
   CHECK(result.candidate.measured.value == Approx(1 - Cups::wall / (1 - limit)).epsilon(0.01));
 }
 
+TEST_CASE("edits that are added reach a target that those given do not") {
+  const BoundedCups cups(limit);
+  const double target = 0.72;  // the bottom alone reaches 1 - wall / (1 - limit) = 2 / 3
+  const RequirementChecker checker(cups, stacks(target));
+  const Candidate start = cups.candidate(checker, {scale(0, 0.8)});
+  RefinementOptions options = of_distortion();
+  CHECK_FALSE(refine_candidate(checker, start, options).reached);
+  options.reach_with_added = true;
+  const RefinementResult result = refine_candidate(checker, start, options);
+  check_met(result, target);
+  CHECK(radius(result, 0) >= limit);
+  CHECK(radius(result, 1) > 1);
+  options.max_added_edits = 0;
+  CHECK_FALSE(refine_candidate(checker, start, options).reached);
+}
+
 TEST_CASE("the result is never worse than what was given") {
   const BoundedCups cups;
   const RequirementChecker checker(cups, stacks(0.6));
