@@ -18,8 +18,10 @@ namespace {
 constexpr double slender = 3;
 /// Ratio of length to radius between those of discs, below 1, and those of members, from 6 on.
 constexpr double disc_to_member = 2.5;
-/// A joint is at the rim or the end beyond this fraction of the way from the centre.
-constexpr double rim = 0.97;
+/// A joint is at the rim of a plate, or at the end of a member, beyond this fraction of the way from the
+/// centre. What belongs at an end, such as a castor under an arm of a base, leaves the end bare when it
+/// slides.
+constexpr double rim = 0.97, end_of_member = 0.85;
 
 /// Returns the axes of a box along which joints may slide: one of a member, two of a plate, else none.
 std::vector<int> sliding_axes(const OrientedBox& box) {
@@ -62,9 +64,13 @@ double distance_from_axis(const GeneralizedCylinder& disc, const Eigen::Vector3d
   return (offset - offset.dot(axis) * axis).norm();
 }
 
+std::optional<double> place_within(double place, double limit) {
+  return place < limit ? std::optional(place) : std::nullopt;
+}
+
 /// Returns how far from the centre of the carrier the farthest joint point is, 1 at its rim or end. Nothing
-/// if joints cannot slide on it.
-std::optional<double> place_on(const Primitive& carrier, const Points& points) {
+/// if the joint cannot slide on it.
+std::optional<double> sliding_place_on(const Primitive& carrier, const Points& points) {
   double farthest = 0;
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
     const bool member = is_member(*cylinder);
@@ -75,7 +81,7 @@ std::optional<double> place_on(const Primitive& carrier, const Points& points) {
                                      : distance_from_axis(*cylinder, point.transpose());
       farthest = std::max(farthest, distance / reach);
     }
-    return farthest;
+    return place_within(farthest, member ? end_of_member : rim);
   }
   const OrientedBox box = nearest_box(std::get<Cuboid>(carrier));
   const std::vector<int> axes = sliding_axes(box);
@@ -84,7 +90,7 @@ std::optional<double> place_on(const Primitive& carrier, const Points& points) {
     for (const int axis : axes)
       farthest = std::max(farthest, std::abs((point.transpose() - box.centre).dot(box.axes.col(axis))) /
                                         box.half_extents(axis));
-  return farthest;
+  return place_within(farthest, axes.size() == 1 ? end_of_member : rim);
 }
 
 }  // namespace
@@ -92,9 +98,9 @@ std::optional<double> place_on(const Primitive& carrier, const Points& points) {
 void let_joints_slide(Structure& structure) {
   for (Relation& relation : structure.relations) {
     if (relation.type != RelationType::point_joint && relation.type != RelationType::line_joint) continue;
-    double nearest = rim;
+    double nearest = 1;
     for (const int part : relation.parts) {
-      const auto place = place_on(structure.parts[at(part)].primitive, relation.points);
+      const auto place = sliding_place_on(structure.parts[at(part)].primitive, relation.points);
       if (!place || !(*place < nearest)) continue;
       nearest = *place;
       relation.carrier = part;

@@ -49,6 +49,12 @@ TEST_CASE("Joints slide on plates and along members, but not at rims and ends", 
   const Primitive leg = structures::straight_cylinder({0, 0, 0}, {0, 0, 6}, 0.3, 13);
   CHECK(carrier_of(joined(leg, arm, {0, 0, 3})) == 0);
   CHECK(carrier_of(joined(leg, arm, {0, 0, 5.95})) == -1);
+  // What belongs near the end of a member, round or square, stays there.
+  for (const Primitive& member : {leg, bar}) {
+    CHECK(carrier_of(joined(member, arm, {0, 0, 5.5})) == 0);
+    CHECK(carrier_of(joined(member, arm, {0, 0, 5.6})) == -1);
+    CHECK(carrier_of(joined(member, arm, {0, 0, 0.4})) == -1);
+  }
   CHECK(carrier_of(joined(structures::straight_cylinder({0, 0, 0}, {0, 0, 5.9}, 1, 13), arm, {0, 0, 3})) ==
         -1);
   CHECK(carrier_of(joined(structures::arc_cylinder(3, 0.3, -1, 1, 13), box_of({5, 0, 0}, {4, 0.4, 0.4}),
