@@ -27,7 +27,7 @@ struct RefinementOptions {
   double drop_threshold = 0.02;
   /// Price of an edit: fraction of the change by which it may grow for each edit dropped, >= 0.
   double edit_price = 0;
-  /// Whether all edits that can be added are tried with those given, if these do not reach the target.
+  /// Whether edits are added to reach the target, those that S asks for most first, if those given do not.
   bool reach_with_added = false;
   EditFamily family = EditFamily::extended;  ///< family of the edits added
   std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends with the best so far
