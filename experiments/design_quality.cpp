@@ -80,7 +80,7 @@ void ask(const ModelFile& file, const StructuredShape& model, const std::string&
              static_cast<std::int64_t>(best.design.edits.size()), measure, share,
              remedied ? describe(found.diagnosis->remedies.front(), model.structure) : "", seconds});
   if (reached && !file.authors) {
-    sheet.tiles.push_back({model.shape, {file.name, "at rest"}});
+    sheet.tiles.push_back({model.shape, {file.name, "at rest"}, true});
     sheet.tiles.push_back({best.design.shape, {file.name, "S + " + std::to_string(gain).substr(0, 4)}});
   }
 }

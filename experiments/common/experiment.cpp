@@ -32,7 +32,8 @@ std::string name_of(const std::string& value) {
 #ifdef STACKABILIZATION_WITH_RENDERING
 Drawing drawing_of(const Sheet& sheet) {
   std::vector<DesignTile> tiles;
-  for (const SheetTile& tile : sheet.tiles) tiles.push_back({tile.shape, {}, {}, {}, tile.captions});
+  for (const SheetTile& tile : sheet.tiles)
+    tiles.push_back({tile.shape, {}, {}, {}, tile.captions, tile.at_rest});
   DesignSheetOptions options;
   options.width = 1000;
   options.title = sheet.title;

@@ -11,9 +11,10 @@ namespace stackabilization::experiments {
 struct SheetTile {
   Shape shape;
   std::vector<std::string> captions;  ///< lines below it
+  bool at_rest = false;               ///< whether those that follow come from this design
 };
 
-/// Designs side by side as an experiment states them, the first one that at rest; it becomes a picture where
+/// Designs side by side as an experiment states them, the first one at rest; it becomes a picture where
 /// pictures are built.
 struct Sheet {
   std::string title;

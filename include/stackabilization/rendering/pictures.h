@@ -92,6 +92,7 @@ struct DesignTile {
   std::vector<Handle> handles;          ///< edited handles, drawn red
   std::vector<ContactRegion> contacts;  ///< contact regions along the direction of the sheet, drawn red
   std::vector<std::string> captions;    ///< lines below the design, the first one bold
+  bool at_rest = false;                 ///< whether those that follow come from this design
 };
 
 /// Options of `design_sheet`.
@@ -102,9 +103,10 @@ struct DesignSheetOptions {
   std::vector<std::string> notes;  ///< lines under the heading
 };
 
-/// Draws designs in rows from one viewpoint and in one scale, with `direction` up. The first design is the
-/// current one (yellow), the others are its possible successors (green). Throws UsageError when there is no
-/// tile or no column, and RenderError when there is no OpenGL context.
+/// Draws designs in rows, with `direction` up. The first design, and every other one at rest, is yellow;
+/// those up to the next one at rest come from it (green), and are drawn from one viewpoint and in one scale
+/// with it. Throws UsageError when there is no tile or no column, and RenderError when there is no OpenGL
+/// context.
 Drawing design_sheet(const std::vector<DesignTile>& tiles, const Direction& direction,
                      const DesignSheetOptions& options = {});
 

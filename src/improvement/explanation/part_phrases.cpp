@@ -148,7 +148,8 @@ std::string PartPhrases::distinguished(const std::vector<std::string>& words,
   if (sided) return listed(sides) + " " + (several ? plural_phrase(words) : joined_words(words));
   const std::string counted =
       several ? std::to_string(parts.size()) + " " + plural_phrase(words) : joined_words(words);
-  if (parts.size() > max_listed) return counted;
+  const bool is_name = !several && lower_case(names.front()) == counted;
+  if (parts.size() > max_listed || is_name) return counted;
   std::string text;
   for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
   return counted + " (" + text + ")";

@@ -53,20 +53,23 @@ Drawing design_sheet(const std::vector<DesignTile>& tiles, const Direction& dire
   const double columns = options.columns;
   TileSize tile{(options.width - (columns + 1) * margin) / columns, 0, 0.85 * size, 0};
   tile.picture = picture_aspect * tile.width;
-  std::vector<Scene> scenes;
+  std::vector<Scene> scenes, groups;  // a group: what is seen from one viewpoint
+  std::vector<std::size_t> group_of;  // per tile
   std::vector<std::vector<Points>> lines;
-  Scene all;
   for (const DesignTile& one : tiles) {
-    const Colour& colour = scenes.empty() ? palette::input : palette::output;
-    scenes.push_back(tile_scene(one, colour, direction));
-    all.add(scenes.back());
+    const bool at_rest = scenes.empty() || one.at_rest;
+    if (at_rest) groups.emplace_back();
+    group_of.push_back(groups.size() - 1);
+    scenes.push_back(tile_scene(one, at_rest ? palette::input : palette::output, direction));
+    groups.back().add(scenes.back());
     lines.push_back(detail::lines_of(one.handles, one.shape, one.primitives));
     tile.lines = std::max(tile.lines, static_cast<double>(one.captions.size()));
   }
   ViewOptions view_options;
   view_options.width = static_cast<int>(tile.width);
   view_options.height = static_cast<int>(tile.picture);
-  const View view = fit_view(all, direction, view_options);
+  std::vector<View> views;
+  for (const Scene& group : groups) views.push_back(fit_view(group, direction, view_options));
 
   const std::size_t per_row = static_cast<std::size_t>(options.columns);
   const std::size_t rows = (tiles.size() + per_row - 1) / per_row;
@@ -76,6 +79,7 @@ Drawing design_sheet(const std::vector<DesignTile>& tiles, const Direction& dire
   for (std::size_t k = 0; k < tiles.size(); ++k) {
     const Rectangle place{margin + static_cast<double>(k % per_row) * (tile.width + margin),
                           top + static_cast<double>(k / per_row) * tile.height(), tile.width, tile.picture};
+    const View& view = views[group_of[k]];
     drawing.add(PlacedImage{place, render(scenes[k], view)});
     drawing.add(detail::handle_marks(lines[k], view, place));
     drawing.add(captions(tiles[k].captions, {place.x, place.bottom(), place.width, 0}, tile.text));

@@ -40,6 +40,7 @@ TEST_CASE("Parts without a word are called by their form", "[explanation]") {
 TEST_CASE("A name for a side alone is a noun, and plurals keep their form", "[explanation]") {
   CHECK(phrase({"back", "back_bar"}, {1}) == "back bar");
   CHECK(phrase({"Back", "seat"}, {0}) == "back");
+  CHECK(phrase({"Back", "back_bar"}, {0}) == "back");
   CHECK(phrase({"legs", "top"}, {0}) == "legs");
   CHECK(PartPhrases({"legs", "top"}, {"part", "part"}).phrase({0}).plural);
   CHECK(phrase({"box1", "box2"}, {0, 1}) == "2 boxes");

@@ -257,7 +257,13 @@ TEST_CASE("a sheet shows where a design stands and what it could become, in rows
   CHECK(pixels_of(image, palette::output) > 3.5 * yellow);
   CHECK(pixels_of(image, palette::contact) > 40);
   options.columns = 5;
-  CHECK(design_sheet(tiles, Direction(0, 0, 1), options).height < drawing.height);
+  const Drawing in_a_row = design_sheet(tiles, Direction(0, 0, 1), options);
+  CHECK(in_a_row.height < drawing.height);
+  // Other designs at rest are yellow too; a smaller one is drawn as large, since it has its own scale.
+  tiles[3].at_rest = tiles[4].at_rest = true;
+  tiles[4].shape.vertices *= 0.1;
+  CHECK(pixels_of(rasterize(design_sheet(tiles, Direction(0, 0, 1), options)), palette::input) >
+        2.9 * pixels_of(rasterize(in_a_row), palette::input));
   CHECK_THROWS_AS(design_sheet({}, Direction(0, 0, 1), options), UsageError);
   options.columns = 0;
   CHECK_THROWS_AS(design_sheet(tiles, Direction(0, 0, 1), options), UsageError);
