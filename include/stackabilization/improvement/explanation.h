@@ -87,8 +87,9 @@ struct ExplanationOptions {
 ///
 /// Parts are in one group if they are symmetric or have one noun, and changed alike. A part is left out if no
 /// point of it moved by tolerance::explanation::visible of the diagonal. A change is left out if it moves no
-/// surface so far; ratios count from tolerance::explanation::ratio on also where they move less. Beside a
-/// change of the object that is seen seven times better, a part has only the change that is seen best.
+/// surface so far; ratios count from tolerance::explanation::ratio on also where they move less. A change is
+/// left out too if some change of the object is seen more than seven times better, unless it is the one of its
+/// part that is seen best.
 ///
 /// The place of a part is that of its point that moves least, so a part that only leans or grows from a fixed
 /// end is neither moved nor raised. Displacements are relative to the ground and, in level directions, to the

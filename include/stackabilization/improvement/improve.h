@@ -66,8 +66,8 @@ struct Improvement {
 /// the result has a diagnosis. Guarantees: see gap_descent.h, best_first.h and refinement.h. If the effort
 /// suffices for the paper's search, the refined preset changes the shape by at most as much as the paper's
 /// preset for the same target. With limits of quality there is no search in the paper's steps, and no such
-/// guarantee; without a start that reaches the target, refinement lets edits join that do. The
-/// result is the same for any number of threads and on every machine, unless a deadline ends the run.
+/// guarantee; without a start that reaches the target, refinement adds edits that increase S. The result is
+/// the same for any number of threads and on every machine, unless a deadline ends the run.
 ///
 /// `state`: the last text that an interrupted run of the same task saved. The result then equals that of an
 /// uninterrupted run: the phases before and after the last search are run again, with the same outcome.

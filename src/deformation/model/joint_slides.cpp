@@ -64,6 +64,7 @@ double distance_from_axis(const GeneralizedCylinder& disc, const Eigen::Vector3d
   return (offset - offset.dot(axis) * axis).norm();
 }
 
+/// Returns a place that is nearer to the centre than the limit.
 std::optional<double> place_within(double place, double limit) {
   return place < limit ? std::optional(place) : std::nullopt;
 }

@@ -443,7 +443,7 @@ std::string text(const Diagnosis& diagnosis, const Structure& rest) {
   std::string text = "S = " + number(diagnosis.target) +
                      " was not reached; the best is S = " + number_unlike(best, diagnosis.target) + " " +
                      direction_text(diagnosis.direction) + ".\n";
-  if (diagnosis.better)
+  if (diagnosis.better && !diagnosis.blockers.empty())
     text += "Without its last edit it has S = " + number_unlike(diagnosis.reached, diagnosis.target) +
             ", and this holds it:\n";
   if (diagnosis.closed) text += describe(*diagnosis.closed, rest) + "\n";

@@ -143,7 +143,7 @@ std::string describe(const FormChange& change, const Explanation& explanation, b
 std::string describe(const GroupChange& group, const Explanation& explanation) {
   std::string text = group.name;
   const auto is_width = [](const FormChange& change) { return change.kind == Kind::width; };
-  const bool two_widths = std::count_if(group.changes.begin(), group.changes.end(), is_width) > 1;
+  const bool two_widths = std::count_if(group.changes.begin(), group.changes.end(), is_width) == 2;
   std::size_t widths = 0;
   for (std::size_t k = 0; k < group.changes.size(); ++k) {
     std::string change = describe(group.changes[k], explanation, group.plural);

@@ -42,7 +42,7 @@ constexpr double open_share = 0.6, rim_share = 0.1;
 constexpr double deformed = 5;
 /// A change is left out beside one of the object that a person sees so much better, as a ratio of multiples
 /// of what is seen.
-constexpr double minor = 0.15;
+constexpr double minor = 1.0 / 7;
 /// Pieces of the surface of a part: enough for a vessel of many triangles.
 constexpr std::size_t max_pieces = 40000;
 constexpr int sweeps = 100;

@@ -13,14 +13,13 @@ namespace {
 
 using namespace detail;
 
-/// Edits are added in rounds, few at a time: every variable costs a sample per slope. A round that lessens
-/// the change by less than the fraction min_gain is the last.
-constexpr int max_rounds = 4;
-constexpr double min_gain = 0.01;
-/// The same for rounds that add edits in order to reach the target: their number, and the least fraction of
-/// what S lacks that a round has to gain.
-constexpr int max_reaching_rounds = 8;
-constexpr double min_reached = 0.02;
+/// Edits are added in rounds, few at a time: every variable costs a sample per slope. The last round is the
+/// one that lessens what S lacks, or the change, by less than a fraction of it.
+struct RoundLimits {
+  int rounds;
+  double min_decrease;
+};
+constexpr RoundLimits reaching_rounds = {8, 1.0 / 50}, lessening_rounds = {4, 1.0 / 100};
 /// Designs measured to make up for one edit that is dropped. Where as few edits as this are left, one that
 /// cannot be dropped ends the dropping; so do as many edits made as this, all designs measured together.
 constexpr int evaluations_per_drop = 80;
@@ -71,9 +70,9 @@ class CandidateRefinement {
         result_(MagnitudeRefiner(checker, start, options).result()) {}
 
   RefinementResult run() {
-    if (options_.reach_with_added) reach();
+    if (options_.reach_with_added) add_edits(MagnitudeGoal::feasible, reaching_rounds);
     refine_shorter_lists();
-    if (options_.max_added_edits > 0) lessen_change();
+    if (options_.max_added_edits > 0) add_edits(MagnitudeGoal::min_change, lessening_rounds);
     if (options_.edit_price > 0 && result_.reached) drop_singly();
     return std::move(result_);
   }
@@ -109,14 +108,16 @@ class CandidateRefinement {
     return edits;
   }
 
-  /// Adds the edits that S asks for most, round by round, until the target is reached.
-  void reach() {
-    for (int round = 0; round < max_reaching_rounds && !result_.reached && can_go_on(); ++round) {
-      const double before = lacking();
-      const std::vector<MagnitudeEdit> added = offered(MagnitudeGoal::feasible);
+  /// Adds edits in rounds: to reach the target until it is reached, or else to lessen the change.
+  void add_edits(MagnitudeGoal goal, const RoundLimits& limits) {
+    const bool reaching = goal == MagnitudeGoal::feasible;
+    const auto remaining = [&] { return reaching ? lacking() : change(); };
+    for (int round = 0; round < limits.rounds && result_.reached != reaching && can_go_on(); ++round) {
+      const double before = remaining();
+      const std::vector<MagnitudeEdit> added = offered(goal);
       if (added.empty() || !can_go_on()) return;
       refine(added);
-      if (!(lacking() < before * (1 - min_reached))) return;
+      if (!(remaining() < before * (1 - limits.min_decrease))) return;
     }
   }
 
@@ -130,38 +131,27 @@ class CandidateRefinement {
     }
   }
 
-  /// Adds edits that make up for others, round by round.
-  void lessen_change() {
-    for (int round = 0; round < max_rounds && result_.reached && can_go_on(); ++round) {
-      const double before = change();
-      const std::vector<MagnitudeEdit> added = offered(MagnitudeGoal::min_change);
-      if (added.empty() || !can_go_on()) return;
-      refine(added);
-      if (!(change() < before * (1 - min_gain))) return;
-    }
-  }
-
   /// Drops edits one after the other, those of least effect first, and refines the others to make up for it,
   /// as long as the change grows by no more than the price of an edit.
   void drop_singly() {
-    std::int64_t made = 0;
-    while (drop_one(made)) continue;
+    while (drop_one()) {
+    }
   }
 
-  /// `made`: edits made so far. Returns whether an edit was dropped.
-  bool drop_one(std::int64_t& made) {
+  /// Returns whether an edit was dropped.
+  bool drop_one() {
     RefinementOptions one = options_;
     one.evaluations = evaluations_per_drop;
     const double allowed = change() * (1 + options_.edit_price);
     for (auto& [k, design] : by_effect(checker_, result_.candidate)) {
-      if (made >= max_edits_made || cancelled()) return false;
+      if (edits_made_ >= max_edits_made || cancelled()) return false;
       Candidate fewer = result_.candidate;
       fewer.design = std::move(design);
       if (k < fewer.reasons.size())
         fewer.reasons.erase(fewer.reasons.begin() + static_cast<std::ptrdiff_t>(k));
       RefinementResult next = MagnitudeRefiner(checker_, fewer, one).result();
       result_.evaluations += next.evaluations;
-      made += next.evaluations * static_cast<std::int64_t>(fewer.design.edits.size());
+      edits_made_ += next.evaluations * static_cast<std::int64_t>(fewer.design.edits.size());
       const double changed = size_of(options_.objective, next.candidate, checker_.space().rest().shape);
       if (next.reached && changed <= allowed) {
         result_.candidate = std::move(next.candidate);
@@ -176,6 +166,7 @@ class CandidateRefinement {
   const Candidate& start_;
   const RefinementOptions& options_;
   RefinementResult result_;
+  std::int64_t edits_made_ = 0;  ///< in order to drop edits, over all designs
 };
 
 }  // namespace

@@ -106,6 +106,10 @@ TEST_CASE("where one more edit gave a better design, that is the best") {
   diagnosis.reached = 0.52;
   diagnosis.better.emplace();
   diagnosis.better->measured.value = 0.55;
+  CHECK_FALSE(mentions(text(diagnosis, structures::table().structure), "Without its last edit"));
+  Blocker blocker;
+  blocker.upper_part = blocker.lower_part = 0;
+  diagnosis.blockers = {blocker};
   const std::string words = text(diagnosis, structures::table().structure);
   CHECK(mentions(words,
                  "S = 0.600 was not reached; the best is S = 0.550 along z.\n"
