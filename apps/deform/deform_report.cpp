@@ -5,6 +5,7 @@
 #include "apps/common/structure_report.h"
 #include "apps/common/text.h"
 #include "apps/deform/deform_run.h"
+#include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization::apps {
 
@@ -75,7 +76,11 @@ Json primitives_after_json(const DeformRun& run) {
 void add_residual_lines(TextTable& table, const DeformRun& run) {
   const LargestResiduals largest = largest_residuals(run);
   if (largest.joint)
-    table.add("Joints", small_percent(*largest.joint), "of the diagonal: the largest gap at a joint");
+    table.add("Joints", small_percent(*largest.joint),
+              run.following == Following::smooth
+                  ? "of the diagonal: the largest gap at a joint, beyond a slack of " +
+                        small_percent(tolerance::joint_slack)
+                  : "of the diagonal: the largest gap at a joint");
   if (largest.symmetry)
     table.add("Symmetries", small_percent(*largest.symmetry), "of the diagonal: the largest deviation");
 }

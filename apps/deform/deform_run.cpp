@@ -43,6 +43,7 @@ std::unique_ptr<DeformationModel> model_for_edits(const DeformCommandOptions& op
 DeformRun run_deform(const DeformCommandOptions& options, const StructuredModel& input) {
   DeformRun run;
   run.kind = options.kind;
+  run.following = options.following.value_or(Following::free);
   run.rest = input.structured;
   for (const std::string& text : options.edits)
     run.edits.push_back(parse_edit(text, run.rest.shape.part_names, run.rest.structure.diagonal));

@@ -34,6 +34,7 @@ struct DeformCommandOptions {
 /// Edits of one shape at rest, and what became of it.
 struct DeformRun {
   DeformationKind kind = DeformationKind::controllers;
+  Following following = Following::free;
   StructuredShape rest;
   std::vector<Edit> edits;
   DeformationConstraints constraints;

@@ -44,6 +44,10 @@ StructuredShape board_with_screw();
 /// with point joints. Mirror planes x = 0 and y = 0, which the mesh does not have: leg k has 11 + k sides.
 StructuredShape rough_stool();
 
+/// A top, 10 x 10 x 1, on one leg, 0.8 x 0.8 x 10, in its middle, and an apron beside the leg, under the top.
+/// The joint of leg and apron is 0.5 below that of leg and top.
+StructuredShape leg_and_apron();
+
 /// Trestle in the plane y = 0, 10 high: straight generalized cylinders "leg_left" and "leg_right" that lean
 /// towards each other, from x = -4 and 4 to -2 and 2, and "rung" between them at z = 4, with point joints on
 /// the axes of the legs. Mirror plane x = 0.

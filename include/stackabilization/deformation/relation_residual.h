@@ -12,8 +12,8 @@ namespace stackabilization {
 /// * symmetry, self_symmetry: the largest distance between the image of a control point and its counterpart,
 ///   or the largest difference of radii if that is greater;
 /// * joints: the largest distance between the positions to which the two primitives carry a joint point
-///   (transfer.h); of a joint that may slide, only the part of the distance in the directions in
-///   which it is held, and how far it has slid beyond the rim or the end of its carrier.
+///   (transfer.h), beyond the slack of the joint; of a joint that may slide, only the part of the distance in
+///   the directions in which it is held, and how far it has slid beyond the rim or the end of its carrier.
 ///
 /// The function uses the primitives alone and so checks the residuals of a solver independently.
 /// Precondition: one primitive per part, of the same kinds and sizes as in `rest`. Throws InputError when

@@ -6,6 +6,11 @@ namespace stackabilization::tolerance {
 /// A relation holds when its residual is at most this, fraction of the bounding-box diagonal.
 inline constexpr double relation = 1e-6;
 
+/// Slack of joints with Following::smooth, fraction of the bounding-box diagonal: half of the gap that a
+/// joint may open to in a design (tolerance::quality::max_joints). A leg that a top and an apron hold could
+/// not lean at all without it.
+inline constexpr double joint_slack = 0.001;
+
 /// Residual at which the constraints of a deformation count as solved, fraction of the bounding-box diagonal.
 /// It is far below `relation` and above the rounding of coordinates.
 inline constexpr double solve = 1e-12;

@@ -42,6 +42,10 @@ struct Relation {
   /// Part on which a joint may slide: in the plane of a plate, or along a straight member. -1: it is fixed to
   /// both parts. The analysis makes fixed joints; Following::smooth lets them slide.
   int carrier = -1;
+  /// How far apart the places of a joint point on its two parts may be, model units. The analysis gives
+  /// joints no slack; Following::smooth does, since parts meet in an area and can turn on each other a
+  /// little.
+  double slack = 0;
 };
 
 /// Parts, primitives and relations of one shape at rest.

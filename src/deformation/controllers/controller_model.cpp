@@ -25,7 +25,7 @@ struct ControllerModel::Data {
 
   static StructuredShape prepared(StructuredShape structured, Following following) {
     if (following != Following::smooth) return structured;
-    detail::let_joints_slide(structured.structure);
+    detail::let_joints_yield(structured.structure);
     detail::keep_walls(structured);
     return structured;
   }

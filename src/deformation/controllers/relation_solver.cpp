@@ -68,6 +68,13 @@ Eigen::VectorXd semidefinite_solution(Eigen::MatrixXd a, const Eigen::VectorXd& 
   return x;
 }
 
+/// Returns what of a gap is beyond the slack of its constraint.
+Eigen::Vector3d beyond_slack(const Eigen::Vector3d& gap, double slack) {
+  const double length = gap.norm();
+  if (slack == 0) return gap;
+  return gap * (length > slack ? 1 - slack / length : 0);
+}
+
 Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state,
                      const std::vector<Primitive>& now) {
   Eigen::VectorXd all(rows_of(constraints));
@@ -80,8 +87,10 @@ Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints,
     if (constraint.normal)
       all(row) = constraint.normal->dot(sum) - constraint.height -
                  (constraint.level ? state.levels(*constraint.level) : 0);
-    else
-      all.segment<3>(row) = constraint.carrier ? held_directions(now[at(*constraint.carrier)]) * sum : sum;
+    else {
+      if (constraint.carrier) sum = held_directions(now[at(*constraint.carrier)]) * sum;
+      all.segment<3>(row) = beyond_slack(sum, constraint.slack);
+    }
     row += rows_of(constraint);
   }
   return all;
@@ -95,7 +104,8 @@ class Solver {
         corrections_(corrections),
         bases_(corrections.bases()),
         constraints_(constraints),
-        state_(std::move(start)) {
+        state_(std::move(start)),
+        active_(constraints.size(), 0) {
     for (const Eigen::MatrixXd& basis : bases_) {
       offsets_.push_back(columns_);
       columns_ += basis.cols();
@@ -113,6 +123,7 @@ class Solver {
       idle = largest > idle_ratio * before ? idle + 1 : 0;
       if (idle == 2) break;
       before = largest;
+      activate(gap);
       // The Jacobian is sparse, because a joint depends on two classes only.
       const Eigen::SparseMatrix<double> jacobian = slopes().sparseView();
       Eigen::MatrixXd gram = jacobian * jacobian.transpose();
@@ -122,11 +133,26 @@ class Solver {
   }
 
  private:
+  /// Lets constraints take part that have no slack or go beyond it.
+  void activate(const Eigen::VectorXd& gap) {
+    Eigen::Index row = 0;
+    for (std::size_t k = 0; k < constraints_.size(); ++k) {
+      const Eigen::Index rows = rows_of(constraints_[k]);
+      if (constraints_[k].slack == 0 || !gap.segment(row, rows).isZero(0)) active_[k] = 1;
+      row += rows;
+    }
+  }
+
   Eigen::MatrixXd slopes() const {
     Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows_of(constraints_), columns_ + state_.levels.size());
     const std::vector<Eigen::MatrixXd> turns = turn_columns();
     Eigen::Index row = 0;
-    for (const Constraint& constraint : constraints_) {
+    for (std::size_t k = 0; k < constraints_.size(); ++k) {
+      const Constraint& constraint = constraints_[k];
+      if (!active_[k]) {
+        row += rows_of(constraint);
+        continue;
+      }
       for (const BoundPoint& bound : constraint.bound_points) {
         const int c = rig_.space.class_of(bound.part);
         if (bases_[at(c)].cols() == 0) continue;
@@ -203,6 +229,7 @@ class Solver {
   const std::vector<Eigen::MatrixXd>& bases_;
   const std::vector<Constraint>& constraints_;
   SolverState state_;
+  std::vector<char> active_;  ///< per constraint: whether it takes part
   std::vector<Primitive> now_;
   std::vector<Eigen::Index> offsets_;
   Eigen::Index columns_ = 0;
@@ -219,6 +246,7 @@ std::vector<Constraint> joint_constraints(const Rig& rig) {
                                {joint.parts[1], joint.bindings[1], -1}};
     const int carrier = rig.rest.relations[at(joint.relation)].carrier;
     if (carrier >= 0) constraint.carrier = carrier;
+    constraint.slack = rig.rest.relations[at(joint.relation)].slack;
     constraints.push_back(std::move(constraint));
   }
   return constraints;

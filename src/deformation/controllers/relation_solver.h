@@ -23,6 +23,7 @@ struct Constraint {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
   /// Part on which a joint may slide: only the directions in which it is held count (joint_slides.h).
   std::optional<int> carrier = {};
+  double slack = 0;                       ///< length of the sum that counts as none, model units
   std::optional<Eigen::Vector3d> normal;  ///< unit normal
   double height = 0;                      ///< height above the level, model units; only with a normal
   /// Row of SolverState::levels, only with a normal; without a value the level is 0.
@@ -39,11 +40,12 @@ struct SolverState {
 /// of the rig.
 std::vector<Constraint> joint_constraints(const Rig& rig);
 
-/// Returns the largest absolute residual of the constraints, model units.
+/// Returns the largest absolute residual of the constraints beyond their slack, model units.
 double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state);
 
-/// Solves all constraints at once by Gauss-Newton. Each step has the least norm in the columns of
-/// `corrections`, which then settle the state. The normal equations are solved in their dual form, a small
+/// Solves all constraints at once by Gauss-Newton. A constraint with slack takes part from the step on at
+/// which it goes beyond its slack, and then as far as to its end. Each step has the least norm in the columns
+/// of `corrections`, which then settle the state. The normal equations are solved in their dual form, a small
 /// dense system, by a pivoted Cholesky factorisation that omits redundant constraints. Stops when the
 /// residuals are within tolerance::solve of the diagonal, or when steps no longer reduce them: check the
 /// result with `largest_gap`.

@@ -8,6 +8,7 @@
 
 #include "core/index.h"
 #include "deformation/model/straight_curve.h"
+#include "stackabilization/deformation/tolerances.h"
 #include "structure/model/nearest_box.h"
 
 namespace stackabilization::detail {
@@ -96,9 +97,10 @@ std::optional<double> sliding_place_on(const Primitive& carrier, const Points& p
 
 }  // namespace
 
-void let_joints_slide(Structure& structure) {
+void let_joints_yield(Structure& structure) {
   for (Relation& relation : structure.relations) {
     if (relation.type != RelationType::point_joint && relation.type != RelationType::line_joint) continue;
+    relation.slack = tolerance::joint_slack * structure.diagonal;
     double nearest = 1;
     for (const int part : relation.parts) {
       const auto place = sliding_place_on(structure.parts[at(part)].primitive, relation.points);

@@ -56,6 +56,9 @@ double symmetry_gap(const Relation& relation, const Structure& rest, const std::
 }
 
 double joint_gap(const Relation& relation, const Structure& rest, const std::vector<Primitive>& deformed) {
+  const auto beyond_slack = [&](double distance) {
+    return distance <= relation.slack ? 0 : distance - relation.slack;
+  };
   double gap = 0;
   for (Eigen::Index i = 0; i < relation.points.rows(); ++i) {
     const auto place = [&](int part) {
@@ -64,11 +67,11 @@ double joint_gap(const Relation& relation, const Structure& rest, const std::vec
     };
     const Eigen::Vector3d first = place(relation.parts[0]), second = place(relation.parts[1]);
     if (relation.carrier < 0) {
-      widen(gap, (first - second).norm());
+      widen(gap, beyond_slack((first - second).norm()));
       continue;
     }
     const Primitive& carrier = deformed[static_cast<std::size_t>(relation.carrier)];
-    widen(gap, (detail::held_directions(carrier) * (first - second)).norm());
+    widen(gap, beyond_slack((detail::held_directions(carrier) * (first - second)).norm()));
     widen(gap, detail::distance_beyond(carrier, relation.carrier == relation.parts[0] ? second : first));
   }
   return gap;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/extract_parts.h"
+#include "core/index.h"
 #include "mesh/surface_moments.h"
 
 namespace stackabilization::detail {
@@ -22,6 +23,8 @@ namespace {
 
 constexpr int whole_samples = 500, part_samples = 250;
 constexpr double size_tolerances = 10, absolute_size_tolerances = 0.1;
+/// Least share of an image that lies on one part, and how near, in tolerances.
+constexpr double majority = 0.9, exact_tolerances = 0.1;
 
 double area_of(const Shape& shape) {
   double area = 0;
@@ -59,6 +62,7 @@ struct PartSurfaces::Centroids {
 PartSurfaces::PartSurfaces(const Shape& shape, const SymmetryOptions& options)
     : options_(options),
       whole_(symmetry_surface(shape, whole_samples)),
+      part_of_(shape.triangle_part),
       parts_(shape.part_names.size()),
       widths_(parts_.size()),
       sides_(parts_.size()) {
@@ -139,6 +143,25 @@ std::optional<double> PartSurfaces::match(int a, int b, const Symmetry& symmetry
       agreement(std::move(both), std::max(from->diagonal, to->diagonal) / unit_, options_);
   if (!found.holds) return {};
   return found.residual * unit_ / diagonal_;
+}
+
+std::optional<PartSurfaces::Image> PartSurfaces::image_of(int a, const Symmetry& symmetry) const {
+  const SymmetrySurface* from = part(a);
+  if (!from) return {};
+  const Eigen::Isometry3d map = isometry_of(symmetry);
+  std::vector<double> distances;
+  std::vector<Eigen::Index> on(parts_.size(), 0);
+  for (const auto row : from->dense.points.rowwise()) {
+    const Eigen::Vector3d place = map * (from->centroid + from->diagonal * row.transpose());
+    const SurfacePoint nearest = whole_.index.nearest((place - whole_.centroid) / whole_.diagonal);
+    distances.push_back(nearest.distance * whole_.diagonal / unit_);
+    if (distances.back() <= exact_tolerances * options_.tolerance) ++on[at(part_of_[at(nearest.triangle)])];
+  }
+  const auto most = std::max_element(on.begin(), on.end());
+  if (static_cast<double>(*most) < majority * static_cast<double>(distances.size())) return {};
+  const Agreement found = agreement(std::move(distances), from->diagonal / unit_, options_);
+  if (!found.holds) return {};
+  return Image{static_cast<int>(most - on.begin()), found.residual * unit_ / diagonal_};
 }
 
 std::vector<double> PartSurfaces::distances(const SymmetrySurface& from, const SymmetrySurface& to,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -42,6 +43,17 @@ class PartSurfaces {
   /// Tolerances of distances are fractions of the whole shape.
   std::optional<double> match(int a, int b, const Symmetry& symmetry) const;
 
+  /// Part on which an image lies.
+  struct Image {
+    int part;         ///< row of Shape::part_names
+    double residual;  ///< of all points of the image from the surface of the shape, fraction of the diagonal
+  };
+  /// Returns the part on which the image of part `a` lies to a tenth of the tolerance, up to a tenth of its
+  /// area, for a symmetry of the whole shape. Nothing if there is no such part, or if the image does not
+  /// agree with the surface of the shape. This also relates parts that do not match because their ends are
+  /// cut off differently.
+  std::optional<Image> image_of(int a, const Symmetry& symmetry) const;
+
  private:
   struct Centroids;
   bool same_size(int a, int b) const;
@@ -51,6 +63,7 @@ class PartSurfaces {
 
   SymmetryOptions options_;
   SymmetrySurface whole_;
+  std::vector<std::int32_t> part_of_;  ///< per triangle of the shape
   std::vector<std::optional<SymmetrySurface>> parts_;
   std::vector<Eigen::Vector3d> widths_;  ///< per part with area
   std::vector<Eigen::Vector3d> sides_;   ///< per part with area, of its minimal box

@@ -19,6 +19,7 @@ namespace stackabilization {
 
 namespace {
 
+using detail::PartSurfaces;
 using detail::SymmetrySurface;
 
 constexpr double min_diagonal = 0.697, max_diagonal = 0.717;  // cosine
@@ -79,11 +80,26 @@ class PartSymmetry {
     return best;
   }
 
+  /// Relates parts that match none to those on which most of their images lie, where that holds both ways.
+  void relate_cut_parts(std::vector<std::pair<int, double>>& counterparts, const Symmetry& plane) const {
+    std::vector<std::optional<PartSurfaces::Image>> images(counterparts.size());
+    tbb::parallel_for(std::size_t{0}, counterparts.size(), [&](std::size_t part) {
+      if (counterparts[part].first < 0) images[part] = parts_.image_of(static_cast<int>(part), plane);
+    });
+    for (std::size_t part = 0; part < images.size(); ++part) {
+      if (!images[part]) continue;
+      const auto& back = images[static_cast<std::size_t>(images[part]->part)];
+      if (back && back->part == static_cast<int>(part))
+        counterparts[part] = {images[part]->part, std::max(images[part]->residual, back->residual)};
+    }
+  }
+
   std::vector<Relation> relations_under(const Symmetry& plane) const {
     std::vector<std::pair<int, double>> counterparts(static_cast<std::size_t>(parts_.count()));
     tbb::parallel_for(0, parts_.count(), [&](int part) {
       counterparts[static_cast<std::size_t>(part)] = counterpart(part, plane);
     });
+    relate_cut_parts(counterparts, plane);
     std::vector<Relation> relations;
     for (int part = 0; part < parts_.count(); ++part) {
       const auto [other, residual] = counterparts[static_cast<std::size_t>(part)];
@@ -217,7 +233,7 @@ class PartSymmetry {
   }
 
   SymmetryOptions options_;
-  detail::PartSurfaces parts_;
+  PartSurfaces parts_;
   std::vector<Symmetry> candidates_, planes_;  ///< model units
   std::vector<Relation> relations_;
   std::vector<std::vector<std::size_t>> relations_of_;  ///< rows per part, ascending

@@ -107,6 +107,30 @@ TEST_CASE("a part between two symmetric ones has a symmetry of its own") {
   CHECK(std::abs(own_of(trestle, relations, "bar").front().axis.x()) == Approx(1));
 }
 
+TEST_CASE("parts whose ends are cut off differently are related, but not parts of other places") {
+  using solids::box;
+  using solids::named;
+  // A bar between two posts, of which the right one takes a share.
+  const auto frame = [&](double share) {
+    const double end = 2.5 - 5 * share;
+    Shape right = concatenate(box({2.5, -1, 0}, {3, 1, 4}), box({end, 0.6, 1}, {2.5, 0.8, 1.2}));
+    std::fill(right.triangle_part.begin(), right.triangle_part.end(), 0);
+    return solids::joined({named(box({-3, -1, 0}, {-2.5, 1, 4}), "left"), named(std::move(right), "right"),
+                           named(box({-2.5, 0.6, 1}, {end, 0.8, 1.2}), "bar")});
+  };
+  for (const double share : {0.03, 0.06}) {
+    const Shape cut = frame(share);
+    const auto relations = relations_of(cut);
+    CHECK(pairs_of(cut, relations) == Pairs{{"left", "right"}});
+    const auto own = own_of(cut, relations, "bar");
+    REQUIRE(own.size() == 1);
+    CHECK(std::abs(own.front().axis.x()) == Approx(1));
+    CHECK(own.front().point.x() == Approx(0).margin(0.01));
+  }
+  const Shape cut = frame(0.3);
+  for (const Symmetry& own : own_of(cut, relations_of(cut), "bar")) CHECK(std::abs(own.axis.x()) <= 0.5);
+}
+
 TEST_CASE("a thin leg has no counterpart in one that is thicker or elsewhere") {
   const Shape top = solids::named(solids::box({-5, -3, 5}, {5, 3, 5.3}), "top");
   const auto leg = [](double at, double width, const std::string& name) {
