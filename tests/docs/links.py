@@ -3,6 +3,7 @@
 
     links.py FOLDER    looks at all .md files of the project in FOLDER, build folders and packages of npm left out
 """
+import os
 import pathlib
 import re
 import sys
@@ -31,9 +32,15 @@ def broken(page):
             yield f"{page}: no such heading: {target}"
 
 
+def pages_below(root):
+    for folder, folders, files in os.walk(root):
+        folders[:] = [name for name in folders if name not in {"build", "out", ".git", "node_modules"}]
+        yield from (pathlib.Path(folder, name) for name in files if name.endswith(".md"))
+
+
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
-    pages = [page for page in sorted(root.rglob("*.md")) if not {"build", "out", ".git", "node_modules"} & set(page.relative_to(root).parts)]
+    pages = sorted(pages_below(root))
     if not pages:
         sys.exit(f"{root}: no pages.")
     messages = [message for page in pages for message in broken(page)]
