@@ -242,10 +242,10 @@ StructuredShape leg_and_apron() {
   Assembly assembly;
   const int top = assembly.add_box("top", {-5, -5, 10}, {5, 5, 11}, 0),
             leg = assembly.add_box("leg", {-0.4, -0.4, 0}, {0.4, 0.4, 10}, 0),
-            apron = assembly.add_box("apron", {0.4, -0.2, 9}, {4.6, 0.2, 10}, 0);
+            apron = assembly.add_box("apron", {0.4, -0.2, 9}, {5, 0.2, 10}, 0);
   assembly.joint(top, leg, Eigen::RowVector3d(0, 0, 10));
   assembly.joint(leg, apron, Eigen::RowVector3d(0.4, 0, 9.5));
-  assembly.joint(top, apron, Eigen::RowVector3d(4, 0, 10));
+  assembly.joint(top, apron, Eigen::RowVector3d(4.9, 0, 10));
   return assembly.done();
 }
 

@@ -29,10 +29,8 @@ enum class Following {
   /// Only by affine maps, and straight generalized cylinders also as members of a frame: they lean, stretch
   /// and change their radii linearly. Joints slide in the plane of plates and along straight members, where
   /// they do not lie at the rim or the end (Relation::carrier), and all joints have a little slack
-  /// (Relation::slack). A part that moves as a whole keeps its heights
-  /// along the move; if changes of it across the move close its joints, no other part follows. Edits that
-  /// need
-  /// more are refused.
+  /// (Relation::slack). A part that moves as a whole keeps its heights along the move; if changes of it
+  /// across the move close its joints, no other part follows. Edits that need more are refused.
   smooth,
 };
 

@@ -84,10 +84,10 @@ Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints,
     for (const BoundPoint& bound : constraint.bound_points)
       sum += bound.weight *
              rig.primitive_bindings[at(bound.part)].position_of(bound.binding, now[at(bound.part)]);
-    if (constraint.normal)
+    if (constraint.normal) {
       all(row) = constraint.normal->dot(sum) - constraint.height -
                  (constraint.level ? state.levels(*constraint.level) : 0);
-    else {
+    } else {
       if (constraint.carrier) sum = held_directions(now[at(*constraint.carrier)]) * sum;
       all.segment<3>(row) = beyond_slack(sum, constraint.slack);
     }

@@ -30,7 +30,7 @@ constexpr std::array<ChangeWords, 18> change_words = {{
     {"girth", of_rest, "wider all round", "narrower all round"},
     {"width", of_rest, "wider", "narrower"},
     {"length", of_rest, "longer", "shorter"},
-    {"tallness", of_rest, "taller", "shorter"},
+    {"tallness", of_rest, "taller", "less tall"},
     {"thickness", of_rest, "thicker", "thinner"},
     {"upper-end", of_rest, "thicker", "thinner"},
     {"lower-end", of_rest, "thicker", "thinner"},

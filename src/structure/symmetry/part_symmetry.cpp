@@ -70,28 +70,17 @@ class PartSymmetry {
     return {type, std::move(parts), symmetry, {}, residual};
   }
 
-  /// Returns the part that the image of `part` under `plane` matches best, -1 for none, and the residual.
+  /// Returns the part that the image of `part` under `plane` matches best, or else lies on, and the residual.
+  /// -1: none.
   std::pair<int, double> counterpart(int part, const Symmetry& plane) const {
     std::pair<int, double> best{-1, 0};
     for (const int other : parts_.near_image(part, plane))
       if (const auto residual = parts_.match(part, other, plane);
           residual && (best.first < 0 || *residual < best.second))
         best = {other, *residual};
-    return best;
-  }
-
-  /// Relates parts that match none to those on which most of their images lie, where that holds both ways.
-  void relate_cut_parts(std::vector<std::pair<int, double>>& counterparts, const Symmetry& plane) const {
-    std::vector<std::optional<PartSurfaces::Image>> images(counterparts.size());
-    tbb::parallel_for(std::size_t{0}, counterparts.size(), [&](std::size_t part) {
-      if (counterparts[part].first < 0) images[part] = parts_.image_of(static_cast<int>(part), plane);
-    });
-    for (std::size_t part = 0; part < images.size(); ++part) {
-      if (!images[part]) continue;
-      const auto& back = images[static_cast<std::size_t>(images[part]->part)];
-      if (back && back->part == static_cast<int>(part))
-        counterparts[part] = {images[part]->part, std::max(images[part]->residual, back->residual)};
-    }
+    if (best.first >= 0) return best;
+    const std::optional<PartSurfaces::Image> image = parts_.image_of(part, plane);
+    return image ? std::pair(image->part, image->residual) : best;
   }
 
   std::vector<Relation> relations_under(const Symmetry& plane) const {
@@ -99,7 +88,6 @@ class PartSymmetry {
     tbb::parallel_for(0, parts_.count(), [&](int part) {
       counterparts[static_cast<std::size_t>(part)] = counterpart(part, plane);
     });
-    relate_cut_parts(counterparts, plane);
     std::vector<Relation> relations;
     for (int part = 0; part < parts_.count(); ++part) {
       const auto [other, residual] = counterparts[static_cast<std::size_t>(part)];

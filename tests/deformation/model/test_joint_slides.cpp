@@ -112,14 +112,14 @@ TEST_CASE("A leg leans on the slack of its joints, and all else stays", "[joints
   const auto primitive = [&](int part) -> const Primitive& {
     return rest.structure.parts[static_cast<std::size_t>(part)].primitive;
   };
-  // How far the joint of leg and apron opens.
-  const auto gap = [&](const std::vector<Primitive>& now) {
-    const Eigen::Vector3d joint(0.4, 0, 9.5);
+  // How far a joint of the apron opens.
+  const auto gap_to = [&](int other, const Eigen::Vector3d& joint, const std::vector<Primitive>& now) {
     const auto place = [&](int part) {
       return deform_point(primitive(part), now[static_cast<std::size_t>(part)], joint);
     };
-    return (place(leg) - place(apron)).norm();
+    return (place(other) - place(apron)).norm();
   };
+  const auto gap = [&](const std::vector<Primitive>& now) { return gap_to(leg, {0.4, 0, 9.5}, now); };
   // The joint is a twentieth of the height below the top, where the leg stays.
   const double enough = 20 * slack;
   const std::vector<Primitive> within = moved(smooth, 0.9 * enough);
@@ -131,6 +131,13 @@ TEST_CASE("A leg leans on the slack of its joints, and all else stays", "[joints
   const std::vector<Primitive> farther = moved(smooth, 3 * enough);
   CHECK(control_points(farther[static_cast<std::size_t>(apron)]) != control_points(primitive(apron)));
   CHECK(gap(farther) == Approx(slack));
+  // Where the top has to stay, a part of the slack of the other end of the apron is used too.
+  constraints.fixed_parts = {structures::part_named(rest, "top")};
+  const std::vector<Primitive> held = moved(smooth, 1.5 * enough);
+  const double at_rim = gap_to(constraints.fixed_parts.front(), {4.9, 0, 10}, held);
+  CHECK(gap(held) == Approx(slack));
+  CHECK(at_rim > 0.005 * slack);
+  CHECK(at_rim <= slack * (1 + 1e-6));
   CHECK(gap(moved(free, 0.9 * enough)) <= tolerance::relation * rest.structure.diagonal);
 }
 

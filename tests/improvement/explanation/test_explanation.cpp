@@ -298,6 +298,18 @@ TEST_CASE("What gets wider one way and narrower the other way says so", "[explan
   CHECK(found[0].find("4 % narrower the other way") != std::string::npos);
 }
 
+TEST_CASE("A part that is longer and less tall is not called longer and shorter", "[explanation]") {
+  const auto words = [](FormChangeKind kind, double amount) {
+    FormChange change;
+    change.kind = kind;
+    change.amount = amount;
+    return describe(change, {}, false);
+  };
+  CHECK(words(FormChangeKind::tallness, -0.16) == "16 % less tall");
+  CHECK(words(FormChangeKind::tallness, 0.16) == "16 % taller");
+  CHECK(words(FormChangeKind::length, -0.05) == "5 % shorter");
+}
+
 TEST_CASE("A part that no affine map describes changes its form", "[explanation]") {
   const StructuredShape rest = structures::box_alone({12, 8, 1});
   const Shape folded = mapped(rest.shape, [](const Eigen::Vector3d& p) {
