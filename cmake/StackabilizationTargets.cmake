@@ -25,6 +25,16 @@ function(stackabilization_library name)
   set_property(GLOBAL APPEND PROPERTY STACKABILIZATION_LIBRARIES ${target})
 endfunction()
 
+# The library of the address sanitizer, which the interpreter loads before a module that is built with it.
+if(STACKABILIZATION_SANITIZE)
+  set(runtime libasan.so)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
+    set(runtime libclang_rt.asan-${CMAKE_SYSTEM_PROCESSOR}.so)
+  endif()
+  execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=${runtime}
+    OUTPUT_VARIABLE STACKABILIZATION_SANITIZER_RUNTIME OUTPUT_STRIP_TRAILING_WHITESPACE)
+endif()
+
 # Warnings and sanitizers of this project's own targets.
 function(stackabilization_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
@@ -39,6 +49,10 @@ function(stackabilization_options target)
     target_compile_options(${target} PRIVATE -fsanitize=${STACKABILIZATION_SANITIZE}
       -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${STACKABILIZATION_SANITIZE})
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND NOT STACKABILIZATION_BUILD_FUZZERS)  # The Python module and the programs share one runtime.
+      cmake_path(GET STACKABILIZATION_SANITIZER_RUNTIME PARENT_PATH folder)
+      target_link_options(${target} PRIVATE -shared-libsan LINKER:-rpath,${folder})
+    endif()
   endif()
 endfunction()
 

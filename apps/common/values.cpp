@@ -79,8 +79,13 @@ namespace {
 Eigen::Vector3d parse_point(const std::string& option, const std::vector<std::string>& texts,
                             std::size_t first) {
   Eigen::Vector3d point;
-  for (std::size_t i = 0; i < 3; ++i)
-    point[static_cast<Eigen::Index>(i)] = parse_number(option, texts.at(first + i));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string& text = texts.at(first + i);
+    const Leading leading = leading_number(text);
+    if (!leading.valid || !leading.rest.empty())
+      throw UsageError(option + " expects three finite numbers, such as 0 0 1, found '" + text + "'");
+    point[static_cast<Eigen::Index>(i)] = leading.value;
+  }
   return point;
 }
 

@@ -25,7 +25,7 @@ TEST_CASE("wrong command lines end with 2 and one sentence that names the mistak
       {{"measure", box, "--direction", "0", "0"}, "--direction"},
       {{"measure", box, "--direction", "0", "0", "0"}, "zero"},
       {{"measure", box, "--direction", "0", "0", "up"}, "'up'"},
-      {{"measure", box, "--direction", "nan", "0", "1"}, "finite"},
+      {{"measure", box, "--direction", "nan", "0", "1"}, "three finite numbers, such as 0 0 1, found 'nan'"},
       {{"measure", box, "--direction", "inf", "0", "1"}, "finite"},
       {{"measure", box, "--direction", "1e999", "0", "1"}, "finite"},
       {{"measure", box, "--direction", "1e300", "0", "0"}, "10^-150 to 10^150"},

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "improvement/design/distinct.h"
+#include "improvement/run/refinement_phase.h"
 #include "improvement/run/work_budget.h"
 #include "improvement/search/gap_descent.h"
 #include "stackabilization/core/errors.h"
@@ -13,6 +13,7 @@ namespace stackabilization {
 
 namespace {
 
+using detail::RefinementPhase;
 using detail::WorkBudget;
 
 /// Shares of the work at which phases end, if refinement follows: the pursuits, the paper's search, the
@@ -20,22 +21,10 @@ using detail::WorkBudget;
 constexpr double pursuit_share = 0.4;
 constexpr double paper_share = 0.45;
 constexpr double search_share = 0.5;
-/// Share at which the refinement with the given edits ends and the one with added edits begins.
-constexpr double first_share = 0.7;
 /// Least share of the work for each search and for the diagnosis.
 constexpr double min_search = 0.05;
-/// Without a solution refinement ends at this share. The rest is for the diagnosis.
-constexpr double diagnosis_begin = 0.85;
 /// Share of the work at which the diagnosis of a closed shape ends.
 constexpr double closed_share = 0.1;
-
-/// Largest number of designs measured to refine one list of edits.
-constexpr int first_evaluations = 300;
-
-/// The best solution is not known before refinement. So at least min_solutions are searched, and
-/// more_extended solutions more than wanted are refined with added edits.
-constexpr int min_solutions = 3;
-constexpr std::size_t more_extended = 4;
 
 /// Of smooth improvements: few edits that a designer would name are worth some change, 3 % for each edit
 /// less. Edits that give less than a quarter of the gain may be made up for by the others.
@@ -44,149 +33,6 @@ constexpr double drop_threshold = 0.25;
 
 /// Gain of S below which a design that does not reach the target is no better than the shape at rest.
 constexpr double min_gain = 0.005;
-
-bool more_stackable(const Candidate& a, const Candidate& b) {
-  return a.measured.value > b.measured.value;
-}
-
-/// Refines the results of a search: first all of them with the given edits, then the best ones with added
-/// edits, until there are as many different solutions as wanted.
-class Refinements {
- public:
-  /// `report`: called after each refinement.
-  Refinements(const RequirementChecker& checker, const ImprovementOptions& options, WorkBudget& budget,
-              std::function<void()> report)
-      : checker_(checker),
-        options_(options.refinement),
-        wanted_(static_cast<std::size_t>(options.search.solutions)),
-        budget_(budget),
-        report_(std::move(report)),
-        found_(options.found),
-        less_changed_([measure = options.refinement.objective, &rest = checker.space().rest().shape](
-                          const Candidate& a, const Candidate& b) {
-          return size_of(measure, a, rest) < size_of(measure, b, rest);
-        }),
-        distinct_(checker.space().rest()) {
-    options_.alpha = options.search.alpha;
-    options_.family = options.search.edits.family;
-    options_.cancelled = [this, cancelled = options.search.cancelled] {
-      return budget_.late(share_) || (cancelled && cancelled());
-    };
-  }
-  Refinements(const Refinements&) = delete;
-  Refinements& operator=(const Refinements&) = delete;
-
-  /// Refines `starts` (results of other phases) and the results of the search. Begins with candidates that
-  /// reach the target, least change first, since the work may run out.
-  std::vector<Candidate> refined(std::vector<Candidate> starts, const BestFirstResult& found) {
-    starts.insert(starts.end(), found.solutions.begin(), found.solutions.end());
-    const double target = checker_.requirements().target;
-    std::stable_sort(starts.begin(), starts.end(), [this, target](const Candidate& a, const Candidate& b) {
-      const bool reached = a.measured.value >= target;
-      if (reached != (b.measured.value >= target)) return reached;
-      return reached ? less_changed_(a, b) : more_stackable(a, b);
-    });
-    share_ = diagnosis_begin;
-    for (const Candidate& start : starts) add(start);
-    for (const Candidate& near : found.nearest) {
-      if (solutions_.size() >= std::max<std::size_t>(wanted_, min_solutions) || at_end()) break;
-      add(near);
-      starts.push_back(near);
-    }
-    if (checker_.requirements().quality) rescue(starts);
-    extend();
-    return std::move(solutions_);
-  }
-
-  const std::optional<Candidate>& nearest() const { return nearest_; }
-
- private:
-  /// Returns whether the current phase has no work left.
-  bool at_end() const {
-    return budget_.designs_until(share_) < min_refinement_evaluations || options_.cancelled();
-  }
-
-  RefinementResult refinement(const Candidate& start, RefinementOptions options) {
-    options.evaluations =
-        static_cast<int>(std::min<std::int64_t>(options.evaluations, budget_.designs_until(share_)));
-    RefinementResult result = refine_candidate(checker_, start, options);
-    budget_.charge(result.evaluations);
-    report_();
-    if (result.reached && found_) found_(result.candidate);
-    return result;
-  }
-
-  void add(const Candidate& start) {
-    if (start.design.edits.empty() && !checker_.meets_target(start.measured)) return;
-    RefinementOptions alone = options_;
-    alone.max_added_edits = 0;
-    alone.evaluations = std::min(options_.evaluations, first_evaluations);
-    RefinementResult result = at_end() ? as_it_is(start) : refinement(start, alone);
-    if (result.reached) {
-      share_ = first_share;
-      keep(std::move(result.candidate));
-    } else if (!nearest_ || result.candidate.measured.value > nearest_->measured.value) {
-      nearest_ = std::move(result.candidate);
-    }
-  }
-
-  /// Without a solution: refines the starts with added edits, until one reaches the target.
-  void rescue(const std::vector<Candidate>& starts) {
-    for (const Candidate& start : starts) {
-      if (!solutions_.empty() || at_end()) return;
-      RefinementOptions all = options_;
-      all.reach_with_added = true;
-      RefinementResult result = refinement(start, all);
-      if (result.reached)
-        keep(std::move(result.candidate));
-      else if (!nearest_ || result.candidate.measured.value > nearest_->measured.value)
-        nearest_ = std::move(result.candidate);
-    }
-  }
-
-  /// Returns `start` checked, without refinement.
-  RefinementResult as_it_is(const Candidate& start) const {
-    const bool reached = checker_.meets_target(start.measured) &&
-                         checker_.check(start.design, Direction(start.direction)).passed();
-    return {start, reached, 0};
-  }
-
-  /// Refines with added edits, solutions of least change first.
-  void extend() {
-    share_ = 1;
-    std::stable_sort(solutions_.begin(), solutions_.end(), less_changed_);
-    std::vector<Candidate> found;
-    found.swap(solutions_);
-    for (std::size_t k = 0; k < found.size(); ++k) {
-      if (k < wanted_ + more_extended && !at_end()) found[k] = refinement(found[k], options_).candidate;
-      keep(std::move(found[k]));
-    }
-    std::stable_sort(solutions_.begin(), solutions_.end(), less_changed_);
-    if (solutions_.size() > wanted_) solutions_.resize(wanted_);
-  }
-
-  /// Adds a solution. Of two solutions that are not different, the one of smaller change is kept.
-  void keep(Candidate candidate) {
-    for (Candidate& other : solutions_)
-      if (!distinct_.differ(other.design, candidate.design)) {
-        if (less_changed_(candidate, other)) other = std::move(candidate);
-        return;
-      }
-    solutions_.push_back(std::move(candidate));
-  }
-
-  const RequirementChecker& checker_;
-  RefinementOptions options_;
-  std::size_t wanted_;
-  WorkBudget& budget_;
-  std::function<void()> report_;
-  std::function<void(const Candidate&)> found_;
-  double share_ = diagnosis_begin;  ///< share of the work at which the current phase ends
-  std::function<bool(const Candidate&, const Candidate&)> less_changed_;
-  detail::SolutionDiversity distinct_;
-  std::vector<Candidate> solutions_;
-  std::optional<Candidate> nearest_;
-};
 
 Candidate at_rest(const RequirementChecker& checker, const Eigen::Vector3d& direction) {
   Candidate rest;
@@ -244,7 +90,7 @@ class ImprovementRun {
   BestFirstOptions search_options() const {
     BestFirstOptions search = options_.search;
     if (refines_)
-      search.solutions = std::max(search.solutions, min_solutions);
+      search.solutions = std::max(search.solutions, detail::min_refined);
     else
       search.edits.family = EditFamily::paper;
     return search;
@@ -322,7 +168,7 @@ class ImprovementRun {
 
   void refine(std::vector<Candidate> starts, BestFirstResult& found) {
     const std::int64_t before = budget_.used();
-    Refinements refinements(checker_, options_, budget_, [this, before] {
+    RefinementPhase phase(checker_, options_, budget_, [this, before] {
       if (!options_.search.progress) return;
       ImprovementProgress now = result_.progress;
       now.evaluated += budget_.used() - before;
@@ -330,10 +176,10 @@ class ImprovementRun {
       now.seconds_left = budget_.seconds_until(1);
       options_.search.progress(now);
     });
-    result_.solutions = refinements.refined(std::move(starts), found);
+    result_.solutions = phase.refined(std::move(starts), found);
     result_.progress.evaluated += budget_.used() - before;
-    if (refinements.nearest()) found.nearest.insert(found.nearest.begin(), *refinements.nearest());
-    std::stable_sort(found.nearest.begin(), found.nearest.end(), more_stackable);
+    if (phase.nearest()) found.nearest.insert(found.nearest.begin(), *phase.nearest());
+    std::stable_sort(found.nearest.begin(), found.nearest.end(), detail::more_stackable);
     if (result_.solutions.size() >= static_cast<std::size_t>(options_.search.solutions) ||
         (!result_.solutions.empty() && found.solutions.empty() && result_.end == SearchEnd::exhausted))
       result_.end = SearchEnd::solved;
