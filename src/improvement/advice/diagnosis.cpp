@@ -1,19 +1,12 @@
 #include "stackabilization/improvement/diagnosis.h"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
-#include <atomic>
-#include <cmath>
 #include <cstdint>
-#include <functional>
 #include <limits>
-#include <map>
 #include <utility>
 
+#include "improvement/advice/edit_trials.h"
 #include "improvement/contacts/contact_symmetry.h"
-#include "stackabilization/core/direction_text.h"
-#include "stackabilization/core/number_text.h"
 #include "stackabilization/improvement/partition.h"
 #include "stackabilization/improvement/removal.h"
 #include "stackabilization/stacking/search.h"
@@ -29,26 +22,6 @@ constexpr std::size_t max_constraints = 3, max_removals = 3;
 /// Pieces of an object that is worth taking apart: a top and four legs.
 constexpr std::size_t max_pieces = 5;
 
-std::string number(double value, int digits = 3) {
-  return fixed_text(value, digits);
-}
-
-/// Formats `value` with as many digits as tell it from `other`, 3 to 9.
-std::string number_unlike(double value, double other) {
-  int digits = 3;
-  while (digits < 9 && number(value, digits) == number(other, digits)) ++digits;
-  return number(value, digits);
-}
-
-std::string names(const std::vector<int>& parts, const Structure& structure) {
-  std::string text;
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    if (k > 0) text += k + 1 < parts.size() ? ", " : " and ";
-    text += "'" + structure.parts[static_cast<std::size_t>(parts[k])].name + "'";
-  }
-  return text;
-}
-
 bool contains(const std::vector<int>& parts, int part) {
   return std::find(parts.begin(), parts.end(), part) != parts.end();
 }
@@ -60,14 +33,8 @@ std::int64_t whole_directions(double count) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(count));
 }
 
-/// Result of trying the edits that would separate some regions.
-struct Trial {
-  double best = 0;  ///< largest S after one edit, at least the S before
-  std::map<Obstacle, std::int64_t> refusals;
-  std::optional<Edit> best_edit;  ///< edit that gives it, if any is better
-  int made = 0;
-  bool stopped = false;  ///< whether the trial ended before all edits were tried
-};
+using detail::EditTrial;
+using detail::EditTrials;
 
 class DiagnosisBuilder {
  public:
@@ -79,8 +46,7 @@ class DiagnosisBuilder {
         best_(result.nearest.front()),
         rest_(checker.space().rest()),
         direction_(best_.direction),
-        handles_(checker.space().handles()),
-        centres_(checker.space().centres()),
+        trials_(checker.space(), best_, options),
         solver_(best_.design.shape, checker.requirements().measure) {}
 
   Diagnosis run() {
@@ -102,9 +68,7 @@ class DiagnosisBuilder {
   }
 
  private:
-  double designs_left() const { return options_.designs - static_cast<double>(designs_); }
-
-  bool stopped() const { return designs_left() <= 0 || (options_.cancelled && options_.cancelled()); }
+  bool stopped() const { return trials_.stopped(); }
 
   bool helps(double stackability) const { return stackability > diagnosis_.reached + worth_saying; }
 
@@ -155,58 +119,15 @@ class DiagnosisBuilder {
     const Separation apart = separation(below, above, direction_, options);
     blocker.f = apart.blocked ? apart.length : measured.f_max;
     blocker.stackability = measured.value_at(blocker.f);
-    if (const auto trial = tried({region}, checker_)) {
+    if (const auto trial = trials_.tried({region}, checker_)) {
       explain(blocker, *trial);
       note(*trial);
     }
     return blocker;
   }
 
-  /// Tries every edit that these regions suggest, each by itself. Nothing if they are more designs than are
-  /// left, or when stopped.
-  std::optional<Trial> tried(const std::vector<ContactRegion>& regions, const RequirementChecker& checker) {
-    if (stopped()) return std::nullopt;
-    const DeformationModel& space = checker_.space();
-    const DeformationConstraints constraints =
-        deformation_constraints(checker.requirements(), rest_, direction_);
-    const std::vector<ContactEdit> edits =
-        contact_edits({rest_, space.capabilities(), handles_, best_.design, regions, direction_, centres_});
-    if (static_cast<double>(edits.size()) > designs_left()) return std::nullopt;
-    designs_ += static_cast<std::int64_t>(edits.size());
-    std::vector<std::optional<Obstacle>> refusals(edits.size());
-    std::vector<double> reached(edits.size(), best_.measured.value);
-    std::atomic<bool> cut_short = false;
-    tbb::parallel_for(std::size_t{0}, edits.size(), [&](std::size_t k) {
-      if (cut_short || stopped()) {
-        cut_short = true;
-        return;
-      }
-      const DeformationResult outcome = space.edited(best_.design, edits[k].edit, constraints);
-      if (outcome.refusal)
-        refusals[k] = without_amounts(*outcome.refusal);
-      else if (const auto obstacle = checker.form_obstacle(outcome.design))
-        refusals[k] = without_amounts(*obstacle);
-      else if (const auto better = checker_.measure_if_above(outcome.design.shape, direction_, reached[k]))
-        reached[k] = std::max(reached[k], better->value);
-    });
-    Trial trial;
-    trial.stopped = cut_short;
-    trial.best = best_.measured.value;
-    for (std::size_t k = 0; k < edits.size(); ++k) {
-      if (reached[k] > trial.best) {
-        trial.best = reached[k];
-        trial.best_edit = edits[k].edit;
-      }
-      if (refusals[k])
-        ++trial.refusals[*refusals[k]];
-      else
-        ++trial.made;
-    }
-    return trial;
-  }
-
   /// Keeps the edit of the best trial as asked.
-  void note(const Trial& trial) {
+  void note(const EditTrial& trial) {
     if (!trial.best_edit || trial.best <= noted_) return;
     noted_ = trial.best;
     noted_edit_ = trial.best_edit;
@@ -230,7 +151,7 @@ class DiagnosisBuilder {
     diagnosis_.better = std::move(candidate);
   }
 
-  void explain(Blocker& blocker, const Trial& trial) const {
+  void explain(Blocker& blocker, const EditTrial& trial) const {
     blocker.best_stackability = trial.best;
     if (trial.stopped && !helps(trial.best)) {
       blocker.edits = Blocker::Edits::unfinished;
@@ -250,7 +171,7 @@ class DiagnosisBuilder {
   void look_elsewhere() {
     SearchOptions options;
     options.cancelled = options_.cancelled;
-    options.max_directions = whole_directions(designs_left() * options_.directions_per_design);
+    options.max_directions = whole_directions(trials_.designs_left() * options_.directions_per_design);
     for (const Symmetry& symmetry : rest_.structure.symmetries) options.candidates.push_back(symmetry.axis);
     const Eigen::Vector3d direction =
         best_direction(checker_.rest_shape().solver_without_play(), options).best.direction;
@@ -311,7 +232,7 @@ class DiagnosisBuilder {
   /// Adds a remedy if one edit helps under the requirements `instead` and not under those given.
   void offer(Remedy::Kind kind, const Requirements& instead, const std::vector<int>& parts,
              QualityMeasure measure = {}) {
-    const std::optional<Trial> trial = tried(regions_, {checker_.space(), instead});
+    const std::optional<EditTrial> trial = trials_.tried(regions_, {checker_.space(), instead});
     if (!trial || !helps(trial->best)) return;
     const std::optional<double> as_asked = best_as_asked();
     if (as_asked && trial->best > *as_asked + worth_saying)
@@ -320,7 +241,7 @@ class DiagnosisBuilder {
 
   std::optional<double> best_as_asked() {
     if (!as_asked_)
-      if (const auto trial = tried(regions_, checker_)) {
+      if (const auto trial = trials_.tried(regions_, checker_)) {
         as_asked_ = trial->best;
         note(*trial);
       }
@@ -371,14 +292,12 @@ class DiagnosisBuilder {
   const Candidate& best_;
   const StructuredShape& rest_;
   Direction direction_;
-  std::vector<Handle> handles_;
-  std::vector<Eigen::Vector3d> centres_;  ///< of the handles, at rest
+  EditTrials trials_;
   StackabilitySolver solver_;
   std::vector<ContactRegion> regions_;  ///< one region per class of symmetric regions
   std::optional<double> as_asked_;      ///< largest S after one edit under the requirements given
   double noted_ = 0;                    ///< largest S of `note`
   std::optional<Edit> noted_edit_;      ///< edit that gives it
-  std::int64_t designs_ = 0;            ///< designs made
   Diagnosis diagnosis_;
 };
 
@@ -387,75 +306,6 @@ class DiagnosisBuilder {
 Diagnosis diagnose(const RequirementChecker& checker, const BestFirstResult& result,
                    const DiagnosisOptions& options) {
   return DiagnosisBuilder(checker, result, options).run();
-}
-
-std::string reason_of(const Blocker& blocker, const Structure& rest) {
-  switch (blocker.edits) {
-    case Blocker::Edits::untried:
-      return "";
-    case Blocker::Edits::unfinished:
-      return "time was up before every edit that may separate it was tried";
-    case Blocker::Edits::none:
-      return "no edit would separate it: symmetries and the height that is kept leave none";
-    case Blocker::Edits::helpful:
-      return "one more edit would give S = " + number(blocker.best_stackability);
-    case Blocker::Edits::unhelpful:
-      return "edits separate it, but other contacts ask for as much, or it takes more than one edit";
-    case Blocker::Edits::refused:
-      return "every edit that would separate it is refused, most because " + describe(blocker.obstacle, rest);
-  }
-  return "";
-}
-
-std::string describe(const Blocker& blocker, const Structure& rest) {
-  const std::string above = names({blocker.lower_part}, rest), below = names({blocker.upper_part}, rest),
-                    reason = reason_of(blocker, rest);
-  const char* how = blocker.type == ContactType::ring   ? " all around"
-                    : blocker.type == ContactType::line ? " along a line"
-                                                        : "";
-  return above + " of each copy comes down on " + below + " of the copy below" + how +
-         ". These two alone leave S = " + number(blocker.stackability) +
-         (reason.empty() ? "" : ": " + reason) + ".";
-}
-
-std::string describe(const Remedy& remedy, const Structure& rest) {
-  switch (remedy.kind) {
-    case Remedy::Kind::other_direction:
-      return "stack " + direction_text(remedy.direction) + ", without any edit";
-    case Remedy::Kind::free_part:
-      return "let " + names(remedy.parts, rest) + " change";
-    case Remedy::Kind::remove_part:
-      return "leave out " + names(remedy.parts, rest);
-    case Remedy::Kind::take_apart:
-      return "take off " + names(remedy.parts, rest) + " and stack the pieces apart";
-    case Remedy::Kind::relax_height:
-      return "let the height change";
-    case Remedy::Kind::relax_box:
-      return "let the box change";
-    case Remedy::Kind::relax_quality:
-      return "--relax " + name_of(remedy.measure);
-  }
-  return "";
-}
-
-std::string text(const Diagnosis& diagnosis, const Structure& rest) {
-  const double best = diagnosis.better ? diagnosis.better->measured.value : diagnosis.reached;
-  std::string text = "S = " + number(diagnosis.target) +
-                     " was not reached; the best is S = " + number_unlike(best, diagnosis.target) + " " +
-                     direction_text(diagnosis.direction) + ".\n";
-  if (diagnosis.better && !diagnosis.blockers.empty())
-    text += "Without its last edit it has S = " + number_unlike(diagnosis.reached, diagnosis.target) +
-            ", and this holds it:\n";
-  if (diagnosis.closed) text += describe(*diagnosis.closed, rest) + "\n";
-  for (const Blocker& blocker : diagnosis.blockers) text += describe(blocker, rest) + "\n";
-  if (!diagnosis.constraints.empty()) text += "What stood against edits most often:\n";
-  for (const ObstacleCount& constraint : diagnosis.constraints)
-    text += "  " + describe(constraint, rest) + "\n";
-  if (diagnosis.remedies.empty()) return text + "No single change was found that would help.\n";
-  text += "What would help:\n";
-  for (const Remedy& remedy : diagnosis.remedies)
-    text += "  " + describe(remedy, rest) + ": S = " + number(remedy.stackability) + "\n";
-  return text;
 }
 
 }  // namespace stackabilization

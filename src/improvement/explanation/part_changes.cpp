@@ -110,9 +110,9 @@ class PartMeasurement {
   bool stands() const { return range(frame_.up).low - frame_.ground <= limit::standing * frame_.height; }
 
   Heading heading(const Eigen::Vector3d& by) const {
-    const Eigen::Vector3d out = frame_.level(result_.map.from - frame_.centre), level = frame_.level(by);
-    if (out.norm() <= limit::on_axis * frame_.diagonal || !(level.norm() > 0)) return Heading::sideways;
-    const Eigen::Vector3d along = level.normalized();
+    const Eigen::Vector3d out = frame_.level(result_.map.from - frame_.centre), way = frame_.level(by);
+    if (out.norm() <= limit::on_axis * frame_.diagonal || !(way.norm() > 0)) return Heading::sideways;
+    const Eigen::Vector3d along = way.normalized();
     double reach = 0;
     for (Eigen::Index v = 0; v < rest_.vertex_count(); ++v)
       reach = std::max(reach, std::abs(along.dot(rest_.vertices.row(v).transpose() - frame_.centre)));

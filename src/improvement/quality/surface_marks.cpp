@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 
 #include "core/index.h"
 #include "mesh/barycentric.h"
@@ -14,6 +16,16 @@ namespace stackabilization::detail {
 void SurfaceMarks::append(const Shape& rest, std::int32_t triangle, const Eigen::Vector3d& point) {
   triangles.push_back(triangle);
   weights.push_back(barycentric_weights(rest, triangle, point));
+}
+
+void SurfaceMarks::append(const SurfaceMarks& others) {
+  triangles.insert(triangles.end(), others.triangles.begin(), others.triangles.end());
+  weights.insert(weights.end(), others.weights.begin(), others.weights.end());
+}
+
+void SurfaceMarks::append_corner(std::int32_t triangle, int corner) {
+  triangles.push_back(triangle);
+  weights.push_back(Eigen::Vector3d::Unit(corner));
 }
 
 Points SurfaceMarks::on(const Shape& shape) const {
@@ -39,6 +51,30 @@ SurfaceMarks marks_on(const Shape& rest, const std::vector<std::int32_t>& triang
   for (std::size_t k = 0; k < samples.triangles.size(); ++k)
     marks.append(rest, rows[at(samples.triangles[k])],
                  samples.points.row(static_cast<Eigen::Index>(k)).transpose());
+  return marks;
+}
+
+SurfaceMarks outermost_vertices(const Shape& rest, const std::vector<std::int32_t>& triangles) {
+  SurfaceMarks marks;
+  std::set<std::int32_t> known;
+  for (const double x : {-1.0, 0.0, 1.0})
+    for (const double y : {-1.0, 0.0, 1.0})
+      for (const double z : {-1.0, 0.0, 1.0}) {
+        const Eigen::Vector3d direction(x, y, z);
+        if (direction.isZero()) continue;
+        double height = -std::numeric_limits<double>::infinity();
+        std::int32_t triangle = -1;
+        int corner = 0;
+        for (const std::int32_t t : triangles)
+          for (int k = 0; k < 3; ++k)
+            if (const double own = direction.dot(rest.corner(t, k)); own > height) {
+              height = own;
+              triangle = t;
+              corner = k;
+            }
+        if (triangle >= 0 && known.insert(rest.triangles(triangle, corner)).second)
+          marks.append_corner(triangle, corner);
+      }
   return marks;
 }
 

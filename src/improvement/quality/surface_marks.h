@@ -16,6 +16,10 @@ struct SurfaceMarks {
   std::size_t size() const { return triangles.size(); }
   /// Appends a mark at the nearest point of the triangle's plane. Precondition: the triangle has an area.
   void append(const Shape& rest, std::int32_t triangle, const Eigen::Vector3d& point);
+  /// Appends other marks, without areas.
+  void append(const SurfaceMarks& others);
+  /// Appends a corner of a triangle.
+  void append_corner(std::int32_t triangle, int corner);
   /// Returns the places of the marks on `shape`, one per row.
   Points on(const Shape& shape) const;
 };
@@ -25,6 +29,10 @@ std::vector<std::vector<std::int32_t>> triangles_of_parts(const Shape& shape);
 
 /// Returns `count` marks of equal area on some triangles (surface_samples); none if they have no area.
 SurfaceMarks marks_on(const Shape& rest, const std::vector<std::int32_t>& triangles, int count);
+
+/// Returns the outermost vertices of some triangles in the 26 directions of a cube's faces, edges and
+/// corners, each once.
+SurfaceMarks outermost_vertices(const Shape& rest, const std::vector<std::int32_t>& triangles);
 
 /// Returns the centres of pieces of some triangles, with their areas: triangles are cut in four until no edge
 /// is longer than `length`, as long as there are no more than `max_pieces` pieces in all. So the marks have

@@ -92,7 +92,10 @@ class Counterparts {
 
 WholeForm::WholeForm(const StructuredShape& rest, const WeldedMesh& welded, const PartForms& parts,
                      const Eigen::Vector3d& up)
-    : up_(up), diagonal_(rest.structure.diagonal), height_(range_along(rest.shape, up).length()) {
+    : up_(up),
+      diagonal_(rest.structure.diagonal),
+      height_(range_along(rest.shape, up).length()),
+      walk_(rest.shape, welded) {
   find_symmetric_marks(rest);
   find_seats(rest.shape, parts);
   find_feet(rest.shape, welded);
@@ -104,6 +107,8 @@ void WholeForm::find_symmetric_marks(const StructuredShape& rest) {
   std::iota(all.begin(), all.end(), 0);
   marks_ = marks_on(rest.shape, all, marks_of_whole);
   if (marks_.size() == 0) return;
+  for (const std::vector<std::int32_t>& part : triangles_of_parts(rest.shape))
+    marks_.append(outermost_vertices(rest.shape, part));
   const Counterparts counterparts(rest.shape);
   const Points places = marks_.on(rest.shape);
   const double reach = tolerance::quality::touching * diagonal_;
@@ -129,7 +134,11 @@ QualityValue WholeForm::symmetry(const Shape& now) const {
     for (std::size_t k = 0; k < entry.marks.size(); ++k) {
       const Eigen::Vector3d image = entry.map * places.row(entry.marks[k]).transpose();
       const Eigen::Vector3d place = images.row(static_cast<Eigen::Index>(k));
-      const double off = ((image - place).norm() - entry.distances[k]) / diagonal_;
+      const auto beyond_rest = [&](double distance) { return (distance - entry.distances[k]) / diagonal_; };
+      const double direct = (image - place).norm();
+      if (beyond_rest(direct) <= worst.value) continue;
+      // The triangles on both sides need not be symmetric, so the image may lie beside its own triangle.
+      const double off = beyond_rest(std::min(direct, walk_.distance(now, image, entry.images.triangles[k])));
       if (off <= worst.value) continue;
       worst.value = off;
       worst.part = now.triangle_part[at(marks_.triangles[static_cast<std::size_t>(entry.marks[k])])];

@@ -6,6 +6,7 @@
 #include "improvement/quality/flat_faces.h"
 #include "improvement/quality/part_forms.h"
 #include "improvement/quality/surface_marks.h"
+#include "mesh/surface_walk.h"
 #include "stackabilization/improvement/quality.h"
 
 namespace stackabilization::detail {
@@ -50,6 +51,7 @@ class WholeForm {
 
   Eigen::Vector3d up_;
   double diagonal_, height_;
+  SurfaceWalk walk_;
   SurfaceMarks marks_;
   std::vector<SymmetricMarks> symmetric_;
   std::vector<Seat> seats_;

@@ -21,7 +21,7 @@ struct Corner {
 };
 
 /// Two outermost points: their difference across r, and along r where it is least.
-struct Span {
+struct OutermostPair {
   Eigen::Vector2d across;
   double along;
 
@@ -53,7 +53,7 @@ std::vector<Corner> corners_of(const HullSupport& hull, const Frame& frame, doub
   return corners;
 }
 
-Span span_along(const std::vector<Corner>& corners, const Eigen::Vector2d& unit) {
+OutermostPair outermost_along(const std::vector<Corner>& corners, const Eigen::Vector2d& unit) {
   const auto before = [&](const Corner& a, const Corner& b) { return a.at.dot(unit) < b.at.dot(unit); };
   const auto [last, first] = std::minmax_element(corners.begin(), corners.end(), before);
   return {first->at - last->at, std::max({0.0, first->low - last->high, last->low - first->high})};
@@ -86,8 +86,8 @@ double min_base(const HullSupport& hull, const Direction& direction, double angl
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
     const double begin = turns[i], end = turns[i + 1], half = (end - begin) / 2;
-    const Span first = span_along(corners, unit_at(begin + half)),
-               second = span_along(corners, unit_at(begin + half + quarter_turn));
+    const OutermostPair first = outermost_along(corners, unit_at(begin + half)),
+                        second = outermost_along(corners, unit_at(begin + half + quarter_turn));
     double product = std::numeric_limits<double>::infinity(), first_width = 0, second_width = 0;
     for (const double turn : {begin, end}) {
       const double a = first.width(unit_at(turn)), b = second.width(unit_at(turn + quarter_turn));

@@ -18,11 +18,14 @@
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/stacking/bundle_ascent.h"
 #include "stackabilization/stacking/tolerances.h"
-#include "stacking/direction/candidates.h"
+#include "stacking/direction/circle_peak.h"
+#include "stacking/direction/trials.h"
 
 namespace stackabilization {
 
 namespace {
+
+using namespace detail;
 
 /// Number of directions measured between two updates of the threshold. It is fixed, so that the abandoned
 /// directions do not depend on the number of threads.
@@ -41,34 +44,14 @@ constexpr std::size_t trials_per_promising = 6;
 /// Largest difference of a peak's S from the best S at which a climb starts.
 constexpr double climbing_range = 0.05;
 
-/// Search around the best direction: limit of the number of new climbs, and directions of each circle.
+/// Largest number of new climbs from circles around the best direction.
 constexpr int max_new_climbs = 20;
-constexpr int circle_points = 24;
-constexpr int circle_halvings = 10;
-constexpr std::int64_t max_circle_trials = circle_points + 4 * circle_halvings;  ///< two peaks, two sides
-
-/// A direction to try, with the normal of the great circle it was taken from, or zero.
-struct Trial {
-  Eigen::Vector3d direction, circle_normal;
-};
 
 /// A trial that was measured.
 struct Sample {
   Stackability at;
   Eigen::Vector3d circle_normal;
 };
-
-/// Returns the two largest local maxima of the values on a circle.
-std::vector<int> circle_peaks(const std::vector<double>& values) {
-  const auto count = static_cast<int>(values.size());
-  const auto at = [&](int i) { return values[static_cast<std::size_t>((i + count) % count)]; };
-  std::vector<int> peaks;
-  for (int i = 0; i < count; ++i)
-    if (at(i) > at(i - 1) && at(i) >= at(i + 1)) peaks.push_back(i);
-  std::stable_sort(peaks.begin(), peaks.end(), [&](int a, int b) { return at(a) > at(b); });
-  if (peaks.size() > 2) peaks.erase(peaks.begin() + 2, peaks.end());
-  return peaks;
-}
 
 /// Returns the requested spacing or, over the whole sphere, one that leaves half of the directions for
 /// refinement.
@@ -94,7 +77,7 @@ class DirectionSearch {
   }
 
   SearchResult run() {
-    const std::vector<Trial> evenly = trials();
+    const std::vector<DirectionTrial> evenly = even_trials(solver_, options_, region_, spacing_);
     first_trials_ = evenly.size();
     measure(evenly, promising_range);
     if (!perfect()) look_closer();
@@ -107,16 +90,14 @@ class DirectionSearch {
   }
 
  private:
-  std::vector<Trial> trials() const;
-  void measure(const std::vector<Trial>& trials, double range);
+  void measure(const std::vector<DirectionTrial>& trials, double range);
   void look_closer();
-  std::vector<Trial> promising(std::size_t begin, double spacing, double range) const;
-  std::vector<Trial> around(const Sample& sample, double distance) const;
+  std::vector<DirectionTrial> promising(std::size_t begin, double spacing, double range) const;
+  std::vector<DirectionTrial> around(const Sample& sample, double distance) const;
   std::vector<Sample> peaks(const std::vector<Sample>& samples, double distance) const;
   void climb_to_peaks();
   std::vector<Sample> climb_from(std::vector<Sample> starts, double first_step, double last_step);
   void look_around(Sample& top);
-  Sample best_on_circle(const Sample& top, double radius);
   void prove();
   /// Reports a fraction of the search without its proof, which counts as much.
   void report_search(double fraction) const { report(options_.certify ? fraction / 2 : fraction); }
@@ -143,42 +124,8 @@ class DirectionSearch {
   SearchResult result_;
 };
 
-/// Directions in a plane that belong to a candidate: the intersection with the plane orthogonal to the
-/// candidate, and the direction nearest to the candidate.
-std::vector<Eigen::Vector3d> lines_in_plane(const Eigen::Vector3d& plane_normal,
-                                            const Eigen::Vector3d& candidate) {
-  const Eigen::Vector3d normal = plane_normal.normalized(), unit = candidate.normalized();
-  const Eigen::Vector3d across = normal.cross(unit);
-  if (across.norm() <= tolerance::relative) return {};
-  return {across.normalized(), across.cross(normal).normalized()};
-}
-
-std::vector<Trial> DirectionSearch::trials() const {
-  CandidateDirections candidates = candidate_directions(solver_);
-  candidates.main.insert(candidates.main.begin(), options_.candidates.begin(), options_.candidates.end());
-  const Eigen::Vector3d none = options_.plane_normal.value_or(Eigen::Vector3d::Zero());
-  std::vector<Trial> trials;
-  if (options_.cone)
-    if (const auto axis = region_.member(options_.cone->axis)) trials.push_back({*axis, none});
-  for (const auto* directions : {&candidates.main, &candidates.others})
-    for (const Eigen::Vector3d& direction : *directions)
-      if (const auto member = region_.member(direction)) trials.push_back({*member, none});
-  if (options_.plane_normal)
-    for (const auto* directions : {&candidates.main, &candidates.others})
-      for (const Eigen::Vector3d& direction : *directions)
-        for (const Eigen::Vector3d& line : lines_in_plane(*options_.plane_normal, direction))
-          if (const auto member = region_.member(line)) trials.push_back({*member, none});
-  for (const Eigen::Vector3d& direction : region_.samples(spacing_)) trials.push_back({direction, none});
-  if (!options_.plane_normal)
-    for (const Eigen::Vector3d& normal : candidates.main)
-      for (const Eigen::Vector3d& direction : half_circle(normal, spacing_ / 2))
-        if (const auto member = region_.member(direction)) trials.push_back({*member, normal});
-  if (trials.empty()) throw UsageError("the cone and the plane of directions have no direction in common");
-  return trials;
-}
-
 /// Measures trials that may come within `range` of the best.
-void DirectionSearch::measure(const std::vector<Trial>& trials, double range) {
+void DirectionSearch::measure(const std::vector<DirectionTrial>& trials, double range) {
   for (std::size_t begin = 0; begin < trials.size(); begin += trials_per_batch) {
     if (!samples_.empty() && (ended() || perfect())) return;
     const std::size_t count =
@@ -204,7 +151,7 @@ void DirectionSearch::look_closer() {
   std::size_t begin = 0;
   for (int level = 0; level < halvings; ++level) {
     report_search(0.3 + 0.2 * level);
-    const std::vector<Trial> closer = promising(begin, spacing, range);
+    const std::vector<DirectionTrial> closer = promising(begin, spacing, range);
     begin = samples_.size();
     measure(closer, range / 2);
     spacing /= 2;
@@ -213,25 +160,26 @@ void DirectionSearch::look_closer() {
 }
 
 /// Trials between the samples from `begin` on that are within `range` of the best.
-std::vector<Trial> DirectionSearch::promising(std::size_t begin, double spacing, double range) const {
+std::vector<DirectionTrial> DirectionSearch::promising(std::size_t begin, double spacing,
+                                                       double range) const {
   std::vector<Sample> candidates(samples_.begin() + static_cast<std::ptrdiff_t>(begin), samples_.end());
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Sample& a, const Sample& b) { return a.at.value > b.at.value; });
   candidates.resize(std::min({candidates.size(), max_promising, first_trials_ / trials_per_promising}));
-  std::vector<Trial> trials;
+  std::vector<DirectionTrial> trials;
   for (const Sample& sample : candidates) {
     if (sample.at.value < best_ - range) break;
-    const std::vector<Trial> near = around(sample, spacing / 4);
+    const std::vector<DirectionTrial> near = around(sample, spacing / 4);
     trials.insert(trials.end(), near.begin(), near.end());
   }
   return trials;
 }
 
 /// Centres of the quarters of a sample's square, and two neighbours on its great circle.
-std::vector<Trial> DirectionSearch::around(const Sample& sample, double distance) const {
+std::vector<DirectionTrial> DirectionSearch::around(const Sample& sample, double distance) const {
   const Frame frame = frame_of(Direction(sample.at.direction));
   const Eigen::Vector3d along = sample.circle_normal.cross(frame.w).normalized() * distance;
-  std::vector<Trial> trials;
+  std::vector<DirectionTrial> trials;
   if (!along.isZero(0))
     for (const double sign : {-1.0, 1.0})
       if (const auto direction = region_.nearest(frame.w + sign * along))
@@ -318,8 +266,10 @@ void DirectionSearch::look_around(Sample& top) {
   const double widest = spacing_ / (1 << halvings);
   int climbs_left = max_new_climbs;
   for (double radius = widest;
-       radius > tolerance::direction_step && !ended() && left() >= max_circle_trials;) {
-    const Sample best = best_on_circle(top, radius);
+       radius > tolerance::direction_step && !ended() && left() >= max_circle_directions;) {
+    const CirclePeak peak = circle_peak(solver_, region_, top.at.direction, radius);
+    result_.evaluated += peak.evaluated;
+    const Sample best{peak.best, top.circle_normal};
     if (best.at.value <= top.at.value + tolerance::stackability || climbs_left == 0) {
       radius /= 4;
       continue;
@@ -328,47 +278,6 @@ void DirectionSearch::look_around(Sample& top) {
     top = climb_from({best}, radius, tolerance::direction_step).front();
     radius = std::min(widest, 4 * radius);
   }
-}
-
-/// Returns the best direction of a circle around `top`: first of even samples, then by bisection between the
-/// best two peaks and their neighbours. Along a discontinuity, only a narrow part of the circle next to one
-/// of the two jumps is better than the centre.
-Sample DirectionSearch::best_on_circle(const Sample& top, double radius) {
-  const Frame frame = frame_of(Direction(top.at.direction));
-  Sample best = top;
-  best.at.value = -std::numeric_limits<double>::infinity();
-  const auto measure_at = [&](const std::vector<double>& angles) {
-    std::vector<double> values(angles.size(), -std::numeric_limits<double>::infinity());
-    std::vector<Stackability> measured(angles.size());
-    tbb::parallel_for(std::size_t{0}, angles.size(), [&](std::size_t i) {
-      const Eigen::Vector3d local(radius * std::cos(angles[i]), radius * std::sin(angles[i]), 1);
-      const auto direction = region_.nearest(frame.to_world(local));
-      if (!direction) return;
-      measured[i] = solver_.measure(Direction(*direction));
-      values[i] = measured[i].value;
-    });
-    result_.evaluated += static_cast<std::int64_t>(angles.size());
-    for (std::size_t i = 0; i < angles.size(); ++i)
-      if (values[i] > best.at.value) best.at = measured[i];
-    return values;
-  };
-  const double even_step = 2 * std::numbers::pi / circle_points;
-  std::vector<double> angles;
-  for (int i = 0; i < circle_points; ++i) angles.push_back(i * even_step);
-  const std::vector<double> values = measure_at(angles);
-  for (const int peak : circle_peaks(values)) {
-    double middle = angles[static_cast<std::size_t>(peak)], value = values[static_cast<std::size_t>(peak)],
-           step = even_step;
-    for (int halving = 0; halving < circle_halvings; ++halving) {
-      step /= 2;
-      const std::vector<double> sides = measure_at({middle - step, middle + step});
-      const int better = sides[0] >= sides[1] ? 0 : 1;
-      if (sides[static_cast<std::size_t>(better)] <= value) continue;
-      value = sides[static_cast<std::size_t>(better)];
-      middle += better == 0 ? -step : step;
-    }
-  }
-  return best;
 }
 
 void DirectionSearch::prove() {

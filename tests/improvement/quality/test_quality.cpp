@@ -228,6 +228,24 @@ TEST_CASE("A leg that leaves its mirror image breaks the symmetry by its way", "
   const Shape one_leg = with_part_moved(rest.shape, 1, {0.1, 0, 0});
   const double found = measured(rest, one_leg, QualityMeasure::symmetry);
   CHECK(found == Approx(0.1 / rest.structure.diagonal).epsilon(1e-6));
+  const Shape one_lifted = with_part_moved(rest.shape, 1, {0, 0, 0.05});
+  CHECK(measured(rest, one_lifted, QualityMeasure::symmetry) ==
+        Approx(0.05 / rest.structure.diagonal).epsilon(1e-6));
+}
+
+TEST_CASE("A board whose ends lean alike is symmetric, however its faces are cut into triangles",
+          "[quality]") {
+  StructuredShape rest = analyse_structure(solids::box({-5, -0.5, -2}, {5, 0.5, 2}));
+  rest.structure.symmetries = {Symmetry{}};  // the plane x = 0
+  const auto leaning = [&](bool both) {
+    return mapped(rest.shape, [both](const Eigen::Vector3d& p) {
+      return Eigen::Vector3d(both || p.x() > 0 ? p.x() * (1 - 0.05 * p.z()) : p.x(), p.y(), p.z());
+    });
+  };
+  CHECK(measured(rest, leaning(true), QualityMeasure::symmetry) == Approx(0).margin(1e-12));
+  // The lower corners of the end that leans alone are 0.5 outside of the other end.
+  CHECK(measured(rest, leaning(false), QualityMeasure::symmetry) ==
+        Approx(0.5 / rest.structure.diagonal).epsilon(1e-6));
 }
 
 TEST_CASE("A foot off the ground, and a top that is lower, smaller or tilted", "[quality]") {

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "mesh/welded_mesh.h"
+
+namespace stackabilization::detail {
+
+/// Walks over the triangles of one part after the other, across common edges. Built from the shape at rest,
+/// for all shapes with the same triangles. Safe from any number of threads.
+class SurfaceWalk {
+ public:
+  /// `mesh`: the welded triangles of `shape`. An edge with three triangles or more of a part leads to two of
+  /// them.
+  SurfaceWalk(const Shape& shape, const WeldedMesh& mesh);
+
+  /// Returns how far `point` is from the surface around the triangle `start`, model units: the distance falls
+  /// or stays from one triangle of the walk to the next. At least the distance to the part of `start`, and
+  /// equal to it where the part is flat or convex around the walk, which ends after 64 triangles. Infinity if
+  /// every triangle of the walk is collapsed.
+  double distance(const Shape& shape, const Eigen::Vector3d& point, std::int32_t start) const;
+
+ private:
+  std::vector<std::array<std::int32_t, 3>> neighbours_;  ///< per triangle; -1: none
+};
+
+}  // namespace stackabilization::detail
