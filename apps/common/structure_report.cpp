@@ -180,12 +180,6 @@ void add_structure(Json& document, const StructuredShape& structured) {
   document["relations"] = std::move(relations);
 }
 
-std::string relation_text(const Relation& relation, const Structure& structure) {
-  std::string type = name_of(relation.type);
-  std::replace(type.begin(), type.end(), '_', ' ');
-  return type + " of " + joined(part_names_of(relation, structure), " and ");
-}
-
 std::string structure_text(const StructuredShape& structured, const Model& model) {
   const Structure& structure = structured.structure;
   TextTable table;

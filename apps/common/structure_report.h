@@ -23,9 +23,6 @@ Json to_json(const Relation& relation, const Structure& structure);
 /// {diagonal, parts, primitives, symmetries, relations}.
 void add_structure(Json& document, const StructuredShape& structured);
 
-/// "symmetry of leg_1 and leg_2", "point joint of leg_1 and seat".
-std::string relation_text(const Relation& relation, const Structure& structure);
-
 /// Parts, symmetries and relations for people.
 std::string structure_text(const StructuredShape& structured, const Model& model);
 

@@ -120,7 +120,7 @@ std::string deformation_text(const DeformRun& run, const Model& model) {
     if (refusal->relation >= 0) {
       const Relation& relation = structure.relations.at(static_cast<std::size_t>(refusal->relation));
       table.add("Breaks", small_percent(std::max(refusal->amount, 0.0)),
-                "of the diagonal: " + relation_text(relation, structure));
+                "of the diagonal: " + describe(relation, structure));
     }
     return table.text() + "Refused: " + describe(*refusal, structure) + "\n";
   }

@@ -117,8 +117,7 @@ Json checks_json(const SolutionReport& solution) {
 Json residuals_json(const Structure& structure, const std::vector<double>& residuals) {
   Json list = Json::array();
   for (std::size_t i = 0; i < residuals.size(); ++i)
-    list.push_back(
-        {{"relation", relation_text(structure.relations[i], structure)}, {"residual", residuals[i]}});
+    list.push_back({{"relation", describe(structure.relations[i], structure)}, {"residual", residuals[i]}});
   return list;
 }
 

@@ -24,7 +24,8 @@ struct ClosedPair {
 std::optional<ClosedPair> closed_pair(const Shape& shape, const Direction& direction,
                                       const Stackability& measured, double target);
 
-/// Returns the pair as a sentence: "Closed: 'top' of the lower copy lies over 'bottom' of ...".
+/// Returns the pair as a sentence: "Closed: 'top' at the top of each copy lies under 'foot' at the bottom of
+/// ...".
 std::string describe(const ClosedPair& pair, const Structure& rest);
 
 }  // namespace stackabilization

@@ -68,6 +68,10 @@ struct StructuredShape {
 /// Returns "symmetry", "self_symmetry", "point_joint" or "line_joint".
 std::string name_of(RelationType type);
 
+/// Returns a relation as words: "point joint of 'leg' and 'top'", "self-symmetry of 'top'". Throws
+/// std::out_of_range for a part that the structure lacks.
+std::string describe(const Relation& relation, const Structure& structure);
+
 /// Throws InputError, naming the part or the relation, unless the structure matches the shape: every part of
 /// `shape` has one primitive under its name, and every relation refers to existing parts and has the members
 /// of its type.

@@ -42,10 +42,8 @@ void check_rest(const Structure& rest) {
   const std::vector<double> residuals = relation_residuals(rest, primitives);
   for (std::size_t k = 0; k < residuals.size(); ++k)
     if (!(residuals[k] <= tolerance::relation))
-      throw InputError("relation " + std::to_string(k) + " (" + name_of(rest.relations[k].type) + " of '" +
-                       rest.parts[at(rest.relations[k].parts.front())].name + "' and '" +
-                       rest.parts[at(rest.relations[k].parts.back())].name +
-                       "') does not hold at rest: its primitives are off by " + std::to_string(residuals[k]) +
+      throw InputError("relation " + std::to_string(k) + " (" + describe(rest.relations[k], rest) +
+                       ") does not hold at rest: its primitives are off by " + std::to_string(residuals[k]) +
                        " of the diagonal");
 }
 

@@ -19,8 +19,7 @@ constexpr double reach_of_parts = 0.15;
 /// The same in smooth designs: further away from a joint, members that move differently would bend each
 /// other.
 constexpr double smooth_reach_of_parts = 0.03;
-/// By how much nearer to its end a part meets another than the other way round, fraction of half a length,
-/// from which on it is attached to the other and follows it at their border.
+/// Least lead of a part that is attached to another, see Shares::lead.
 constexpr double attached = 0.3;
 
 /// Returns a smooth weight: 1 at 0, 0 from 1 on, flat at both ends.
@@ -93,7 +92,7 @@ class Shares {
   void spread_into(int part, const Borders& borders, std::vector<PerVertex>& shares) const {
     const std::map<int, std::set<int>> edges = edges_of(part);
     for (const auto& [other, border] : borders) {
-      const double lead = smooth_ ? nearness_to_end(part, border) - nearness_to_end(other, border) : 0;
+      const double lead = smooth_ ? lead_of(border_place(part, border), border_place(other, border)) : 0;
       if (lead < -attached) continue;
       const double fraction = smooth_ ? smooth_reach_of_parts : reach_of_parts;
       const double reach = fraction * std::min(diagonal(part), diagonal(other));
@@ -106,17 +105,34 @@ class Shares {
     }
   }
 
-  /// Returns how far from the middle of a part its border lies: 0 in the middle, 1 at an end.
-  double nearness_to_end(int part, const std::vector<int>& border) const {
+  /// Where a border lies on a part.
+  struct BorderPlace {
+    double nearness = 0;  ///< to an end: 0 in the middle, 1 at an end
+    double length = 0;    ///< along the axis of the part, share of the size of the border
+  };
+
+  /// Returns by how much more a part ends at its border than the other one. From `attached` on it is attached
+  /// to the other and follows it there: its border lies nearer to its end or, where both are as near, its
+  /// border lies across its axis, and along that of the other.
+  static double lead_of(const BorderPlace& own, const BorderPlace& other) {
+    const double nearer = own.nearness - other.nearness;
+    return std::abs(nearer) > attached ? nearer : other.length - own.length;
+  }
+
+  BorderPlace border_place(int part, const std::vector<int>& border) const {
     const Points points = control_points(smooth_->parts[at(part)].primitive);
     const Eigen::RowVector3d middle = points.colwise().mean();
     const Eigen::Matrix3d spread = (points.rowwise() - middle).transpose() * (points.rowwise() - middle);
     const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
-    Eigen::RowVector3d place = Eigen::RowVector3d::Zero();
-    for (const int vertex : border) place += shape_.vertices.row(vertex);
-    place /= static_cast<double>(border.size());
-    const double half = ((points.rowwise() - middle) * axis).cwiseAbs().maxCoeff();
-    return std::min(std::abs((place - middle) * axis) / half, 1.0);
+    const Points places = shape_.vertices(border, Eigen::all);
+    const Eigen::RowVector3d size = places.colwise().maxCoeff() - places.colwise().minCoeff();
+    const Eigen::VectorXd heights = (places.rowwise() - middle) * axis;
+    const Eigen::VectorXd own = (points.rowwise() - middle) * axis;
+    const double half = own.cwiseAbs().maxCoeff();
+    BorderPlace place;
+    place.nearness = std::min(std::abs(heights.mean()) / half, 1.0);
+    if (size.norm() > 0) place.length = (heights.maxCoeff() - heights.minCoeff()) / size.norm();
+    return place;
   }
 
   std::map<int, std::set<int>> edges_of(int part) const {

@@ -12,9 +12,10 @@ namespace stackabilization::detail {
 /// that several parts share is bound to all of them with equal weights. Around the shared vertices each part
 /// also carries vertices of the other part. Their weight decreases smoothly with the distance along the
 /// edges, to zero at 0.15 of the diagonal of the smaller part. The deformed mesh therefore has no cracks and
-/// no steps. In smooth designs it is zero at 0.03 of the diagonal; and of two parts that meet near the end of
-/// the one, a rail and a leg, the shared vertices follow the other, so that a leg keeps its flat sides.
-/// Vertices that no triangle uses do not move. Immutable, safe to share between threads.
+/// no steps. In smooth designs it is zero at 0.03 of the diagonal; and of two parts that meet at the end of
+/// the one and at a side of the other, a rail and a leg, the shared vertices follow the other, so that a leg
+/// keeps its flat sides. Vertices that no triangle uses do not move. Immutable, safe to share between
+/// threads.
 class MeshTransfer {
  public:
   MeshTransfer(const Shape& shape, const Rig& rig, Following following = Following::free);

@@ -59,10 +59,7 @@ std::string number(double value, int digits) {
 
 std::string name_of(int relation, const Structure& structure) {
   if (relation < 0) return "rounding";
-  const Relation& row = structure.relations.at(detail::at(relation));
-  const auto part = [&](int k) { return "'" + structure.parts.at(detail::at(k)).name + "'"; };
-  const std::string name = "the " + name_of(row.type) + " of " + part(row.parts.front());
-  return row.parts.size() > 1 ? name + " and " + part(row.parts.back()) : name;
+  return "the " + describe(structure.relations.at(detail::at(relation)), structure);
 }
 
 /// Returns the text of one placeholder of a sentence.

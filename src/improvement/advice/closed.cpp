@@ -240,7 +240,7 @@ std::optional<ClosedPair> closed_pair(const Shape& shape, const Direction& direc
 std::string describe(const ClosedPair& pair, const Structure& rest) {
   const auto name = [&](int part) { return "'" + rest.parts[at(part)].name + "'"; };
   return "Closed: " + name(pair.upper_part) + " at the top of each copy lies under " +
-         (pair.upper_part == pair.lower_part ? "its bottom" : name(pair.lower_part) + " at the bottom") +
+         (pair.upper_part == pair.lower_part ? "the bottom" : name(pair.lower_part) + " at the bottom") +
          " of the next one, and no move by " + fixed_text(100 * tolerance::closed_move, 0) +
          " % of the diagonal, nor a scaling by " + fixed_text(100 * tolerance::closed_scale, 0) +
          " % takes it out of the way. While it does not, S is at most " + fixed_text(pair.stackability, 3) +

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "improvement/advice/edit_trials.h"
@@ -75,7 +77,7 @@ class DiagnosisBuilder {
   /// Returns the obstacles of the search. Checks that stand against the best design alone, which reaches the
   /// target, come first: nothing else keeps it from being a solution.
   std::vector<ObstacleCount> obstacles() const {
-    std::vector<ObstacleCount> all = result_.refusals;
+    std::vector<ObstacleCount> all = told_once(result_.refusals);
     if (!checker_.meets_target(best_.measured)) return all;
     std::vector<ObstacleCount> own;
     for (const Check& check : checker_.check(best_.design, direction_).checks) {
@@ -88,6 +90,21 @@ class DiagnosisBuilder {
     }
     all.insert(all.begin(), own.begin(), own.end());
     return all;
+  }
+
+  /// Adds up the counts of obstacles that read the same, such as two symmetries of one part, and sorts them.
+  std::vector<ObstacleCount> told_once(const std::vector<ObstacleCount>& counts) const {
+    std::map<std::string, std::size_t> rows;
+    std::vector<ObstacleCount> result;
+    for (const ObstacleCount& count : counts) {
+      const auto [row, is_new] = rows.try_emplace(describe(count.obstacle, rest_.structure), result.size());
+      if (is_new)
+        result.push_back(count);
+      else
+        result[row->second].count += count.count;
+    }
+    sort_by_count(result, rest_.structure);
+    return result;
   }
 
   void find_blockers() {

@@ -1,3 +1,4 @@
+#include <set>
 #include <string>
 #include <vector>
 
@@ -89,7 +90,9 @@ std::string text(const Diagnosis& diagnosis, const Structure& rest) {
     text += "Without its last edit it has S = " + number_unlike(diagnosis.reached, diagnosis.target) +
             ", and this holds it:\n";
   if (diagnosis.closed) text += describe(*diagnosis.closed, rest) + "\n";
-  for (const Blocker& blocker : diagnosis.blockers) text += describe(blocker, rest) + "\n";
+  std::set<std::string> told;
+  for (const Blocker& blocker : diagnosis.blockers)
+    if (const std::string line = describe(blocker, rest); told.insert(line).second) text += line + "\n";
   if (!diagnosis.constraints.empty()) text += "What stood against edits most often:\n";
   for (const ObstacleCount& constraint : diagnosis.constraints)
     text += "  " + describe(constraint, rest) + "\n";

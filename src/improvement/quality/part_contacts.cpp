@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <memory>
 #include <set>
 
@@ -21,14 +22,22 @@ namespace {
 
 using ContactKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// Number of marks on a part, and around a joint.
+/// Number of marks on a part, on a part at rest, and around a joint.
 constexpr int marks_per_part = 150;
+constexpr int marks_at_rest = 3000;
 constexpr std::size_t marks_per_joint = 60;
 /// Largest number of pairs of parts near each other; more are not looked at.
 constexpr std::size_t max_near_pairs = 20'000;
 
 Corners corners_of(const Shape& shape, std::int32_t t) {
   return {shape.corner(t, 0), shape.corner(t, 1), shape.corner(t, 2)};
+}
+
+/// Returns marks of equal area and, for the ends of rungs and tenons, the outermost vertices.
+SurfaceMarks marks_of(const Shape& shape, const std::vector<std::int32_t>& triangles, int count) {
+  SurfaceMarks marks = marks_on(shape, triangles, count);
+  marks.append(outermost_vertices(shape, triangles));
+  return marks;
 }
 
 double distance_between(const Corners& a, const Corners& b) {
@@ -96,7 +105,7 @@ PartContacts::PartContacts(const StructuredShape& rest) : rest_(rest), welded_(w
   const Shape& shape = rest.shape;
   const Surfaces surfaces(shape);
   for (int part = 0; part < static_cast<int>(shape.part_count()); ++part) {
-    marks_.push_back(marks_on(shape, surfaces.rows(part), marks_per_part));
+    marks_.push_back(marks_of(shape, surfaces.rows(part), marks_per_part));
     solid_.push_back(closed_surface(extract_part(shape, part)).closed);
   }
   crossing_at_rest_ = intersections(shape);
@@ -136,8 +145,18 @@ void PartContacts::find_touching(const Surfaces& surfaces) {
     };
     if (reaches(first, second) || reaches(second, first)) touching.insert({first, second});
   }
+  // With more marks than later on: what lies inside of another part at rest must not count as deeper where a
+  // few marks happen to come upon it.
+  std::map<int, SurfaceMarks> dense;
+  const auto marks = [&](int part) -> const SurfaceMarks& {
+    const auto [entry, is_new] = dense.try_emplace(part);
+    if (is_new) entry->second = marks_of(shape, surfaces.rows(part), marks_at_rest);
+    return entry->second;
+  };
   for (const auto& [first, second] : touching)
-    touching_.push_back({first, second, depth(surfaces, shape, first, second)});
+    touching_.push_back({first, second,
+                         std::max(depth(surfaces, shape, marks(first), second),
+                                  depth(surfaces, shape, marks(second), first))});
 }
 
 /// Returns the corners and the marks of a part that are nearest to a point.
@@ -197,16 +216,20 @@ double PartContacts::distance_at_rest(const TrianglePair& pair) const {
   return distance_between(corners_of(rest_.shape, pair.first), corners_of(rest_.shape, pair.second));
 }
 
-double PartContacts::depth(const Surfaces& surfaces, const Shape& shape, int first, int second) const {
+double PartContacts::depth(const Surfaces& surfaces, const Shape& shape, const SurfaceMarks& marks,
+                           int other) const {
   double deepest = 0;
-  for (const auto& [part, other] : {std::pair(first, second), std::pair(second, first)}) {
-    if (!solid_[at(other)]) continue;
-    const Points places = marks_[at(part)].on(shape);
-    for (const auto place : places.rowwise())
-      if (surfaces.contains(other, place.transpose()))
-        deepest = std::max(deepest, surfaces.distance(other, place.transpose()));
-  }
+  if (!solid_[at(other)]) return deepest;
+  const Points places = marks.on(shape);
+  for (const auto place : places.rowwise())
+    if (surfaces.contains(other, place.transpose()))
+      deepest = std::max(deepest, surfaces.distance(other, place.transpose()));
   return deepest;
+}
+
+double PartContacts::depth(const Surfaces& surfaces, const Shape& shape, int first, int second) const {
+  return std::max(depth(surfaces, shape, marks_[at(first)], second),
+                  depth(surfaces, shape, marks_[at(second)], first));
 }
 
 double PartContacts::gap(const Surfaces& surfaces, const Shape& shape, const Joint& joint) const {

@@ -40,6 +40,9 @@ class PartContacts {
   void find_touching(const Surfaces& surfaces);
   void find_joints(const Surfaces& surfaces);
   std::vector<TrianglePair> intersections(const Shape& shape) const;
+  /// Returns how deep marks lie inside of a part, model units.
+  double depth(const Surfaces& surfaces, const Shape& shape, const SurfaceMarks& marks, int other) const;
+  /// Returns how deep one of two parts enters the other, model units.
   double depth(const Surfaces& surfaces, const Shape& shape, int first, int second) const;
   double gap(const Surfaces& surfaces, const Shape& shape, const Joint& joint) const;
   SurfaceMarks marks_near(const Surfaces& surfaces, int part, const Eigen::Vector3d& point) const;

@@ -43,14 +43,6 @@ std::string quoted(const Structure& structure, int part) {
   return "'" + structure.parts.at(at(part)).name + "'";
 }
 
-std::string relation_words(const Relation& relation, const Structure& structure) {
-  std::string words = name_of(relation.type);
-  std::replace(words.begin(), words.end(), '_', ' ');
-  words += " of " + quoted(structure, relation.parts.front());
-  if (relation.parts.size() > 1) words += " and " + quoted(structure, relation.parts.back());
-  return words;
-}
-
 /// Returns the sentence of a counted obstacle.
 std::string sentence(const Obstacle& obstacle, const Structure& rest) {
   if (const auto* refusal = std::get_if<Refusal>(&obstacle)) return describe(*refusal, rest);
@@ -93,7 +85,7 @@ std::string note_of(const Check& check, const Structure& rest) {
   }
   switch (check.kind) {
     case CheckKind::relations:
-      return relation_words(rest.relations.at(at(check.where)), rest);
+      return describe(rest.relations.at(at(check.where)), rest);
     case CheckKind::box:
       return std::string("along ") + std::string_view("xyz").at(at(check.where));
     case CheckKind::standing:

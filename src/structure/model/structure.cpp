@@ -1,5 +1,6 @@
 #include "stackabilization/structure/structure.h"
 
+#include "core/index.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization {
@@ -47,6 +48,27 @@ std::string name_of(RelationType type) {
       return "line_joint";
   }
   return {};
+}
+
+std::string describe(const Relation& relation, const Structure& structure) {
+  std::string text;
+  switch (relation.type) {
+    case RelationType::symmetry:
+      text = "symmetry";
+      break;
+    case RelationType::self_symmetry:
+      text = "self-symmetry";
+      break;
+    case RelationType::point_joint:
+      text = "point joint";
+      break;
+    case RelationType::line_joint:
+      text = "line joint";
+      break;
+  }
+  for (std::size_t k = 0; k < relation.parts.size(); ++k)
+    text += (k > 0 ? " and '" : " of '") + structure.parts.at(detail::at(relation.parts[k])).name + "'";
+  return text;
 }
 
 void validate(const StructuredShape& structured) {

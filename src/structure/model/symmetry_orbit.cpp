@@ -176,11 +176,8 @@ OrbitsOrContradiction find_orbits(const Structure& structure) {
 }
 
 std::string describe(const Structure& structure, int relation) {
-  const Relation& one = structure.relations[static_cast<std::size_t>(relation)];
-  std::string text = "relation " + std::to_string(relation) + " (" + name_of(one.type) + " of ";
-  for (std::size_t k = 0; k < one.parts.size(); ++k)
-    text += (k > 0 ? " and '" : "'") + structure.parts[static_cast<std::size_t>(one.parts[k])].name + "'";
-  return text + ")";
+  return "relation " + std::to_string(relation) + " (" +
+         describe(structure.relations[static_cast<std::size_t>(relation)], structure) + ")";
 }
 
 }  // namespace stackabilization::detail

@@ -104,17 +104,21 @@ TEST_CASE("a vertex that parts share is carried by them alike") {
   CHECK(transfer.vertices(rig, now)(0, 2) == Approx(0.1).epsilon(1e-13));
 }
 
-TEST_CASE("in smooth designs a border follows the part that is not near its end there") {
+TEST_CASE("in smooth designs a border follows the part that does not end there") {
   StructuredShape rest = sheet();
-  // The left half is a leg, long along y, and the right half a rail that ends at its side.
-  rest.structure.parts[0].primitive = cuboid_of({{-2, 0.5, 0}, Eigen::Matrix3d::Identity(), {2, 8, 0.5}});
-  const Rig rig(rest.structure);
-  const MeshTransfer transfer(rest.shape, rig, Following::smooth);
-  for (int v = 0; v < 2 * (2 * steps + 1); ++v) {
-    const std::vector<BoundPoint> bound_points = transfer.bound_points(v);
-    REQUIRE(bound_points.size() == 1);
-    CHECK(bound_points.front().part == (rest.shape.vertices(v, 0) <= 0 ? 0 : 1));
-    CHECK(bound_points.front().weight == 1);
+  // The left half is a leg, long along y, and the right half a rail that ends at its side, half-way along the
+  // leg or near its upper end.
+  for (const double middle : {0.5, -6.5}) {
+    rest.structure.parts[0].primitive =
+        cuboid_of({{-2, middle, 0}, Eigen::Matrix3d::Identity(), {2, 8, 0.5}});
+    const Rig rig(rest.structure);
+    const MeshTransfer transfer(rest.shape, rig, Following::smooth);
+    for (int v = 0; v < 2 * (2 * steps + 1); ++v) {
+      const std::vector<BoundPoint> bound_points = transfer.bound_points(v);
+      REQUIRE(bound_points.size() == 1);
+      CHECK(bound_points.front().part == (rest.shape.vertices(v, 0) <= 0 ? 0 : 1));
+      CHECK(bound_points.front().weight == 1);
+    }
   }
   // Two halves that meet end to end own their border together.
   const StructuredShape halves = sheet();

@@ -32,7 +32,7 @@ Refusal refusal(RefusalCause cause) {
 
 TEST_CASE("every cause of a refusal has its sentence") {
   using enum RefusalCause;
-  const std::string joint = "the point_joint of 'leg 0.5' and '100 %p'", diagonal = "0.0123 of the diagonal",
+  const std::string joint = "the point joint of 'leg 0.5' and '100 %p'", diagonal = "0.0123 of the diagonal",
                     finely = "0.01235 of the diagonal";
   const std::vector<std::pair<RefusalCause, std::string>> sentences = {
       {fixed_part, "'leg 0.5' is fixed, or symmetric to a part that is"},
@@ -86,7 +86,7 @@ TEST_CASE("refusals of one kind are equal without their amounts, and say so") {
   CHECK(one != other);
   CHECK(without_amounts(one) == without_amounts(other));
   CHECK(describe(without_amounts(one), structure) ==
-        "the point_joint of 'leg 0.5' and '100 %p' would be off by ... of the diagonal");
+        "the point joint of 'leg 0.5' and '100 %p' would be off by ... of the diagonal");
   other.relation = 0;
   CHECK(without_amounts(one) != without_amounts(other));
 

@@ -92,6 +92,42 @@ TEST_CASE("a check that keeps the best design from being a solution comes before
   CHECK(told[0].count == 3);
 }
 
+TEST_CASE("obstacles and contacts that read the same are told once") {
+  StructuredShape cubes = designs::two_cubes();
+  const auto symmetric_about = [](const Eigen::Vector3d& normal) {
+    Relation relation;
+    relation.type = RelationType::self_symmetry;
+    relation.parts = {0};
+    relation.symmetry.axis = normal;
+    return relation;
+  };
+  cubes.structure.relations = {symmetric_about(Eigen::Vector3d::UnitX()),
+                               symmetric_about(Eigen::Vector3d::UnitY())};
+  const designs::Still space(cubes, DeformationKind::surface);
+  const RequirementChecker checker(space, designs::frame_requirements(-1));
+  Candidate rest;
+  rest.design = space.at_rest();
+  rest.direction = Eigen::Vector3d::UnitZ();
+  rest.measured = checker.measure(rest.design.shape, Direction(0, 0, 1));
+  rest.measured.value = -2;
+  BestFirstResult result;
+  result.nearest = {rest};
+  Refusal about_x{.cause = RefusalCause::symmetry, .part = 0, .relation = 0}, about_y = about_x;
+  about_y.relation = 1;
+  result.refusals = {{Refusal{.cause = RefusalCause::unchanged}, 30}, {about_x, 24}, {about_y, 12}};
+  const std::vector<ObstacleCount> told = diagnose(checker, result).constraints;
+  REQUIRE(told.size() == 2);
+  CHECK(told[0].obstacle == Obstacle(about_x));
+  CHECK(told[0].count == 36);
+
+  Diagnosis diagnosis;
+  const Blocker blocker{.upper_part = 0, .lower_part = 0};
+  diagnosis.blockers = {blocker, blocker};
+  const std::string words = text(diagnosis, cubes.structure), line = describe(blocker, cubes.structure);
+  REQUIRE(mentions(words, line));
+  CHECK(words.find(line) == words.rfind(line));
+}
+
 TEST_CASE("what came very near to the target is told from it") {
   Diagnosis diagnosis;
   diagnosis.target = 0.4;

@@ -203,6 +203,27 @@ TEST_CASE("A bar taken from its neighbour floats, one pushed into it pierces", "
   CHECK(measured(rest, inside, QualityMeasure::joints) == Approx(0).margin(1e-9));
 }
 
+TEST_CASE("A thin rod enters a post as deep as its end is, wherever the points of equal area lie",
+          "[quality]") {
+  const StructuredShape rest = analyse_structure(
+      concatenate(solids::box({0, -2, -2}, {4, 2, 2}), solids::box({3.7, -0.1, -0.1}, {103.7, 0.1, 0.1})));
+  const double diagonal = rest.structure.diagonal;
+  const Shape pushed = with_part_moved(rest.shape, 1, {-0.4, 0, 0});
+  CHECK(measured(rest, pushed, QualityMeasure::piercing) == Approx(0.4 / diagonal).epsilon(1e-9));
+  const Shape shorter = mapped(rest.shape, [](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x() > 50 ? 3.7 + 0.7 * (p.x() - 3.7) : p.x(), p.y(), p.z());
+  });
+  CHECK(measured(rest, shorter, QualityMeasure::piercing) == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("A rod that slides through a post is as deep in it as before", "[quality]") {
+  const StructuredShape rest = analyse_structure(
+      concatenate(solids::box({0, -2, -2}, {4, 2, 2}), solids::box({-48, -0.1, -0.1}, {52, 0.1, 0.1})));
+  for (const double by : {0.1, 0.2, 0.3, 0.4, 0.5, 0.6})
+    CHECK(measured(rest, with_part_moved(rest.shape, 1, {by, 0, 0}), QualityMeasure::piercing) ==
+          Approx(0).margin(1e-12));
+}
+
 TEST_CASE("Parts that were apart collide where they meet", "[quality]") {
   const StructuredShape rest = joined_boxes(1);
   CHECK(measured(rest, with_part_moved(rest.shape, 1, {-0.9, 0, 0}), QualityMeasure::collision) == 0);

@@ -242,12 +242,12 @@ TEST_CASE("relations that contradict each other are refused by name, and nothing
   structure.relations.push_back(self(1, {.point = {-4, 0, 0}}));
   structure.relations.push_back(self(1, {.point = {-4.3, 0, 0}}));
   CHECK(refusal_to_symmetrize(structure).find(
-            "relation 4 (self_symmetry of 'leg_2') and relation 5 (self_symmetry of 'leg_2') contradict") !=
+            "relation 4 (self-symmetry of 'leg_2') and relation 5 (self-symmetry of 'leg_2') contradict") !=
         std::string::npos);
 
   structure = four_legs(leg_box, 0);
   structure.relations = {self(
       0, {.kind = SymmetryKind::rotation, .point = {4, 3, 3}, .axis = Eigen::Vector3d::UnitZ(), .order = 3})};
-  CHECK(refusal_to_symmetrize(structure).find("relation 0 (self_symmetry of 'leg_1') cannot hold exactly") !=
+  CHECK(refusal_to_symmetrize(structure).find("relation 0 (self-symmetry of 'leg_1') cannot hold exactly") !=
         std::string::npos);
 }
