@@ -168,6 +168,15 @@ async function pick(page, name) {
   await page.waitForFunction(() => window.editor.gizmo.handle);
 }
 
+/** Waits for a frame that is drawn from now on: frames that are asked for together are drawn as one. */
+async function frameDrawn(page) {
+  const before = await page.evaluate(() => {
+    window.editor.viewer.draw();
+    return window.editor.viewer.framesDrawn;
+  });
+  await page.waitForFunction((count) => window.editor.viewer.framesDrawn > count, before);
+}
+
 editing('a part is picked in the view', 'table.obj', async (page) => {
   await suggestionsOf(page);
   const at = await page.evaluate(() => {
@@ -187,7 +196,7 @@ editing('a part is picked in the view', 'table.obj', async (page) => {
 editing('a handle is dragged until a limit holds it; the limit is named; it is one edit', 'table.obj', async (page) => {
   await suggestionsOf(page);
   await pick(page, 'leg');
-  await page.waitForFunction(() => window.editor.viewer.framesDrawn > 2);
+  await frameDrawn(page);
   const name = await page.evaluate(() => window.editor.gizmo.handle.axesOf('move')[1].name);
   const grip = await gripOf(page, name);
   await page.mouse.move(grip.x, grip.y);

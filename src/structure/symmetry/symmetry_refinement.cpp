@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -151,17 +152,19 @@ struct RobustFit {
 
 Symmetry step_symmetry(const SymmetrySurface& surface, const Symmetry& start, double reach, Effort effort) {
   RobustFit approach(surface, start, effort);
-  approach.settle(reach, reach);
+  const double scale = std::max(reach, tolerance::relative);
+  approach.settle(scale, scale);
   return approach.symmetry;
 }
 
 Symmetry refine_symmetry(const SymmetrySurface& surface, const Symmetry& start, double reach) {
   RobustFit approach(surface, start, Effort::dense);
-  for (double scale = reach; approach.settle(scale, reach); scale *= shrink) {
+  const double first = std::max(reach, tolerance::relative);
+  for (double scale = first; approach.settle(scale, first); scale *= shrink) {
     const Linearization& at = approach.at;
     const bool exact = at.distances.cwiseProduct(at.weights(scale)).maxCoeff() < tolerance::relative;
     if (exact || scale * shrink < tolerance::relative ||
-        share(at.information(scale * shrink), at.information(reach)) < min_information_share)
+        share(at.information(scale * shrink), at.information(first)) < min_information_share)
       break;
   }
   return approach.symmetry;

@@ -9,7 +9,8 @@ constexpr double rough_reach = 0.1;
 
 /// Refines `start` (own frame) by Gauss-Newton steps on the distances from the images of samples and vertices
 /// to the surface, with Geman-McClure weights. Distances beyond about `reach` (own frame) have little
-/// influence. A rotation keeps its angle. A revolution is treated as the half turn.
+/// influence; below tolerance::relative, that is the reach. A rotation keeps its angle. A revolution is
+/// treated as the half turn.
 Symmetry step_symmetry(const SymmetrySurface& surface, const Symmetry& start, double reach, Effort effort);
 
 /// Refines `start` with all points and a decreasing reach (graduated non-convexity). The reach decreases as

@@ -29,7 +29,7 @@ TEST_CASE("every requirement has its name, its unit and a note") {
   const std::vector<Words> all = {{target, "target", "", ""},
                                   {room, "room", "model units", ""},
                                   {height, "height", "of the height", ""},
-                                  {relations, "relations", "of the diagonal", "self symmetry of 'seat'"},
+                                  {relations, "relations", "of the diagonal", "self-symmetry of 'seat'"},
                                   {proportions, "proportions", "of the size at rest", "'seat'"},
                                   {box, "box", "of a side", "along y"},
                                   {parts, "parts", "of the diagonal", "'seat'"},

@@ -7,6 +7,7 @@
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/structure/symmetry_detection.h"
+#include "structure/symmetry/symmetry_refinement.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/symmetric_solids.h"
@@ -47,6 +48,20 @@ bool has_order(const std::vector<FoundSymmetry>& found, int order, const Eigen::
 }
 
 }  // namespace
+
+TEST_CASE("a reach whose square underflows refines to a finite plane, that of the box") {
+  const detail::SymmetrySurface surface = detail::symmetry_surface(solids::box({1, 2, 3}), 200);
+  Symmetry start;
+  start.axis = Eigen::Vector3d::UnitX();
+  for (const double reach : {1e-300, 1e-170, 1e-12}) {
+    const Symmetry all = detail::refine_symmetry(surface, start, reach);
+    const Symmetry one = detail::step_symmetry(surface, start, reach, detail::Effort::sparse);
+    for (const Symmetry& symmetry : {all, one}) {
+      CHECK(symmetry.axis.cross(start.axis).norm() <= 1e-9);
+      CHECK(symmetry.point.norm() <= 1e-9);
+    }
+  }
+}
 
 TEST_CASE("a box has the three planes through its middle, longest extent first, and three half turns") {
   const auto found = find_symmetries(solids::box({1, -1, 2}, {3, 2, 6}));  // 2 x 3 x 4
