@@ -25,8 +25,8 @@ function(stackabilization_library name)
   set_property(GLOBAL APPEND PROPERTY STACKABILIZATION_LIBRARIES ${target})
 endfunction()
 
-# The library of the address sanitizer, which the interpreter loads before a module that is built with it.
-if(STACKABILIZATION_SANITIZE)
+# The library of the address sanitizer, which the Python interpreter loads before a module that is built with it.
+if(STACKABILIZATION_SANITIZE MATCHES address)
   set(runtime libasan.so)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
     set(runtime libclang_rt.asan-${CMAKE_SYSTEM_PROCESSOR}.so)
@@ -49,7 +49,9 @@ function(stackabilization_options target)
     target_compile_options(${target} PRIVATE -fsanitize=${STACKABILIZATION_SANITIZE}
       -fno-sanitize-recover=all -fno-omit-frame-pointer)
     target_link_options(${target} PRIVATE -fsanitize=${STACKABILIZATION_SANITIZE})
-    if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND NOT STACKABILIZATION_BUILD_FUZZERS)  # The Python module and the programs share one runtime.
+    # The Python module and the programs share one library. libFuzzer brings its own.
+    if(STACKABILIZATION_SANITIZER_RUNTIME AND CMAKE_CXX_COMPILER_ID STREQUAL "Clang"
+        AND NOT STACKABILIZATION_BUILD_FUZZERS)
       cmake_path(GET STACKABILIZATION_SANITIZER_RUNTIME PARENT_PATH folder)
       target_link_options(${target} PRIVATE -shared-libsan LINKER:-rpath,${folder})
     endif()

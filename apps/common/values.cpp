@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "apps/common/text.h"
 #include "stackabilization/core/direction.h"
@@ -36,13 +37,18 @@ Leading leading_number(const std::string& text) {
   return leading;
 }
 
+/// The number that is all of `text`.
+std::optional<double> finite_number(const std::string& text) {
+  const Leading leading = leading_number(text);
+  return leading.valid && leading.rest.empty() ? std::optional(leading.value) : std::nullopt;
+}
+
 }  // namespace
 
 double parse_number(const std::string& option, const std::string& text) {
-  const Leading leading = leading_number(text);
-  if (!leading.valid || !leading.rest.empty())
-    throw UsageError(option + " expects a finite number, found '" + text + "'");
-  return leading.value;
+  const std::optional<double> number = finite_number(text);
+  if (!number) throw UsageError(option + " expects a finite number, found '" + text + "'");
+  return *number;
 }
 
 double parse_number(const Number& number, const std::string& text) {
@@ -80,11 +86,11 @@ Eigen::Vector3d parse_point(const std::string& option, const std::vector<std::st
                             std::size_t first) {
   Eigen::Vector3d point;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::string& text = texts.at(first + i);
-    const Leading leading = leading_number(text);
-    if (!leading.valid || !leading.rest.empty())
-      throw UsageError(option + " expects three finite numbers, such as 0 0 1, found '" + text + "'");
-    point[static_cast<Eigen::Index>(i)] = leading.value;
+    const std::optional<double> number = finite_number(texts.at(first + i));
+    if (!number)
+      throw UsageError(option + " expects three finite numbers, such as 0 0 1, found '" + texts[first + i] +
+                       "'");
+    point[static_cast<Eigen::Index>(i)] = *number;
   }
   return point;
 }

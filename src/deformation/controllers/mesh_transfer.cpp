@@ -19,7 +19,7 @@ constexpr double reach_of_parts = 0.15;
 /// The same in smooth designs: further away from a joint, members that move differently would bend each
 /// other.
 constexpr double smooth_reach_of_parts = 0.03;
-/// Least lead of a part that is attached to another, see Shares::lead.
+/// Least lead of a part that is attached to another, see `lead_of`.
 constexpr double attached = 0.3;
 
 /// Returns a smooth weight: 1 at 0, 0 from 1 on, flat at both ends.

@@ -82,6 +82,7 @@ class ChangeDescription {
       changes_.push_back(part.form.fit ? part_changes(part, rest_.shape, now_, frame_) : PartChanges{});
     leave_out_minor(changes_);
     find_classes();
+    leave_out_barely_seen();
     find_groups();
     fold_followers();
     for (std::size_t k = 0; k < groups_.size(); ++k)
@@ -173,6 +174,18 @@ class ChangeDescription {
     edited_.assign(classes_.size(), false);
     for (const Edit& edit : options_.edits)
       if (const std::optional<int> part = edited_part(edit)) edited_[class_of_[at(*part)]] = true;
+  }
+
+  /// Of symmetric parts that move as far, tells of none where one is not seen to change: rounding must not
+  /// part them.
+  void leave_out_barely_seen() {
+    for (const std::vector<int>& parts : classes_)
+      for (const int unseen : parts) {
+        if (!changes_[at(unseen)].changes.empty()) continue;
+        for (const int part : parts)
+          if (changes_[at(part)].displacement * (1 - limit::alike) <= changes_[at(unseen)].displacement)
+            changes_[at(part)].changes.clear();
+      }
   }
 
   std::optional<int> edited_part(const Edit& edit) const {

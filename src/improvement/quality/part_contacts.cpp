@@ -22,9 +22,11 @@ namespace {
 
 using ContactKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// Number of marks on a part, on a part at rest, and around a joint.
+/// Number of marks on a part and, at rest, on a part and on all parts: the fewer parts, the more on each.
+/// Number of marks around a joint.
 constexpr int marks_per_part = 150;
 constexpr int marks_at_rest = 3000;
+constexpr int all_marks_at_rest = 60'000;
 constexpr std::size_t marks_per_joint = 60;
 /// Largest number of pairs of parts near each other; more are not looked at.
 constexpr std::size_t max_near_pairs = 20'000;
@@ -145,18 +147,21 @@ void PartContacts::find_touching(const Surfaces& surfaces) {
     };
     if (reaches(first, second) || reaches(second, first)) touching.insert({first, second});
   }
-  // With more marks than later on: what lies inside of another part at rest must not count as deeper where a
-  // few marks happen to come upon it.
+  // With more marks than later on, besides those: what lies inside of another part at rest must not count as
+  // deeper where a few marks happen to come upon it.
+  const int count =
+      std::clamp(all_marks_at_rest / static_cast<int>(shape.part_count()), marks_per_part, marks_at_rest);
   std::map<int, SurfaceMarks> dense;
   const auto marks = [&](int part) -> const SurfaceMarks& {
     const auto [entry, is_new] = dense.try_emplace(part);
-    if (is_new) entry->second = marks_of(shape, surfaces.rows(part), marks_at_rest);
+    if (is_new) entry->second = marks_on(shape, surfaces.rows(part), count);
     return entry->second;
   };
   for (const auto& [first, second] : touching)
-    touching_.push_back({first, second,
-                         std::max(depth(surfaces, shape, marks(first), second),
-                                  depth(surfaces, shape, marks(second), first))});
+    touching_.push_back(
+        {first, second,
+         std::max({depth(surfaces, shape, first, second), depth(surfaces, shape, marks(first), second),
+                   depth(surfaces, shape, marks(second), first)})});
 }
 
 /// Returns the corners and the marks of a part that are nearest to a point.
@@ -165,10 +170,7 @@ SurfaceMarks PartContacts::marks_near(const Surfaces& surfaces, int part,
   const Shape& shape = rest_.shape;
   SurfaceMarks all = marks_[at(part)];
   for (const std::int32_t t : surfaces.rows(part))
-    for (int k = 0; k < 3; ++k) {
-      all.triangles.push_back(t);
-      all.weights.push_back(Eigen::Vector3d::Unit(k));
-    }
+    for (int k = 0; k < 3; ++k) all.append_corner(t, k);
   const Points places = all.on(shape);
   std::vector<std::pair<double, std::size_t>> nearest;
   for (std::size_t i = 0; i < all.size(); ++i)

@@ -7,6 +7,7 @@
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/explanation.h"
+#include "stackabilization/improvement/tolerances.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/still_designs.h"
@@ -101,6 +102,21 @@ StructuredShape base_arm_castor() {
 }
 
 }  // namespace
+
+TEST_CASE("Symmetric parts on both sides of what is seen are told of together", "[explanation]") {
+  const StructuredShape table = structures::table();
+  const double seen = tolerance::explanation::visible * table.structure.diagonal;
+  const auto raised = [&](double first, double others) {
+    const Shape top = with_parts_mapped(table.shape, "top", moved({0, 0, 10 * seen}));
+    const Shape all = with_parts_mapped(top, "leg", moved({others * seen, 0, 0}));
+    return lines_of(table, with_parts_mapped(all, "leg_1", moved({(first - others) * seen, 0, 0})));
+  };
+  const Lines top = raised(0, 0);
+  REQUIRE(top.size() == 1);
+  CHECK(raised(1.02, 0.98) == top);
+  CHECK(raised(1.5, 0.98) == Lines{top.front(), "leg 1 further in by 0.32 % of the height"});
+  CHECK(raised(1.02, 1.04).size() == 3);  // two legs go in, two go out
+}
 
 TEST_CASE("An unchanged object, and one that was moved as a whole, has no lines", "[explanation]") {
   for (const StructuredShape& rest : {structures::table(), structures::mug(), structures::rough_stool()}) {
