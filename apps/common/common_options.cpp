@@ -21,12 +21,11 @@ const Count& threads_option() {
 void add_reading_options(CLI::App& command, ReadOptions& read) {
   const Choices<Format> formats = {{"obj", Format::obj}, {"off", Format::off},      {"ply", Format::ply},
                                    {"stl", Format::stl}, {"3mf", Format::three_mf}, {"gltf", Format::gltf}};
-  const Choices<Unit> units = {{"mm", Unit::millimetre}, {"cm", Unit::centimetre}, {"m", Unit::metre},
-                               {"in", Unit::inch},       {"ft", Unit::foot},       {"um", Unit::micrometre}};
   const Choices<Axis> axes = {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}};
   add_choice(command, "--format", read.format, formats,
              "Format of MODEL (default: its extension, or its content)");
-  add_choice(command, "--unit", read.unit, units, "Unit of the coordinates (default: what the file states)");
+  add_choice(command, "--unit", read.unit, unit_choices(),
+             "Unit of the coordinates (default: what the file states)");
   add_choice(command, "--up", read.up, axes,
              "Axis of the file that points up; it becomes z (default: z; glTF: y)");
   const auto take_labels = [&read](const std::string& path) { read.labels = path; };
@@ -61,6 +60,20 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
   command.add_flag("--no-timing", common.no_timing, "Leave the field seconds out of the JSON");
   add_count(command, threads_option(), common.threads);
   add_count(command, {"--seed", "Accepted for scripts: nothing here depends on chance"}, common.seed);
+}
+
+void add_mesh_output(CLI::App& command, CommonOptions& common, std::optional<std::string>& output,
+                     const std::string& what) {
+  command
+      .add_option("-o,--output", output,
+                  "Write " + what + " as a mesh (" + std::string(writable_extensions()) + ")")
+      ->type_name("FILE");
+  add_to_unit_option(command, common);
+}
+
+void add_to_unit_option(CLI::App& command, CommonOptions& common) {
+  add_choice(command, "--to-unit", common.to_unit, unit_choices(),
+             "Unit of the meshes written (default: that of MODEL)");
 }
 
 int parse_threads(const std::string& text) {

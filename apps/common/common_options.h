@@ -17,6 +17,7 @@ struct Caller;
 struct CommonOptions {
   std::string model;                ///< path of the mesh file, "-" for standard input
   ReadOptions read;                 ///< --format, --unit, --up, --labels
+  std::optional<Unit> to_unit;      ///< of meshes that are written; nothing: that of the model
   std::optional<std::string> json;  ///< file for the JSON result, "-" for standard output
   bool quiet = false;               ///< only the essential numbers
   bool no_timing = false;           ///< leave `seconds` out of the JSON
@@ -32,6 +33,11 @@ CLI::App* add_command(CLI::App& program, const std::string& name, const std::str
                       const std::string& example);
 /// MODEL and the options of `common`, which must live until the command line is parsed.
 void add_common_options(CLI::App& command, CommonOptions& common);
+
+/// --output for a mesh, and --to-unit, which needs it. `what` is written: "the stack".
+void add_mesh_output(CLI::App& command, CommonOptions& common, std::optional<std::string>& output,
+                     const std::string& what);
+void add_to_unit_option(CLI::App& command, CommonOptions& common);
 
 /// The value of --threads. Throws UsageError unless it is a number of threads.
 int parse_threads(const std::string& text);

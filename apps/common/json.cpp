@@ -50,6 +50,7 @@ Json to_json(const Findings& findings) {
           {"oriented_outward", findings.oriented_outward},
           {"lower", to_json(findings.lower)},
           {"upper", to_json(findings.upper)},
+          {"likely_unit", to_json(findings.likely_unit.value_or(Unit::unknown))},
           {"likely_up", to_json(up)},
           {"up_reason", findings.up_reason}};
 }

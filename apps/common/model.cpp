@@ -43,6 +43,8 @@ Model load_model(const CommonOptions& common, const InspectOptions& options) {
   model.name = common.model;
   std::optional<Shape> in_memory = shape_of_caller(common);
   model.shape = in_memory ? std::move(*in_memory) : read_shape(common.model, common.read);
+  if (common.to_unit && model.shape.unit == Unit::unknown)
+    throw UsageError("--to-unit needs a model whose unit is known: say it with --unit");
   model.findings = inspect(model.shape, options);
   return model;
 }

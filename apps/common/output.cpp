@@ -1,11 +1,13 @@
 #include "apps/common/output.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
 #include "apps/common/caller.h"
 #include "apps/common/interrupt.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/units.h"
 #include "stackabilization/io/companion_files.h"
 #include "stackabilization/io/file_plan.h"
 #include "stackabilization/io/format.h"
@@ -59,6 +61,10 @@ void check_outputs(const CommonOptions& common, const CommandFiles& files) {
   std::vector<OutputRequest> asked = {{"--json", common.json, OutputKind::text}};
   asked.insert(asked.end(), files.outputs.begin(), files.outputs.end());
   std::erase_if(asked, [](const OutputRequest& request) { return !request.path; });
+  const bool writes_meshes = files.folder || std::any_of(asked.begin(), asked.end(), [](const auto& request) {
+                               return request.kind == OutputKind::mesh;
+                             });
+  if (common.to_unit && !writes_meshes) throw UsageError("--to-unit needs --output, a mesh to write");
   bool prints = true;
   for (const OutputRequest& request : asked) {
     if (request.updates_model)
@@ -93,9 +99,9 @@ namespace {
 
 /// `mesh` is a Shape or Copies.
 template <class Mesh>
-void write_mesh(const std::string& path, const Mesh& mesh) {
+void write_mesh(const CommonOptions& common, const std::string& path, const Mesh& mesh) {
   const DeferredInterrupts until_written;
-  write_shape(mesh, path);
+  write_shape(common.to_unit ? in_unit(mesh, *common.to_unit) : mesh, path);
   if (until_written.requested()) throw Interrupted();
 }
 
@@ -113,13 +119,13 @@ void write_mesh_output(const CommonOptions& common, const std::string& path, con
     common.caller->written_meshes[path] = shape;
     return;
   }
-  write_mesh(path, shape);
+  write_mesh(common, path, shape);
   say_unit(common, path, shape.unit);
 }
 
 void write_mesh_output(const CommonOptions& common, const std::string& path, const Copies& copies) {
   if (common.caller) return;
-  write_mesh(path, copies);
+  write_mesh(common, path, copies);
   say_unit(common, path, copies.shape.unit);
 }
 

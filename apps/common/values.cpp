@@ -7,17 +7,11 @@
 #include "apps/common/text.h"
 #include "stackabilization/core/direction.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/core/units.h"
 
 namespace stackabilization::apps {
 
 namespace {
-
-const Choices<Unit>& unit_symbols() {
-  static const Choices<Unit> symbols = {{"um", Unit::micrometre}, {"mm", Unit::millimetre},
-                                        {"cm", Unit::centimetre}, {"m", Unit::metre},
-                                        {"in", Unit::inch},       {"ft", Unit::foot}};
-  return symbols;
-}
 
 /// The number that `text` begins with and what follows it.
 struct Leading {
@@ -134,8 +128,15 @@ std::uint64_t parse_count(const Count& count, const std::string& text) {
   return value;
 }
 
+const Choices<Unit>& unit_choices() {
+  static const Choices<Unit> units = {{"mm", Unit::millimetre}, {"cm", Unit::centimetre},
+                                      {"m", Unit::metre},       {"in", Unit::inch},
+                                      {"ft", Unit::foot},       {"um", Unit::micrometre}};
+  return units;
+}
+
 std::optional<Unit> unit_of_symbol(const std::string& symbol) {
-  for (const auto& [name, unit] : unit_symbols())
+  for (const auto& [name, unit] : unit_choices())
     if (name == symbol) return unit;
   return std::nullopt;
 }
@@ -163,7 +164,7 @@ double Length::in(Unit model_unit) const {
   if (unit == Unit::unknown || unit == model_unit) return value;
   if (model_unit == Unit::unknown)
     throw UsageError("the length " + text + " has a unit but the model has none: say which with --unit");
-  const double converted = value * (metres_per_unit(unit) / metres_per_unit(model_unit));
+  const double converted = convert_length(value, unit, model_unit);
   if (converted > tolerance::max_coordinate)
     throw UsageError("the length " + text + " is more than 1e60 in the unit of the model");
   return converted;

@@ -59,9 +59,6 @@ struct LengthOption {
 };
 Length parse_length(const LengthOption& option, const std::string& text);
 
-/// Names of the units on the command line: um, mm, cm, m, in, ft.
-std::optional<Unit> unit_of_symbol(const std::string& symbol);
-
 /// An option that takes a whole number.
 struct Count {
   std::string name, description;
@@ -107,6 +104,10 @@ void refuse_option(bool given, const char* option, const char* reason);
 /// An option whose values have names.
 template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
+
+/// Names of the units on the command line: mm, cm, m, in, ft, um.
+const Choices<Unit>& unit_choices();
+std::optional<Unit> unit_of_symbol(const std::string& symbol);
 
 /// "a|b|c", for the help.
 template <class Value>

@@ -122,10 +122,7 @@ Command make_deform_command(CLI::App& program) {
   add_constraint_options(*command, *options);
   command->add_flag("--list-handles", options->list_handles,
                     "Print everything that can be edited, with its centre");
-  command
-      ->add_option("-o,--output", options->output,
-                   "Write the shape as a mesh (" + std::string(writable_extensions()) + ")")
-      ->type_name("FILE");
+  add_mesh_output(*command, options->common, options->output, "the shape");
   command->add_option("--save", options->save, "Write the result as a project file")->type_name("PROJECT");
   command->add_option("--picture", options->picture, "Draw the shape before and after (.png or .svg)")
       ->type_name("FILE");

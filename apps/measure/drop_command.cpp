@@ -245,10 +245,7 @@ Command make_drop_command(CLI::App& program) {
   add_count(*command,
             {"--max-cells", "Cells of places to examine at most (default: 200000)", 1, max_cells_limit},
             options->max_cells);
-  command
-      ->add_option("-o,--output", options->output,
-                   "Write both as a mesh (" + std::string(writable_extensions()) + ")")
-      ->type_name("FILE");
+  add_mesh_output(*command, options->common, options->output, "both");
   command->add_option("--map", options->map, "Write the height at every place of a grid (CSV; - is stdout)")
       ->type_name("FILE");
   add_length(*command,

@@ -80,10 +80,7 @@ Command make_stack_command(CLI::App& program) {
              options->lateral_clearance);
   add_length(*command, {"--within", "Room along the direction: exit status 1 if the stack is higher", true},
              options->within);
-  command
-      ->add_option("-o,--output", options->output,
-                   "Write the stack as a mesh (" + std::string(writable_extensions()) + ")")
-      ->type_name("FILE");
+  add_mesh_output(*command, options->common, options->output, "the stack");
   command->add_option("--picture", options->picture, "Draw the stack (.png or .svg)")->type_name("FILE");
   return {command, [command, options] { return run_stack_command(*command, *options); }, &options->common};
 }

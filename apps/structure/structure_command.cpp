@@ -60,10 +60,7 @@ Command make_structure_command(CLI::App& program) {
   command
       ->add_option("--save", options->save, "Write a project file, to be corrected by hand and read as MODEL")
       ->type_name("PROJECT");
-  command
-      ->add_option("-o,--output", options->output,
-                   "Write the shape with its parts as a mesh (" + std::string(writable_extensions()) + ")")
-      ->type_name("FILE");
+  add_mesh_output(*command, options->common, options->output, "the shape with its parts");
   command->add_option("--graph", options->graph, "Write the graph of the relations for Graphviz (.dot)")
       ->type_name("FILE");
   command->add_option("--picture", options->picture, "Draw parts, primitives and relations (.png or .svg)")

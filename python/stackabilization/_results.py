@@ -167,6 +167,7 @@ class Findings(Result):
     oriented_outward: bool = field("Do the faces point outwards?")
     lower: Floats = field("(3,) lowest corner of the axis-aligned box, model units.", convert=vector)
     upper: Floats = field("(3,) highest corner of the axis-aligned box, model units.", convert=vector)
+    likely_unit: str | None = field("Unit that fits better, where its unit makes it smaller or larger than objects are.")
     likely_up: str | None = field("Axis that probably points up; None where it cannot be told.")
     up_reason: str = field("Why that axis.")
 

@@ -124,6 +124,37 @@ TEST_CASE("meshes are written in the units of their formats, and a unit that is 
   }
 }
 
+TEST_CASE("meshes are converted to the unit that is asked for, whatever their format") {
+  const CupFolder folder;
+  const auto written = [&](const std::string& name, const std::vector<std::string>& options) {
+    std::vector<std::string> arguments = {"stack", folder.cup_file, "--unit", "in", "-o", folder / name};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome outcome = run_program(arguments);
+    REQUIRE(outcome.status == 0);
+    CHECK(outcome.out.find(" in  ") != std::string::npos);  // the report stays in the unit of the model
+    CHECK(outcome.err.empty());
+    return read_shape(folder / name);
+  };
+  const Shape inches = written("inches.obj", {});
+  const Shape obj = written("converted.obj", {"--to-unit", "mm"});
+  CHECK(obj.vertices == Points(inches.vertices * 127 / 5));
+  const Shape three_mf = written("converted.3mf", {"--to-unit", "mm"});
+  CHECK(three_mf.unit == Unit::millimetre);
+  CHECK(range_along(three_mf, Eigen::Vector3d::UnitZ()).length() ==
+        Approx(range_along(obj, Eigen::Vector3d::UnitZ()).length()).epsilon(1e-14));
+  CHECK(written("relabelled.3mf", {}).unit == Unit::inch);
+}
+
+TEST_CASE("a size that no object has is questioned in the first line") {
+  const CupFolder folder;
+  const auto first_line = [&](const std::string& unit) {
+    const std::string out = run_program({"measure", folder.cup_file, "--unit", unit}).out;
+    return out.substr(0, out.find('\n'));
+  };
+  CHECK(first_line("cm").ends_with("closed"));
+  CHECK(first_line("um").ends_with("an unlikely size: are these numbers m?"));
+}
+
 TEST_CASE("clearances lift the copies") {
   const CupFolder folder;
   const auto increment = [&](const std::vector<std::string>& more) {

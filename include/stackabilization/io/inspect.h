@@ -47,6 +47,9 @@ struct Findings {
   /// Upper corner of that box.
   Eigen::Vector3d upper = Eigen::Vector3d::Zero();
   Unit unit = Unit::unknown;  ///< unit according to the file or the user
+  /// Unit in which the shape would be as long as an object (4 mm to 50 m), where `unit` is known and gives
+  /// another size; empty otherwise. Files of metres that are read as millimetres are found by it.
+  std::optional<Unit> likely_unit;
 
   std::optional<Axis> likely_up;  ///< probable up axis; empty when several axes fit equally well
   std::string up_reason;          ///< one clause with the reason for `likely_up`

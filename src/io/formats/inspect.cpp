@@ -23,6 +23,12 @@ constexpr double support_slab = 0.01;
 /// An axis is up only when the score of every other axis is below this fraction of its score.
 constexpr double clear_lead = 0.9;
 
+/// Length of what people stack, metres: from a bead to a barge.
+constexpr double min_object = 0.004;
+constexpr double max_object = 50;
+/// Units that files are in and that readers mistake, likely ones first.
+constexpr std::array<Unit, 4> common_units = {Unit::metre, Unit::millimetre, Unit::centimetre, Unit::inch};
+
 class Inspector {
  public:
   explicit Inspector(const Shape& shape) : shape_(shape), mesh_(detail::weld(shape)) {}
@@ -36,6 +42,7 @@ class Inspector {
     count_faces();
     count_edges();
     measure_volume();
+    question_unit();
     find_up();
     if (options.self_intersections == InspectOptions::SelfIntersections::count)
       findings_.self_intersections = count_self_intersections(mesh_.points, mesh_.triangles);
@@ -96,6 +103,18 @@ class Inspector {
     }
     findings_.volume = volume;
     findings_.oriented_outward = volume > 0;
+  }
+
+  void question_unit() {
+    if (shape_.unit == Unit::unknown) return;
+    const double length = (findings_.upper - findings_.lower).maxCoeff();
+    const auto is_object = [length](Unit unit) {
+      const double metres = length * metres_per_unit(unit);
+      return metres >= min_object && metres <= max_object;
+    };
+    if (is_object(shape_.unit)) return;
+    const auto likely = std::find_if(common_units.begin(), common_units.end(), is_object);
+    if (likely != common_units.end()) findings_.likely_unit = *likely;
   }
 
   /// Centre of the surface, in fractions of the box; 1/2 along axes without extent.

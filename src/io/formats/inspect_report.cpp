@@ -60,6 +60,8 @@ std::string brief(const Findings& findings) {
   add(findings.duplicate_faces, "duplicate face", "duplicate faces");
   add(findings.self_intersections.value_or(0), "self-intersection", "self-intersections");
   if (findings.volume && !findings.oriented_outward) text += ", oriented inwards";
+  if (findings.likely_unit)
+    text += ", an unlikely size: are these numbers " + unit_symbol(*findings.likely_unit) + "?";
   return text;
 }
 
@@ -92,7 +94,10 @@ std::string report(const Findings& findings) {
   line("lower corner", vector(findings.lower, " "));
   line("upper corner", vector(findings.upper, " "));
   line("extents", with_unit(vector(findings.upper - findings.lower, " x "), findings.unit));
-  line("unit", findings.unit == Unit::unknown ? "unknown" : unit_symbol(findings.unit));
+  line("unit", (findings.unit == Unit::unknown ? "unknown" : unit_symbol(findings.unit)) +
+                   (findings.likely_unit
+                        ? " (an unlikely size: are these numbers " + unit_symbol(*findings.likely_unit) + "?)"
+                        : ""));
   line("likely up axis",
        (findings.likely_up ? axis_name(*findings.likely_up) : "undecided") + " (" + findings.up_reason + ")");
   return text;

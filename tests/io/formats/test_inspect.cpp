@@ -169,6 +169,34 @@ TEST_CASE("the up axis is the one with the widest stand") {
   CHECK(*inspect(transformed(tripod, z_to_y, Eigen::Vector3d::Zero())).likely_up == Axis::y);
 }
 
+TEST_CASE("a size that objects do not have raises the question of the unit") {
+  const auto likely = [](double size, Unit unit) {
+    Shape shape = cube(size);
+    shape.unit = unit;
+    return inspect(shape).likely_unit;
+  };
+  // Files of metres, read as millimetres, and the other way round.
+  CHECK(likely(0.099, Unit::millimetre) == Unit::metre);
+  CHECK(likely(900, Unit::metre) == Unit::millimetre);
+  CHECK(likely(2, Unit::millimetre) == Unit::metre);
+  CHECK(likely(3000, Unit::foot) == Unit::millimetre);
+  // The ends of what counts as an object, in two units.
+  CHECK_FALSE(likely(4, Unit::millimetre));
+  CHECK(likely(3.99, Unit::millimetre) == Unit::metre);
+  CHECK_FALSE(likely(50, Unit::metre));
+  CHECK(likely(50.1, Unit::metre) == Unit::millimetre);
+  // Sizes of objects, and what no unit mends.
+  for (const Unit unit : {Unit::inch, Unit::centimetre, Unit::metre}) CHECK_FALSE(likely(30, unit));
+  CHECK_FALSE(likely(0.099, Unit::unknown));
+  CHECK_FALSE(likely(1e-30, Unit::metre));
+  CHECK_FALSE(likely(1e30, Unit::metre));
+  Shape shape = cube(0.099);
+  shape.unit = Unit::millimetre;
+  CHECK(brief(inspect(shape)).ends_with("closed, an unlikely size: are these numbers m?"));
+  shape.unit = Unit::metre;
+  CHECK(brief(inspect(shape)).ends_with("closed"));
+}
+
 TEST_CASE("findings do not depend on the order of the faces, and reports name what was found") {
   Shape shape = with_triangles(cube(), {{0, 1, 7}, {0, 0, 1}, {0, 2, 3}});
   shape.unit = Unit::millimetre;

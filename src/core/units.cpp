@@ -1,0 +1,56 @@
+#include "stackabilization/core/units.h"
+
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include "stackabilization/core/errors.h"
+
+namespace stackabilization {
+
+namespace {
+
+/// All units are whole numbers of these: a length is converted by a fraction, and rounded as little as can
+/// be.
+constexpr double steps_per_metre = 1e7;
+
+struct Fraction {
+  double numerator, denominator;
+};
+
+/// Returns the fraction, reduced, that converts lengths of `from` to lengths of `to`.
+Fraction conversion(Unit from, Unit to) {
+  const std::int64_t a = std::llround(metres_per_unit(from) * steps_per_metre),
+                     b = std::llround(metres_per_unit(to) * steps_per_metre), common = std::gcd(a, b);
+  return {static_cast<double>(a / common), static_cast<double>(b / common)};
+}
+
+Fraction checked_conversion(Unit from, Unit to) {
+  if (from == Unit::unknown || to == Unit::unknown)
+    throw UsageError("lengths of an unknown unit cannot be converted");
+  return conversion(from, to);
+}
+
+}  // namespace
+
+double convert_length(double length, Unit from, Unit to) {
+  const Fraction by = conversion(from, to);
+  return length * by.numerator / by.denominator;
+}
+
+Shape in_unit(const Shape& shape, Unit unit) {
+  const Fraction by = checked_conversion(shape.unit, unit);
+  Shape result = shape;
+  result.vertices = result.vertices * by.numerator / by.denominator;
+  result.unit = unit;
+  return result;
+}
+
+Copies in_unit(const Copies& copies, Unit unit) {
+  const Fraction by = checked_conversion(copies.shape.unit, unit);
+  Copies result{in_unit(copies.shape, unit), copies.placed};
+  for (PlacedCopy& copy : result.placed) copy.translation = copy.translation * by.numerator / by.denominator;
+  return result;
+}
+
+}  // namespace stackabilization
