@@ -36,7 +36,8 @@ struct SegmentationOptions {
 /// Segments a shape: returns it with new parts, and with the same vertices and triangles in the same order.
 /// Parts are named "part_1", "part_2", ... by descending area. The names stay with `given`, and when one part
 /// stays one part. Boundaries between parts are short and follow concave edges. Every part of a component is
-/// connected. Deterministic.
+/// connected. A shape of one component is cut alike on both sides of its planes of symmetry, unless a number
+/// of parts is given. Deterministic.
 ///
 /// `primitives` looks for parts that fit a cuboid, a solid of revolution or a ring, not for single faces. It
 /// merges the patches of Attene et al. (2006) as long as the solid behind them fills its primitive. Concave

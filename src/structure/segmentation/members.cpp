@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -41,17 +42,15 @@ double misfit(const Shape& part, const Pieces& pieces) {
   std::vector<std::vector<std::int32_t>> rows(static_cast<std::size_t>(piece_count(pieces)));
   for (std::size_t t = 0; t < pieces.size(); ++t)
     rows[static_cast<std::size_t>(pieces[t])].push_back(static_cast<std::int32_t>(t));
-  double sum = 0, whole = 0;
-  for (const std::vector<std::int32_t>& of_piece : rows) {
-    const Shape piece = extracted(part, of_piece);
-    const double area = surface_graph(piece).areas.sum();
-    if (!(area > 0)) continue;
+  Eigen::ArrayXd areas = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(rows.size())), errors = areas;
+  tbb::parallel_for(Eigen::Index{0}, areas.size(), [&](Eigen::Index p) {
+    const Shape piece = extracted(part, rows[static_cast<std::size_t>(p)]);
+    areas(p) = surface_graph(piece).areas.sum();
+    if (!(areas(p) > 0)) return;
     const double diagonal = 2 * part_box(FitSurface(piece)).box.half_extents.norm();
-    const double error = relative_misfit(fit_primitive(piece).fit) * diagonal;
-    sum += area * error * error;
-    whole += area;
-  }
-  return std::sqrt(sum / whole);
+    errors(p) = relative_misfit(fit_primitive(piece).fit) * diagonal;
+  });
+  return std::sqrt((areas * errors.square()).sum() / areas.sum());
 }
 
 /// Returns whether a curve turns at a few corners, as that of a frame does, and not evenly.
@@ -114,14 +113,26 @@ constexpr std::array<std::array<double, 3>, 7> places = {{{1. / 3, 1. / 3, 1. / 
                                                           {0.1, 0.45, 0.45},
                                                           {0.45, 0.1, 0.45}}};
 
+/// Triangles whose sides are shorter than this, fraction of the diagonal of the part, are looked up at their
+/// centres alone.
+constexpr double short_side = 0.01;
+
+double longest_side(const Shape& shape, Eigen::Index triangle) {
+  double longest = 0;
+  for (int k = 0; k < 3; ++k)
+    longest = std::max(longest, (shape.corner(triangle, (k + 1) % 3) - shape.corner(triangle, k)).norm());
+  return longest;
+}
+
 /// Returns the piece of `from` that most places of the image of every triangle of `to` lie on.
 Pieces image(const CutPart& to, const CutPart& from, const Pieces& pieces, const Symmetry& reflection) {
   const Eigen::Isometry3d map = isometry_of(reflection);
   Pieces result(to.shape.triangle_part.size());
   tbb::parallel_for(std::size_t{0}, result.size(), [&](std::size_t t) {
     const auto row = static_cast<Eigen::Index>(t);
+    const bool is_short = longest_side(to.shape, row) < short_side * to.graph.diagonal;
     std::map<std::int32_t, int> votes;
-    for (const auto& [a, b, c] : places) {
+    for (const auto& [a, b, c] : std::span(places).first(is_short ? 1 : places.size())) {
       const Eigen::Vector3d place =
           a * to.shape.corner(row, 0) + b * to.shape.corner(row, 1) + c * to.shape.corner(row, 2);
       ++votes[pieces[static_cast<std::size_t>(from.index.nearest(map * place).triangle)]];
@@ -149,19 +160,28 @@ Pieces partners(const CutPart& part, const Pieces& pieces, const Pieces& images,
   return result;
 }
 
-/// Returns the cut that is its own image. Where piece and image do not agree, the pieces on one side of the
-/// plane (`sign`) are kept.
-Pieces mirrored(const CutPart& part, const Pieces& pieces, const Symmetry& reflection, double sign,
-                double smallest) {
+/// Returns the area on which two cuts differ, of the whole area.
+double difference(const SurfaceGraph& graph, const Pieces& one, const Pieces& other) {
+  double area = 0;
+  for (std::size_t t = 0; t < one.size(); ++t)
+    if (one[t] != other[t]) area += graph.areas(static_cast<Eigen::Index>(t));
+  return area / graph.areas.sum();
+}
+
+/// Returns the two cuts that are their own images: where piece and image do not agree, the pieces on one side
+/// of the plane or on the other are kept.
+std::array<Pieces, 2> mirrored(const CutPart& part, const Pieces& pieces, const Symmetry& reflection,
+                               double smallest) {
   const Pieces images = image(part, part, pieces, reflection);
   const Pieces partner = partners(part, pieces, images, piece_count(pieces));
-  Pieces result = pieces;
+  std::array<Pieces, 2> cuts = {pieces, pieces};
   for (std::size_t t = 0; t < pieces.size(); ++t) {
-    const std::int32_t of_image = partner[static_cast<std::size_t>(images[t])];
     const Eigen::Vector3d centre = part.graph.centres.row(static_cast<Eigen::Index>(t));
-    if (sign * reflection.axis.dot(centre - reflection.point) < 0) result[t] = of_image;
+    const double side = reflection.axis.dot(centre - reflection.point);
+    if (side != 0) cuts[side < 0 ? 0 : 1][t] = partner[static_cast<std::size_t>(images[t])];
   }
-  return merge_small_segments(part.graph, result, smallest * part.graph.areas.sum());
+  for (Pieces& cut : cuts) cut = merge_small_segments(part.graph, cut, smallest * part.graph.areas.sum());
+  return cuts;
 }
 
 }  // namespace
@@ -193,9 +213,10 @@ void make_symmetric(const std::vector<Shape>& parts, const std::vector<Relation>
     if (!reflects(relation, RelationType::self_symmetry)) continue;
     const auto p = static_cast<std::size_t>(relation.parts[0]);
     if (piece_count(members[p]) < 2) continue;
-    Pieces one = mirrored(part(p), members[p], relation.symmetry, 1, smallest);
-    Pieces other = mirrored(part(p), members[p], relation.symmetry, -1, smallest);
-    members[p] = misfit(parts[p], other) < misfit(parts[p], one) ? std::move(other) : std::move(one);
+    auto [one, other] = mirrored(part(p), members[p], relation.symmetry, smallest);
+    const bool alike = difference(part(p).graph, one, other) < smallest;  // primitives would fit alike, too
+    members[p] =
+        !alike && misfit(parts[p], other) < misfit(parts[p], one) ? std::move(other) : std::move(one);
   }
   // Of parts that are images of each other, the first one is copied to the others, from pair to pair.
   std::vector<char> reached(parts.size(), 0);

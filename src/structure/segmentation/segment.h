@@ -12,7 +12,7 @@ namespace stackabilization::detail {
 using SymmetrySource = std::function<std::vector<FoundSymmetry>()>;
 
 /// Does what `stackabilization::segment` does, for callers that know the symmetries of the whole shape or
-/// need them later. Asks for them at most once, when parts are cut into members.
+/// need them later. Asks for them at most once, when a shape is cut.
 Shape segment(const Shape& shape, const SegmentationOptions& options, const SymmetrySource& symmetries);
 
 }  // namespace stackabilization::detail

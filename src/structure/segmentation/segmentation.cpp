@@ -138,6 +138,19 @@ Shape with_members(const Shape& shape, const SegmentationOptions& options,
   return result;
 }
 
+/// Cuts a connected shape where its symmetries let it: what was cut on one side of a plane only, or cut
+/// elsewhere, is cut alike on both.
+Shape cut_symmetrically(const Shape& shape, const SegmentationOptions& options,
+                        const detail::SymmetrySource& symmetries) {
+  const std::vector<std::int32_t> one_component(shape.triangle_part.size(), 0);
+  Shape result = cut_components(shape, one_component, options);
+  if (result.part_count() == 1) return result;
+  const Shape whole = with_parts_by_area(shape, one_component);
+  std::vector<std::vector<std::int32_t>> pieces = {result.triangle_part};
+  detail::make_symmetric({whole}, symmetry_relations(whole, symmetries()), options.min_part_area, pieces);
+  return with_parts_by_area(shape, pieces.front());
+}
+
 /// One generalized cylinder represents a body of revolution, whatever its profile. A cut, such as that of a
 /// hat into crown and brim, would only add joints.
 bool is_body_of_revolution(const Shape& shape) {
@@ -170,6 +183,8 @@ Shape detail::segment(const Shape& shape, const SegmentationOptions& options,
       (count_of(component) > 1 || (options.parts == 0 && is_body_of_revolution(shape)));
   if (options.method == SegmentationMethod::components || components_do)
     return with_parts_by_area(shape, component);
+  // A number of parts that is asked for is kept.
+  if (count_of(component) == 1 && options.parts == 0) return cut_symmetrically(shape, options, symmetries);
   return cut_components(shape, component, options);
 }
 
