@@ -2,51 +2,63 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
-#include <utility>
+#include <tuple>
 
 namespace stackabilization {
 
 namespace {
 
-/// Appends `index` to a chain with left turns only; the first `fixed` entries stay.
-void extend_chain(const Eigen::Matrix2Xd& points, int index, std::size_t fixed, std::vector<int>& chain) {
-  while (chain.size() > fixed) {
-    const Eigen::Vector2d before = points.col(chain[chain.size() - 2]);
-    if (cross(points.col(chain.back()) - before, points.col(index) - before) > 0) break;
-    chain.pop_back();
+/// A point with its column. Sorted by coordinates: points in one place by column.
+struct Place {
+  double x, y;
+  int column;
+
+  bool operator<(const Place& other) const {
+    return std::tie(x, y, column) < std::tie(other.x, other.y, other.column);
   }
-  chain.push_back(index);
+};
+
+/// Returns the signed area of the parallelogram a - origin, b - origin.
+double turn(const Place& origin, const Place& a, const Place& b) {
+  return (a.x - origin.x) * (b.y - origin.y) - (a.y - origin.y) * (b.x - origin.x);
 }
 
-void drop_close_corners(const Eigen::Matrix2Xd& points, double resolution, std::vector<int>& corners) {
-  std::vector<int> kept = {corners.front()};
-  const auto close = [&](int a, int b) { return (points.col(a) - points.col(b)).norm() <= resolution; };
-  for (const int corner : corners)
+/// Appends `place` to a chain with left turns only; the first `fixed` entries stay.
+void extend_chain(const Place& place, std::size_t fixed, std::vector<Place>& chain) {
+  while (chain.size() > fixed && !(turn(chain[chain.size() - 2], chain.back(), place) > 0)) chain.pop_back();
+  chain.push_back(place);
+}
+
+/// Returns the columns of the corners that are not closer than `resolution` to their predecessors.
+std::vector<int> distinct_columns(const std::vector<Place>& corners, double resolution) {
+  const auto close = [&](const Place& a, const Place& b) {
+    return Eigen::Vector2d(a.x - b.x, a.y - b.y).norm() <= resolution;
+  };
+  std::vector<Place> kept = {corners.front()};
+  for (const Place& corner : corners)
     if (!close(corner, kept.back())) kept.push_back(corner);
   while (kept.size() > 1 && close(kept.back(), kept.front())) kept.pop_back();
-  corners = std::move(kept);
+  std::vector<int> columns;
+  columns.reserve(kept.size());
+  for (const Place& corner : kept) columns.push_back(corner.column);
+  return columns;
 }
 
 }  // namespace
 
 std::vector<int> convex_polygon(const Eigen::Matrix2Xd& points, double resolution) {
-  std::vector<int> order(static_cast<std::size_t>(points.cols()));
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    if (points(0, a) != points(0, b)) return points(0, a) < points(0, b);
-    if (points(1, a) != points(1, b)) return points(1, a) < points(1, b);
-    return a < b;
-  });
-  std::vector<int> chain;
-  chain.reserve(order.size() + 1);
-  for (const int index : order) extend_chain(points, index, 1, chain);
+  std::vector<Place> places;
+  places.reserve(static_cast<std::size_t>(points.cols()));
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    places.push_back({points(0, i), points(1, i), static_cast<int>(i)});
+  std::sort(places.begin(), places.end());
+  std::vector<Place> chain;
+  chain.reserve(places.size() + 1);
+  for (const Place& place : places) extend_chain(place, 1, chain);
   const std::size_t lower = chain.size();
-  for (auto index = order.rbegin() + 1; index != order.rend(); ++index)
-    extend_chain(points, *index, lower, chain);
+  for (auto place = places.rbegin() + 1; place != places.rend(); ++place) extend_chain(*place, lower, chain);
   if (chain.size() > 1) chain.pop_back();
-  drop_close_corners(points, resolution, chain);
-  return chain;
+  return distinct_columns(chain, resolution);
 }
 
 namespace {
@@ -55,19 +67,28 @@ namespace {
 /// corners continue beyond the last corner, so that the four calipers never overtake each other.
 class Caliper {
  public:
-  explicit Caliper(const Eigen::Matrix2Xd& polygon) : polygon_(polygon) {}
-
-  Eigen::Vector2d corner(Eigen::Index k) const {
-    while (k >= polygon_.cols()) k -= polygon_.cols();
-    return polygon_.col(k);
+  explicit Caliper(const Eigen::Matrix2Xd& polygon) : polygon_(polygon), sides_(2, polygon.cols()) {
+    const Eigen::Index last = polygon.cols() - 1;
+    sides_.leftCols(last) = polygon.rightCols(last) - polygon.leftCols(last);
+    sides_.col(last) = polygon.col(0) - polygon.col(last);
   }
+
+  Eigen::Vector2d corner(Eigen::Index k) const { return polygon_.col(wrapped(k)); }
+  /// From corner k to the next one.
+  Eigen::Vector2d side(Eigen::Index k) const { return sides_.col(wrapped(k)); }
   Eigen::Index advance(Eigen::Index k, const Eigen::Vector2d& along) const {
-    while ((corner(k + 1) - corner(k)).dot(along) > 0) ++k;
+    while (side(k).dot(along) > 0) ++k;
     return k;
   }
 
  private:
+  Eigen::Index wrapped(Eigen::Index k) const {
+    while (k >= polygon_.cols()) k -= polygon_.cols();
+    return k;
+  }
+
   const Eigen::Matrix2Xd& polygon_;
+  Eigen::Matrix2Xd sides_;
 };
 
 /// The rectangle with that axis.
@@ -92,7 +113,7 @@ PlanarRectangle minimal_rectangle(const Eigen::Matrix2Xd& polygon) {
   Eigen::Index right = 0, top = 0, left = 0;
   for (Eigen::Index side = 0; side < polygon.cols(); ++side) {
     const Eigen::Vector2d base = caliper.corner(side);
-    const Eigen::Vector2d axis = (caliper.corner(side + 1) - base).normalized();
+    const Eigen::Vector2d axis = caliper.side(side).normalized();
     const Eigen::Vector2d across(-axis.y(), axis.x());
     right = caliper.advance(std::max(right, side + 1), axis);
     top = caliper.advance(std::max(top, right), across);
