@@ -1,5 +1,6 @@
 #include "improvement/quality/centre_line.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/QR>
@@ -9,6 +10,7 @@
 #include <limits>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "deformation/model/straight_curve.h"
 #include "stackabilization/improvement/tolerances.h"
@@ -23,6 +25,8 @@ constexpr int station_count = 12;
 constexpr std::size_t pieces_per_station = 6;
 /// Ratio of length to width from which on a cuboid is elongated.
 constexpr double elongated = 3;
+/// Largest share by which balancing reduces the weight of a piece.
+constexpr double most_fall = 0.9;
 /// Share of the length within which corners belong to an end.
 constexpr double end_share = 0.02;
 
@@ -74,6 +78,20 @@ double position_on(const PartCurve& curve, const Eigen::Vector3d& p) {
   return position / length;
 }
 
+/// Returns the point of the curve at an arc length over the whole length, 0 to 1, and the direction there.
+std::pair<Eigen::Vector3d, Eigen::Vector3d> place_on(const PartCurve& curve, double position) {
+  double left = position * curve.length();
+  const Eigen::Index segments = curve.points.rows() - (curve.closed ? 0 : 1);
+  for (Eigen::Index k = 0;; ++k) {
+    const Eigen::Vector3d from = curve.points.row(k).transpose(),
+                          side = curve.points.row((k + 1) % curve.points.rows()).transpose() - from;
+    const double length = side.norm();
+    if (left <= length || k + 1 == segments)
+      return {from + std::min(left, length) * side.stableNormalized(), side.stableNormalized()};
+    left -= length;
+  }
+}
+
 /// Returns the largest distance of a point from the line through the first and the last one.
 double distance_from_chord(const Points& points) {
   const Eigen::RowVector3d chord = (points.row(points.rows() - 1) - points.row(0)).stableNormalized();
@@ -122,6 +140,10 @@ std::optional<CentreLine> CentreLine::of(const Primitive& primitive, const Shape
     return station.size() < pieces_per_station || !(area > 0);
   });
   if (sparse) return std::nullopt;
+  for (int k = 0; k < station_count; ++k) {
+    const auto [place, along] = place_on(*curve, static_cast<double>(k) / last);
+    line.balance(line.stations_[static_cast<std::size_t>(k)], marks, place, along);
+  }
   line.rest_ = line.centres(marks);
   for (int k = 1; k < station_count; ++k) line.length_ += (line.rest_.row(k) - line.rest_.row(k - 1)).norm();
   if (!(line.length_ > 0)) return std::nullopt;
@@ -149,6 +171,27 @@ std::optional<CentreLine> CentreLine::of(const Primitive& primitive, const Shape
     if (share_of(vertex) >= high - end_share) line.end_corners_[1].push_back(vertex);
   }
   return line;
+}
+
+void CentreLine::balance(std::vector<Share>& station, const Points& marks, const Eigen::Vector3d& place,
+                         const Eigen::Vector3d& along) {
+  const Eigen::Vector3d u = along.unitOrthogonal(), v = along.cross(u);
+  std::vector<Eigen::Vector2d> across;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();
+  for (const Share& share : station) {
+    const Eigen::Vector3d offset = marks.row(share.mark).transpose() - place;
+    across.emplace_back(u.dot(offset), v.dot(offset));
+    sum += share.weight * across.back();
+    moments += share.weight * across.back() * across.back().transpose();
+  }
+  const Eigen::LDLT<Eigen::Matrix2d> solver(moments);
+  const Eigen::Vector2d slope = solver.solve(-sum);
+  if (solver.info() != Eigen::Success || !slope.allFinite()) return;
+  double fall = 0;
+  for (const Eigen::Vector2d& offset : across) fall = std::max(fall, -slope.dot(offset));
+  const double share = fall > most_fall ? most_fall / fall : 1;
+  for (std::size_t i = 0; i < across.size(); ++i) station[i].weight *= 1 + share * slope.dot(across[i]);
 }
 
 std::array<Eigen::Vector3d, 2> CentreLine::ends_on(const Shape& shape, const Points& centres) const {

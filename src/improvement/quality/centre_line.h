@@ -31,7 +31,9 @@ struct CentreLineChange {
 
 /// Centre line and cross-sections of an elongated part, from pieces of its surface. Each piece belongs to the
 /// two stations of the line between which it lies, weighted linearly and by area. The centre of a station is
-/// the mean of its pieces, its radius their mean distance from the line.
+/// the weighted mean of its pieces, its radius their mean distance from the line. Weights are balanced: at
+/// rest, the centre lies on the curve of the primitive also where pieces are missing on one side, as behind
+/// the handle of a cup, so that a cup that becomes a cone does not lean.
 class CentreLine {
  public:
   static constexpr std::size_t default_pieces = 4000;  ///< of a part
@@ -64,6 +66,11 @@ class CentreLine {
     double roundness = 1;  ///< square root of the ratio of the second moments across the line, at most 1
   };
 
+  /// Multiplies the weights of a station by an affine function across the line (`along`, unit), so that the
+  /// mean lies at `place`, but for the component along the line; or nearer to it, where weights would have to
+  /// become 0.
+  static void balance(std::vector<Share>& station, const Points& marks, const Eigen::Vector3d& place,
+                      const Eigen::Vector3d& along);
   Points centres(const Points& marks) const;
   std::array<Eigen::Vector3d, 2> ends_on(const Shape& shape, const Points& centres) const;
   std::vector<Section> sections(const Points& marks, const Points& centres) const;

@@ -124,6 +124,24 @@ TEST_CASE("A leaning or longer tube stays straight, and its length and width are
   CHECK(measured(rest, longer, QualityMeasure::height) == Approx(0.3));
 }
 
+TEST_CASE("A tube that lacks a piece of one side is straight as a cone", "[quality]") {
+  const StructuredShape whole = upright_tube();
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index t = 0; t < whole.shape.triangle_count(); ++t) {
+    const Eigen::Vector3d p = whole.shape.corner(t, 0);
+    if (p.z() < 3 || p.z() > 7 || p.x() < 0.8) kept.push_back(t);
+  }
+  REQUIRE(static_cast<Eigen::Index>(kept.size()) < whole.shape.triangle_count());
+  const Shape open = make_shape(whole.shape.vertices, whole.shape.triangles(kept, Eigen::all));
+  const StructuredShape rest = designs::alone(open, whole.structure.parts.front().primitive);
+  const Shape cone = mapped(open, [](const Eigen::Vector3d& p) {
+    const double r = 1 + 0.05 * p.z();
+    return Eigen::Vector3d(r * p.x(), r * p.y(), p.z());
+  });
+  // The mean of what is left in the middle lies 0.24 radii off the line, and moves by a quarter of that.
+  CHECK(measured(rest, cone, QualityMeasure::straightness) < 0.1 * 0.24 * 0.25 / 10);
+}
+
 TEST_CASE("A kink in a line that was smooth is its angle", "[quality]") {
   const solids::Torus torus{.ring_radius = 5, .tube_radius = 0.5};
   const Shape ring = solids::torus(torus);
