@@ -1,10 +1,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <queue>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "mesh/affine_span.h"
@@ -17,6 +20,16 @@ namespace {
 
 /// Limit of the work of one search, in visits of hull elements: a fraction of a second.
 constexpr double total_effort = 1.5e8;
+
+/// A hull of more corners is searched on the hull of some of them first.
+constexpr Eigen::Index large_hull = 1000;
+constexpr Eigen::Index coarse_corners = 500;
+/// So many of the best directions there, at least so far apart (radians), are followed on the whole hull. The
+/// surroundings of the best of them are searched, so far (radians) and by so many boxes.
+constexpr std::size_t followed_directions = 12;
+constexpr double apart = 0.05;
+constexpr double surroundings = 0.1;
+constexpr int boxes_nearby = 500;
 
 /// Limit of the work for one box. The corners of the silhouette must be sorted; their number is at most about
 /// that of the face with most sides.
@@ -67,15 +80,40 @@ double turning_rate(const OrientedBox& box) {
   return std::hypot(b / a + a / b, c / a + a / c);
 }
 
+/// Returns the number of boxes that the work of one search allows.
+int most_boxes(const HullSupport& hull) {
+  return static_cast<int>(total_effort / effort_per_box(hull));
+}
+
 class MinimalBoxSearch {
  public:
-  explicit MinimalBoxSearch(const HullSupport& hull)
+  MinimalBoxSearch(const HullSupport& hull, int boxes)
       : hull_(hull),
         unit_(std::ldexp(1.0, std::min(working_exponent(hull.points()), 1000))),
-        boxes_left_(static_cast<int>(total_effort / effort_per_box(hull))) {}
+        boxes_left_(boxes) {}
 
+  /// Searches all directions.
   OrientedBox run() {
-    visit_faces();
+    visit_faces([](const Eigen::Vector3d&) { return true; });
+    return search_arcs();
+  }
+
+  /// Searches near the axes of the best box that is found from boxes along `normals`, when axes across it are
+  /// taken for its normal in turn.
+  OrientedBox run_near(const std::vector<Eigen::Vector3d>& normals) {
+    for (const Eigen::Vector3d& normal : normals) follow(normal);
+    const Eigen::Matrix3d axes = best_.axes;
+    visit_faces([&](const Eigen::Vector3d& normal) {
+      return (axes.transpose() * normal).cwiseAbs().maxCoeff() >= std::cos(surroundings);
+    });
+    return search_arcs();
+  }
+
+  /// Returns the best directions of all that were visited, the best first.
+  std::vector<Eigen::Vector3d> best_directions() const;
+
+ private:
+  OrientedBox search_arcs() {
     visit_arcs();
     while (!intervals_.empty() && boxes_left_ > 0) {
       const Interval interval = intervals_.top();
@@ -89,16 +127,22 @@ class MinimalBoxSearch {
     return best_;
   }
 
- private:
-  Sample visit(const Eigen::Vector3d& normal, double angle) {
+  double volume(const OrientedBox& box) const { return (unit_ * box.half_extents).prod(); }
+
+  OrientedBox box_along(const Eigen::Vector3d& normal) {
     --boxes_left_;
     const OrientedBox box = hull_.box_along(Direction(normal));
-    const double volume = (unit_ * box.half_extents).prod();
-    if (volume < best_volume_) {
+    visited_.emplace_back(volume(box), normal);
+    if (visited_.back().first < best_volume_) {
       best_ = box;
-      best_volume_ = volume;
+      best_volume_ = visited_.back().first;
     }
-    return {angle, volume, turning_rate(box)};
+    return box;
+  }
+
+  Sample visit(const Eigen::Vector3d& normal, double angle) {
+    const OrientedBox box = box_along(normal);
+    return {angle, volume(box), turning_rate(box)};
   }
 
   bool cannot_win(double bound) const { return bound >= best_volume_ * (1 - tolerance::rounding); }
@@ -110,7 +154,9 @@ class MinimalBoxSearch {
     if (!cannot_win(bound)) intervals_.push({arc, low, high, bound});
   }
 
-  void visit_faces();
+  /// Takes the axes across the box along `normal` for its normal, as long as that makes it smaller.
+  void follow(const Eigen::Vector3d& normal);
+  void visit_faces(const std::function<bool(const Eigen::Vector3d&)>& wanted);
   void visit_arcs();
   void split(const Interval& interval);
   bool is_minimal_at_an_end(const Interval& interval);
@@ -121,19 +167,51 @@ class MinimalBoxSearch {
   int boxes_left_;
   OrientedBox best_;
   double best_volume_ = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, Eigen::Vector3d>> visited_;  ///< volumes and normals
   std::vector<std::optional<Sample>> face_samples_;
   std::vector<Arc> arcs_;
   std::priority_queue<Interval> intervals_;
 };
 
-/// For large hulls, the largest faces get half of the work, and the arcs between them the rest.
-void MinimalBoxSearch::visit_faces() {
-  const Eigen::Index visited =
-      std::min<Eigen::Index>(hull_.face_normals().rows(), std::max(1, boxes_left_ / 2));
+std::vector<Eigen::Vector3d> MinimalBoxSearch::best_directions() const {
+  std::vector<std::pair<double, Eigen::Vector3d>> sorted = visited_;
+  std::stable_sort(sorted.begin(), sorted.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Eigen::Vector3d> chosen;
+  for (const auto& [volume, normal] : sorted) {
+    const auto near = [&normal = normal](const Eigen::Vector3d& other) {
+      return std::abs(normal.dot(other)) > std::cos(apart);
+    };
+    if (std::none_of(chosen.begin(), chosen.end(), near)) chosen.push_back(normal);
+    if (chosen.size() == followed_directions) break;
+  }
+  return chosen;
+}
+
+void MinimalBoxSearch::follow(const Eigen::Vector3d& normal) {
+  OrientedBox box = box_along(normal);
+  for (bool better = true; better && boxes_left_ > 0;) {
+    better = false;
+    const Eigen::Matrix3d axes = box.axes;
+    for (int k = 0; k < 2; ++k) {  // the third axis is the normal of the box
+      const OrientedBox next = box_along(axes.col(k));
+      if (volume(next) >= volume(box) * (1 - tolerance::rounding)) continue;
+      box = next;
+      better = true;
+    }
+  }
+}
+
+/// Where there are too many, the largest faces get half of the work, and the arcs between them the rest.
+void MinimalBoxSearch::visit_faces(const std::function<bool(const Eigen::Vector3d&)>& wanted) {
+  int left = std::max(1, boxes_left_ / 2);
   face_samples_.resize(hull_.face_normals().rows());
-  for (Eigen::Index f = 0; f < visited; ++f)
-    if (!hull_.face_normals().row(f).isZero())
-      face_samples_[f] = visit(hull_.face_normals().row(f).transpose(), 0);
+  for (Eigen::Index f = 0; f < hull_.face_normals().rows() && left > 0; ++f) {
+    const Eigen::Vector3d normal = hull_.face_normals().row(f).transpose();
+    if (normal.isZero() || !wanted(normal)) continue;
+    face_samples_[f] = visit(normal, 0);
+    --left;
+  }
 }
 
 void MinimalBoxSearch::visit_arcs() {
@@ -194,6 +272,22 @@ void MinimalBoxSearch::minimise_inside(const Interval& interval) {
   }
 }
 
+/// Returns `count` points that are spread over all: each is the farthest one from those before it, and the
+/// first one from the centre.
+Points spread(const Points& points, Eigen::Index count) {
+  Points chosen(count, 3);
+  const Eigen::RowVector3d centre = points.colwise().mean();
+  Eigen::VectorXd distances = (points.rowwise() - centre).rowwise().norm();
+  for (Eigen::Index k = 0; k < chosen.rows(); ++k) {
+    Eigen::Index farthest = 0;
+    distances.maxCoeff(&farthest);
+    chosen.row(k) = points.row(farthest);
+    const Eigen::VectorXd from_chosen = (points.rowwise() - points.row(farthest)).rowwise().norm();
+    distances = k == 0 ? from_chosen : Eigen::VectorXd(distances.cwiseMin(from_chosen));
+  }
+  return chosen;
+}
+
 /// Returns the direction of a straight set; z for a point.
 Direction direction_of_straight_set(const Points& points) {
   const Eigen::Vector3d along = (points.row(points.rows() - 1) - points.row(0)).transpose();
@@ -206,7 +300,11 @@ Direction direction_of_straight_set(const Points& points) {
 OrientedBox minimal_oriented_box(const HullSupport& hull) {
   if (hull.dimension() < 2) return hull.box_along(direction_of_straight_set(hull.points()));
   if (hull.dimension() == 2) return hull.box_along(Direction(hull.face_normals().row(0).transpose()));
-  return MinimalBoxSearch(hull).run();
+  if (hull.points().rows() <= large_hull) return MinimalBoxSearch(hull, most_boxes(hull)).run();
+  const HullSupport coarse(spread(hull.points(), coarse_corners));
+  MinimalBoxSearch search(coarse, most_boxes(coarse));
+  search.run();
+  return MinimalBoxSearch(hull, boxes_nearby).run_near(search.best_directions());
 }
 
 }  // namespace stackabilization

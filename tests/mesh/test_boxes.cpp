@@ -327,6 +327,31 @@ TEST_CASE("the axis-aligned and the frame box") {
   check_axes(tilted);
 }
 
+TEST_CASE("bodies of thousands of corners have the boxes that closed forms say, in every pose") {
+  // Too many corners to search all over: prisms over regular polygons, and boxes with round edges.
+  Random random(31);
+  const double flat_to_flat = 2 * std::cos(std::numbers::pi / 1024);
+  const Points prism = point_sets::frustum(1024, 1, 1, 3);
+  REQUIRE(HullSupport(prism).points().rows() == 2048);
+  Points rounded = point_sets::on_sphere(20000, 5);
+  for (auto row : rounded.rowwise()) {  // |x / 4|^8 + |y / 3|^8 + |z / 2|^8 = 1
+    row /= std::pow(row.array().pow(8).sum(), 1.0 / 8);
+    row.array() *= Eigen::RowVector3d(4, 3, 2).array();
+  }
+  REQUIRE(HullSupport(rounded).points().rows() > 5000);
+  for (int pose = 0; pose < 4; ++pose) {
+    const auto turned = [&](const Points& points) {
+      return point_sets::moved(points,
+                               pose == 0 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : random.rotation(),
+                               random.vector(2));
+    };
+    CHECK(minimal_volume(turned(prism)) == Approx(3 * flat_to_flat * flat_to_flat).epsilon(1e-9));
+    const double volume = minimal_volume(turned(rounded));
+    CHECK(volume <= axis_aligned_box(rounded).volume() * (1 + 1e-9));
+    CHECK(volume > 191.5);
+  }
+}
+
 TEST_CASE("a large sphere is boxed within a fraction of a second") {
   const OrientedBox box = minimal_oriented_box(HullSupport(point_sets::on_sphere(10000, 11)));
   CHECK(box.volume() < 8);

@@ -76,10 +76,10 @@ class HullSupport {
 ///
 /// A minimal box has two adjacent faces that each contain a hull edge (O'Rourke 1985), so one of its normals
 /// lies on an arc of the Gauss map between the normals of two neighbouring hull faces. The function searches
-/// these arcs best first. It estimates the minimum within an interval from the growth of the boxes at both
-/// ends under rotation, and assumes one minimum in an interval below a hundredth of a radian. The result is
-/// therefore the best box found, not proven minimal. For hulls of more than some hundred faces (finely
-/// tessellated spheres) the search stops after a fixed amount of work, at the same place in every pose.
+/// these arcs best first. It estimates minima in intervals from the growth of boxes under rotation, and stops
+/// after a fixed amount of work, which spheres of some hundred faces need. For hulls of more than 1000
+/// corners, it searches the hull of 500 that are spread evenly, and follows the best directions on the whole
+/// hull. The result is therefore the best box found, not proven minimal.
 OrientedBox minimal_oriented_box(const HullSupport& hull);
 
 /// Computes the box along the file's axes.
