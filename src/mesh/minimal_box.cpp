@@ -81,7 +81,7 @@ double turning_rate(const OrientedBox& box) {
 }
 
 /// Returns the number of boxes that the work of one search allows.
-int most_boxes(const HullSupport& hull) {
+int max_boxes(const HullSupport& hull) {
   return static_cast<int>(total_effort / effort_per_box(hull));
 }
 
@@ -300,9 +300,9 @@ Direction direction_of_straight_set(const Points& points) {
 OrientedBox minimal_oriented_box(const HullSupport& hull) {
   if (hull.dimension() < 2) return hull.box_along(direction_of_straight_set(hull.points()));
   if (hull.dimension() == 2) return hull.box_along(Direction(hull.face_normals().row(0).transpose()));
-  if (hull.points().rows() <= large_hull) return MinimalBoxSearch(hull, most_boxes(hull)).run();
+  if (hull.points().rows() <= large_hull) return MinimalBoxSearch(hull, max_boxes(hull)).run();
   const HullSupport coarse(spread(hull.points(), coarse_corners));
-  MinimalBoxSearch search(coarse, most_boxes(coarse));
+  MinimalBoxSearch search(coarse, max_boxes(coarse));
   search.run();
   return MinimalBoxSearch(hull, boxes_nearby).run_near(search.best_directions());
 }

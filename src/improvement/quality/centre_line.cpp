@@ -26,7 +26,7 @@ constexpr std::size_t pieces_per_station = 6;
 /// Ratio of length to width from which on a cuboid is elongated.
 constexpr double elongated = 3;
 /// Largest share by which balancing reduces the weight of a piece.
-constexpr double most_fall = 0.9;
+constexpr double max_fall = 0.9;
 /// Share of the length within which corners belong to an end.
 constexpr double end_share = 0.02;
 
@@ -190,7 +190,7 @@ void CentreLine::balance(std::vector<Share>& station, const Points& marks, const
   if (solver.info() != Eigen::Success || !slope.allFinite()) return;
   double fall = 0;
   for (const Eigen::Vector2d& offset : across) fall = std::max(fall, -slope.dot(offset));
-  const double share = fall > most_fall ? most_fall / fall : 1;
+  const double share = fall > max_fall ? max_fall / fall : 1;
   for (std::size_t i = 0; i < across.size(); ++i) station[i].weight *= 1 + share * slope.dot(across[i]);
 }
 
