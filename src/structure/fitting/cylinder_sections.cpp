@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -17,6 +18,10 @@ namespace {
 
 /// Directions over which an outline is averaged.
 constexpr int direction_count = 48;
+/// Share of these directions in which a body of revolution reaches no farther than its radius, and the ratio
+/// to it from which on what reaches farther sticks out. The corners of a polygon of eight sides do not.
+constexpr double usual_share = 0.75;
+constexpr double sticks_out = 1.05;
 
 using OutlineSegment = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
 
@@ -38,25 +43,28 @@ class Sections {
     }
   }
 
-  /// Returns the largest distance from the axis; NaN where the intersection is empty.
+  /// Returns the largest distance from the axis, without what sticks out on one side, such as the stub of a
+  /// handle; NaN where the intersection is empty.
   double outermost(std::size_t section) const {
     double farthest = std::numeric_limits<double>::quiet_NaN();
     for (const auto& [a, b] : segments_[section])
       farthest = std::fmax(farthest, std::fmax(a.norm(), b.norm()));
-    return farthest;
+    std::vector<double> distances = farthest_points(section);
+    if (distances.empty()) return farthest;
+    const auto usual = distances.begin() +
+                       static_cast<std::ptrdiff_t>(usual_share * static_cast<double>(distances.size() - 1));
+    std::nth_element(distances.begin(), usual, distances.end());
+    return farthest > sticks_out * *usual ? *usual : farthest;
   }
 
   /// Returns the mean, over the directions that meet the outline, of the distance of its farthest point; NaN
   /// where the intersection is empty.
   double mean(std::size_t section) const {
+    const std::vector<double> distances = farthest_points(section);
     double sum = 0;
-    int count = 0;
-    for (int k = 0; k < direction_count; ++k) {
-      const double angle = (k + 0.5) * 2 * std::numbers::pi / direction_count;
-      const double farthest = along(section, {std::cos(angle), std::sin(angle)});
-      if (farthest > 0) sum += farthest, ++count;
-    }
-    return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
+    for (const double distance : distances) sum += distance;
+    return distances.empty() ? std::numeric_limits<double>::quiet_NaN()
+                             : sum / static_cast<double>(distances.size());
   }
 
   /// Returns the centroid of the outline, in the plane orthogonal to the axis; NaN where the intersection is
@@ -80,6 +88,17 @@ class Sections {
       ends.push_back(a.head<2>() + (height - a.z()) / (b.z() - a.z()) * (b - a).head<2>());
     }
     if (ends.size() == 2) segments.emplace_back(ends[0], ends[1]);
+  }
+
+  /// Returns the distance of the farthest point of the outline in every direction that meets it.
+  std::vector<double> farthest_points(std::size_t section) const {
+    std::vector<double> distances;
+    for (int k = 0; k < direction_count; ++k) {
+      const double angle = (k + 0.5) * 2 * std::numbers::pi / direction_count;
+      const double farthest = along(section, {std::cos(angle), std::sin(angle)});
+      if (farthest > 0) distances.push_back(farthest);
+    }
+    return distances;
   }
 
   double along(std::size_t section, const Eigen::Vector2d& ray) const {

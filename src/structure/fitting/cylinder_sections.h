@@ -14,7 +14,8 @@ constexpr double min_relative_radius = 0.01;
 
 /// Definition of the radius of a section across a straight axis.
 enum class SectionRadius {
-  /// Distance of the farthest point of the outline: right for bodies of revolution at any tessellation.
+  /// Distance of the farthest point of the outline, but for what sticks out on one side: right for bodies of
+  /// revolution at any tessellation.
   outermost,
   mean  ///< mean over all directions of the outermost distance: right for other outlines
 };

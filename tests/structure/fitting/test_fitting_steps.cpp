@@ -97,6 +97,16 @@ TEST_CASE("of what is no body of revolution no axis is found") {
     CHECK_FALSE(revolution_axis(FitSurface(shape)));
 }
 
+TEST_CASE("the stub of a handle does not widen the circles of a cup, the corners of few facets do") {
+  const AxisLine axis{Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitZ()};
+  const Shape stubbed = concatenate(solids::cylinder(1, 5, 48), solids::box({0.9, -0.2, 2}, {1.4, 0.2, 3}));
+  const auto radii = [&](const Shape& shape) {
+    return straight_cylinder(shape, axis, 11, SectionRadius::outermost)->radii;
+  };
+  CHECK(radii(stubbed).maxCoeff() == Approx(1).epsilon(0.003));
+  for (const int facets : {8, 12, 48}) CHECK(radii(solids::cylinder(1, 5, facets)).isOnes(1e-12));
+}
+
 TEST_CASE("the box of a tapered leg stands along the leg, and mirrors with it") {
   const Eigen::Matrix3d splay =
       Eigen::AngleAxisd(0.15, Eigen::Vector3d(1, 2, 0).normalized()).toRotationMatrix();
