@@ -68,12 +68,8 @@ void add_mesh_output(CLI::App& command, CommonOptions& common, std::optional<std
       .add_option("-o,--output", output,
                   "Write " + what + " as a mesh (" + std::string(writable_extensions()) + ")")
       ->type_name("FILE");
-  add_to_unit_option(command, common);
-}
-
-void add_to_unit_option(CLI::App& command, CommonOptions& common) {
   add_choice(command, "--to-unit", common.to_unit, unit_choices(),
-             "Unit of the meshes written (default: that of MODEL)");
+             "Unit of the mesh written (default: that of MODEL)");
 }
 
 int parse_threads(const std::string& text) {

@@ -37,7 +37,6 @@ void add_common_options(CLI::App& command, CommonOptions& common);
 /// --output for a mesh, and --to-unit, which needs it. `what` is written: "the stack".
 void add_mesh_output(CLI::App& command, CommonOptions& common, std::optional<std::string>& output,
                      const std::string& what);
-void add_to_unit_option(CLI::App& command, CommonOptions& common);
 
 /// The value of --threads. Throws UsageError unless it is a number of threads.
 int parse_threads(const std::string& text);

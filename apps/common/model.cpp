@@ -38,13 +38,17 @@ std::optional<Shape> shape_of_caller(const CommonOptions& common) {
 
 }  // namespace
 
+void check_unit(const CommonOptions& common, const Shape& shape) {
+  if (common.to_unit && shape.unit == Unit::unknown)
+    throw UsageError("--to-unit needs a model whose unit is known: say it with --unit");
+}
+
 Model load_model(const CommonOptions& common, const InspectOptions& options) {
   Model model;
   model.name = common.model;
   std::optional<Shape> in_memory = shape_of_caller(common);
   model.shape = in_memory ? std::move(*in_memory) : read_shape(common.model, common.read);
-  if (common.to_unit && model.shape.unit == Unit::unknown)
-    throw UsageError("--to-unit needs a model whose unit is known: say it with --unit");
+  check_unit(common, model.shape);
   model.findings = inspect(model.shape, options);
   return model;
 }

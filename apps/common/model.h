@@ -48,6 +48,9 @@ auto named(const Model& model, const Work& work) {
 /// Reads MODEL as `common` says. Throws InputError.
 Model load_model(const CommonOptions& common, const InspectOptions& options = {});
 
+/// Throws UsageError when --to-unit is given and the unit of the shape is not known.
+void check_unit(const CommonOptions& common, const Shape& shape);
+
 /// Reads another mesh as MODEL is read, but for its format and labels. Throws InputError.
 Model load_other_model(CommonOptions common, const std::string& path);
 

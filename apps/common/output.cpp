@@ -61,10 +61,9 @@ void check_outputs(const CommonOptions& common, const CommandFiles& files) {
   std::vector<OutputRequest> asked = {{"--json", common.json, OutputKind::text}};
   asked.insert(asked.end(), files.outputs.begin(), files.outputs.end());
   std::erase_if(asked, [](const OutputRequest& request) { return !request.path; });
-  const bool writes_meshes = files.folder || std::any_of(asked.begin(), asked.end(), [](const auto& request) {
-                               return request.kind == OutputKind::mesh;
-                             });
-  if (common.to_unit && !writes_meshes) throw UsageError("--to-unit needs --output, a mesh to write");
+  const bool writes_mesh = std::any_of(asked.begin(), asked.end(),
+                                       [](const auto& request) { return request.kind == OutputKind::mesh; });
+  if (common.to_unit && !writes_mesh) throw UsageError("--to-unit needs --output, a mesh to write");
   bool prints = true;
   for (const OutputRequest& request : asked) {
     if (request.updates_model)

@@ -205,6 +205,7 @@ StructuredModel load_structured(const CLI::App& command, const CommonOptions& co
   result.space = project.space;
   result.model.name = common.model;
   result.model.shape = result.structured.shape;
+  check_unit(common, result.model.shape);
   result.model.findings = inspect(result.model.shape);
   return result;
 }

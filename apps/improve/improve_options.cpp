@@ -123,7 +123,6 @@ void add_improve_options(CLI::App& command, ImproveCommandOptions& options) {
   command.add_option("-o,--output", options.folder, "Folder for solutions, pictures and the page index.html")
       ->type_name("FOLDER")
       ->required();
-  add_to_unit_option(command, options.common);
 }
 
 void check(const ImproveCommandOptions& options) {

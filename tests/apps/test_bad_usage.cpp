@@ -16,6 +16,8 @@ struct BoxFolder : TemporaryFolder {
 TEST_CASE("wrong command lines end with 2 and one sentence that names the mistake") {
   const BoxFolder folder;
   const std::string& box = folder.box;
+  const std::string project = folder / "box.json";
+  REQUIRE(run_program({"structure", box, "--save", project}).status == 0);
   const std::vector<std::pair<Arguments, std::string>> cases = {
       {{}, "none was given"},
       {{"weigh", box}, "'weigh'"},
@@ -76,6 +78,7 @@ TEST_CASE("wrong command lines end with 2 and one sentence that names the mistak
       {{"stack", box, "--clearance", "1mm"}, "--unit"},
       {{"stack", box, "--to-unit", "mm", "--unit", "m"}, "--to-unit needs --output"},
       {{"stack", box, "--to-unit", "mm", "-o", folder / "stack.obj"}, "say it with --unit"},
+      {{"structure", project, "--to-unit", "mm", "-o", folder / "parts.obj"}, "say it with --unit"},
       {{"stack", box, "--to-unit", "mile", "--unit", "m"}, "mm|cm|m|in|ft|um"},
       {{"stack", box, "--within", "0"}, "--within"},
       {{"stack", box, "--into", box, "-n", "3"}, "--into"},
