@@ -302,6 +302,7 @@ OrientedBox minimal_oriented_box(const HullSupport& hull) {
   if (hull.dimension() == 2) return hull.box_along(Direction(hull.face_normals().row(0).transpose()));
   if (hull.points().rows() <= large_hull) return MinimalBoxSearch(hull, max_boxes(hull)).run();
   const HullSupport coarse(spread(hull.points(), coarse_corners));
+  if (coarse.dimension() < 3) return MinimalBoxSearch(hull, max_boxes(hull)).run();
   MinimalBoxSearch search(coarse, max_boxes(coarse));
   search.run();
   return MinimalBoxSearch(hull, boxes_nearby).run_near(search.best_directions());

@@ -331,7 +331,7 @@ TEST_CASE("bodies of thousands of corners have the boxes that closed forms say, 
   // Too many corners to search all over: prisms over regular polygons, and boxes with round edges.
   Random random(31);
   const double flat_to_flat = 2 * std::cos(std::numbers::pi / 1024);
-  const Points prism = point_sets::frustum(1024, 1, 1, 3);
+  const Points prism = point_sets::frustum(1024, 1, 1, 3), disc = point_sets::frustum(1024, 1, 1, 1e-6);
   REQUIRE(HullSupport(prism).points().rows() == 2048);
   Points rounded = point_sets::on_sphere(20000, 5);
   for (auto row : rounded.rowwise()) {  // |x / 4|^8 + |y / 3|^8 + |z / 2|^8 = 1
@@ -346,6 +346,7 @@ TEST_CASE("bodies of thousands of corners have the boxes that closed forms say, 
                                random.vector(2));
     };
     CHECK(minimal_volume(turned(prism)) == Approx(3 * flat_to_flat * flat_to_flat).epsilon(1e-9));
+    CHECK(minimal_volume(turned(disc)) == Approx(1e-6 * flat_to_flat * flat_to_flat).epsilon(1e-8));
     const double volume = minimal_volume(turned(rounded));
     CHECK(volume <= axis_aligned_box(rounded).volume() * (1 + 1e-9));
     CHECK(volume > 191.5);
