@@ -51,9 +51,8 @@ struct SearchFolder : TemporaryFolder {
   }
 
   Arguments into(const std::string& folder, const Arguments& further = {}) const {
-    return joined(
-        joined({"improve", cup, "--direction", "0", "0", "1", "--time", "600", "-o", *this / folder}, task),
-        further);
+    return joined(joined({"improve", cup, "--direction", "0", "0", "1", "-o", *this / folder}, task),
+                  further);
   }
 
   Arguments task;
