@@ -100,7 +100,10 @@ namespace {
 template <class Mesh>
 void write_mesh(const CommonOptions& common, const std::string& path, const Mesh& mesh) {
   const DeferredInterrupts until_written;
-  write_shape(common.to_unit ? in_unit(mesh, *common.to_unit) : mesh, path);
+  if (common.to_unit)
+    write_shape(in_unit(mesh, *common.to_unit), path);
+  else
+    write_shape(mesh, path);
   if (until_written.requested()) throw Interrupted();
 }
 

@@ -21,8 +21,7 @@ namespace {
 /// Limit of the work of one search, in visits of hull elements: a fraction of a second.
 constexpr double total_effort = 1.5e8;
 
-/// A hull of more corners is searched on the hull of some of them first.
-constexpr Eigen::Index large_hull = 1000;
+/// Corners of a large hull that are searched first.
 constexpr Eigen::Index coarse_corners = 500;
 /// So many of the best directions there, at least so far apart (radians), are followed on the whole hull. The
 /// surroundings of the best of them are searched, so far (radians) and by so many boxes.

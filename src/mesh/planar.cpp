@@ -10,30 +10,27 @@ namespace {
 
 /// A point with its column. Sorted by coordinates: points in one place by column.
 struct Place {
-  double x, y;
+  Eigen::Vector2d point;
   int column;
 
   bool operator<(const Place& other) const {
-    return std::tie(x, y, column) < std::tie(other.x, other.y, other.column);
+    return std::tie(point.x(), point.y(), column) < std::tie(other.point.x(), other.point.y(), other.column);
   }
 };
 
-/// Returns the signed area of the parallelogram a - origin, b - origin.
-double turn(const Place& origin, const Place& a, const Place& b) {
-  return (a.x - origin.x) * (b.y - origin.y) - (a.y - origin.y) * (b.x - origin.x);
-}
-
 /// Appends `place` to a chain with left turns only; the first `fixed` entries stay.
 void extend_chain(const Place& place, std::size_t fixed, std::vector<Place>& chain) {
-  while (chain.size() > fixed && !(turn(chain[chain.size() - 2], chain.back(), place) > 0)) chain.pop_back();
+  while (chain.size() > fixed) {
+    const Eigen::Vector2d before = chain[chain.size() - 2].point;
+    if (cross(chain.back().point - before, place.point - before) > 0) break;
+    chain.pop_back();
+  }
   chain.push_back(place);
 }
 
 /// Returns the columns of the corners that are not closer than `resolution` to their predecessors.
 std::vector<int> distinct_columns(const std::vector<Place>& corners, double resolution) {
-  const auto close = [&](const Place& a, const Place& b) {
-    return Eigen::Vector2d(a.x - b.x, a.y - b.y).norm() <= resolution;
-  };
+  const auto close = [&](const Place& a, const Place& b) { return (a.point - b.point).norm() <= resolution; };
   std::vector<Place> kept = {corners.front()};
   for (const Place& corner : corners)
     if (!close(corner, kept.back())) kept.push_back(corner);
@@ -49,8 +46,7 @@ std::vector<int> distinct_columns(const std::vector<Place>& corners, double reso
 std::vector<int> convex_polygon(const Eigen::Matrix2Xd& points, double resolution) {
   std::vector<Place> places;
   places.reserve(static_cast<std::size_t>(points.cols()));
-  for (Eigen::Index i = 0; i < points.cols(); ++i)
-    places.push_back({points(0, i), points(1, i), static_cast<int>(i)});
+  for (Eigen::Index i = 0; i < points.cols(); ++i) places.push_back({points.col(i), static_cast<int>(i)});
   std::sort(places.begin(), places.end());
   std::vector<Place> chain;
   chain.reserve(places.size() + 1);

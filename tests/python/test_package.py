@@ -21,7 +21,8 @@ FUNCTIONS = [name for name in _core.commands() if name != "edit"]  # which serve
 
 # Options that say where the program writes, and how much it prints.
 OF_FILES = {"--json", "--quiet", "--no-timing", "--seed", "--help", "-h", "--version", "--picture", "--pictures",
-            "--output", "-o", "--to-unit", "--save", "--graph", "--no-pictures", "--resume", "--history", "--list-handles"}
+            "--output", "-o", "--to-unit", "--save", "--graph", "--no-pictures", "--resume", "--history",
+            "--list-handles"}
 
 
 def keyword_of(names):

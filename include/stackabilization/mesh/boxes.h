@@ -71,6 +71,9 @@ class HullSupport {
   double resolution_ = 0;                    ///< tolerance::rounding in model units
 };
 
+/// Number of corners from which on a hull is searched in part first, see minimal_oriented_box.
+inline constexpr Eigen::Index large_hull = 1000;
+
 /// Computes a box of minimal volume over all orientations. The volume is the same in every pose to 1e-9
 /// relative.
 ///

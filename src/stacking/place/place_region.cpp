@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "mesh/planar.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/mesh/convex_hull.h"
 
@@ -35,10 +36,6 @@ std::optional<std::pair<double, double>> clipped(const Eigen::Vector2d& p, const
   if (!cut(p.x(), rise.x(), box.x_high) || !cut(-p.x(), -rise.x(), -box.x_low)) return std::nullopt;
   if (!cut(p.y(), rise.y(), box.y_high) || !cut(-p.y(), -rise.y(), -box.y_low)) return std::nullopt;
   return std::pair(from, to);
-}
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 }  // namespace
