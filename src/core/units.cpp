@@ -38,6 +38,18 @@ double convert_length(double length, Unit from, Unit to) {
   return length * by.numerator / by.denominator;
 }
 
+Unit readable_unit(double length, Unit unit) {
+  const auto smaller = [](Unit u) {
+    if (u == Unit::metre) return Unit::centimetre;
+    if (u == Unit::centimetre) return Unit::millimetre;
+    return u == Unit::foot ? Unit::inch : u;
+  };
+  Unit read = unit;
+  while (length != 0 && std::abs(convert_length(length, unit, read)) < 1 && smaller(read) != read)
+    read = smaller(read);
+  return read;
+}
+
 Shape in_unit(const Shape& shape, Unit unit) {
   const Fraction by = checked_conversion(shape.unit, unit);
   Shape result = shape;

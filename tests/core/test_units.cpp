@@ -35,6 +35,22 @@ TEST_CASE("a length keeps its bits in its own unit, and comes back from every ot
   }
 }
 
+TEST_CASE("a length is read in the largest unit of its system, up to its own, in which it is 1 or more") {
+  CHECK(readable_unit(1, Unit::metre) == Unit::metre);
+  CHECK(readable_unit(0.999, Unit::metre) == Unit::centimetre);
+  CHECK(readable_unit(0.01, Unit::metre) == Unit::centimetre);
+  CHECK(readable_unit(-0.0049, Unit::metre) == Unit::millimetre);
+  CHECK(readable_unit(1e-6, Unit::metre) == Unit::millimetre);
+  CHECK(readable_unit(0.3, Unit::centimetre) == Unit::millimetre);
+  CHECK(readable_unit(0.5, Unit::foot) == Unit::inch);
+  for (const Unit unit : all_units) {
+    CHECK(readable_unit(0, unit) == unit);
+    CHECK(readable_unit(5000, unit) == unit);
+  }
+  for (const Unit unit : {Unit::micrometre, Unit::millimetre, Unit::inch, Unit::unknown})
+    CHECK(readable_unit(0.02, unit) == unit);
+}
+
 TEST_CASE("shapes and copies in another unit are the same things") {
   Shape shape = cube(2);
   shape.unit = Unit::inch;

@@ -88,8 +88,8 @@ struct ExplanationOptions {
 /// Parts are in one group if they are symmetric or have one noun, and changed alike. A part is left out if no
 /// point of it moved by tolerance::explanation::visible of the diagonal. A change is left out if it moves no
 /// surface so far; ratios count from tolerance::explanation::ratio on also where they move less. A change is
-/// left out too if some change of the object is seen more than seven times better, unless it is the one of its
-/// part that is seen best.
+/// left out too if some change of the object is seen more than seven times better, unless it is the one of
+/// its part that is seen best.
 ///
 /// The place of a part is that of its point that moves least, so a part that only leans or grows from a fixed
 /// end is neither moved nor raised. Displacements are relative to the ground and, in level directions, to the
@@ -106,8 +106,8 @@ struct ExplanationOptions {
 Explanation explain(const StructuredShape& rest, const Shape& now, const ExplanationOptions& options = {});
 
 /// Returns one change in words, such as "lean outwards by 6.2 degrees" or "4 cm higher". Lengths are in the
-/// unit of the object, or in per cent of its height where the unit is unknown. Numbers have two significant
-/// digits. `plural`: the form of the verb.
+/// unit in which a person reads them (readable_unit), or in per cent of the height where the object has none.
+/// Numbers have two significant digits. `plural`: the form of the verb.
 std::string describe(const FormChange& change, const Explanation& explanation, bool plural);
 
 /// Returns the line of a group, such as "4 legs lean outwards by 6.2 degrees, 2 % longer".

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "stackabilization/core/number_text.h"
+#include "stackabilization/core/units.h"
 #include "stackabilization/improvement/explanation.h"
 
 namespace stackabilization {
@@ -55,7 +56,9 @@ std::string read_number(double value) {
 std::string length_text(double share, const Explanation& explanation) {
   const double amount = std::abs(share);
   if (explanation.unit == Unit::unknown) return read_number(100 * amount) + " % of the height";
-  return read_number(amount * explanation.height) + " " + unit_symbol(explanation.unit);
+  const double length = amount * explanation.height;
+  const Unit unit = readable_unit(length, explanation.unit);
+  return read_number(convert_length(length, explanation.unit, unit)) + " " + unit_symbol(unit);
 }
 
 /// Returns the name of an end that a change is about; empty for the whole part.

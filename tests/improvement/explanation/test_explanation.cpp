@@ -184,14 +184,14 @@ TEST_CASE("A plate that gets narrower does so by its ratio", "[explanation]") {
   CHECK(line({1, 0.945, 1}) == Lines{"box 5.5 % narrower"});
 }
 
-TEST_CASE("A bar that is raised is higher by its way, in the unit of the model", "[explanation]") {
+TEST_CASE("A bar that is raised is higher by its way, in a unit that a person reads", "[explanation]") {
   StructuredShape rest = structures::table();
   const double height = range_along(rest.shape, Eigen::Vector3d::UnitZ()).length();
   const Shape now = with_parts_mapped(rest.shape, "bar_1", moved({0, 0, 0.04 * height}));
   CHECK(lines_of(rest, now) == Lines{"bar 1 higher by 4 % of the height"});
   rest.shape.unit = Unit::centimetre;
   const Shape lower = with_parts_mapped(rest.shape, "bar", moved({0, 0, -0.3}));
-  CHECK(lines_of(rest, lower) == Lines{"4 bars 0.3 cm lower"});
+  CHECK(lines_of(rest, lower) == Lines{"4 bars 3 mm lower"});
 }
 
 TEST_CASE("A cylinder that becomes a cone has other widths at its ends", "[explanation]") {
