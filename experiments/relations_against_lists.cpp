@@ -48,9 +48,7 @@ Relations relations_of(const Structure& structure) {
   Relations relations;
   for (const Relation& relation : structure.relations) {
     int& count = relations[name_of(relation.type)][parts_text(structure, relation)];
-    const bool is_joint =
-        relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
-    count = is_joint ? count + 1 : 1;
+    count = relation.is_joint() ? count + 1 : 1;
   }
   return relations;
 }

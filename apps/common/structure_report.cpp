@@ -70,12 +70,8 @@ std::string symmetry_reference(const Symmetry& symmetry, const Structure& struct
          std::to_string(found - whole.begin() + 1) + " of the whole";
 }
 
-bool is_joint(const Relation& relation) {
-  return relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
-}
-
 std::string place_text(const Relation& relation, const Structure& structure) {
-  if (!is_joint(relation)) return symmetry_reference(relation.symmetry, structure);
+  if (!relation.is_joint()) return symmetry_reference(relation.symmetry, structure);
   std::string text;
   for (Eigen::Index i = 0; i < relation.points.rows(); ++i)
     text += (i > 0 ? " to " : "") + point_text(relation.points.row(i).transpose(), structure.diagonal);
@@ -148,7 +144,7 @@ Json to_json(const Symmetry& symmetry) {
 
 Json to_json(const Relation& relation, const Structure& structure) {
   Json json = {{"type", name_of(relation.type)}, {"parts", part_names_of(relation, structure)}};
-  if (is_joint(relation))
+  if (relation.is_joint())
     json["points"] = rows_json(relation.points);
   else
     json.update(to_json(relation.symmetry));

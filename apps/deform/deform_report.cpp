@@ -19,9 +19,8 @@ struct LargestResiduals {
 LargestResiduals largest_residuals(const DeformRun& run) {
   LargestResiduals largest;
   for (std::size_t i = 0; i < run.residuals.size(); ++i) {
-    const RelationType type = run.rest.structure.relations[i].type;
-    const bool joint = type == RelationType::point_joint || type == RelationType::line_joint;
-    std::optional<double>& value = joint ? largest.joint : largest.symmetry;
+    const bool is_joint = run.rest.structure.relations[i].is_joint();
+    std::optional<double>& value = is_joint ? largest.joint : largest.symmetry;
     value = std::max(value.value_or(0), run.residuals[i]);
   }
   return largest;

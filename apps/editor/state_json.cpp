@@ -143,7 +143,7 @@ Json model_json(const EditingSession& session, const std::string& name) {
          {"kind", std::holds_alternative<Cuboid>(part.primitive) ? "cuboid" : "cylinder"}});
   for (std::size_t row = 0; row < rest.structure.relations.size(); ++row) {
     const Relation& relation = rest.structure.relations[row];
-    if (relation.type == RelationType::point_joint || relation.type == RelationType::line_joint)
+    if (relation.is_joint())
       joints.push_back(
           {{"relation", row}, {"parts", relation.parts}, {"points", points_json(relation.points)}});
     else

@@ -46,6 +46,9 @@ struct Relation {
   /// joints no slack; Following::smooth does, since parts meet in an area and can turn on each other a
   /// little.
   double slack = 0;
+
+  /// Returns whether it is a point joint or a line joint.
+  bool is_joint() const { return type == RelationType::point_joint || type == RelationType::line_joint; }
 };
 
 /// Parts, primitives and relations of one shape at rest.

@@ -31,7 +31,7 @@ Rig::Rig(const Structure& structure, Following following) : rest(structure), spa
   for (const Part& part : rest.parts) primitive_bindings.emplace_back(part.primitive);
   for (std::size_t k = 0; k < rest.relations.size(); ++k) {
     const Relation& relation = rest.relations[k];
-    if (relation.type != RelationType::point_joint && relation.type != RelationType::line_joint) continue;
+    if (!relation.is_joint()) continue;
     const std::array<int, 2> parts = {relation.parts[0], relation.parts[1]};
     for (Eigen::Index i = 0; i < relation.points.rows(); ++i) {
       const auto bind = [&](int part) {

@@ -99,7 +99,7 @@ std::optional<double> sliding_place_on(const Primitive& carrier, const Points& p
 
 void let_joints_yield(Structure& structure) {
   for (Relation& relation : structure.relations) {
-    if (relation.type != RelationType::point_joint && relation.type != RelationType::line_joint) continue;
+    if (!relation.is_joint()) continue;
     relation.slack = tolerance::joint_slack * structure.diagonal;
     double nearest = 1;
     for (const int part : relation.parts) {

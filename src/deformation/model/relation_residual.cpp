@@ -28,10 +28,6 @@ void widen(double& gap, double distance) {
   if (!std::isnan(gap) && !(distance <= gap)) gap = distance;
 }
 
-bool is_joint(const Relation& relation) {
-  return relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
-}
-
 double symmetry_gap(const Relation& relation, const Structure& rest, const std::vector<Primitive>& deformed) {
   const auto a = static_cast<std::size_t>(relation.parts.front());
   const auto b = static_cast<std::size_t>(relation.parts.back());
@@ -132,7 +128,7 @@ class MeshRelations {
   double gap(const Relation& relation) {
     const int a = relation.parts.front(), b = relation.parts.back();
     double gap = 0;
-    if (is_joint(relation)) {
+    if (relation.is_joint()) {
       for (Eigen::Index i = 0; i < relation.points.rows(); ++i)
         widen(gap, opening(a, b, relation.points.row(i).transpose()));
       return gap;
@@ -195,7 +191,7 @@ std::vector<double> relation_residuals(const Structure& rest, const std::vector<
   std::vector<double> residuals;
   for (const Relation& relation : rest.relations) {
     const double gap =
-        is_joint(relation) ? joint_gap(relation, rest, deformed) : symmetry_gap(relation, rest, deformed);
+        relation.is_joint() ? joint_gap(relation, rest, deformed) : symmetry_gap(relation, rest, deformed);
     residuals.push_back(gap / rest.diagonal);
   }
   return residuals;

@@ -18,10 +18,6 @@ namespace {
 
 using Groups = std::vector<std::vector<int>>;
 
-bool is_joint(const Relation& relation) {
-  return relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
-}
-
 /// Returns the components connected by joints, after cutting the joints between the class `members` and other
 /// parts.
 Groups pieces_without_joints_of(const Structure& structure, const std::vector<int>& members) {
@@ -29,7 +25,7 @@ Groups pieces_without_joints_of(const Structure& structure, const std::vector<in
   for (const int part : members) inside[static_cast<std::size_t>(part)] = 1;
   DisjointSets sets(structure.parts.size());
   for (const Relation& relation : structure.relations) {
-    if (!is_joint(relation)) continue;
+    if (!relation.is_joint()) continue;
     const auto a = static_cast<std::size_t>(relation.parts[0]),
                b = static_cast<std::size_t>(relation.parts[1]);
     if (inside[a] == inside[b]) sets.join(a, b);

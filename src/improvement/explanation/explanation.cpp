@@ -246,8 +246,7 @@ class ChangeDescription {
     return std::all_of(group.parts.begin(), group.parts.end(), [&](int part) {
       return std::any_of(
           rest_.structure.relations.begin(), rest_.structure.relations.end(), [&](const Relation& relation) {
-            if (relation.type != RelationType::point_joint && relation.type != RelationType::line_joint)
-              return false;
+            if (!relation.is_joint()) return false;
             const int other = relation.parts[0] == part ? relation.parts[1] : relation.parts[0];
             if (relation.parts[0] != part && relation.parts[1] != part) return false;
             const bool carries =

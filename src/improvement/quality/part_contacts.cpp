@@ -124,8 +124,7 @@ void PartContacts::find_touching(const Surfaces& surfaces) {
     if (first != second) touching.insert(std::minmax({first, second}));
   }
   for (const Relation& relation : rest_.structure.relations)
-    if (relation.type == RelationType::point_joint || relation.type == RelationType::line_joint)
-      touching.insert(std::minmax({relation.parts.front(), relation.parts.back()}));
+    if (relation.is_joint()) touching.insert(std::minmax({relation.parts.front(), relation.parts.back()}));
   const auto near = near_boxes(surfaces.boxes(), reach, max_near_pairs);
   for (const auto& [first, second] : near.value_or(BoxPairs{})) {
     if (touching.contains({first, second})) continue;
@@ -187,7 +186,7 @@ SurfaceMarks PartContacts::marks_near(const Surfaces& surfaces, int part,
 
 void PartContacts::find_joints(const Surfaces& surfaces) {
   for (const Relation& relation : rest_.structure.relations) {
-    if (relation.type != RelationType::point_joint && relation.type != RelationType::line_joint) continue;
+    if (!relation.is_joint()) continue;
     for (const auto point : relation.points.rowwise()) {
       Joint joint;
       joint.parts = {relation.parts.front(), relation.parts.back()};

@@ -7,10 +7,6 @@ namespace stackabilization {
 
 namespace {
 
-bool is_joint(RelationType type) {
-  return type == RelationType::point_joint || type == RelationType::line_joint;
-}
-
 void validate_relation(const Relation& relation, std::size_t part_count, const std::string& place) {
   const std::size_t wanted = relation.type == RelationType::self_symmetry ? 1 : 2;
   if (relation.parts.size() != wanted)
@@ -21,7 +17,7 @@ void validate_relation(const Relation& relation, std::size_t part_count, const s
       throw InputError(place + " names a part that does not exist");
   if (wanted == 2 && relation.parts[0] == relation.parts[1])
     throw InputError(place + " relates a part to itself");
-  if (is_joint(relation.type)) {
+  if (relation.is_joint()) {
     const Eigen::Index points = relation.type == RelationType::point_joint ? 1 : 2;
     if (relation.points.rows() != points || !relation.points.allFinite())
       throw InputError(place + " needs " + std::to_string(points) + " finite point(s)");

@@ -67,7 +67,7 @@ class StructureBuilder {
 
   Structure finished(const std::string& name) {
     std::stable_sort(structure_.relations.begin(), structure_.relations.end(),
-                     [](const Relation& a, const Relation& b) { return is_joint(a) < is_joint(b); });
+                     [](const Relation& a, const Relation& b) { return a.is_joint() < b.is_joint(); });
     try {
       symmetrize(structure_);
     } catch (const InputError& error) {
@@ -77,10 +77,6 @@ class StructureBuilder {
   }
 
  private:
-  static bool is_joint(const Relation& relation) {
-    return relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
-  }
-
   /// Measures the error of the given kind; the error of the other kind is unknown.
   static PrimitiveFit fit_of(const Primitive& primitive, const Shape& part) {
     const detail::FitSurface surface(part);

@@ -204,7 +204,7 @@ bool is_symmetric_enough(const Structure& structure) {
   for (const Part& part : structure.parts)
     largest = std::max(largest, control_points(part.primitive).cwiseAbs().maxCoeff());
   return std::all_of(structure.relations.begin(), structure.relations.end(), [&](const Relation& relation) {
-    return relation.type == RelationType::point_joint || relation.type == RelationType::line_joint ||
+    return relation.is_joint() ||
            detail::symmetry_residual(structure, relation) <= tolerance::symmetrized * largest;
   });
 }

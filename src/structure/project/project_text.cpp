@@ -107,10 +107,8 @@ std::string text_of(const Relation& relation, const std::vector<Part>& parts) {
   std::string text = "    {\"type\": " + quoted(name_of(relation.type)) + ", \"parts\": [";
   for (std::size_t k = 0; k < relation.parts.size(); ++k)
     text += (k > 0 ? ", " : "") + quoted(parts[static_cast<std::size_t>(relation.parts[k])].name);
-  const bool is_joint =
-      relation.type == RelationType::point_joint || relation.type == RelationType::line_joint;
-  text += is_joint ? "], \"points\": " + list_of_lists(relation.points)
-                   : "], \"symmetry\": " + text_of(relation.symmetry);
+  text += relation.is_joint() ? "], \"points\": " + list_of_lists(relation.points)
+                              : "], \"symmetry\": " + text_of(relation.symmetry);
   return text + ", \"residual\": " + number(relation.residual) + "}";
 }
 
