@@ -1,12 +1,11 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <algorithm>
 #include <iostream>
-#include <new>
 #include <string>
 #include <vector>
 
+#include "apps/common/failure.h"
 #include "paper_figures/page.h"
 #include "paper_figures/run.h"
 #include "stackabilization/core/errors.h"
@@ -15,7 +14,9 @@
 namespace stackabilization::figures {
 namespace {
 
-enum ExitStatus { status_done = 0, status_no = 1, status_usage = 2, status_input = 3 };
+using namespace apps;  // exit statuses
+
+constexpr const char* program_name = "paper_figures";
 
 struct CommandLine {
   RunOptions run;
@@ -24,13 +25,6 @@ struct CommandLine {
   std::string inputs = STACKABILIZATION_SOURCE_DIR "/paper_figures";
   std::string models = STACKABILIZATION_SOURCE_DIR "/data/models";
 };
-
-/// One sentence on standard error.
-int complain(std::string sentence, int status) {
-  std::replace(sentence.begin(), sentence.end(), '\n', ' ');
-  std::cerr << "paper_figures: " << sentence << '\n';
-  return status;
-}
 
 void add_options(CLI::App& program, CommandLine& line) {
   program.add_option("--figure", line.run.figures, "Make this figure; may be given several times")
@@ -76,7 +70,7 @@ int run(CommandLine& line) {
   check_outputs(line.run, line.page);
   RunReport report;
   if (line.all || !line.run.figures.empty()) report = make_figures(line.run, std::cout);
-  for (const std::string& failure : report.failures) complain(failure, status_input);
+  for (const std::string& failure : report.failures) complain(program_name, failure, status_input);
   if (!line.page.empty())
     write_file_atomically(line.page, figures_page({line.inputs, line.output, line.page}));
   if (!report.failures.empty()) return status_input;
@@ -86,25 +80,15 @@ int run(CommandLine& line) {
 int guarded(int argc, char** argv) {
   CommandLine line;
   CLI::App program("Make the figures of the paper, from this project's models or the authors'.",
-                   "paper_figures");
+                   program_name);
   add_options(program, line);
   try {
     program.parse(argc, argv);
     return run(line);
   } catch (const CLI::Success& help) {
     return program.exit(help);
-  } catch (const CLI::Error& error) {
-    return complain(error.what(), status_usage);
-  } catch (const UsageError& error) {
-    return complain(error.what(), status_usage);
-  } catch (const OutputError& error) {
-    return complain(error.what(), status_usage);
-  } catch (const Error& error) {
-    return complain(error.what(), status_input);
-  } catch (const std::bad_alloc&) {
-    return complain("this takes more memory than there is", status_input);
-  } catch (const std::exception& error) {
-    return complain(std::string("unexpected failure: ") + error.what(), status_input);
+  } catch (...) {
+    return complain_of_exception(program_name);
   }
 }
 

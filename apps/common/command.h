@@ -4,18 +4,11 @@
 #include <functional>
 
 #include "apps/common/common_options.h"
+#include "apps/common/failure.h"
 
 /// The subcommands of `stackabilize`. Each one parses into its options, calls the library and hands the
 /// result over as text, JSON, meshes and pictures; nothing is computed here.
 namespace stackabilization::apps {
-
-/// Exit statuses of the program; see also `guarded` in program.h.
-enum ExitStatus {
-  status_done = 0,
-  status_no = 1,     ///< it ran, but the answer is no: validation failed, a wish is not met
-  status_usage = 2,  ///< wrong usage, or an output that cannot be written
-  status_input = 3,  ///< unreadable or unusable input
-};
 
 /// A subcommand that knows how to run once the command line is parsed.
 struct Command {

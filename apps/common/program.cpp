@@ -5,8 +5,6 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <functional>
-#include <iostream>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,12 +20,7 @@ namespace stackabilization::apps {
 
 namespace {
 
-/// One sentence on standard error.
-int complain(std::string sentence, int status) {
-  std::replace(sentence.begin(), sentence.end(), '\n', ' ');
-  std::cerr << "stackabilize: " << sentence << '\n';
-  return status;
-}
+constexpr const char* program_name = "stackabilize";
 
 /// What is wrong with a command line without a known command.
 std::string unknown_command(const CLI::App& program) {
@@ -51,7 +44,7 @@ void check_encoding(const std::vector<std::string>& arguments) {
 
 Program::Program(Caller* caller)
     : app_(std::make_unique<CLI::App>(
-          "Measure exactly how well 3D shapes stack, and find out how to stack them best.", "stackabilize")) {
+          "Measure exactly how well 3D shapes stack, and find out how to stack them best.", program_name)) {
   app_->set_version_flag("--version", version_text(), "Print the version and exit");
   app_->add_flag_callback(
       "--completion", [this] { throw CLI::CallForVersion(completion_script(*this), 0); },
@@ -126,22 +119,13 @@ int guarded(const std::function<int()>& body) {
   } catch (const CLI::ConversionError& error) {
     // Values are converted by this program; what is left to the parser are flags, "--quiet=x".
     const std::string text = error.what();
-    return complain("an option that takes no value was given one: " + text.substr(text.find(": ") + 2),
+    return complain(program_name,
+                    "an option that takes no value was given one: " + text.substr(text.find(": ") + 2),
                     status_usage);
-  } catch (const CLI::Error& error) {
-    return complain(error.what(), status_usage);
-  } catch (const UsageError& error) {
-    return complain(error.what(), status_usage);
-  } catch (const OutputError& error) {
-    return complain(error.what(), status_usage);
-  } catch (const Error& error) {
-    return complain(error.what(), status_input);
   } catch (const Interrupted& error) {
-    return complain(error.what(), status_interrupted());
-  } catch (const std::bad_alloc&) {
-    return complain("this takes more memory than there is", status_input);
-  } catch (const std::exception& error) {
-    return complain(std::string("unexpected failure: ") + error.what(), status_input);
+    return complain(program_name, error.what(), status_interrupted());
+  } catch (...) {
+    return complain_of_exception(program_name);
   }
 }
 

@@ -1,8 +1,8 @@
 #include <Eigen/Dense>
 #include <cstdint>
-#include <random>
 
 #include "numerics/constrained_least_squares.h"
+#include "random_numbers.h"
 #include "support/catch.h"
 
 namespace stackabilization::constrained_least_squares_test {
@@ -14,21 +14,6 @@ using Solution = ConstrainedLeastSquares::Solution;
 namespace {
 
 constexpr double resolution = 1e-13;
-
-/// Numbers in [-1, 1), the same everywhere.
-class Numbers {
- public:
-  explicit Numbers(std::uint32_t seed) : engine_(seed) {}
-  double operator()() { return static_cast<double>(engine_()) / 0x1p31 - 1; }
-  Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index columns) {
-    Eigen::MatrixXd result(rows, columns);
-    for (double& number : result.reshaped()) number = (*this)();
-    return result;
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 Row row_of(const Eigen::RowVectorXd& factors) {
   Row row;
@@ -66,7 +51,7 @@ TEST_CASE("weights of wishes draw their mean") {
 
 TEST_CASE("random problems satisfy the conditions of Lagrange") {
   for (std::uint32_t seed = 1; seed <= 30; ++seed) {
-    Numbers number(seed);
+    test::RandomNumbers number(seed);
     const Eigen::Index n = 3 + seed % 8, equations = 1 + seed % (n - 1);
     const Eigen::MatrixXd a = number.matrix(n + 3, n), c = number.matrix(equations, n);
     const Eigen::VectorXd wished = number.matrix(n + 3, 1), demanded = number.matrix(equations, 1);
@@ -83,7 +68,7 @@ TEST_CASE("random problems satisfy the conditions of Lagrange") {
 }
 
 TEST_CASE("equations that repeat or follow from others change nothing") {
-  Numbers number(7);
+  test::RandomNumbers number(7);
   const Eigen::MatrixXd c = number.matrix(2, 5);
   const Eigen::VectorXd demanded = number.matrix(2, 1), wished = number.matrix(5, 1);
   ConstrainedLeastSquares once(5), again(5);

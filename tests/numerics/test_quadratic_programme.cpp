@@ -1,28 +1,13 @@
 #include <cstdint>
-#include <random>
 
 #include "numerics/quadratic_programme.h"
+#include "random_numbers.h"
 #include "support/catch.h"
 
 using namespace stackabilization;
 using namespace stackabilization::detail;
 
 namespace {
-
-/// Numbers in [-1, 1), the same everywhere.
-class Numbers {
- public:
-  explicit Numbers(std::uint32_t seed) : engine_(seed) {}
-  double operator()() { return static_cast<double>(engine_()) / 0x1p31 - 1; }
-  Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index columns) {
-    Eigen::MatrixXd result(rows, columns);
-    for (double& number : result.reshaped()) number = (*this)();
-    return result;
-  }
-
- private:
-  std::mt19937 engine_;
-};
 
 QuadraticProgramme in_a_box(Eigen::Index n, double size) {
   QuadraticProgramme programme{Eigen::MatrixXd::Zero(n, n), Eigen::VectorXd::Zero(n),
@@ -55,7 +40,7 @@ void check_minimum(const QuadraticProgramme& programme, const QuadraticMinimum& 
 
 TEST_CASE("minima of random convex programmes satisfy the conditions for one") {
   for (std::uint32_t seed = 1; seed <= 40; ++seed) {
-    Numbers number(seed);
+    test::RandomNumbers number(seed);
     const Eigen::Index n = 1 + seed % 12, rank = seed % (n + 1);
     QuadraticProgramme programme = in_a_box(n, 1);
     const Eigen::MatrixXd factor = number.matrix(rank, n);
