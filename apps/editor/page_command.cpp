@@ -1,5 +1,6 @@
 #include "apps/editor/page_command.h"
 
+#include <array>
 #include <functional>
 #include <map>
 
@@ -40,7 +41,8 @@ class PageCommand {
         {"kind", [&] { return kind(); }},
         {"remove-relations", [&] { return editing::RemoveRelations{rows("relations")}; }},
         {"remove-parts", [&] { return editing::RemoveParts{rows("parts")}; }},
-        {"join", [&] { return join(); }},
+        {"join", [&] { return editing::Join{two_parts()}; }},
+        {"make-symmetric", [&] { return editing::MakeSymmetric{two_parts()}; }},
         {"take-edit",
          [&] {
            return editing::TakeEdit{whole("node"), whole("edit")};
@@ -110,10 +112,10 @@ class PageCommand {
     return result;
   }
   std::vector<int> rows(const char* key) const { return numbers(entry(key)); }
-  editing::Command join() const {
+  std::array<int, 2> two_parts() const {
     const std::vector<int> parts = rows("parts");
     if (parts.size() != 2) fail("parts", "two parts");
-    return editing::Join{{parts[0], parts[1]}};
+    return {parts[0], parts[1]};
   }
   editing::Command kind() const {
     const std::string name = text("kind");

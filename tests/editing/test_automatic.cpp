@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "sessions.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/io/read.h"
@@ -7,6 +9,18 @@
 using namespace stackabilization;
 using namespace stackabilization::editing;
 using sessions::Observed;
+
+namespace {
+
+/// The row of the first remedy of a kind.
+int row_of(const std::vector<Remedy>& remedies, Remedy::Kind kind) {
+  const auto found = std::find_if(remedies.begin(), remedies.end(),
+                                  [&](const Remedy& remedy) { return remedy.kind == kind; });
+  REQUIRE(found != remedies.end());
+  return static_cast<int>(found - remedies.begin());
+}
+
+}  // namespace
 
 TEST_CASE("designs that the automatic search finds reach the target, and one is taken on") {
   const StructuredShape table =
@@ -44,12 +58,27 @@ TEST_CASE("a target out of reach is diagnosed, and an offer is accepted") {
   REQUIRE(session.found().designs.empty());
   REQUIRE(session.found().diagnosis);
   const std::vector<Remedy> remedies = session.found().diagnosis->remedies;
-  for (std::size_t k = 0; k < remedies.size(); ++k)
-    if (remedies[k].kind == Remedy::Kind::relax_quality) {
-      session.execute(AcceptRemedy{static_cast<int>(k)});
-      CHECK(!session.checker().requirements().quality->is_limited(remedies[k].measure));
-      return;
-    }
+  const int row = row_of(remedies, Remedy::Kind::relax_quality);
+  session.execute(AcceptRemedy{row});
+  CHECK(
+      !session.checker().requirements().quality->is_limited(remedies[static_cast<std::size_t>(row)].measure));
+}
+
+TEST_CASE("an object that is taken apart goes on as its largest piece, until Undo") {
+  Document document = new_document(structures::mug());
+  document.requirements.target = 0.99;
+  SessionOptions options;
+  options.effort = 0.02;
+  Observed observed(document, options);
+  EditingSession& session = observed.session;
+  session.execute(FindDesigns{});
+  observed.work(Lane::automatic);
+  REQUIRE(session.found().diagnosis);
+  const std::vector<std::string> names = session.space().rest().shape.part_names;
+  session.execute(AcceptRemedy{row_of(session.found().diagnosis->remedies, Remedy::Kind::take_apart)});
+  CHECK(session.space().rest().shape.part_names == std::vector<std::string>{names[0]});
+  session.execute(Undo{});
+  CHECK(session.space().rest().shape.part_names == names);
 }
 
 TEST_CASE("a search that is stopped keeps nothing running") {

@@ -1,13 +1,17 @@
 // Parts left out and joined, edits taken from another design, maps of directions, and other documents.
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sessions.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/removal.h"
 #include "stackabilization/io/read_file.h"
+#include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
 #include "support/meshes.h"
 #include "support/messages.h"
+#include "support/symmetric_solids.h"
 
 using namespace stackabilization;
 using namespace stackabilization::editing;
@@ -20,8 +24,7 @@ std::vector<int> joint_rows(const EditingSession& session, int first, int second
   const std::vector<Relation>& relations = session.space().rest().structure.relations;
   for (std::size_t row = 0; row < relations.size(); ++row) {
     const Relation& one = relations[row];
-    const bool joint = one.type == RelationType::point_joint || one.type == RelationType::line_joint;
-    if (joint &&
+    if (one.is_joint() &&
         (one.parts == std::vector<int>{first, second} || one.parts == std::vector<int>{second, first}))
       rows.push_back(static_cast<int>(row));
   }
@@ -69,6 +72,68 @@ TEST_CASE("a joint that was taken out comes back where it was when the parts are
         0.01 * session.space().rest().structure.diagonal);
   CHECK(mentions(message_of<UsageError>([&] { session.execute(Join{{leg, leg}}); }), "itself"));
   CHECK_THROWS_AS(session.execute(Join{{leg, 99}}), UsageError);
+}
+
+TEST_CASE(
+    "a symmetry that was taken out comes back, in the plane of the whole, when the parts are made "
+    "symmetric") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const int one = structures::part_named(session.space().rest(), "leg_1");
+  const std::vector<Relation> before = session.space().rest().structure.relations;
+  const auto pair = std::find_if(before.begin(), before.end(), [&](const Relation& relation) {
+    return relation.type == RelationType::symmetry && relation.parts[0] == one;
+  });
+  REQUIRE(pair != before.end());
+  const int other = pair->parts[1];
+  CHECK(mentions(message_of<UsageError>([&] {
+                   session.execute(MakeSymmetric{{other, one}});
+                 }),
+                 "symmetric already"));
+  session.execute(RemoveRelations{{static_cast<int>(pair - before.begin())}});
+  REQUIRE(session.space().rest().structure.relations.size() == before.size() - 1);
+  session.execute(MakeSymmetric{{other, one}});
+  const std::vector<Relation>& after = session.space().rest().structure.relations;
+  REQUIRE(after.size() == before.size());
+  const auto again = std::find_if(after.begin(), after.end(), [&](const Relation& relation) {
+    return relation.type == RelationType::symmetry && relation.parts == pair->parts;
+  });
+  REQUIRE(again != after.end());
+  CHECK(again->symmetry.axis.cross(pair->symmetry.axis).norm() < 1e-12);
+  CHECK(std::abs((again->symmetry.point - pair->symmetry.point).dot(pair->symmetry.axis)) < 1e-12);
+}
+
+TEST_CASE("mirror images without a plane of the whole are made symmetric in their own") {
+  // Two bricks off a plane x + y = 12, and a beam that has no such plane.
+  const Eigen::Matrix3d skew = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitZ()).matrix();
+  const Eigen::Vector3d normal = skew * Eigen::Vector3d::UnitX();
+  const auto brick = [&](double x, const char* name) {
+    return solids::named(
+        transformed(solids::box({x - 0.5, -1, 0}, {x + 0.5, 1, 3}), skew, 12 * normal / normal.sum()), name);
+  };
+  Observed observed(new_document(analyse_structure(solids::joined(
+      {brick(-2, "left"), brick(2, "right"), solids::named(solids::box({20, 3, 5}, {29, 4, 7}), "beam")}))));
+  EditingSession& session = observed.session;
+  const auto pairs = [&] {
+    std::vector<Relation> found;
+    for (const Relation& relation : session.space().rest().structure.relations)
+      if (relation.type == RelationType::symmetry) found.push_back(relation);
+    return found;
+  };
+  REQUIRE(pairs().empty());
+  CHECK(mentions(message_of<UsageError>([&] {
+                   session.execute(MakeSymmetric{{0, 2}});
+                 }),
+                 "no mirror images"));
+  CHECK(mentions(message_of<UsageError>([&] { session.execute(MakeSymmetric{{1, 1}}); }), "itself"));
+  CHECK_THROWS_AS(session.execute(MakeSymmetric{{0, 3}}), UsageError);
+  session.execute(MakeSymmetric{{1, 0}});
+  REQUIRE(pairs().size() == 1);
+  const Symmetry plane = pairs()[0].symmetry;
+  CHECK(plane.axis.cross(normal).norm() < 1e-9);
+  CHECK(plane.point.dot(normal) == Approx(12 / std::sqrt(2.0)).epsilon(1e-9));
+  session.execute(Undo{});
+  CHECK(pairs().empty());
 }
 
 TEST_CASE("an edit is taken from another design, and one that a limit does not allow is refused") {

@@ -173,22 +173,35 @@ export class Parts {
     return box;
   }
 
+  /**
+   * A choice among parts that it has no such relation to yet.
+   * @param {string} words @param {string} label @param {{parts: number[]}[]} relations @param {(parts: number[]) => object} command
+   * @returns {HTMLElement[]}
+   */
+  #others(words, label, relations, command) {
+    const { part } = this, related = new Set(relations.filter(({ parts }) => parts.includes(part)).flatMap(({ parts }) => parts)).add(part);
+    const others = this.model.parts.map((/** @type {any} */ one, /** @type {number} */ row) => ({ name: one.name, row })).filter((/** @type {any} */ one) => !related.has(one.row));
+    if (!others.length) return [];
+    const choice = create('select');
+    choice.setAttribute('aria-label', label);
+    choice.append(new Option(words, ''), ...others.map((/** @type {any} */ one) => new Option(one.name, String(one.row))));
+    choice.addEventListener('change', () => choice.value && this.send(command([part, Number(choice.value)])));
+    return [choice];
+  }
+
   /** What it is joined to, to be taken apart; and others, to be joined. */
   #joints() {
-    const box = this.#tags('Joined to ', this.model.joints, 'Take this joint apart'), { part } = this;
-    const joined = new Set(this.model.joints.filter((/** @type {any} */ joint) => joint.parts.includes(part)).flatMap((/** @type {any} */ joint) => joint.parts));
-    const others = this.model.parts.map((/** @type {any} */ one, /** @type {number} */ row) => ({ name: one.name, row })).filter((/** @type {any} */ one) => one.row !== part && !joined.has(one.row));
-    if (!others.length) return box;
-    const choice = create('select');
-    choice.setAttribute('aria-label', 'Join to another part');
-    choice.append(new Option('Join to …', ''), ...others.map((/** @type {any} */ one) => new Option(one.name, String(one.row))));
-    choice.addEventListener('change', () => choice.value && this.send({ do: 'join', parts: [part, Number(choice.value)] }));
-    box.append(choice);
+    const { joints } = this.model, box = this.#tags('Joined to ', joints, 'Take this joint apart');
+    box.append(...this.#others('Join to …', 'Join to another part', joints, (parts) => ({ do: 'join', parts })));
     return box;
   }
 
-  /** Parts that follow it, to be let go. */
-  #symmetries() { return this.#tags('Symmetric to ', this.model.pairs, 'Let it change on its own'); }
+  /** Parts that follow it, to be let go; and others, to follow. */
+  #symmetries() {
+    const { pairs } = this.model, box = this.#tags('Symmetric to ', pairs, 'Let it change on its own');
+    box.append(...this.#others('Symmetric to …', 'Make symmetric to another part', pairs, (parts) => ({ do: 'make-symmetric', parts })));
+    return box;
+  }
 
   #more() {
     const row = create('div', 'row kind'), remove = create('button', '', 'Leave this part out');

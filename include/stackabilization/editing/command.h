@@ -78,7 +78,8 @@ struct TakeDesign {
   int number = 0;  ///< row of EditingSession::found
 };
 
-/// Accepts a change that a diagnosis offers.
+/// Accepts a change that a diagnosis offers. Of an object that is taken apart, the session goes on with the
+/// piece of most parts.
 struct AcceptRemedy {
   /// Whose diagnosis.
   enum class Source {
@@ -119,6 +120,12 @@ struct Join {
   std::array<int, 2> parts = {0, 1};  ///< rows of Structure::parts
 };
 
+/// Makes two parts that are mirror images of each other symmetric, in a plane of symmetry of the whole shape
+/// where there is one for them, else in their own. The history begins anew; Undo brings the old one back.
+struct MakeSymmetric {
+  std::array<int, 2> parts = {0, 1};  ///< rows of Structure::parts
+};
+
 /// Makes one edit of a node again, from the current design: a new node. Throws UsageError, with the cause,
 /// where a limit does not allow it.
 struct TakeEdit {
@@ -133,6 +140,6 @@ struct MapDirections {};
 using Command =
     std::variant<ApplySuggestion, Drag, EndDrag, FindRange, RollBack, Undo, Redo, SetTarget, SetDirection,
                  SetLimit, KeepParts, FindDesigns, StopFinding, TakeDesign, AcceptRemedy, Segment, SetKind,
-                 RemoveRelations, RemoveParts, Join, TakeEdit, MapDirections>;
+                 RemoveRelations, RemoveParts, Join, MakeSymmetric, TakeEdit, MapDirections>;
 
 }  // namespace stackabilization::editing

@@ -111,6 +111,7 @@ class EditingSession::Implementation {
   void run(const RemoveRelations& command);
   void run(const RemoveParts& command);
   void run(const Join& command);
+  void run(const MakeSymmetric& command);
   void run(const TakeEdit& command);
   void run(const MapDirections& command);
 

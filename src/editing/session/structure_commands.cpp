@@ -4,13 +4,26 @@
 #include <utility>
 
 #include "editing/session/session_implementation.h"
-#include "editing/structure/pair_joints.h"
+#include "editing/structure/pair_relations.h"
 #include "editing/structure/strokes.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/removal.h"
 #include "stackabilization/structure/analysis.h"
 
 namespace stackabilization::editing {
+
+namespace {
+
+/// Adds relations where they belong: symmetries before joints, then by parts.
+void add_relations(const std::vector<Relation>& added, Structure& structure) {
+  structure.relations.insert(structure.relations.end(), added.begin(), added.end());
+  std::stable_sort(structure.relations.begin(), structure.relations.end(),
+                   [](const Relation& a, const Relation& b) {
+                     return std::pair(a.is_joint(), a.parts) < std::pair(b.is_joint(), b.parts);
+                   });
+}
+
+}  // namespace
 
 void EditingSession::Implementation::open(Document document, std::filesystem::path autosave) {
   expect_nodes(document);
@@ -105,12 +118,19 @@ void EditingSession::Implementation::run(const RemoveParts& command) {
 void EditingSession::Implementation::run(const Join& command) {
   StructuredShape structured = workspace_->space().rest();
   for (const int part : command.parts) expect_row(part, structured.structure.parts.size(), "part");
-  for (Relation& joint : joints_between(structured, command.parts[0], command.parts[1]))
-    structured.structure.relations.push_back(std::move(joint));
-  std::stable_sort(structured.structure.relations.begin(), structured.structure.relations.end(),
-                   [](const Relation& a, const Relation& b) {
-                     return std::pair(is_joint(a), a.parts) < std::pair(is_joint(b), b.parts);
-                   });
+  add_relations(joints_between(structured, command.parts[0], command.parts[1]), structured.structure);
+  replace_structure(std::move(structured));
+}
+
+void EditingSession::Implementation::run(const MakeSymmetric& command) {
+  StructuredShape structured = workspace_->space().rest();
+  for (const int part : command.parts) expect_row(part, structured.structure.parts.size(), "part");
+  add_relations({symmetry_between(structured, command.parts[0], command.parts[1])}, structured.structure);
+  try {
+    symmetrize(structured.structure);
+  } catch (const InputError& contradiction) {
+    throw UsageError(contradiction.what());
+  }
   replace_structure(std::move(structured));
 }
 

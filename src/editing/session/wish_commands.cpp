@@ -84,9 +84,8 @@ void EditingSession::Implementation::run(const AcceptRemedy& command) {
       });
       break;
     case Remedy::Kind::remove_part:
-      return run(RemoveParts{remedy.parts});
     case Remedy::Kind::take_apart:
-      throw UsageError("an object is not taken apart here; leave parts out to edit the others");
+      return run(RemoveParts{remedy.parts});
     case Remedy::Kind::relax_height:
       requirements.keep_height = false;
       break;

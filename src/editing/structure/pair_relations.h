@@ -6,12 +6,15 @@
 
 namespace stackabilization::editing {
 
-/// Says whether a relation is a point joint or a line joint.
-bool is_joint(const Relation& relation);
-
 /// Returns joints of two parts where their surfaces come nearest: those that `find_joints` finds with the
 /// smallest reach, doubled from its default, that finds any. Throws UsageError when the parts are one, are
 /// joined already, or are further apart than a quarter of the smallest ball around both.
 std::vector<Relation> joints_between(const StructuredShape& structured, int first, int second);
+
+/// Returns the symmetry of two parts that are mirror images of each other: in a plane of symmetry of the
+/// whole shape where one maps the parts to each other, else in one of both parts alone, which may be three
+/// times as far off as `find_symmetries` allows by default. Throws UsageError when the parts are one, are
+/// symmetric already, or are no mirror images.
+Relation symmetry_between(const StructuredShape& structured, int first, int second);
 
 }  // namespace stackabilization::editing
