@@ -1,5 +1,5 @@
-// Question: how long does the analysis of a shape take, and how long an edit of its controllers with
-// everything that follows from it?
+// Question: how long does the analysis of a shape take, how long an edit of its controllers with everything
+// that follows from it, and how long a step of a drag in the editor?
 //
 //     deformation_speed MODEL... [--triangles N] [--edits N] [--seed N] [-o FOLDER]
 //
@@ -8,7 +8,9 @@
 // 10,000), milliseconds to prepare the controllers, and median and largest milliseconds of an accepted edit -
 // moves, turns and scalings of a few per cent of random handles, each from rest - in two shares: propagation
 // and solve, and the transfer to the mesh. edit_ms and transfer_ms are medians of each, total_ms and
-// slowest_ms median and largest of their sum.
+// slowest_ms median and largest of their sum. drag_ms and slowest_drag_ms are the same of the same edits as
+// steps of a drag in an editing session, refused ones included: the largest part of the edit that all limits
+// allow, S of the design, and its measures of quality.
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +22,7 @@
 #include "common/statistics.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/controller_model.h"
+#include "stackabilization/editing/session.h"
 #include "stackabilization/structure/analysis.h"
 
 using namespace stackabilization;
@@ -101,6 +104,23 @@ EditTimes time_edits(const ControllerModel& model, const Options& options) {
   return times;
 }
 
+/// Returns milliseconds of each step of a drag.
+std::vector<double> time_drags(const StructuredShape& structured, const Options& options) {
+  using namespace stackabilization::editing;
+  EditingSession session(new_document(structured), {}, [](const Event& /*event*/) {});
+  const std::vector<Handle> handles = session.space().handles();
+  Random random(options.seed);
+  std::vector<double> times;
+  for (int i = 0; i < options.edits; ++i) {
+    const Drag step{random_edit(handles, structured.structure.diagonal, random)};
+    const double start = now();
+    session.execute(step);
+    times.push_back(1e3 * (now() - start));
+  }
+  session.execute(EndDrag{false});
+  return times;
+}
+
 void add_row(const ModelFile& file, const Shape& shape, const std::string& hash, const Options& options,
              Table& table) {
   double start = now();
@@ -110,6 +130,7 @@ void add_row(const ModelFile& file, const Shape& shape, const std::string& hash,
   const std::int64_t triangles = structured.shape.triangle_count();
   const auto parts = static_cast<std::int64_t>(structured.structure.parts.size());
   const auto relations = static_cast<std::int64_t>(structured.structure.relations.size());
+  const std::vector<double> drags = time_drags(structured, options);
   start = now();
   const ControllerModel model(std::move(structured));
   const double prepare_ms = 1e3 * (now() - start);
@@ -118,7 +139,7 @@ void add_row(const ModelFile& file, const Shape& shape, const std::string& hash,
   table.add({file.name, hash, std::int64_t{shape.triangle_count()}, parts, relations, triangles,
              std::int64_t{options.edits}, static_cast<std::int64_t>(times.total.size()), analysis_ms,
              prepare_ms, median(times.edit), median(times.transfer), median(times.total),
-             quantile(times.total, 1)});
+             quantile(times.total, 1), median(drags), quantile(drags, 1)});
 }
 
 Table& table_of(Report& report) {
@@ -126,9 +147,9 @@ Table& table_of(Report& report) {
   for (const Column& column :
        columns({"triangles", "parts", "relations", "fine_triangles", "edits", "accepted"}))
     all.push_back(column);
-  for (const Column& column :
-       columns({"analysis_ms", "prepare_ms", "edit_ms", "transfer_ms", "total_ms", "slowest_ms"},
-               ColumnKind::clock))
+  for (const Column& column : columns({"analysis_ms", "prepare_ms", "edit_ms", "transfer_ms", "total_ms",
+                                       "slowest_ms", "drag_ms", "slowest_drag_ms"},
+                                      ColumnKind::clock))
     all.push_back(column);
   return report.table("", all);
 }
@@ -136,9 +157,10 @@ Table& table_of(Report& report) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Experiment experiment("deformation_speed",
-                        "How long do the analysis of a structure and an edit of its controllers take?",
-                        Inputs::models, Threads::one);
+  Experiment experiment(
+      "deformation_speed",
+      "How long do the analysis of a structure, an edit of its controllers and a step of a drag take?",
+      Inputs::models, Threads::one);
   Options options;
   experiment.app()
       .add_option("--triangles", options.triangles, "subdivide until a mesh has this many")
