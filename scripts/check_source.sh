@@ -110,7 +110,7 @@ done
 
 # The folders of the program: each may include only those before it.
 before=''
-for folder in common measure stack structure deform suggest improve editor; do
+for folder in common measure stack structure deform suggest report improve editor; do
   before+="${before:+|}$folder"
   report "Folder $folder of apps reaches back" \
     "$(grep -rnE '#include "apps/' "apps/$folder" --include=*.h --include=*.cpp | grep -vE "#include \"apps/($before)/" || true)"

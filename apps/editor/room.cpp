@@ -10,6 +10,7 @@
 
 #include "apps/common/page_files.h"
 #include "apps/editor/page_command.h"
+#include "apps/editor/session_page.h"
 #include "apps/editor/state_json.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/editing/command_loop.h"
@@ -29,11 +30,26 @@ enum Replaces : std::uint32_t { keeps_all = 0, shown_frame, design_text, review_
 /// Commands of one page that may wait; a page that sends more is flooding.
 constexpr int max_waiting_commands = 1000;
 
+constexpr const char* binary_type = "application/octet-stream";
+constexpr const char* page_type = "text/html; charset=utf-8";
+
 struct Export {
   const char* ending;
   const char* type;
-  std::optional<Format> format;  ///< none: the project
+  std::optional<Format> format;  ///< none: the project or the page
 };
+
+/// Returns the number in a query "copies=...", for the heights of stacks.
+int copies_of(const std::string& query) {
+  constexpr std::string_view key = "copies=";
+  constexpr int min_copies = 2, max_copies = 1000;
+  int copies = 0;
+  const char* const end = query.data() + query.size();
+  if (!query.starts_with(key) || std::from_chars(query.data() + key.size(), end, copies).ptr != end ||
+      copies < min_copies || copies > max_copies)
+    throw UsageError("'copies' expects a number from 2 to 1000");
+  return copies;
+}
 
 /// The name in a query "name=...", with what was escaped.
 std::string decoded(const std::string& query) {
@@ -54,14 +70,13 @@ std::string decoded(const std::string& query) {
   return text;
 }
 
-constexpr const char* binary_type = "application/octet-stream";
-
 const Export* export_of(const std::string& path) {
   static const std::vector<Export> exports = {{"obj", "text/plain; charset=utf-8", Format::obj},
                                               {"3mf", "model/3mf", Format::three_mf},
                                               {"glb", "model/gltf-binary", Format::gltf},
                                               {"stl", binary_type, Format::stl},
-                                              {"stackabilize.json", "application/json", std::nullopt}};
+                                              {"stackabilize.json", "application/json", std::nullopt},
+                                              {"html", page_type, std::nullopt}};
   for (const Export& one : exports)
     if (path == std::string("export/") + one.ending) return &one;
   return nullptr;
@@ -122,17 +137,22 @@ class EditingRoom::Implementation {
       return post([this, request = std::move(request), reply] { reply(dropped(request)); });
     const Export* const wanted = export_of(request.path);
     if (!wanted || request.method != "GET") return reply({404, "text/plain; charset=utf-8", "not found", ""});
-    post([this, wanted, reply] { reply(exported(*wanted)); });
+    post([this, wanted, query = std::move(request.query), reply] { reply(exported(*wanted, query)); });
   }
 
   // From here on: the thread of the session.
 
-  WebReply exported(const Export& wanted) const {
+  std::string export_bytes(const Export& wanted, const std::string& query) const {
+    if (wanted.format) return shape_bytes(session_->shown().design->shape, *wanted.format);
+    if (wanted.type == page_type) return session_page(*session_, options_.name, copies_of(query));
+    return project_text(session_->document().project);
+  }
+
+  WebReply exported(const Export& wanted, const std::string& query) const {
     try {
-      return {200, wanted.type,
-              wanted.format ? shape_bytes(session_->shown().design->shape, *wanted.format)
-                            : project_text(session_->document().project),
-              options_.stem + "." + wanted.ending};
+      return {200, wanted.type, export_bytes(wanted, query), options_.stem + "." + wanted.ending};
+    } catch (const UsageError& error) {
+      return {400, "text/plain; charset=utf-8", error.what(), ""};
     } catch (const Error& error) {
       return {500, "text/plain; charset=utf-8", error.what(), ""};
     }

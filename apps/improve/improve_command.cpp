@@ -39,6 +39,10 @@ class Writer {
       const std::vector<std::string> files = solution_files(solution->name);
       names.insert(names.end(), files.begin(), files.end());
     }
+    for (const PieceReport& piece : report_.pieces) {
+      const std::vector<std::string> files = piece_files(piece.name);
+      names.insert(names.end(), files.begin(), files.end());
+    }
     owned_.begin(names);
     for (const std::string& name : summary_names()) owned_.remove(name);
   }
@@ -64,26 +68,24 @@ class Writer {
   }
 
   void write_pictures(const SolutionReport& solution) {
-    if (!report_.pictures_missing.empty()) return;
-    try {
-      draw(solution);
-    } catch (const RenderError& error) {
-      report_.pictures_missing = error.what();
-    }
+    draw_if_possible([&] { draw(solution); });
+  }
+
+  void write_piece(const PieceReport& piece) {
+    write_mesh(piece.name + ".obj", piece.shape);
+    draw_if_possible([&] { draw(piece); });
   }
 
   void write_front_picture() {
-    if (!report_.pictures_missing.empty() || !report_.run.front) return;
+    if (!report_.run.front) return;
     std::vector<Eigen::Vector2d> points;
     for (const FrontPoint& point : report_.run.front->points)
       points.emplace_back(point.assessment.measured.value, 100 * point.change);
-    try {
+    draw_if_possible([&] {
       apps::write_front_picture(
           {(folder_ / "front.png").string(), title_of(report_.task.model) + ", S against change"}, points);
       written_.emplace_back("front.png");
-    } catch (const RenderError& error) {
-      report_.pictures_missing = error.what();
-    }
+    });
   }
 
   void write_report(const SolutionReport& solution) {
@@ -91,6 +93,17 @@ class Writer {
   }
 
  private:
+  /// Draws, unless pictures are missing; a picture that cannot be drawn is the last one that is tried.
+  template <class Draw>
+  void draw_if_possible(const Draw& draw) {
+    if (!report_.pictures_missing.empty()) return;
+    try {
+      draw();
+    } catch (const RenderError& error) {
+      report_.pictures_missing = error.what();
+    }
+  }
+
   void write(const std::string& name, const std::string& text) {
     write_output((folder_ / name).string(), text);
     written_.push_back(name);
@@ -120,6 +133,20 @@ class Writer {
     write_stacks_picture({(folder_ / stack).string(), title}, designs,
                          std::min(solution.stack.copies, max_compared_copies));
     written_.insert(written_.end(), {pair, stack});
+  }
+
+  /// The copies of a piece, one on top of the other.
+  void draw(const PieceReport& piece) {
+    const Direction direction(piece.piece.direction);
+    const int copies = std::min(report_.options.shown_copies(), max_compared_copies);
+    PlacedCopies stack{{}, direction, {piece_text(piece)}};
+    for (int k = 0; k < copies; ++k)
+      stack.copies.push_back(
+          transformed(piece.shape, Eigen::Matrix3d::Identity(), k * piece.measured.f_max * direction.unit()));
+    const std::string picture = piece.name + "_stack.png";
+    write_stack_picture({(folder_ / picture).string(), title_of(report_.task.model) + ", " + piece.name},
+                        stack);
+    written_.push_back(picture);
   }
 
   ImproveReport& report_;
@@ -159,6 +186,7 @@ void write_solutions(ImproveReport& report, Writer& writer) {
   writer.begin();
   for (SolutionReport& solution : report.solutions) write(solution);
   if (report.nearest) write(*report.nearest);
+  for (const PieceReport& piece : report.pieces) writer.write_piece(piece);
   writer.write_front_picture();
 }
 
@@ -208,6 +236,7 @@ int run_improve_command(const CLI::App& command, const ImproveCommandOptions& op
   ImproveReport report{options, task, found, {}, {}, {}};
   report.pictures_missing = options.no_pictures ? "left out by --no-pictures" : rendering_missing();
   report_solutions(report);
+  report.pieces = offered_pieces(task, found);
   std::optional<Writer> writer;
   if (caller)
     hand_over_solutions(report, *caller);

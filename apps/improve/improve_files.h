@@ -26,5 +26,7 @@ const std::vector<std::string>& summary_names();
 
 /// All files of a solution, "solution_1.obj" and so on.
 std::vector<std::string> solution_files(const std::string& solution);
+/// All files of a piece of an object that is taken apart, "piece_1.obj" and so on.
+std::vector<std::string> piece_files(const std::string& piece);
 
 }  // namespace stackabilization::apps

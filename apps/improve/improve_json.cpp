@@ -160,10 +160,16 @@ Json diagnosis_json(const Diagnosis& diagnosis, const StructuredShape& rest) {
     constraints.push_back(describe(constraint, rest.structure));
   for (const Remedy& remedy : diagnosis.remedies) {
     const bool turns = remedy.kind == Remedy::Kind::other_direction;
+    Json pieces = Json::array();
+    for (const Piece& piece : remedy.pieces)
+      pieces.push_back({{"parts", parts_json(piece.parts, rest)},
+                        {"direction", to_json(piece.direction)},
+                        {"stackability", piece.stackability}});
     remedies.push_back({{"what", describe(remedy, rest.structure)},
                         {"parts", parts_json(remedy.parts, rest)},
                         {"direction", turns ? to_json(remedy.direction) : Json(nullptr)},
-                        {"stackability", remedy.stackability}});
+                        {"stackability", remedy.stackability},
+                        {"pieces", pieces}});
   }
   return {{"target", diagnosis.target},
           {"reached", diagnosis.reached},

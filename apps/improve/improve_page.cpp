@@ -4,66 +4,13 @@
 
 #include "apps/common/explanation_report.h"
 #include "apps/common/text.h"
-#include "apps/improve/improve_view.h"
+#include "apps/report/page.h"
+#include "apps/report/page_view.h"
 #include "stackabilization/core/direction_text.h"
 
 namespace stackabilization::apps {
 
 namespace {
-
-constexpr const char* page_style = R"(
-:root { color-scheme: light; --ink: #212429; --faint: #61666e; --line: #d9dce1; --good: #47803a; --bad: #c0262b; }
-* { box-sizing: border-box; }
-body { margin: 0 auto; padding: 1.5rem; max-width: 110rem; color: var(--ink); background: #fff;
-  font: 16px/1.45 system-ui, "Segoe UI", Roboto, "DejaVu Sans", sans-serif; }
-h1 { font-size: 1.7rem; margin: 0 0 .3rem; overflow-wrap: anywhere; }
-h2 { font-size: 1.25rem; margin: 0 0 .6rem; }
-h3 { font-size: 1rem; margin: 1rem 0 .3rem; }
-.verdict { font-size: 1.15rem; margin: 0 0 1rem; }
-.headline { margin: 0 0 .6rem; }
-.good { color: var(--good); }
-.bad { color: var(--bad); }
-.faint, .faint a { color: var(--faint); }
-.scroll { overflow-x: auto; }
-.solutions { display: grid; gap: 1.5rem; grid-template-columns: repeat(auto-fit, minmax(min(30rem, 100%), 1fr)); }
-article { border: 1px solid var(--line); border-radius: 8px; padding: 1rem 1.2rem; min-width: 0; }
-img { display: block; width: 100%; height: auto; margin: .6rem 0; }
-table { border-collapse: collapse; margin: 1rem 0; }
-th, td { text-align: left; padding: .25rem .9rem .25rem 0; border-bottom: 1px solid var(--line); vertical-align: top; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
-ul, ol { margin: .2rem 0; padding-left: 1.4rem; overflow-wrap: anywhere; }
-.strip { display: grid; gap: .8rem; grid-template-columns: repeat(auto-fill, minmax(12rem, 1fr)); }
-.strip a { color: var(--faint); font-size: .85rem; text-decoration: none; }
-details { font-size: .85rem; margin: .4rem 0; }
-summary { cursor: pointer; }
-.view { margin: 1.2rem 0 1.6rem; border: 1px solid var(--line); border-radius: 8px; overflow: hidden; }
-.view:empty { display: none; }
-.view .panes { position: relative; height: min(34rem, 70vh); }
-.view canvas { display: block; width: 100%; height: 100%; touch-action: pan-y; }
-.view .labels { position: absolute; inset: 0; display: flex; pointer-events: none; }
-.view .labels span { flex: 1; padding: .5rem .9rem; border-left: 1px solid var(--line); font-size: .95rem; }
-.view .labels span:first-child { border-left: 0; }
-.view .tools { display: flex; flex-wrap: wrap; gap: .5rem 1.2rem; align-items: center; padding: .5rem .9rem;
-  border-top: 1px solid var(--line); font-size: .9rem; color: var(--faint); }
-.view .tools label { display: inline-flex; gap: .5rem; align-items: center; }
-.view .tools button, .view .tools select { font: inherit; color: var(--ink); background: #fff; border: 1px solid var(--line);
-  border-radius: 7px; padding: .15rem .7rem; cursor: pointer; }
-pre { white-space: pre-wrap; font: inherit; margin: 0; }
-)";
-
-/// Measures of quality that use less than half of their limit are in the JSON only; see `violation`.
-constexpr double near_limit = -0.05;
-
-/// `text` as the content of an element.
-std::string element(const std::string& name, const std::string& text) {
-  return "<" + name + ">" + escaped(text) + "</" + name.substr(0, name.find(' ')) + ">";
-}
-
-std::string list(const std::string& name, const std::vector<std::string>& items) {
-  std::string text = "<" + name + ">\n";
-  for (const std::string& item : items) text += element("li", item) + "\n";
-  return text + "</" + name + ">\n";
-}
 
 /// A row of the comparison: a label and a number per solution.
 template <class Number>
@@ -110,33 +57,17 @@ std::string comparison(const ImproveReport& report) {
   return text + "</tbody></table></div>\n";
 }
 
-std::string picture(const std::string& file, const std::string& words) {
-  return "<img src=\"" + escaped(file) + "\" alt=\"" + escaped(words) + "\"/>\n";
-}
-
-std::string check_line(bool good, const std::string& words) {
-  return element(good ? "li" : "li class=\"bad\"", words) + "\n";
-}
-
-/// The measures of quality that come near their limits, or break them.
-std::string quality(const ImproveReport& report, const SolutionReport& solution) {
-  std::string text;
-  for (const Check& check : solution.assessment.checks)
-    if (check.kind == CheckKind::quality && violation(check) > near_limit)
-      text += check_line(check.passed, check_text(check, report.task.rest().structure));
-  return text.empty() ? "" : element("h3", "Near a limit of quality") + "\n<ul>\n" + text + "</ul>\n";
-}
-
 /// What else was asked for, and what independent methods say of the mesh as written; folded while all is
 /// well.
 std::string checks(const ImproveReport& report, const SolutionReport& solution) {
   std::string text;
   for (const Check& check : solution.assessment.checks)
     if (check.kind != CheckKind::quality)
-      text += check_line(check.passed, check_text(check, report.task.rest().structure));
+      text += check_entry(check.passed, check_text(check, report.task.rest().structure));
   for (const WrittenCheck& check : solution.written) {
     const bool agrees = check.verdict != WrittenCheck::Verdict::disagrees;
-    text += check_line(agrees, "written mesh, " + check.name + (agrees ? ": " : " DISAGREES: ") + check.note);
+    text +=
+        check_entry(agrees, "written mesh, " + check.name + (agrees ? ": " : " DISAGREES: ") + check.note);
   }
   return std::string("<details class=\"faint\"") + (solution.good() ? ">" : " open=\"open\">") +
          element("summary", "Checks") + "\n<ul>\n" + text + "</ul></details>\n";
@@ -158,10 +89,8 @@ std::string article(const ImproveReport& report, const SolutionReport& solution)
                      escaped(stackability_text(solution.assessment.measured.value) + " " +
                              direction_text(solution.candidate.direction)) +
                      "</span></h2>\n";
-  text += element("p class=\"headline\"", "Each further copy adds " +
-                                              quantity(solution.assessment.measured.f_max, unit) +
-                                              " instead of " + quantity(solution.before.f_max, unit) + ". " +
-                                              saving_text(solution.stack, unit) + ".") +
+  text += element("p class=\"headline\"",
+                  headline_text(solution.before, solution.assessment.measured, solution.stack, unit)) +
           "\n";
   if (report.pictures_missing.empty()) {
     text += picture(solution.name + "_before_after.png", "before and after");
@@ -175,9 +104,10 @@ std::string article(const ImproveReport& report, const SolutionReport& solution)
                          stackability_text(solution.twist->untwisted_stackability) + ".") +
         "\n";
   text += element("h3", "What changes") + "\n" + list("ul", explanation_lines(solution.explanation));
-  text += quality(report, solution);
+  text += near_limits(solution.assessment.checks, report.task.rest().structure);
   text += "<details class=\"faint\">" + element("summary", "Exact edits") + "\n" +
-          list("ol", edit_lines(report.task, solution)) + "</details>\n";
+          list("ol", edit_lines(solution.candidate.design.edits, report.task.rest().shape.part_names)) +
+          "</details>\n";
   text += checks(report, solution) + links(solution);
   return text + "</article>\n";
 }
@@ -197,6 +127,34 @@ std::string front(const ImproveReport& report) {
   return text + "</div>\n";
 }
 
+/// The pieces of the object, where it stacks better taken apart.
+std::string pieces(const ImproveReport& report) {
+  if (report.pieces.empty()) return "";
+  std::string text =
+      element("h3", "Taken apart") + "\n" +
+      element("p", "As given, but in pieces that are each stacked with their own kind, it has S " +
+                       stackability_text(offered_stackability(report.run)) + ".") +
+      "\n<div class=\"strip wide\">\n";
+  for (const PieceReport& piece : report.pieces) {
+    text += "<a href=\"" + escaped(piece.name) + ".obj\">";
+    if (report.pictures_missing.empty()) text += picture(piece.name + "_stack.png", piece.name + ", stacked");
+    text += element("span", piece_text(piece)) + "</a>\n";
+  }
+  return text + "</div>\n";
+}
+
+PageView view_of(const ImproveReport& report) {
+  const std::vector<const SolutionReport*> shown = report.shown();
+  if (shown.empty()) return {};
+  const Shape& rest = report.task.rest().shape;
+  std::vector<ViewedDesign> designs = {
+      {"As given", rest.vertices, shown[0]->before, shown[0]->candidate.direction}};
+  for (const SolutionReport* one : shown)
+    designs.push_back({title_of(*one), one->candidate.design.shape.vertices, one->assessment.measured,
+                       one->candidate.direction});
+  return page_view(rest, designs);
+}
+
 std::string verdict(const ImproveReport& report) {
   const std::size_t count = report.solutions.size();
   if (report.reached())
@@ -211,48 +169,20 @@ std::string verdict(const ImproveReport& report) {
 
 }  // namespace
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    const bool is_control = static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t';
-    if (is_control || c == '\x7f')
-      result += "&#xFFFD;";
-    else if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
-    else if (c == '\'')
-      result += "&#39;";
-    else
-      result += c;
-  }
-  return result;
-}
-
 std::string improvement_page(const ImproveReport& report) {
-  const std::string model = title_of(report.task.model);
-  std::string page =
-      "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n"
-      "<meta charset=\"utf-8\"/>\n<meta name=\"viewport\" content=\"width=device-width, "
-      "initial-scale=1\"/>\n";
-  const PageView view = page_view(report);
-  page += element("title", model + ", made to stack") + "\n<style>" + page_style + "</style>\n" + view.head +
-          "</head>\n<body>\n";
-  page += element("h1", model + ", made to stack") + "\n" + verdict(report) + "\n";
-  page += element("h3", "Asked for") + "\n" + list("ul", wish_lines(report));
+  const PageView view = view_of(report);
+  const std::string title = title_of(report.task.model) + ", made to stack";
+  std::string body = element("h1", title) + "\n" + verdict(report) + "\n";
+  body += element("h3", "Asked for") + "\n" + list("ul", wish_lines(report));
   if (report.run.result.diagnosis && !(report.run.front && report.reached()))
-    page += element("h3", "Why it was not reached, and what would help") + "\n" +
+    body += element("h3", "Why it was not reached, and what would help") + "\n" +
             element("pre", text(*report.run.result.diagnosis, report.task.rest().structure)) + "\n";
-  page += view.element + front(report);
+  body += view.element + front(report);
   if (!report.pictures_missing.empty())
-    page += element("p class=\"faint\"", "No pictures: " + report.pictures_missing + ".") + "\n";
-  page += "<div class=\"solutions\">\n";
-  for (const SolutionReport* solution : report.shown()) page += article(report, *solution);
-  return page + "</div>\n" + comparison(report) + "</body>\n</html>\n";
+    body += element("p class=\"faint\"", "No pictures: " + report.pictures_missing + ".") + "\n";
+  body += "<div class=\"solutions\">\n";
+  for (const SolutionReport* solution : report.shown()) body += article(report, *solution);
+  return html_page(title, view.head, body + "</div>\n" + pieces(report) + comparison(report));
 }
 
 }  // namespace stackabilization::apps

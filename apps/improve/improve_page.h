@@ -10,7 +10,4 @@ namespace stackabilization::apps {
 /// referred to by their names. Also well-formed as XML.
 std::string improvement_page(const ImproveReport& report);
 
-/// The text with what means something in HTML replaced, and what is no character of a page shown as such.
-std::string escaped(const std::string& text);
-
 }  // namespace stackabilization::apps

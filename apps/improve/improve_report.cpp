@@ -158,31 +158,6 @@ std::string end_text(const ImproveRun& run) {
   return "";
 }
 
-std::vector<std::string> edit_lines(const ImproveTask& task, const SolutionReport& solution) {
-  std::vector<std::string> lines;
-  for (const Edit& edit : solution.candidate.design.edits)
-    lines.push_back(describe(edit, task.rest().shape.part_names));
-  if (lines.empty()) lines.emplace_back("no edit: the shape as it is");
-  return lines;
-}
-
-std::string saving_text(const StackHeights& stack, Unit unit) {
-  const std::string copies = std::to_string(stack.copies) + (stack.copies == 1 ? " copy" : " copies");
-  const double saved = 1 - stack.after / stack.before;
-  const std::string share = percent(std::abs(saved));
-  return copies + ": " + quantity(stack.after, unit) + " high instead of " + quantity(stack.before, unit) +
-         ", " + (share == percent(0) ? "about as high" : share + (saved < 0 ? " more" : " less"));
-}
-
-std::string check_text(const Check& check, const Structure& rest) {
-  const std::string unit = unit_of(check), note = note_of(check, rest);
-  std::string text = name_of(check) + ": " + rounded(check.value);
-  if (!unit.empty()) text += " " + unit;
-  text += ", asked for " + rounded(check.demanded);
-  if (!check.passed) text += ", NOT met";
-  return note.empty() ? text : text + " (" + note + ")";
-}
-
 std::string improvement_text(const ImproveReport& report) {
   const ImproveTask& task = report.task;
   const Improvement& result = report.run.result;

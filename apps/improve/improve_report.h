@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/common/json.h"
+#include "apps/improve/improve_pieces.h"
 #include "apps/improve/improve_solution.h"
 
 namespace stackabilization::apps {
@@ -16,6 +17,7 @@ struct ImproveReport {
   std::vector<SolutionReport> solutions;  ///< best first
   std::optional<SolutionReport> nearest;  ///< without solutions
   std::string pictures_missing;           ///< why there are no pictures; empty: there are
+  std::vector<PieceReport> pieces = {};   ///< where it stacks better taken apart
 
   /// Is there a solution, and is each of them good?
   bool reached() const;
@@ -40,12 +42,6 @@ std::string title_of(const SolutionReport& solution);
 std::vector<std::string> wish_lines(const ImproveReport& report);
 /// How the search ended, as a clause.
 std::string end_text(const ImproveRun& run);
-/// What was edited, a line per edit; one line that says so when nothing was.
-std::vector<std::string> edit_lines(const ImproveTask& task, const SolutionReport& solution);
-/// "5 copies: 2.1 m instead of 4.5 m, 53.3 % less high".
-std::string saving_text(const StackHeights& stack, Unit unit);
-/// What the requirement asked and what was found.
-std::string check_text(const Check& check, const Structure& rest);
 
 /// The whole of one solution.
 Json solution_json(const ImproveReport& report, const SolutionReport& solution);

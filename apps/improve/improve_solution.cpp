@@ -20,10 +20,8 @@ constexpr Eigen::Index max_collision_triangles = 50000;
 StackHeights stack_heights(const ImproveCommandOptions& options, const ImproveTask& task,
                            const SolutionReport& report) {
   const int copies = options.shown_copies();
-  const auto height = [copies](const Stackability& measured) {
-    return measured.extent + (copies - 1) * measured.f_max;
-  };
-  return {copies, height(report.before), height(report.assessment.measured), task.length_limit()};
+  return {copies, report.before.stack_height(copies), report.assessment.measured.stack_height(copies),
+          task.length_limit()};
 }
 
 TwistResult twisted(const ImproveTask& task, const SolutionReport& report) {
@@ -89,10 +87,6 @@ class CollisionChecks {
 };
 
 }  // namespace
-
-bool StackHeights::fits() const {
-  return !room || after <= *room * (1 + tolerance::relative);
-}
 
 bool SolutionReport::confirmed() const {
   return std::none_of(written.begin(), written.end(),

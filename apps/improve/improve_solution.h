@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/improve/improve_run.h"
+#include "apps/report/design_words.h"
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/improvement/explanation.h"
 #include "stackabilization/improvement/shape_change.h"
@@ -17,15 +18,6 @@ struct WrittenCheck {
   enum class Verdict { agrees, skipped, disagrees } verdict = Verdict::agrees;
   std::string name;
   std::string note;  ///< what was found, or why it was not asked
-};
-
-/// Copies on top of each other, before and after.
-struct StackHeights {
-  int copies = 0;
-  double before = 0, after = 0;  ///< model units
-  std::optional<double> room;    ///< that was asked for
-
-  bool fits() const;
 };
 
 /// Everything there is to say about one solution, or about what came nearest.

@@ -12,6 +12,7 @@
 #include "stackabilization/stacking/stackability.h"
 #include "support/catch.h"
 #include "support/solids.h"
+#include "support/structures.h"
 
 using namespace stackabilization;
 using namespace stackabilization::apps;
@@ -281,6 +282,44 @@ TEST_CASE("a target out of reach ends with 1, what came nearest and the reason")
   CHECK(!names.contains("solution_1.obj"));
   check_page(folder.out);
   CHECK(folder.written("index.html").find("would help") != std::string::npos);
+}
+
+TEST_CASE("what stacks better taken apart is written in pieces, with the S of each") {
+  struct MugFolder : TemporaryFolder {
+    std::string mug = model("mug.obj", structures::mug().shape), out = *this / "out";
+    Arguments asked(const std::string& target) const {
+      return {"improve",      mug, "--direction",   "0",  "0", "1", "--target", target,
+              "--expansions", "3", "--no-pictures", "-o", out};
+    }
+  };
+  const MugFolder folder;
+  REQUIRE(run_program(folder.asked("0.99")).status == 1);
+  const json result = json::parse(bytes_of((fs::path(folder.out) / "result.json").string()));
+  const json& remedies = result["diagnosis"]["remedies"];
+  const auto offer =
+      std::find_if(remedies.begin(), remedies.end(), [](const json& one) { return !one["pieces"].empty(); });
+  REQUIRE(offer != remedies.end());
+  const Shape whole = read_shape(folder.mug);
+  double wasted = 0;
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < (*offer)["pieces"].size(); ++k) {
+    const json& piece = (*offer)["pieces"][k];
+    const Shape shape =
+        read_shape((fs::path(folder.out) / ("piece_" + std::to_string(k + 1) + ".obj")).string());
+    CHECK(json(shape.part_names) == piece["parts"]);
+    names.insert(names.end(), shape.part_names.begin(), shape.part_names.end());
+    const auto direction = piece["direction"].get<std::vector<double>>();
+    const Stackability measured = stackability(shape, {direction[0], direction[1], direction[2]});
+    CHECK(piece["stackability"].get<double>() == Approx(measured.value));
+    wasted += measured.box_volume * (1 - measured.value);
+  }
+  CHECK(names == whole.part_names);
+  const Stackability at_rest = stackability(whole, {0, 0, 1});
+  CHECK((*offer)["stackability"].get<double>() == Approx(1 - wasted / at_rest.box_volume));
+  check_page(folder.out);
+  // They are files of that run: one that reaches its target leaves none of them.
+  REQUIRE(run_program(folder.asked(std::to_string(at_rest.value - 1e-4))).status == 0);
+  for (const std::string& name : names_in(folder.out)) CHECK(!name.starts_with("piece_"));
 }
 
 TEST_CASE("files of an earlier run go, other files stay") {

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import fs from 'node:fs';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
 import { canvasFacts, Editor, Folder, keepPicture, models, openBrowser, openPage, seconds, stackability, suggestionsOf } from './editor.mjs';
 
 let browser;
@@ -87,6 +88,35 @@ editing('what is exported is what is shown', 'cup.obj', async (page) => {
   const shown = await page.evaluate(() => Array.from(window.editor.viewer.design));
   assert.equal(vertices.length, shown.length);
   vertices.forEach((value, k) => assert.ok(Math.abs(value - shown[k]) <= 1e-6 * Math.abs(value) + 1e-12));
+});
+
+editing('a report of the design is one page that needs neither editor nor network', 'cup.obj', async (page) => {
+  await suggestionsOf(page);
+  await page.locator('.card').first().click();
+  await page.waitForFunction(() => window.editor.state.tree.current === 1);
+  await page.fill('#copies', '7');
+  await page.click('#export summary');
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('#export-list a:has-text("Report")')]);
+  assert.equal(download.suggestedFilename(), 'cup.html');
+  const file = (await download.path()) + '.html', asked = [], failures = [];
+  fs.copyFileSync(await download.path(), file);
+  const shown = await page.evaluate(() => window.editor.state.design);
+  const report = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+  report.on('request', (request) => asked.push(request.url()));
+  report.on('pageerror', (error) => failures.push(String(error)));
+  await report.goto(pathToFileURL(file).href);
+  await report.waitForFunction(() => window.reportView?.framesDrawn > 1);
+  assert.deepEqual(await report.locator('.view .labels span').allTextContents(),
+    [shown.rest, shown.measured].map(({ stackability }, k) => `${['As given', 'Edited'][k]}, S ${Number(stackability.toPrecision(5))}`));
+  const heights = await report.locator('tr:has-text("7 copies") td').allTextContents();
+  [shown.rest, shown.measured].forEach(({ height, f_max }, k) => assert.ok(Math.abs(parseFloat(heights[k]) / (height + 6 * f_max) - 1) < 1e-4, heights[k]));
+  assert.ok((await report.locator('h3:has-text("What changes") + ul li').count()) > 0);
+  assert.equal(await report.locator('h3:has-text("Edits") + ol li').count(), 1);
+  await keepPicture(report, 'session-report');
+  assert.deepEqual(failures, []);
+  assert.deepEqual(asked.filter((url) => !/^(file|blob|data):/.test(url)), []);
+  await report.close();
+  fs.rmSync(file);
 });
 
 test('an editor that was killed comes back as it was', { timeout: seconds(300) }, async () => {
@@ -419,8 +449,23 @@ editing('a part is left out, two parts are joined, and undo brings both back', '
     const joined = new Set(model.joints.filter((joint) => joint.parts.includes(bar)).flatMap((joint) => joint.parts));
     return model.parts.findIndex((part, row) => /side_bar/.test(part.name) && !joined.has(row));
   });
-  await page.selectOption('.joints select', String(other));
+  await page.selectOption('select[aria-label="Join to another part"]', String(other));
   await page.waitForFunction((n) => window.editor.state.model.joints.length === n, joints);
+});
+
+editing('two parts that were let go from each other are made symmetric again', 'table.obj', async (page) => {
+  const pairs = () => page.evaluate(() => window.editor.state.model.pairs.filter(({ parts }) => parts.length === 2).length);
+  const before = await pairs();
+  const [one, other] = await page.evaluate(() => {
+    const { model } = window.editor.state;
+    return model.pairs.find(({ parts }) => parts.length === 2).parts.map((row) => model.parts[row].name);
+  });
+  await pick(page, one);
+  await page.click(`button[aria-label="Let it change on its own: ${other}"]`);
+  await page.waitForFunction((n) => window.editor.state.model.pairs.filter(({ parts }) => parts.length === 2).length < n, before);
+  await pick(page, one);
+  await page.selectOption('select[aria-label="Make symmetric to another part"]', { label: other });
+  await page.waitForFunction((n) => window.editor.state.model.pairs.filter(({ parts }) => parts.length === 2).length === n, before);
 });
 
 test('the program ends when the last page leaves', { timeout: seconds(300) }, async () => {

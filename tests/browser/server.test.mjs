@@ -57,6 +57,14 @@ test('files of the page are there, others are not', async () => {
     assert.equal((await ask(address.pathname + path)).status, 404, path);
 });
 
+test('a report asks for the number of copies that it tells of', async () => {
+  const good = await ask(address.pathname + 'export/html?copies=12');
+  assert.equal(good.status, 200);
+  assert.match(good.body, /12 copies</);
+  for (const query of ['', '?copies=', '?copies=1', '?copies=1001', '?copies=2x', '?copies=-3', '?copies=99999999999', '?n=3'])
+    assert.equal((await ask(address.pathname + 'export/html' + query)).status, 400, query);
+});
+
 test('another host is refused: a name that somebody bound to 127.0.0.1', async () => {
   for (const host of ['evil.example', 'localhost.evil.example', '192.168.0.1'])
     assert.equal((await ask(address.pathname, { headers: { Host: host } })).status, 403, host);

@@ -282,13 +282,15 @@ function receiveFrame(frame) {
 function exportList(stem) {
   const list = element('export-list');
   list.replaceChildren();
-  for (const [ending, words] of [['obj', 'Mesh with parts'], ['3mf', 'Mesh for printing'], ['glb', 'Mesh for viewers'], ['stl', 'Triangles only'], ['stackabilize.json', 'Project with all designs']]) {
+  for (const [ending, words] of [['obj', 'Mesh with parts'], ['3mf', 'Mesh for printing'], ['glb', 'Mesh for viewers'], ['stl', 'Triangles only'], ['stackabilize.json', 'Project with all designs'], ['html', 'Report with a 3-D view']]) {
     const link = document.createElement('a');
     link.href = 'export/' + ending;
     link.download = stem + '.' + ending;
     link.textContent = `${words} (.${ending})`;
     link.addEventListener('click', () => element('export').removeAttribute('open'));
     list.append(link);
+    if (ending === 'html')
+      link.addEventListener('click', () => (link.href = `export/html?copies=${measures.copies}`));
   }
   const picture = document.createElement('button');
   picture.textContent = 'Picture of the view (.png)';

@@ -17,6 +17,12 @@ export class Measures {
     element('copies').addEventListener('input', () => this.#update());
   }
 
+  /** How many copies the height of a stack is told of. */
+  get copies() {
+    const { value, min, max } = /** @type {HTMLInputElement} */ (element('copies'));
+    return Math.round(Math.min(Number(max), Math.max(Number(min), Number(value) || 0)));
+  }
+
   /** @param {any} model */
   setModel(model) { this.model = model; }
 
@@ -71,8 +77,7 @@ export class Measures {
     element('rest-legend').textContent = `At rest ${format.stackability(design.rest.stackability)}`;
     element('f').textContent = format.length(step, model.unit);
     element('h').textContent = format.length(design.measured.height, model.unit);
-    const copies = Math.max(2, Number(/** @type {HTMLInputElement} */ (element('copies')).value) || 2);
-    element('stack').textContent = format.length(design.measured.height + (copies - 1) * step, model.unit);
+    element('stack').textContent = format.length(design.measured.height + (this.copies - 1) * step, model.unit);
     element('change').textContent = format.percent(design.change);
     element('energy').textContent = format.signed(design.energy.value, 3);
     element('direction').textContent = design.direction_words;

@@ -8,6 +8,7 @@
 
 #include "stackabilization/improvement/best_first.h"
 #include "stackabilization/improvement/closed.h"
+#include "stackabilization/improvement/partition.h"
 
 namespace stackabilization {
 
@@ -63,6 +64,7 @@ struct Remedy {
   /// take_apart: of its pieces (Partition::stackability).
   /// free_part, relax_...: after the best single edit of the design that the change allows.
   double stackability = 0;
+  std::vector<Piece> pieces = {};  ///< take_apart: all pieces, those that stay together included
 };
 
 /// Returns the change as an imperative clause: "let 'leg_1' and 'leg_2' change". `rest`: structure of the

@@ -298,7 +298,7 @@ class DiagnosisBuilder {
     for (auto piece = pieces.begin(); piece != pieces.end(); ++piece)
       if (piece != stays) parts.insert(parts.end(), piece->parts.begin(), piece->parts.end());
     std::sort(parts.begin(), parts.end());
-    add({Remedy::Kind::take_apart, parts, {}, best_.direction, found.front().stackability});
+    add({Remedy::Kind::take_apart, parts, {}, best_.direction, found.front().stackability, pieces});
   }
 
   void add(Remedy remedy) { diagnosis_.remedies.push_back(std::move(remedy)); }

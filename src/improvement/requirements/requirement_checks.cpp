@@ -91,7 +91,7 @@ std::vector<Check> RequirementChecks::quality(const Design& design, QualityScope
 Check RequirementChecks::reached(const Stackability& measured) const {
   if (!requirements_.length_limit)
     return {CheckKind::target, measured.value, requirements_.target, measured.value >= requirements_.target};
-  const double length = stack_length(*requirements_.length_limit, measured),
+  const double length = measured.stack_height(requirements_.length_limit->copies),
                room = requirements_.length_limit->length;
   return {CheckKind::room, length, room, length <= room};
 }

@@ -16,11 +16,6 @@ struct CheckedDesign {
   const Assessment& assessment;  ///< its checks are still empty
 };
 
-/// Returns the length of a stack of room.copies copies, model units.
-inline double stack_length(const StackLengthLimit& room, const Stackability& measured) {
-  return measured.extent + (room.copies - 1) * measured.f_max;
-}
-
 /// Checks of a RequirementChecker, with everything that depends on the shape at rest alone.
 class RequirementChecks {
  public:

@@ -150,9 +150,8 @@ std::optional<Stackability> RequirementChecker::measure_if_above(const Shape& sh
 
 bool RequirementChecker::meets_target(const Stackability& measured) const {
   const Requirements& asked = data_->requirements;
-  return asked.length_limit
-             ? detail::stack_length(*asked.length_limit, measured) <= asked.length_limit->length
-             : measured.value >= asked.target;
+  return asked.length_limit ? measured.stack_height(asked.length_limit->copies) <= asked.length_limit->length
+                            : measured.value >= asked.target;
 }
 
 double RequirementChecker::required_stackability(const Stackability& measured) const {

@@ -243,6 +243,11 @@ TEST_CASE("what saves most when it is taken off is offered, with the S of its pi
   REQUIRE(apart != nullptr);
   CHECK(apart->parts == std::vector<int>{1});
   CHECK(apart->stackability == found.front().stackability);
+  REQUIRE(apart->pieces.size() == 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    CHECK(apart->pieces[k].parts == found.front().pieces[k].parts);
+    CHECK(apart->pieces[k].stackability == found.front().pieces[k].stackability);
+  }
 }
 
 TEST_CASE("a box that lies on its side is better stacked another way") {

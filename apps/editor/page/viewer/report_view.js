@@ -1,4 +1,4 @@
-// The 3-D view in the pages that `improve` writes: the object as given beside its solutions, under one camera.
+// The 3-D view in the pages of `improve` and of the editor: the object as given beside designs, under one camera.
 import * as THREE from 'three';
 import { Viewer } from './viewer.js';
 
@@ -8,7 +8,7 @@ import { Viewer } from './viewer.js';
 const maxPanes = 4;
 
 /**
- * Reads what the program wrote (apps/improve/improve_view.cpp).
+ * Reads what the program wrote (apps/report/page_view.cpp).
  * @param {ArrayBuffer} buffer
  * @returns {{designs: ShownDesign[], mesh: import('./mesh_surface.js').MeshData}}
  */

@@ -1,4 +1,4 @@
-#include "apps/improve/improve_view.h"
+#include "apps/report/page_view.h"
 
 #include <algorithm>
 #include <bit>
@@ -6,9 +6,9 @@
 #include <stdexcept>
 #include <vector>
 
+#include "apps/common/json.h"
 #include "apps/common/page_files.h"
 #include "apps/common/text.h"
-#include "stackabilization/core/direction_text.h"
 #include "stackabilization/io/encodings.h"
 
 namespace stackabilization::apps {
@@ -90,30 +90,22 @@ class Words {
   std::string bytes_;
 };
 
-Json view_design(const std::string& title, const Stackability& measured, const Eigen::Vector3d& direction) {
-  return {{"title", title},
-          {"stackability", stackability_text(measured.value)},
-          {"step", measured.f_max},
-          {"direction", to_json(direction)}};
-}
-
 /// {designs, vertices, triangles} as JSON, padded to words and with its length before it; then the vertices
 /// of each design as 32-bit floats, the triangles, and their parts.
-std::string designs_bytes(const ImproveReport& report) {
-  const Shape& rest = report.task.rest().shape;
-  const std::vector<const SolutionReport*> shown = report.shown();
-  Json designs = Json::array({view_design("As given", shown[0]->before, shown[0]->candidate.direction)});
-  for (const SolutionReport* one : shown)
-    designs.push_back(view_design(title_of(*one), one->assessment.measured, one->candidate.direction));
+std::string designs_bytes(const Shape& rest, const std::vector<ViewedDesign>& designs) {
+  Json list = Json::array();
+  for (const ViewedDesign& design : designs)
+    list.push_back({{"title", design.title},
+                    {"stackability", stackability_text(design.measured.value)},
+                    {"step", design.measured.f_max},
+                    {"direction", to_json(design.direction)}});
   std::string head =
-      Json{{"designs", designs}, {"vertices", rest.vertex_count()}, {"triangles", rest.triangle_count()}}
-          .dump();
+      Json{{"designs", list}, {"vertices", rest.vertex_count()}, {"triangles", rest.triangle_count()}}.dump();
   head.resize((head.size() + 3) / 4 * 4, ' ');
   Words length("");
   length.add(static_cast<std::uint32_t>(head.size()));
   Words words(length.take() + head);
-  words.add(rest.vertices);
-  for (const SolutionReport* one : shown) words.add(one->candidate.design.shape.vertices);
+  for (const ViewedDesign& design : designs) words.add(design.vertices);
   for (Eigen::Index t = 0; t < rest.triangle_count(); ++t)
     for (int k = 0; k < 3; ++k) words.add(static_cast<std::uint32_t>(rest.triangles(t, k)));
   for (const std::int32_t part : rest.triangle_part) words.add(static_cast<std::uint32_t>(part));
@@ -148,16 +140,15 @@ std::string without_comments(std::string_view module) {
   return result;
 }
 
-PageView page_view(const ImproveReport& report) {
-  const Shape& rest = report.task.rest().shape;
-  const auto count = static_cast<Eigen::Index>(report.shown().size());
-  if (count == 0 || 3 * (count + 1) * rest.vertex_count() + 4 * rest.triangle_count() > max_view_numbers)
-    return {};
+PageView page_view(const Shape& rest, const std::vector<ViewedDesign>& designs) {
+  const auto count = static_cast<Eigen::Index>(designs.size());
+  if (count < 2 || 3 * count * rest.vertex_count() + 4 * rest.triangle_count() > max_view_numbers) return {};
   Json sources = Json::object();
   for (const Module& module : modules) sources[module.name] = module_text(module);
   PageView view;
   view.head = packed_script("view-modules", sources.dump()) +
-              packed_script("view-designs", designs_bytes(report)) + "<script>" + loader + "</script>\n";
+              packed_script("view-designs", designs_bytes(rest, designs)) + "<script>" + loader +
+              "</script>\n";
   view.element = "<section id=\"view-3d\" class=\"view\" aria-label=\"3-D view\"></section>\n";
   return view;
 }
