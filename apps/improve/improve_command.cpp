@@ -236,7 +236,10 @@ int run_improve_command(const CLI::App& command, const ImproveCommandOptions& op
   ImproveReport report{options, task, found, {}, {}, {}};
   report.pictures_missing = options.no_pictures ? "left out by --no-pictures" : rendering_missing();
   report_solutions(report);
-  report.pieces = offered_pieces(task, found);
+  if (const Remedy* const offer = offer_of_pieces(report.diagnosis())) {
+    report.pieces = pieces_of(*offer, task);
+    report.pieces_stackability = offer->stackability;
+  }
   std::optional<Writer> writer;
   if (caller)
     hand_over_solutions(report, *caller);

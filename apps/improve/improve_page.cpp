@@ -133,7 +133,7 @@ std::string pieces(const ImproveReport& report) {
   std::string text =
       element("h3", "Taken apart") + "\n" +
       element("p", "As given, but in pieces that are each stacked with their own kind, it has S " +
-                       stackability_text(offered_stackability(report.run)) + ".") +
+                       stackability_text(report.pieces_stackability) + ".") +
       "\n<div class=\"strip wide\">\n";
   for (const PieceReport& piece : report.pieces) {
     text += "<a href=\"" + escaped(piece.name) + ".obj\">";
@@ -174,9 +174,9 @@ std::string improvement_page(const ImproveReport& report) {
   const std::string title = title_of(report.task.model) + ", made to stack";
   std::string body = element("h1", title) + "\n" + verdict(report) + "\n";
   body += element("h3", "Asked for") + "\n" + list("ul", wish_lines(report));
-  if (report.run.result.diagnosis && !(report.run.front && report.reached()))
+  if (const Diagnosis* const diagnosis = report.diagnosis())
     body += element("h3", "Why it was not reached, and what would help") + "\n" +
-            element("pre", text(*report.run.result.diagnosis, report.task.rest().structure)) + "\n";
+            element("pre", text(*diagnosis, report.task.rest().structure)) + "\n";
   body += view.element + front(report);
   if (!report.pictures_missing.empty())
     body += element("p class=\"faint\"", "No pictures: " + report.pictures_missing + ".") + "\n";

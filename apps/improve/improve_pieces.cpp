@@ -7,39 +7,26 @@
 
 namespace stackabilization::apps {
 
-namespace {
-
-/// The offer to take the object apart; null without one.
-const Remedy* offer_of(const ImproveRun& run) {
-  if (!run.result.diagnosis) return nullptr;
-  const std::vector<Remedy>& remedies = run.result.diagnosis->remedies;
-  const auto found = std::find_if(remedies.begin(), remedies.end(), [](const Remedy& remedy) {
-    return remedy.kind == Remedy::Kind::take_apart;
-  });
-  return found == remedies.end() ? nullptr : &*found;
+const Remedy* offer_of_pieces(const Diagnosis* diagnosis) {
+  if (!diagnosis) return nullptr;
+  const auto found =
+      std::find_if(diagnosis->remedies.begin(), diagnosis->remedies.end(),
+                   [](const Remedy& remedy) { return remedy.kind == Remedy::Kind::take_apart; });
+  return found == diagnosis->remedies.end() ? nullptr : &*found;
 }
 
-}  // namespace
-
-std::vector<PieceReport> offered_pieces(const ImproveTask& task, const ImproveRun& run) {
-  const Remedy* const offer = offer_of(run);
-  if (!offer) return {};
+std::vector<PieceReport> pieces_of(const Remedy& offer, const ImproveTask& task) {
   std::vector<std::vector<int>> groups;
-  for (const Piece& piece : offer->pieces) groups.push_back(piece.parts);
+  for (const Piece& piece : offer.pieces) groups.push_back(piece.parts);
   StackabilityOptions measure = task.checker().requirements().measure;
   measure.flat_shapes = FlatShapes::measure;
-  std::vector<PieceReport> reports;
+  std::vector<PieceReport> pieces;
   for (const StructuredShape& shape : split_into_groups(task.rest(), groups)) {
-    const Piece& piece = offer->pieces[reports.size()];
-    reports.push_back({"piece_" + std::to_string(reports.size() + 1), piece, shape.shape,
-                       stackability(shape.shape, Direction(piece.direction), measure)});
+    const Piece& piece = offer.pieces[pieces.size()];
+    pieces.push_back({"piece_" + std::to_string(pieces.size() + 1), piece, shape.shape,
+                      stackability(shape.shape, Direction(piece.direction), measure)});
   }
-  return reports;
-}
-
-double offered_stackability(const ImproveRun& run) {
-  const Remedy* const offer = offer_of(run);
-  return offer ? offer->stackability : 0;
+  return pieces;
 }
 
 std::string piece_text(const PieceReport& piece) {

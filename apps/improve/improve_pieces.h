@@ -4,11 +4,11 @@
 #include <vector>
 
 #include "apps/improve/improve_run.h"
-#include "stackabilization/improvement/partition.h"
+#include "stackabilization/improvement/diagnosis.h"
 
 namespace stackabilization::apps {
 
-/// A piece of the object, where the diagnosis says that it stacks better taken apart.
+/// A piece of the object as given, which stacks better taken apart.
 struct PieceReport {
   std::string name;  ///< "piece_1"
   Piece piece;
@@ -16,13 +16,13 @@ struct PieceReport {
   Stackability measured;  ///< along the direction of the piece
 };
 
-/// The pieces that the diagnosis offers, of the object as given; none where it offers no such thing.
-std::vector<PieceReport> offered_pieces(const ImproveTask& task, const ImproveRun& run);
+/// The remedy that takes the object apart; null without one, or without a diagnosis.
+const Remedy* offer_of_pieces(const Diagnosis* diagnosis);
 
-/// S of all pieces, each stacked with pieces of its own kind; see Partition. 0 without an offer.
-double offered_stackability(const ImproveRun& run);
+/// The pieces of that remedy.
+std::vector<PieceReport> pieces_of(const Remedy& offer, const ImproveTask& task);
 
-/// "seat, back: S 0.412 upwards"
+/// "seat, back: S 0.412 along z"
 std::string piece_text(const PieceReport& piece);
 
 }  // namespace stackabilization::apps

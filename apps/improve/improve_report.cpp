@@ -80,6 +80,10 @@ bool ImproveReport::reached() const {
          std::any_of(solutions.begin(), solutions.end(), good);
 }
 
+const Diagnosis* ImproveReport::diagnosis() const {
+  return run.result.diagnosis && !(run.front && reached()) ? &*run.result.diagnosis : nullptr;
+}
+
 std::vector<const SolutionReport*> ImproveReport::shown() const {
   std::vector<const SolutionReport*> list;
   for (const SolutionReport& solution : solutions) list.push_back(&solution);
@@ -176,8 +180,8 @@ std::string improvement_text(const ImproveReport& report) {
             saving_text(report.solutions.front().stack, task.rest().shape.unit) + ".\n";
   else if (report.solutions.empty())
     text += "Not reached.\n";
-  if (result.diagnosis && !(report.run.front && report.reached()))
-    text += stackabilization::text(*result.diagnosis, task.rest().structure);
+  if (const Diagnosis* const diagnosis = report.diagnosis())
+    text += stackabilization::text(*diagnosis, task.rest().structure);
   if (!text.ends_with('\n')) text += '\n';
   if (!report.pictures_missing.empty()) text += "No pictures: " + report.pictures_missing + ".\n";
   return text + "Written to " + report.options.folder + ": open index.html there in a browser.\n";

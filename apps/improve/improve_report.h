@@ -18,9 +18,13 @@ struct ImproveReport {
   std::optional<SolutionReport> nearest;  ///< without solutions
   std::string pictures_missing;           ///< why there are no pictures; empty: there are
   std::vector<PieceReport> pieces = {};   ///< where it stacks better taken apart
+  double pieces_stackability = 0;         ///< S of them all
 
   /// Is there a solution, and is each of them good?
   bool reached() const;
+  /// Why the wish was not met, and what would help; null where people need not know. A front to a target that
+  /// is reached has one too, of where it ends.
+  const Diagnosis* diagnosis() const;
   /// The solutions, or what came nearest.
   std::vector<const SolutionReport*> shown() const;
 };
