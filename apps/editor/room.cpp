@@ -39,10 +39,11 @@ struct Export {
   std::optional<Format> format;  ///< none: the project or the page
 };
 
-/// Returns the number in a query "copies=...", for the heights of stacks.
+/// Returns the number in a query "copies=...", for the heights of stacks; 10 without a query.
 int copies_of(const std::string& query) {
   constexpr std::string_view key = "copies=";
-  constexpr int min_copies = 2, max_copies = 1000;
+  constexpr int default_copies = 10, min_copies = 2, max_copies = 1000;
+  if (query.empty()) return default_copies;
   int copies = 0;
   const char* const end = query.data() + query.size();
   if (!query.starts_with(key) || std::from_chars(query.data() + key.size(), end, copies).ptr != end ||

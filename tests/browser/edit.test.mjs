@@ -101,6 +101,7 @@ editing('a report of the design is one page that needs neither editor nor networ
   const file = (await download.path()) + '.html', asked = [], failures = [];
   fs.copyFileSync(await download.path(), file);
   const shown = await page.evaluate(() => window.editor.state.design);
+  assert.equal(await page.evaluate((text) => new DOMParser().parseFromString(text, 'application/xml').querySelector('parsererror')?.textContent, fs.readFileSync(file, 'utf8')), undefined, 'well-formed');
   const report = await browser.newPage({ viewport: { width: 1280, height: 800 } });
   report.on('request', (request) => asked.push(request.url()));
   report.on('pageerror', (error) => failures.push(String(error)));

@@ -57,11 +57,12 @@ test('files of the page are there, others are not', async () => {
     assert.equal((await ask(address.pathname + path)).status, 404, path);
 });
 
-test('a report asks for the number of copies that it tells of', async () => {
+test('a report tells of ten copies, or of as many as it is asked for', async () => {
+  assert.match((await ask(address.pathname + 'export/html')).body, /10 copies</);
   const good = await ask(address.pathname + 'export/html?copies=12');
   assert.equal(good.status, 200);
   assert.match(good.body, /12 copies</);
-  for (const query of ['', '?copies=', '?copies=1', '?copies=1001', '?copies=2x', '?copies=-3', '?copies=99999999999', '?n=3'])
+  for (const query of ['?copies=', '?copies=1', '?copies=1001', '?copies=2x', '?copies=-3', '?copies=99999999999', '?n=3'])
     assert.equal((await ask(address.pathname + 'export/html' + query)).status, 400, query);
 });
 

@@ -20,6 +20,27 @@ int row_of(const std::vector<Remedy>& remedies, Remedy::Kind kind) {
   return static_cast<int>(found - remedies.begin());
 }
 
+/// A session whose search for a target that is out of reach has ended.
+struct SearchInVain : Observed {
+  SearchInVain(Document document, double target)
+      : Observed(aimed(std::move(document), target), short_search()) {
+    session.execute(FindDesigns{});
+    work(Lane::automatic);
+    REQUIRE(session.found().designs.empty());
+    REQUIRE(session.found().diagnosis);
+  }
+
+  static Document aimed(Document document, double target) {
+    document.requirements.target = target;
+    return document;
+  }
+  static SessionOptions short_search() {
+    SessionOptions options;
+    options.effort = 0.1;
+    return options;
+  }
+};
+
 }  // namespace
 
 TEST_CASE("designs that the automatic search finds reach the target, and one is taken on") {
@@ -47,16 +68,8 @@ TEST_CASE("designs that the automatic search finds reach the target, and one is 
 }
 
 TEST_CASE("a target out of reach is diagnosed, and an offer is accepted") {
-  Document document = sessions::table_document();
-  document.requirements.target = 0.97;
-  SessionOptions options;
-  options.effort = 0.02;
-  Observed observed(document, options);
-  EditingSession& session = observed.session;
-  session.execute(FindDesigns{});
-  observed.work(Lane::automatic);
-  REQUIRE(session.found().designs.empty());
-  REQUIRE(session.found().diagnosis);
+  SearchInVain in_vain(sessions::table_document(), 0.97);
+  EditingSession& session = in_vain.session;
   const std::vector<Remedy> remedies = session.found().diagnosis->remedies;
   const int row = row_of(remedies, Remedy::Kind::relax_quality);
   session.execute(AcceptRemedy{row});
@@ -65,15 +78,8 @@ TEST_CASE("a target out of reach is diagnosed, and an offer is accepted") {
 }
 
 TEST_CASE("an object that is taken apart goes on as its largest piece, until Undo") {
-  Document document = new_document(structures::mug());
-  document.requirements.target = 0.99;
-  SessionOptions options;
-  options.effort = 0.02;
-  Observed observed(document, options);
-  EditingSession& session = observed.session;
-  session.execute(FindDesigns{});
-  observed.work(Lane::automatic);
-  REQUIRE(session.found().diagnosis);
+  SearchInVain in_vain(new_document(structures::mug()), 0.99);
+  EditingSession& session = in_vain.session;
   const std::vector<std::string> names = session.space().rest().shape.part_names;
   session.execute(AcceptRemedy{row_of(session.found().diagnosis->remedies, Remedy::Kind::take_apart)});
   CHECK(session.space().rest().shape.part_names == std::vector<std::string>{names[0]});

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "editing/structure/pair_relations.h"
 #include "sessions.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/removal.h"
@@ -29,6 +30,30 @@ std::vector<int> joint_rows(const EditingSession& session, int first, int second
       rows.push_back(static_cast<int>(row));
   }
   return rows;
+}
+
+std::vector<Relation> pairs(const EditingSession& session) {
+  std::vector<Relation> found;
+  for (const Relation& relation : session.space().rest().structure.relations)
+    if (relation.type == RelationType::symmetry) found.push_back(relation);
+  return found;
+}
+
+Eigen::Vector3d skew_normal() {
+  return Eigen::Vector3d(1, 1, 0).normalized();
+}
+
+/// A brick at a signed distance from the plane x + y = 12, along it.
+Shape brick(double distance, double height) {
+  const Eigen::Matrix3d skew = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitZ()).matrix();
+  return solids::named(
+      transformed(solids::box({distance - 0.5, -1, 0}, {distance + 0.5, 1, height}), skew, {6, 6, 0}),
+      distance < 0 ? "left" : "right");
+}
+
+/// A beam that is not symmetric in that plane.
+Shape beam() {
+  return solids::named(solids::box({20, 3, 5}, {29, 4, 7}), "beam");
 }
 
 }  // namespace
@@ -104,23 +129,9 @@ TEST_CASE(
 }
 
 TEST_CASE("mirror images without a plane of the whole are made symmetric in their own") {
-  // Two bricks off a plane x + y = 12, and a beam that has no such plane.
-  const Eigen::Matrix3d skew = Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitZ()).matrix();
-  const Eigen::Vector3d normal = skew * Eigen::Vector3d::UnitX();
-  const auto brick = [&](double x, const char* name) {
-    return solids::named(
-        transformed(solids::box({x - 0.5, -1, 0}, {x + 0.5, 1, 3}), skew, 12 * normal / normal.sum()), name);
-  };
-  Observed observed(new_document(analyse_structure(solids::joined(
-      {brick(-2, "left"), brick(2, "right"), solids::named(solids::box({20, 3, 5}, {29, 4, 7}), "beam")}))));
+  Observed observed(new_document(analyse_structure(solids::joined({brick(-2, 3), brick(2, 3), beam()}))));
   EditingSession& session = observed.session;
-  const auto pairs = [&] {
-    std::vector<Relation> found;
-    for (const Relation& relation : session.space().rest().structure.relations)
-      if (relation.type == RelationType::symmetry) found.push_back(relation);
-    return found;
-  };
-  REQUIRE(pairs().empty());
+  REQUIRE(pairs(session).empty());
   CHECK(mentions(message_of<UsageError>([&] {
                    session.execute(MakeSymmetric{{0, 2}});
                  }),
@@ -128,12 +139,28 @@ TEST_CASE("mirror images without a plane of the whole are made symmetric in thei
   CHECK(mentions(message_of<UsageError>([&] { session.execute(MakeSymmetric{{1, 1}}); }), "itself"));
   CHECK_THROWS_AS(session.execute(MakeSymmetric{{0, 3}}), UsageError);
   session.execute(MakeSymmetric{{1, 0}});
-  REQUIRE(pairs().size() == 1);
-  const Symmetry plane = pairs()[0].symmetry;
-  CHECK(plane.axis.cross(normal).norm() < 1e-9);
-  CHECK(plane.point.dot(normal) == Approx(12 / std::sqrt(2.0)).epsilon(1e-9));
+  REQUIRE(pairs(session).size() == 1);
+  const Symmetry plane = pairs(session)[0].symmetry;
+  CHECK(plane.axis.cross(skew_normal()).norm() < 1e-9);
+  CHECK(plane.point.dot(skew_normal()) == Approx(12 / std::sqrt(2.0)).epsilon(1e-9));
   session.execute(Undo{});
-  CHECK(pairs().empty());
+  CHECK(pairs(session).empty());
+}
+
+TEST_CASE("the residual of a symmetry that is drawn in is a fraction of the whole") {
+  // Bricks that are mirror images but for a hundredth of their heights; the whole is five times as large.
+  // Planes are fitted to samples, so that residuals are alike and not the same.
+  const std::vector<Shape> bricks = {brick(-2, 3), brick(2, 3.03)};
+  const StructuredShape alone = analyse_structure(solids::joined(bricks));
+  const StructuredShape beside = analyse_structure(solids::joined({bricks[0], bricks[1], beam()}));
+  const auto found = std::find_if(
+      alone.structure.relations.begin(), alone.structure.relations.end(), [](const Relation& relation) {
+        return relation.type == RelationType::symmetry && relation.parts.size() == 2;
+      });
+  REQUIRE(found != alone.structure.relations.end());
+  REQUIRE(found->residual > 1e-4);
+  CHECK(symmetry_between(beside, 0, 1).residual * beside.structure.diagonal ==
+        Approx(found->residual * alone.structure.diagonal).epsilon(0.25));
 }
 
 TEST_CASE("an edit is taken from another design, and one that a limit does not allow is refused") {

@@ -49,6 +49,7 @@ struct Stackability {
   double value = 0;       ///< S(M, r), see `value_at`; may be negative; NaN if V(M) = 0
 
   /// Returns the height along r of a stack of `copies` copies, h + (copies - 1) f_max, model units.
+  /// Precondition: copies >= 1.
   double stack_height(int copies) const { return extent + (copies - 1) * f_max; }
   double stack_box_volume() const { return extent * base; }  ///< V(M, r)
   /// Returns S for the translation f, model units: 1 - (f / h) V(M, r) / V(M), Eq. 3; NaN if V(M) = 0.

@@ -40,9 +40,10 @@ class Pair {
       return parts == std::vector<int>{low_, high_} && condition(relation);
     });
   }
-  /// Returns a relation of the two alone as one of the whole shape.
+  /// Returns a relation of the two alone as one of the whole shape. Residuals are fractions of a diagonal.
   Relation in_whole(Relation relation) const {
     for (int& part : relation.parts) part = part == 0 ? low_ : high_;
+    relation.residual *= alone_.structure.diagonal / structured_.structure.diagonal;
     return relation;
   }
 

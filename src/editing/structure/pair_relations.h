@@ -12,9 +12,9 @@ namespace stackabilization::editing {
 std::vector<Relation> joints_between(const StructuredShape& structured, int first, int second);
 
 /// Returns the symmetry of two parts that are mirror images of each other: in a plane of symmetry of the
-/// whole shape where one maps the parts to each other, else in one of both parts alone, which may be three
-/// times as far off as `find_symmetries` allows by default. Throws UsageError when the parts are one, are
-/// symmetric already, or are no mirror images.
+/// whole shape where one maps the parts to each other, else in one of both parts alone. Their surfaces may be
+/// off by 3 % of the diagonal of both (SymmetryOptions::tolerance). Throws UsageError when the parts are one,
+/// are symmetric already, or are no mirror images.
 Relation symmetry_between(const StructuredShape& structured, int first, int second);
 
 }  // namespace stackabilization::editing

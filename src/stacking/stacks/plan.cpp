@@ -23,7 +23,7 @@ StackPlan plan_stack(const Stackability& measured, const StackRequest& wish) {
   const double pitch = measured.f_max;
   const int gaps = wish.copies - 1;
   StackPlan plan;
-  plan.length_now = measured.extent + gaps * pitch;
+  plan.length_now = measured.stack_height(wish.copies);
   plan.met = plan.length_now <= wish.length + slack;
   plan.possible = room >= gaps * wish.clearance - slack;
   if (gaps > 0) {
