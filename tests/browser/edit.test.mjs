@@ -60,7 +60,7 @@ editing('hovering previews, clicking applies, undo goes back', 'table.obj', asyn
   await page.waitForFunction(() => window.editor.state.tree.current === 1);
 });
 
-editing('rolling back to the root and taking another edit makes a branch', 'cup.obj', async (page) => {
+editing('rolling back to the root and taking another edit makes a branch', 'small_cup.obj', async (page) => {
   await suggestionsOf(page);
   await page.locator('.card').first().click();
   await page.waitForFunction(() => window.editor.state.tree.current === 1);
@@ -75,13 +75,13 @@ editing('rolling back to the root and taking another edit makes a branch', 'cup.
   assert.deepEqual(parents, [-1, 0, 0]);
 });
 
-editing('what is exported is what is shown', 'cup.obj', async (page) => {
+editing('what is exported is what is shown', 'small_cup.obj', async (page) => {
   await suggestionsOf(page);
   await page.locator('.card').first().click();
   await page.waitForFunction(() => window.editor.state.tree.current === 1);
   await page.click('#export summary');
   const [download] = await Promise.all([page.waitForEvent('download'), page.click('#export-list a >> nth=0')]);
-  assert.equal(download.suggestedFilename(), 'cup.obj');
+  assert.equal(download.suggestedFilename(), 'small_cup.obj');
   const text = fs.readFileSync(await download.path(), 'utf8');
   const vertices = text.split('\n').filter((line) => line.startsWith('v ')).flatMap((line) => line.split(' ').slice(1, 4).map(Number));
   await page.waitForTimeout(0);
@@ -90,14 +90,14 @@ editing('what is exported is what is shown', 'cup.obj', async (page) => {
   vertices.forEach((value, k) => assert.ok(Math.abs(value - shown[k]) <= 1e-6 * Math.abs(value) + 1e-12));
 });
 
-editing('a report of the design is one page that needs neither editor nor network', 'cup.obj', async (page) => {
+editing('a report of the design is one page that needs neither editor nor network', 'small_cup.obj', async (page) => {
   await suggestionsOf(page);
   await page.locator('.card').first().click();
   await page.waitForFunction(() => window.editor.state.tree.current === 1);
   await page.fill('#copies', '7');
   await page.click('#export summary');
   const [download] = await Promise.all([page.waitForEvent('download'), page.click('#export-list a:has-text("Report")')]);
-  assert.equal(download.suggestedFilename(), 'cup.html');
+  assert.equal(download.suggestedFilename(), 'small_cup.html');
   const file = (await download.path()) + '.html', asked = [], failures = [];
   fs.copyFileSync(await download.path(), file);
   const shown = await page.evaluate(() => window.editor.state.design);
@@ -121,7 +121,7 @@ editing('a report of the design is one page that needs neither editor nor networ
 });
 
 test('an editor that was killed comes back as it was', { timeout: seconds(300) }, async () => {
-  const folder = new Folder('cup.obj');
+  const folder = new Folder('small_cup.obj');
   let editor = await Editor.start(folder);
   try {
     let page = await openPage(browser, editor);
@@ -149,7 +149,7 @@ test('an editor that was killed comes back as it was', { timeout: seconds(300) }
 });
 
 test('a session of another shape is refused', { timeout: seconds(300) }, async () => {
-  const folder = new Folder('cup.obj');
+  const folder = new Folder('small_cup.obj');
   try {
     const editor = await Editor.start(folder);
     const page = await openPage(browser, editor);
@@ -166,7 +166,7 @@ test('a session of another shape is refused', { timeout: seconds(300) }, async (
   }
 });
 
-editing('one page edits, the other looks on until it takes over', 'cup.obj', async (page, editor) => {
+editing('one page edits, the other looks on until it takes over', 'small_cup.obj', async (page, editor) => {
   const other = await openPage(browser, editor);
   await suggestionsOf(other);
   assert.match(await other.textContent('#role'), /looks on/);
@@ -291,7 +291,7 @@ editing('a target is set, designs are found, and one is taken on', 'table.obj', 
   assert.ok(Math.abs((await stackability(page)) - design.stackability) < 1e-6);
 });
 
-editing('a limit is relaxed under Quality', 'cup.obj', async (page) => {
+editing('a limit is relaxed under Quality', 'small_cup.obj', async (page) => {
   await page.click('#tab-quality');
   const box = page.getByLabel('No limit for bending');
   await box.check();
@@ -323,7 +323,7 @@ editing('axe-core finds nothing serious, in any panel, light and dark', 'table.o
   }
 });
 
-editing('everything of a step is done with keys alone', 'cup.obj', async (page) => {
+editing('everything of a step is done with keys alone', 'small_cup.obj', async (page) => {
   await suggestionsOf(page);
   await page.focus('#tab-suggestions');
   await page.keyboard.press('Tab');
@@ -413,7 +413,7 @@ editing('a direction is dragged over the map, and snaps to the best one', 'chair
   await page.waitForFunction(() => window.editor.state.tree.current === 0);
 });
 
-editing('a mesh file that is dropped is opened, and written beside the first one', 'cup.obj', async (page, editor, folder) => {
+editing('a mesh file that is dropped is opened, and written beside the first one', 'small_cup.obj', async (page, editor, folder) => {
   const bytes = fs.readFileSync(path.join(models, 'table.obj'), 'utf8');
   const drop = (name, text) => page.evaluate(({ name, text }) => {
     const files = new DataTransfer();
@@ -425,7 +425,7 @@ editing('a mesh file that is dropped is opened, and written beside the first one
   assert.equal(await page.evaluate(() => window.editor.state.model.parts.length), 12);
   assert.equal(fs.readFileSync(path.join(folder.path, 'my table.obj'), 'utf8'), bytes);
   assert.ok(fs.existsSync(path.join(folder.path, 'my table.obj.session.json')));
-  for (const [name, text, words] of [['bad.obj', 'v 1 2\n', /bad\.obj/], ['cup.obj', bytes, /another file/], ['x.exe', bytes, /x\.exe/], ['empty.obj', '', /empty\.obj/]]) {
+  for (const [name, text, words] of [['bad.obj', 'v 1 2\n', /bad\.obj/], ['small_cup.obj', bytes, /another file/], ['x.exe', bytes, /x\.exe/], ['empty.obj', '', /empty\.obj/]]) {
     await drop(name, text);
     await page.waitForFunction((source) => new RegExp(source).test(document.getElementById('hint').textContent), words.source);
     assert.equal(await page.evaluate(() => window.editor.state.model.name), 'my table.obj');
@@ -470,7 +470,7 @@ editing('two parts that were let go from each other are made symmetric again', '
 });
 
 test('the program ends when the last page leaves', { timeout: seconds(300) }, async () => {
-  const folder = new Folder('cup.obj');
+  const folder = new Folder('small_cup.obj');
   const editor = await Editor.start(folder);
   const page = await openPage(browser, editor);
   await page.close();
