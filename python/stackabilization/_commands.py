@@ -45,7 +45,7 @@ def command_line(command, positionals, options):
     return [command, "--no-timing"] + arguments_of(options) + ["--"] + positionals
 
 
-def run_command(command, mesh, options, progress=None, *, after=None, above=None):
+def run_command(command, mesh, options, progress=None, *, after=None, above=None, more=()):
     """Run a command of the program in this process."""
     inputs = Inputs()
     positionals = [inputs.name_of(mesh, "<mesh>", command)]
@@ -53,6 +53,7 @@ def run_command(command, mesh, options, progress=None, *, after=None, above=None
         positionals.append(inputs.name_of(after, "<after>"))
     if above is not None:
         positionals.append(inputs.name_of(above, "<above>"))
+    positionals += [inputs.name_of(other, f"<mesh {number}>") for number, other in enumerate(more, 2)]
     if options.get("into") is not None:
         options = {**options, "into": inputs.name_of(options["into"], "<into>")}
     if options.get("onto") is not None:
@@ -176,6 +177,24 @@ def drop(mesh, *, onto, place=None, turn=False, corner=None, eps=None, max_cells
                "format": format, "unit": unit, "up": up, "labels": labels, "threads": threads}
     answer = run_command("drop", mesh, options, progress)
     return _results.Drop(answer.document, _table_of(answer.texts["table"]) if map else None)
+
+
+def items(mesh, *more, direction=None, clearance=None, lateral_clearance=None, step=None, copies=None, semantics=None,
+          format=None, unit=None, up=None, labels=None, threads=None):
+    """Make the item table of a load planner: boxes and nesting heights in whole numbers; Items.
+
+    more: further meshes. A path may be that of a folder of meshes.
+    direction: upwards in the stack (default: 0, 0, 1). clearance: air between copies along the direction;
+    lateral_clearance: sideways play that every contact allows. step: length that the whole numbers count (default:
+    '1mm'). All three are model units, or texts such as '2mm'. copies: of each item (default: 1); it stands in the table.
+    semantics: as in `measure`. format, unit, up, labels: how a file is read, see `load`; format and labels are for one
+    mesh. threads: at most so many (default: all).
+    """
+    options = {"direction": direction, "clearance": clearance, "lateral_clearance": lateral_clearance, "step": step,
+               "copies": copies, "semantics": semantics, "format": format, "unit": unit, "up": up, "labels": labels,
+               "threads": threads, "output": "table"}
+    answer = run_command("items", mesh, options, more=more)
+    return _results.Items(answer.document, answer.texts["table"])
 
 
 def validate(mesh, *, direction=None, format=None, unit=None, up=None, labels=None, threads=None):

@@ -4,7 +4,7 @@ from typing import Any, Literal, NamedTuple, overload
 from . import _results
 from ._core import Mesh
 from ._results import (
-    Comparison, Deformation, Drop, Gap, Inspection, Map, Measurement, Nest, Search, Separation, Stack, Structure,
+    Comparison, Deformation, Drop, Gap, Inspection, Items, Map, Measurement, Nest, Search, Separation, Stack, Structure,
     Suggestions, Validation,
 )
 from ._types import (
@@ -27,6 +27,7 @@ def command_line(command: str, positionals: list[str], options: Mapping[str, obj
 def run_command(
     command: str, mesh: MeshLike, options: Mapping[str, object], progress: Progress | None = None, *,
     after: MeshLike | None = None, above: MeshLike | None = None,
+    more: Sequence[MeshLike] = (),
 ) -> Answer: ...
 
 def inspect(
@@ -68,6 +69,13 @@ def gap(
     format: str | None = None, unit: Unit | None = None, up: Up | None = None, labels: Path | None = None,
     threads: int | None = None,
 ) -> Gap: ...
+
+def items(
+    mesh: MeshLike, *more: MeshLike, direction: Vector | None = None, clearance: Length | None = None,
+    lateral_clearance: Length | None = None, step: Length | None = None, copies: int | None = None,
+    semantics: Semantics | None = None, format: str | None = None, unit: Unit | None = None, up: Up | None = None,
+    labels: Path | None = None, threads: int | None = None,
+) -> Items: ...
 
 def drop(
     mesh: MeshLike, *, onto: MeshLike, place: Literal["given", "best"] | None = None, turn: bool = False,

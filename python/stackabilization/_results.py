@@ -439,6 +439,48 @@ class Gap(OfModel):
     witness: Witness | None = field("What touches first.", convert=Witness)
 
 
+class LoadItem(Result):
+    """A mesh as an item of a load planner: lengths in whole numbers of `step`, rounded up."""
+
+    __slots__ = ()
+    _shown = ("length", "width", "height", "nesting_height")
+    model: str = field("Path of the mesh, or a name in angle brackets for one in memory.")
+    unit: str | None = field("Unit of the mesh; None where it is unknown.")
+    findings: Findings = field("What is in the mesh.", convert=Findings)
+    step: float = field("Length that the numbers count, model units.")
+    length: int = field("Longer side of its box across the direction.")
+    width: int = field("Shorter side of that box.")
+    height: int = field("Along the direction.")
+    nesting_height: int = field("How far a copy sinks into the one below: n copies are height + (n - 1) increment high.")
+    increment: int = field("What each further copy adds: height - nesting_height.")
+
+
+def _load_items(documents: Sequence[Document]) -> tuple[LoadItem, ...]:
+    return tuple(LoadItem(document) for document in documents)
+
+
+class Items(Result):
+    """Meshes as the items of a load planner."""
+
+    __slots__ = ("_table",)
+    _table: str
+    _shown = ("items",)
+
+    def __init__(self, document: Document, table: str) -> None:
+        super().__init__(document)
+        object.__setattr__(self, "_table", table)
+
+    command: str = field("Command of the program that says the same.")
+    direction: Floats = field("(3,) as given.", convert=vector)
+    semantics: str = field("'solid' or 'closed'.")
+    items: tuple[LoadItem, ...] = field("One per mesh, in the order given.", convert=_load_items)
+
+    @property
+    def table(self) -> str:
+        """CSV with the columns of PackingSolver's boxstacks, as the program writes it."""
+        return self._table
+
+
 class Drop(OfModel):
     """Where one mesh comes to rest on another."""
 

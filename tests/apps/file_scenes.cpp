@@ -43,6 +43,8 @@ const std::vector<Output>& outputs() {
       {"stack", "--output", ".3mf"},
       {"stack", "--picture", ".png"},
       {"gap", "--json", ".json", {"after.obj"}},
+      {"items", "--json", ".json", {"--unit", "m"}},
+      {"items", "--output", ".csv", {"--unit", "m"}},
       {"drop", "--json", ".json", {"--onto", "after.obj"}},
       {"drop", "--output", ".3mf", {"--onto", "after.obj"}},
       {"drop", "--map", ".csv", {"--onto", "after.obj"}},

@@ -31,5 +31,7 @@ def test_searching_and_editing_say_the_same(model):
     same(st.search(model, cone_degrees=20), "search", model, "--cone-degrees", "20")
     same(st.stack(model, into=str(MODELS[0])), "stack", model, "--into", MODELS[0])
     same(st.gap(model, str(MODELS[0]), direction=(0, 0.1, 1)), "gap", model, MODELS[0], "--direction", "0", "0.1", "1")
+    same(st.items(model, str(MODELS[0]), unit="m", clearance="2mm"), "items", model, MODELS[0], "--unit", "m",
+         "--clearance", "2mm")
     same(st.compare(model, model), "compare", model, model)
     same(st.suggest(model, top=3), "suggest", model, "--top", "3")
