@@ -163,6 +163,24 @@ TEST_CASE("the residual of a symmetry that is drawn in is a fraction of the whol
         Approx(found->residual * alone.structure.diagonal).epsilon(0.25));
 }
 
+TEST_CASE("a symmetry that is drawn in takes the plane of the whole, though the two alone have one nearby") {
+  // The right brick is wider by 0.02, so their own plane is off that of the slab by 0.005.
+  StructuredShape structured =
+      analyse_structure(solids::joined({solids::named(solids::box({-10, -3, 0}, {10, 3, 1}), "slab"),
+                                        solids::named(solids::box({-3, -1, 1}, {-2, 1, 4}), "left"),
+                                        solids::named(solids::box({2, -1, 1}, {3.02, 1, 4}), "right")}));
+  std::erase_if(structured.structure.relations,
+                [](const Relation& relation) { return relation.type == RelationType::symmetry; });
+  const Relation pair = symmetry_between(structured, 1, 2);
+  const auto& planes = structured.structure.symmetries;
+  const auto plane = std::find_if(planes.begin(), planes.end(), [](const Symmetry& symmetry) {
+    return symmetry.kind == SymmetryKind::reflection && std::abs(symmetry.axis.x()) > 0.99;
+  });
+  REQUIRE(plane != planes.end());
+  CHECK(std::abs(pair.symmetry.axis.dot(plane->axis)) == Approx(1).epsilon(1e-12));
+  CHECK(std::abs((pair.symmetry.point - plane->point).dot(plane->axis)) < 1e-9);
+}
+
 TEST_CASE("an edit is taken from another design, and one that a limit does not allow is refused") {
   Observed observed(sessions::table_document());
   EditingSession& session = observed.session;
