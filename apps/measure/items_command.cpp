@@ -61,13 +61,14 @@ std::vector<std::string> meshes_in(const std::string& folder) {
   return found;
 }
 
+bool is_file(const std::string& path, const Caller* caller) {
+  return path != "-" && !(caller && caller->meshes.count(path) > 0);
+}
+
 /// Appends a mesh, or the meshes of a folder.
 void add_meshes(std::vector<std::string>& meshes, const std::string& path, const Caller* caller) {
-  const bool is_file = path != "-" && !(caller && caller->meshes.count(path) > 0);
   std::error_code unknown;
-  if (is_file && !std::filesystem::exists(path, unknown))
-    throw InputError(path + " cannot be read: no such file or folder");
-  if (!is_file || !std::filesystem::is_directory(path, unknown)) {
+  if (!is_file(path, caller) || !std::filesystem::is_directory(path, unknown)) {
     meshes.push_back(path);
     return;
   }
@@ -104,6 +105,9 @@ LoadItem load_item(const ItemsCommandOptions& options, const Model& model, doubl
 
 Item item_of(const ItemsCommandOptions& options, const CommonOptions& common) {
   const Length millimetre = {1, Unit::millimetre, "1mm"};
+  std::error_code unknown;
+  if (is_file(common.model, common.caller) && !std::filesystem::exists(common.model, unknown))
+    throw InputError(common.model + " cannot be read: no such file or folder");
   Item item;
   item.model = load_model(common);
   if (!options.step && item.model.shape.unit == Unit::unknown)
