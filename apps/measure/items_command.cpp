@@ -61,14 +61,11 @@ std::vector<std::string> meshes_in(const std::string& folder) {
   return found;
 }
 
-bool is_file(const std::string& path, const Caller* caller) {
-  return path != "-" && !(caller && caller->meshes.count(path) > 0);
-}
-
 /// Appends a mesh, or the meshes of a folder.
 void add_meshes(std::vector<std::string>& meshes, const std::string& path, const Caller* caller) {
   std::error_code unknown;
-  if (!is_file(path, caller) || !std::filesystem::is_directory(path, unknown)) {
+  const bool is_in_memory = caller && caller->meshes.count(path) > 0;
+  if (path == "-" || is_in_memory || !std::filesystem::is_directory(path, unknown)) {
     meshes.push_back(path);
     return;
   }
@@ -87,7 +84,18 @@ std::vector<std::string> meshes_of(const ItemsCommandOptions& options) {
   return meshes;
 }
 
-LoadItem load_item(const ItemsCommandOptions& options, const Model& model, double step) {
+/// Throws InputError for what a planner cannot count: a sheet seen edge-on, or one whose copies add no
+/// height.
+void check_extents(const LoadItem& numbers, const Model& model) {
+  if (numbers.width == 0)
+    throw InputError(display_name(model) +
+                     ": seen along the direction it has no area, and an item needs some");
+  if (numbers.increment == 0)
+    throw InputError(display_name(model) +
+                     ": further copies add no height, for it is a sheet: give its thickness as --clearance");
+}
+
+LoadItem measured_item(const ItemsCommandOptions& options, const Model& model, double step) {
   const Unit unit = model.shape.unit;
   StackabilityOptions measure;
   measure.semantics = options.semantics;
@@ -97,7 +105,7 @@ LoadItem load_item(const ItemsCommandOptions& options, const Model& model, doubl
   const Direction direction(options.direction.value_or(Eigen::Vector3d::UnitZ()));
   const StackabilitySolver solver = named(model, [&] { return StackabilitySolver(model.shape, measure); });
   try {
-    return stackabilization::load_item(solver, direction, step);
+    return load_item(solver, direction, step);
   } catch (const UsageError& error) {
     throw UsageError("--step: " + display_name(model) + ": " + error.what());
   }
@@ -105,16 +113,14 @@ LoadItem load_item(const ItemsCommandOptions& options, const Model& model, doubl
 
 Item item_of(const ItemsCommandOptions& options, const CommonOptions& common) {
   const Length millimetre = {1, Unit::millimetre, "1mm"};
-  std::error_code unknown;
-  if (is_file(common.model, common.caller) && !std::filesystem::exists(common.model, unknown))
-    throw InputError(common.model + " cannot be read: no such file or folder");
   Item item;
   item.model = load_model(common);
   if (!options.step && item.model.shape.unit == Unit::unknown)
     throw UsageError(display_name(item.model) +
                      " is in an unknown unit: say it with --unit, or a whole unit of the table with --step");
   item.step = options.step.value_or(millimetre).in(item.model.shape.unit);
-  item.numbers = load_item(options, item.model, item.step);
+  item.numbers = measured_item(options, item.model, item.step);
+  check_extents(item.numbers, item.model);
   return item;
 }
 

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "apps/run_program.h"
 #include "support/catch.h"
 #include "support/solids.h"
@@ -47,6 +49,24 @@ TEST_CASE("a whole unit of the item table is a millimetre of each mesh") {
   CHECK(items[1]["height"] == 3000);
 }
 
+TEST_CASE("items are measured along the direction given, with air and play as stacks are") {
+  const ItemsFolder folder;
+  const auto item = [&](const std::string& path, const Arguments& options) {
+    return run_program(joined({"items", path, "--step", "0.5", "--json", "-"}, options)).json()["items"][0];
+  };
+  const json lying = item(folder.brick, {"--direction", "1", "0", "0"});
+  CHECK(lying["length"] == 6);
+  CHECK(lying["width"] == 3);
+  CHECK(lying["height"] == 4);
+  for (const Arguments& options : {Arguments{"--clearance", "0.7"}, Arguments{"--lateral-clearance", "0.1"},
+                                   Arguments{"--direction", "0.3", "0", "1"}}) {
+    const json stack = run_program(joined({"stack", folder.cup, "--json", "-"}, options)).json();
+    const double increment = stack["nesting_increment"].get<double>();
+    CHECK(item(folder.cup, options)["increment"] == static_cast<int>(std::ceil(increment / 0.5 - 1e-9)));
+    CHECK(item(folder.cup, options)["increment"] > item(folder.cup, {})["increment"]);
+  }
+}
+
 TEST_CASE("an item table is refused where its numbers would have no meaning, and nothing is written") {
   const ItemsFolder folder;
   check_refused(folder, {"items", folder.cup, "-o", folder / "items.csv"}, 2, "--unit");
@@ -57,7 +77,11 @@ TEST_CASE("an item table is refused where its numbers would have no meaning, and
   check_refused(folder, {"items", folder.other, "--unit", "m"}, 3, "notes.txt");
   check_refused(folder, {"items", "-", "-", "--unit", "m"}, 2, "standard input once");
   check_refused(folder, {"items", folder.path(), "--unit", "m", "-o", folder.cup}, 2, "would replace");
-  check_refused(folder, {"items", folder / "missing/", "--unit", "m"}, 3, "no such file or folder");
+  const std::string sheet = folder.model("sheet.obj", solids::box({0, 0, 0}, {2, 3, 0}));
+  check_refused(folder, {"items", sheet, "--unit", "m"}, 3, "give its thickness as --clearance");
+  check_refused(folder, {"items", sheet, "--unit", "m", "--direction", "1", "0", "0"}, 3, "no area");
+  CHECK(run_program({"items", sheet, "--unit", "m", "--clearance", "2mm"}).status == 0);
+  std::filesystem::remove(sheet);
   std::filesystem::create_directory(folder / "empty");
   check_refused(folder, {"items", folder / "empty", "--unit", "m"}, 3, "expected a folder with meshes");
   std::filesystem::copy_file(folder.cup, folder / "odd\xff.obj");
