@@ -37,11 +37,15 @@ struct EditCommandOptions {
   bool fresh = false, keep_open = false, no_browser = false;
 };
 
+std::string session_file_of(const std::string& model) {
+  return model + ".session.json";
+}
+
 std::filesystem::path session_file(const EditCommandOptions& options) {
   if (options.study) return {};
   if (options.session) return *options.session;
   if (options.common.model == "-") return {};
-  return options.common.model + ".session.json";
+  return session_file_of(options.common.model);
 }
 
 /// A hash of a file, so that a session is not gone on with for another shape.
@@ -59,15 +63,16 @@ std::string stem_of(const std::string& name) {
   return name.substr(0, name.find('.'));
 }
 
-/// What was saved of MODEL; nothing if there is no such file. Throws UsageError if it is of another shape.
-std::optional<editing::Document> saved_document(const EditCommandOptions& options) {
-  const std::filesystem::path file = session_file(options);
+/// What was saved in `file` of the mesh file `model` with this source; nothing if there is no such file.
+/// Throws UsageError, with what to do, if it is of another shape.
+std::optional<editing::Document> saved_document(const std::filesystem::path& file, const std::string& model,
+                                                const std::string& source, const StackabilityOptions& measure,
+                                                const std::string& remedy) {
   std::error_code error;
-  if (options.fresh || file.empty() || !std::filesystem::exists(file, error)) return std::nullopt;
-  editing::Document document = editing::document_of_text(read_file(file), file.string(), options.measure);
-  if (document.source != source_of(options))
-    throw UsageError(options.common.model + " is not the file that " + file.string() +
-                     " was made of: --fresh begins anew, --session names another file");
+  if (file.empty() || !std::filesystem::exists(file, error)) return std::nullopt;
+  editing::Document document = editing::document_of_text(read_file(file), file.string(), measure);
+  if (document.source != source)
+    throw UsageError(model + " is not the file that " + file.string() + " was made of: " + remedy);
   return document;
 }
 
@@ -108,18 +113,18 @@ DroppedModel dropped_model(const EditCommandOptions& options, const std::string&
                                            : std::filesystem::path(options.common.model).parent_path();
   const std::filesystem::path file = folder / name;
   std::error_code error;
-  if (std::filesystem::exists(file, error) && read_file(file) != bytes)
-    throw UsageError(file.string() + " exists and is another file");
-  DroppedModel dropped{{}, name, stem_of(name), file.string() + ".session.json"};
-  if (std::filesystem::exists(dropped.autosave, error)) {
-    dropped.document =
-        editing::document_of_text(read_file(dropped.autosave), dropped.autosave.string(), options.measure);
-    if (dropped.document.source == source_of_bytes(bytes)) return dropped;
+  const bool exists = std::filesystem::exists(file, error);
+  if (exists && read_file(file) != bytes) throw UsageError(file.string() + " exists and is another file");
+  DroppedModel dropped{{}, name, stem_of(name), session_file_of(file.string())};
+  const std::string source = source_of_bytes(bytes);
+  if (auto saved = saved_document(dropped.autosave, name, source, options.measure, "move one of them away")) {
+    dropped.document = std::move(*saved);
+  } else {
+    const Shape shape = read_shape(bytes, format_of_extension(name), name);
+    dropped.document = editing::new_document(analyse_structure(shape, options_of_designs()), options.measure);
+    dropped.document.source = source;
   }
-  const Shape shape = read_shape(bytes, format_of_extension(name), name);
-  dropped.document = editing::new_document(analyse_structure(shape, options_of_designs()), options.measure);
-  dropped.document.source = source_of_bytes(bytes);
-  write_file_atomically(file, bytes);
+  if (!exists) write_file_atomically(file, bytes);
   return dropped;
 }
 
@@ -221,7 +226,10 @@ int run_edit_command(const CLI::App& command, const EditCommandOptions& options)
   check_outputs(options.common, files);
   if (options.study) return run_study(options);
   const ThreadLimit limit(options.common);
-  std::optional<editing::Document> document = saved_document(options);
+  std::optional<editing::Document> document;
+  if (!options.fresh)
+    document = saved_document(autosave, options.common.model, source_of(options), options.measure,
+                              "--fresh begins anew, --session names another file");
   RoomOptions room_options;
   room_options.resumed = document.has_value();
   if (!document) document = fresh_document(command, options);

@@ -48,6 +48,10 @@ export class Folder {
     else fs.copyFileSync(path.join(models, model), this.model);
   }
   get session() { return this.model + '.session.json'; }
+  /** @returns {Record<string, string>} all files, by their names */
+  contents() {
+    return Object.fromEntries(fs.readdirSync(this.path).sort().map((name) => [name, fs.readFileSync(path.join(this.path, name), 'latin1')]));
+  }
   remove() { fs.rmSync(this.path, { recursive: true, force: true }); }
 }
 

@@ -1,6 +1,8 @@
 // What the server refuses, and that nothing of it harms a session.
 import assert from 'node:assert/strict';
+import fs from 'node:fs';
 import http from 'node:http';
+import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { Editor, Folder } from './editor.mjs';
 
@@ -123,4 +125,31 @@ test('a flood of commands ends the page, not the program', async () => {
   for (let k = 0; k < 20_000; ++k) page.send('{"do": "target", "value": 0.5}');
   await page.closed;
   assert.equal((await ask(address.pathname)).status, 200);
+});
+
+test('a dropped file replaces no file, and no session of another shape', async () => {
+  const cube = ['o cube', ...[0, 1].flatMap((x) => [0, 1].flatMap((y) => [0, 1].map((z) => `v ${x} ${y} ${z}`))),
+    'f 1 3 4 2', 'f 5 6 8 7', 'f 1 2 6 5', 'f 3 7 8 4', 'f 1 5 7 3', 'f 2 4 8 6', ''].join('\n');
+  const drop = (name, body) =>
+    ask(`${address.pathname}open?name=${encodeURIComponent(name)}`, { method: 'POST', headers: { Origin: address.origin }, body });
+  const refused = async (name, body, words) => {
+    const before = folder.contents();
+    const reply = await drop(name, body);
+    assert.equal(reply.status, 422, name);
+    assert.match(reply.body, words);
+    assert.deepEqual(folder.contents(), before, name);
+  };
+  for (const name of ['', '.hidden.obj', '../cube.obj', 'a/b.obj', 'a\\b.obj', 'a\0.obj']) await refused(name, cube, /no name of a mesh file/);
+  await refused('cube.txt', cube, /cube\.txt/);
+  await refused('broken.obj', 'v 1 x\n', /expected the y coordinate/);
+  await refused('cup.obj', cube, /exists and is another file/);
+
+  fs.renameSync(folder.session, path.join(folder.path, 'cube.obj.session.json'));
+  await refused('cube.obj', cube, /is not the file that .*cube\.obj\.session\.json was made of: move one of them away/);
+  fs.writeFileSync(path.join(folder.path, 'cube.obj.session.json'), 'notes of a person');
+  await refused('cube.obj', cube, /cube\.obj\.session\.json/);
+  fs.rmSync(path.join(folder.path, 'cube.obj.session.json'));
+
+  assert.equal((await drop('cube.obj', cube)).status, 200);
+  assert.equal(folder.contents()['cube.obj'], cube);
 });
