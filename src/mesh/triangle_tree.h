@@ -5,8 +5,10 @@
 #include <CGAL/AABB_triangle_primitive.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <boost/iterator/function_output_iterator.hpp>
 #include <boost/variant.hpp>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -45,6 +47,7 @@ class TriangleTree {
                               to_cgal<Kernel>(shape.corner(t, 2)));
     tree_.insert(triangles_.cbegin(), triangles_.cend());
     tree_.build();
+    if (!triangles_.empty()) reach_ = power_of_two(box());
   }
   TriangleTree(const TriangleTree&) = delete;
   TriangleTree& operator=(const TriangleTree&) = delete;
@@ -64,7 +67,8 @@ class TriangleTree {
   }
 
   /// Returns the first intersection of a ray with a triangle. Returns nothing when there is none, or when the
-  /// first triangle is parallel to the ray.
+  /// first triangle is parallel to the ray. Precondition, also of the next two: the length of `direction` is
+  /// about 1.
   std::optional<TreePoint> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
     const auto hit = tree_.first_intersection(ray(origin, direction));
     if (!hit) return std::nullopt;
@@ -101,8 +105,17 @@ class TriangleTree {
   using Entry = typename std::vector<Triangle>::const_iterator;
   using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Entry>>>;
 
-  static typename Kernel::Ray_3 ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
-    return {to_cgal<Kernel>(origin), typename Kernel::Vector_3(direction.x(), direction.y(), direction.z())};
+  /// A ray of CGAL is two points. They are apart by about the largest coordinate, so that rounding the second
+  /// one turns no ray, whatever the unit of the shape.
+  typename Kernel::Ray_3 ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
+    const Eigen::Vector3d second = origin + reach_ * direction;
+    return {to_cgal<Kernel>(origin), to_cgal<Kernel>(second)};
+  }
+  /// The power of two at or below the largest coordinate of the box; 1 if all are 0.
+  static double power_of_two(const CGAL::Bbox_3& box) {
+    double largest = 0;
+    for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.min(k)), std::abs(box.max(k))});
+    return largest > 0 ? std::exp2(std::ilogb(largest)) : 1;
   }
   std::size_t entry(const Entry& triangle) const {
     return static_cast<std::size_t>(triangle - triangles_.cbegin());
@@ -121,6 +134,7 @@ class TriangleTree {
   std::vector<std::int32_t> rows_;
   std::vector<Triangle> triangles_;  ///< one per entry of `rows_`
   Tree tree_;
+  double reach_ = 1;  ///< see `ray`
 };
 
 }  // namespace stackabilization::detail

@@ -69,6 +69,26 @@ TEST_CASE("rays from inside of a convex body leave it once, rays from outside me
   }
 }
 
+TEST_CASE("rays meet a shape of any size as they meet it scaled, to the bit") {
+  const Shape box = solids::box({-1, -2, -3}, {1, 2, 3});
+  const Tree tree(box, all_rows(box));
+  for (const int exponent : {-120, -40, 40, 120}) {
+    const double scale = std::exp2(exponent);
+    Shape scaled = box;
+    scaled.vertices *= scale;
+    const Tree scaled_tree(scaled, all_rows(scaled));
+    std::mt19937 random(7);
+    for (int i = 0; i < 50; ++i) {
+      const Eigen::Vector3d p = random_point(random, 4), direction = random_point(random, 1).normalized();
+      CHECK(scaled_tree.count_hits(scale * p, direction) == tree.count_hits(p, direction));
+      CHECK(scaled_tree.is_hit(scale * p, direction) == tree.is_hit(p, direction));
+      const auto hit = tree.first_hit(p, direction), scaled_hit = scaled_tree.first_hit(scale * p, direction);
+      REQUIRE(scaled_hit.has_value() == hit.has_value());
+      if (hit) CHECK(scaled_hit->point == scale * hit->point);
+    }
+  }
+}
+
 TEST_CASE("only the rows that were given are in the tree, under their numbers") {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   const Shape box = solids::box({1, 1, 1});
