@@ -169,8 +169,12 @@ std::string items_text(const std::vector<Item>& items, const std::string& step) 
       cells.push_back(std::to_string(number));
     table.add(std::move(cells));
   }
-  return "Lengths are whole numbers of " + step + ", rounded so that no stack is higher than planned.\n" +
-         table.text();
+  std::string text = "Lengths are whole numbers of " + step +
+                     ", rounded so that no stack is higher than planned.\n" + table.text();
+  for (const Item& item : items)
+    if (item.model.findings.likely_unit)
+      text += title_of(item.model) + ": " + brief(item.model.findings) + "\n";
+  return text;
 }
 
 int run_items_command(const CLI::App& command, const ItemsCommandOptions& options) {

@@ -67,6 +67,19 @@ TEST_CASE("items are measured along the direction given, with air and play as st
   }
 }
 
+TEST_CASE("sizes that no object has are questioned below the item table") {
+  const ItemsFolder folder;
+  const auto text = [&](const std::string& unit) {
+    return run_program({"items", folder.cup, folder.brick, "--unit", unit}).out;
+  };
+  const auto has = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  CHECK(has(text("mm"), ", an unlikely size: are these numbers "));
+  CHECK(has(text("mm"), "\nb,rick.obj: "));
+  CHECK_FALSE(has(text("m"), "unlikely"));
+}
+
 TEST_CASE("an item table is refused where its numbers would have no meaning, and nothing is written") {
   const ItemsFolder folder;
   check_refused(folder, {"items", folder.cup, "-o", folder / "items.csv"}, 2, "--unit");
