@@ -21,13 +21,17 @@ GUARD_SECONDS = 20 * CPU_SECONDS  # of the clock, for what waits for ever
 ADDRESS_SPACE = 6 << 30
 SUFFIXES = {".obj", ".off", ".ply", ".stl", ".3mf", ".glb", ".gltf"}
 FOLDERS = ("STACKABILIZATION_PAPER_DATA", "STACKABILIZATION_CORPORA")
-# OUT stands for a name in an empty folder.
+# OUT stands for a name in an empty folder, MODEL for the mesh once more.
 COMMANDS = [
     ["inspect", "--self-intersections"],
     ["measure", "--direction", "0.3", "-0.2", "1"],
-    ["search", "--cone-degrees", "10"],
+    ["search", "--cone-degrees", "10", "--certify", "0.05", "--max-cells", "100"],
     ["map", "--step-degrees", "30", "-o", "OUT.csv"],
     ["stack", "-n", "3", "-o", "OUT.obj"],
+    ["gap", "MODEL", "--direction", "0.3", "-0.2", "1"],
+    ["drop", "--onto", "MODEL", "--place", "best", "--max-cells", "300", "-o", "OUT.stl"],
+    ["items", "--step", "0.01", "-o", "OUT.csv"],
+    ["compare", "MODEL"],
     ["validate"],
     ["structure", "--save", "OUT.json"],
     ["deform", "--edit", "shape scale 1.1", "-o", "OUT.ply"],
@@ -96,7 +100,8 @@ def main():
         for command in COMMANDS:
             with tempfile.TemporaryDirectory() as folder:
                 result = Path(folder) / "result.json"
-                options = [word.replace("OUT", f"{folder}/out") for word in command[1:]]
+                options = [str(path) if word == "MODEL" else word.replace("OUT", f"{folder}/out")
+                           for word in command[1:]]
                 line = [program, command[0], str(path), *options, "--threads", "1", "--quiet", "--json", str(result)]
                 if wrong := complaint(line, result):
                     offenders += 1
