@@ -12,7 +12,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr double grid = 0x1p24;  ///< steps along the diagonal
+constexpr double step = 0x1p-24;  ///< of coordinates, fraction of the diagonal
 
 /// Third moments of the surface along the axes, its triangles shrunk to their centres.
 Eigen::Vector3d skewness(const Shape& part) {
@@ -27,7 +27,7 @@ Eigen::Vector3d skewness(const Shape& part) {
 }  // namespace
 
 CanonicalPose canonical_pose(const Shape& part, const OrientedBox& box) {
-  CanonicalPose pose{.part = {}, .centre = box.centre, .axes = {}};
+  CanonicalPose pose{.part = {}, .centre = box.centre, .axes = {}, .diagonal = 2 * box.half_extents.norm()};
   const std::array<int, 3> order = axes_by_length(box);
   for (int k = 0; k < 3; ++k) pose.axes.col(k) = box.axes.col(order[static_cast<std::size_t>(k)]);
   const Eigen::Vector3d skew =
@@ -36,8 +36,7 @@ CanonicalPose canonical_pose(const Shape& part, const OrientedBox& box) {
     if (skew(k) < 0) pose.axes.col(k) *= -1;
 
   pose.part = transformed(part, pose.axes.transpose(), -pose.axes.transpose() * box.centre);
-  const double step = 2 * box.half_extents.norm() / grid;
-  pose.part.vertices = (pose.part.vertices / step).array().round() * step;
+  pose.part.vertices = (pose.part.vertices / (step * pose.diagonal)).array().round() * step;
   const bool mirrored = pose.axes.determinant() < 0;
   for (auto triangle : pose.part.triangles.rowwise()) {
     std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());

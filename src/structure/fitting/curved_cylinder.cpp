@@ -188,23 +188,24 @@ class Fit {
     const auto count = static_cast<Eigen::Index>(ring.points.size());
     if (count < min_samples) return Eigen::RowVector3d::Zero();
     const Frame frame = frame_of(Direction(tangent(i).transpose()));
+    double radius = 0;
+    for (const double distance : ring.distances) radius += distance / static_cast<double>(count);
+    if (!(radius > 0)) return Eigen::RowVector3d::Zero();
     Eigen::MatrixX3d rows(count, 3);
     Eigen::VectorXd right(count);
-    double radius = 0;
     for (Eigen::Index k = 0; k < count; ++k) {
       const auto at = static_cast<std::size_t>(k);
       const Eigen::Vector2d place =
-          frame.to_local((ring.points[at] - curve_.points.row(i)).transpose()).head<2>();
+          frame.to_local((ring.points[at] - curve_.points.row(i)).transpose()).head<2>() / radius;
       const double weight = std::sqrt(ring.weights[at]);
       rows.row(k) << weight * place.x(), weight * place.y(), weight;
       right(k) = weight * place.squaredNorm() / 2;
-      radius += ring.distances[at] / static_cast<double>(count);
     }
     const Eigen::Vector3d solution = rows.completeOrthogonalDecomposition().solve(right);
     Eigen::Vector2d centre = solution.head<2>();
     if (!centre.allFinite()) return Eigen::RowVector3d::Zero();
-    if (centre.norm() > radius) centre *= radius / centre.norm();
-    return (frame.u * centre.x() + frame.v * centre.y()).transpose();
+    if (centre.norm() > 1) centre.normalize();
+    return radius * (frame.u * centre.x() + frame.v * centre.y()).transpose();
   }
 
   Eigen::RowVector3d tangent(Eigen::Index i) const {

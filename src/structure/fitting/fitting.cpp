@@ -91,7 +91,7 @@ class CylinderFit {
       if (best_) best_->note += ", for its skeleton is no single curve";
       return;
     }
-    curve->points = (curve->points * pose.axes.transpose()).rowwise() + pose.centre.transpose();
+    curve->points = pose.to_model(curve->points);
     offer(detail::curved_cylinder(part_, *curve, sections_), closed->wrapped ? wrapped_curve : other_curve,
           closed->wrapped ? "along the curve skeleton of a surface wrapped around it"
                           : "along its curve skeleton");

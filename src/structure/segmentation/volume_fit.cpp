@@ -213,23 +213,31 @@ double VolumeFit::revolution(const Eigen::Matrix3d& frame) const {
   if (side.size() < 3) return none;
   const Circle circle = circle_through(side, weights);
   if (!(circle.squared_radius < none)) return none;
-  const auto local = [&](const Eigen::Vector3d& p) {
-    Eigen::Vector3d q = frame.transpose() * p;
-    q.head<2>() -= circle.centre;
-    return q;
+  // Heights are from -half to half.
+  const Range range = span(frame.col(2));
+  const double half = (range.high - range.low) / 2;
+  const Eigen::Vector3d origin(circle.centre.x(), circle.centre.y(), (range.low + range.high) / 2);
+  const auto local = [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return frame.transpose() * p - origin;
   };
 
-  const Range range = span(frame.col(2));
-  Revolution solid{Eigen::Vector3d::Zero(), range.low, range.high};
+  // Solved for multiples of `half`: the equations mix powers of it, and their rank must not depend on the
+  // unit.
+  Revolution solid{Eigen::Vector3d::Zero(), -half, half};
+  const double unit = half > 0 ? half : 1;
   Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const Chord* c : chords_) {
     if (std::abs(c->normal.dot(frame.col(2))) > side_cosine) continue;
-    const Eigen::Vector3d wall = local(outer_end(*c)), row(1, wall.z(), wall.z() * wall.z());
+    const Eigen::Vector3d wall = local(outer_end(*c));
+    const double z = wall.z() / unit;
+    const Eigen::Vector3d row(1, z, z * z);
     normal += c->area * row * row.transpose();
     right += c->area * row * wall.head<2>().squaredNorm();
   }
   solid.profile = Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d>(normal).solve(right);
+  solid.profile(1) /= unit;
+  solid.profile(2) /= unit * unit;
   double sum = 0;
   for (const Chord* c : chords_) {
     const Eigen::Vector3d p = local(c->start), n = frame.transpose() * c->normal;

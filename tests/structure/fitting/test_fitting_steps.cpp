@@ -131,20 +131,21 @@ TEST_CASE("axes of equal length keep their order whatever rounding says") {
   CHECK(axes_by_length(box) == std::array<int, 3>{2, 0, 1});
 }
 
-TEST_CASE("copies of a part are equal in their canonical pose, mirrored ones too") {
+TEST_CASE("copies of a part are equal in their canonical pose, mirrored ones and those in other units too") {
   Shape part = solids::stairs({});
   part.vertices.col(1).array() *= 1 + 0.1 * part.vertices.col(0).array();  // no symmetry left
   const CanonicalPose pose = canonical_pose(part, part_box(FitSurface(part)).box);
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     Eigen::Matrix3d linear = solids::random_rotation(seed);
     if (seed % 2 == 0) linear.col(0) *= -1;
-    Shape copy = transformed(part, linear, {1, -2, 3});
+    const double unit = std::pow(1000.0, static_cast<double>(seed) - 2);
+    Shape copy = transformed(part, unit * linear, {1, -2, 3});
     if (seed % 2 == 0) copy.triangles.col(1).swap(copy.triangles.col(2));  // turned outward again
     const CanonicalPose again = canonical_pose(copy, part_box(FitSurface(copy)).box);
     CHECK((pose.part.vertices - again.part.vertices).norm() == Approx(0).margin(1e-6));
     CHECK(pose.part.triangles == again.part.triangles);
-    const Points back = (again.part.vertices * again.axes.transpose()).rowwise() + again.centre.transpose();
-    CHECK((back - copy.vertices).rowwise().norm().maxCoeff() < 1e-6);
+    const Points back = again.to_model(again.part.vertices);
+    CHECK((back - copy.vertices).rowwise().norm().maxCoeff() < 1e-6 * again.diagonal);
   }
 }
 
