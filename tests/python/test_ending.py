@@ -101,7 +101,8 @@ def test_two_searches_at_once_find_the_same():
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
 def test_a_fork_measures_and_leaves_the_computation_of_its_parent_alone():
     assert ended(f"""
-        import os, numpy, stackabilization as st
+        import os, numpy, warnings, stackabilization as st
+        warnings.simplefilter("ignore", DeprecationWarning)  # of Python 3.12 and newer, of any fork beside threads
         solver, rows = st.Solver({CHAIR!r}), numpy.random.default_rng(1).normal(size=(2000, 3))
         expected = solver.measure_many(rows).f_max
         designs = st.improve({CHAIR!r}, target=0.99, effort=1000)
