@@ -4,6 +4,8 @@
 #include <atomic>
 #include <charconv>
 #include <future>
+#include <map>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -37,6 +39,13 @@ struct Export {
   const char* ending;
   const char* type;
   std::optional<Format> format;  ///< none: the project or the page
+};
+
+/// Commands of one page that the session has not obeyed yet. Those of a page that floods are dropped, so that
+/// the others need not wait for them.
+struct Backlog {
+  std::atomic<int> waiting = 0;
+  std::atomic<bool> floods = false;
 };
 
 /// Returns the number in a query "copies=...", for the heights of stacks; 10 without a query.
@@ -91,7 +100,7 @@ class EditingRoom::Implementation {
       : options_(std::move(options)),
         server_(web, {[this](WebRequest request, auto reply) { answer(std::move(request), reply); },
                       [this](PageId page) { post([this, page] { opened(page); }); },
-                      [this](PageId page) { post([this, page] { closed(page); }); },
+                      [this](PageId page) { left(page); },
                       [this](PageId page, std::string text) { received(page, std::move(text)); }}) {
     auto session = std::make_unique<EditingSession>(std::move(document), options_.session,
                                                     [this](const Event& event) { tell(event); });
@@ -117,17 +126,28 @@ class EditingRoom::Implementation {
   // From here on: the thread of the server.
 
   void received(PageId page, std::string text) {
-    if (++waiting_ > max_waiting_commands) {
-      --waiting_;
+    std::shared_ptr<Backlog>& backlog = backlogs_[page];
+    if (!backlog) backlog = std::make_shared<Backlog>();
+    if (backlog->floods) return;
+    if (backlog->waiting >= max_waiting_commands) {
+      backlog->floods = true;
       return server_.close(page, "too many commands");
     }
+    ++backlog->waiting;
     const bool drag = text.find("\"drag\"") != std::string::npos;
-    const auto counted = std::shared_ptr<void>(nullptr, [this](void*) { --waiting_; });
-    const auto task = [this, page, text = std::move(text), counted](EditingSession&) { obey(page, text); };
+    const auto counted = std::shared_ptr<void>(nullptr, [backlog](void*) { --backlog->waiting; });
+    const auto task = [this, page, text = std::move(text), backlog, counted](EditingSession&) {
+      if (!backlog->floods) obey(page, text);
+    };
     if (drag)
       loop_->post_drag(task);
     else
       loop_->post(task);
+  }
+
+  void left(PageId page) {
+    backlogs_.erase(page);
+    post([this, page] { closed(page); });
   }
 
   void answer(WebRequest request, const std::function<void(WebReply)>& reply) {
@@ -328,7 +348,7 @@ class EditingRoom::Implementation {
   std::vector<PageId> pages_;
   std::optional<PageId> writer_;
   std::uint32_t stamp_ = 0;
-  std::atomic<int> waiting_ = 0;
+  std::map<PageId, std::shared_ptr<Backlog>> backlogs_;  ///< of the thread of the server
   WebServer server_;
   EditingSession* session_ = nullptr;  ///< of the loop
   std::optional<CommandLoop> loop_;    ///< last: its threads use everything above

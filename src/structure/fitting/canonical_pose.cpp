@@ -12,7 +12,7 @@ namespace stackabilization::detail {
 
 namespace {
 
-constexpr double step = 0x1p-24;  ///< of coordinates, fraction of the diagonal
+constexpr double grid = 0x1p24;  ///< steps along the diagonal
 
 /// Third moments of the surface along the axes, its triangles shrunk to their centres.
 Eigen::Vector3d skewness(const Shape& part) {
@@ -36,7 +36,7 @@ CanonicalPose canonical_pose(const Shape& part, const OrientedBox& box) {
     if (skew(k) < 0) pose.axes.col(k) *= -1;
 
   pose.part = transformed(part, pose.axes.transpose(), -pose.axes.transpose() * box.centre);
-  pose.part.vertices = (pose.part.vertices / (step * pose.diagonal)).array().round() * step;
+  pose.part.vertices = (pose.part.vertices / (pose.diagonal / grid)).array().round() / grid;
   const bool mirrored = pose.axes.determinant() < 0;
   for (auto triangle : pose.part.triangles.rowwise()) {
     std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
