@@ -15,6 +15,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/fingerprint.h"
 #include "stackabilization/core/part_names.h"
+#include "stackabilization/core/text.h"
 #include "stackabilization/improvement/removal.h"
 #include "stackabilization/io/format.h"
 #include "stackabilization/io/read.h"
@@ -107,7 +108,7 @@ DroppedModel dropped_model(const EditCommandOptions& options, const std::string&
                            const std::string& bytes) {
   if (name.empty() || name.size() > 200 || name.front() == '.' ||
       name.find_first_of(std::string("/\\\0", 3)) != std::string::npos)
-    throw UsageError("'" + name + "' is no name of a mesh file");
+    throw UsageError(in_quotes(name) + " is no name of a mesh file");
   const std::filesystem::path folder = options.common.model == "-"
                                            ? std::filesystem::path(".")
                                            : std::filesystem::path(options.common.model).parent_path();

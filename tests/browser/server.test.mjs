@@ -132,19 +132,20 @@ test('a dropped file replaces no file, and no session of another shape', async (
     'f 1 3 4 2', 'f 5 6 8 7', 'f 1 2 6 5', 'f 3 7 8 4', 'f 1 5 7 3', 'f 2 4 8 6', ''].join('\n');
   const drop = (name, body) =>
     ask(`${address.pathname}open?name=${encodeURIComponent(name)}`, { method: 'POST', headers: { Origin: address.origin }, body });
+  const others = () => ({ ...folder.contents(), 'cup.obj.session.json': 'may be saved at any time' });
   const refused = async (name, body, words) => {
-    const before = folder.contents();
+    const before = others();
     const reply = await drop(name, body);
     assert.equal(reply.status, 422, name);
     assert.match(reply.body, words);
-    assert.deepEqual(folder.contents(), before, name);
+    assert.deepEqual(others(), before, name);
   };
   for (const name of ['', '.hidden.obj', '../cube.obj', 'a/b.obj', 'a\\b.obj', 'a\0.obj']) await refused(name, cube, /no name of a mesh file/);
   await refused('cube.txt', cube, /cube\.txt/);
   await refused('broken.obj', 'v 1 x\n', /expected the y coordinate/);
   await refused('cup.obj', cube, /exists and is another file/);
 
-  fs.renameSync(folder.session, path.join(folder.path, 'cube.obj.session.json'));
+  fs.copyFileSync(folder.session, path.join(folder.path, 'cube.obj.session.json'));
   await refused('cube.obj', cube, /is not the file that .*cube\.obj\.session\.json was made of: move one of them away/);
   fs.writeFileSync(path.join(folder.path, 'cube.obj.session.json'), 'notes of a person');
   await refused('cube.obj', cube, /cube\.obj\.session\.json/);

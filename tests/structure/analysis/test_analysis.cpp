@@ -1,9 +1,12 @@
 #include <tbb/global_control.h>
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <map>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/io/read.h"
 #include "stackabilization/structure/analysis.h"
 #include "stackabilization/structure/project_file.h"
 #include "structure/analysis/symmetrize.h"
@@ -105,6 +108,33 @@ TEST_CASE("kinds can be forced, for all symmetric parts alike") {
   CHECK_THROWS_AS(analyse_structure(solids::table({}), options), UsageError);
   options.kinds = {{"arm", PrimitiveKind::cuboid}};
   CHECK_THROWS_AS(analyse_structure(solids::table({}), options), UsageError);
+}
+
+TEST_CASE("a structure scales with the shape, to the bit") {
+  for (const std::string model : {"armchair", "mug_with_handle"}) {
+    const Shape shape =
+        read_shape(std::filesystem::path(STACKABILIZATION_SOURCE_DIR) / "data/models" / (model + ".obj"));
+    const Structure expected = analyse_structure(shape).structure;
+    for (const int exponent : {-10, 10}) {  // metres as kilometres, and nearly as millimetres
+      Shape scaled = shape;
+      scaled.vertices *= std::exp2(exponent);
+      const Structure found = analyse_structure(scaled).structure;
+      REQUIRE(found.parts.size() == expected.parts.size());
+      for (std::size_t p = 0; p < found.parts.size(); ++p) {
+        REQUIRE(found.parts[p].primitive.index() == expected.parts[p].primitive.index());
+        CHECK(control_points(found.parts[p].primitive) ==
+              std::exp2(exponent) * control_points(expected.parts[p].primitive));
+      }
+      REQUIRE(found.relations.size() == expected.relations.size());
+      for (std::size_t k = 0; k < found.relations.size(); ++k) {
+        const Relation &one = found.relations[k], &other = expected.relations[k];
+        CHECK(one.type == other.type);
+        CHECK(one.parts == other.parts);
+        CHECK(one.residual == other.residual);
+        CHECK(one.points == std::exp2(exponent) * other.points);
+      }
+    }
+  }
 }
 
 TEST_CASE("the same structure comes out for any number of threads") {

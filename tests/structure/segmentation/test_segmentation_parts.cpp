@@ -12,6 +12,9 @@
 #include "stackabilization/io/read.h"
 #include "stackabilization/mesh/boxes.h"
 #include "stackabilization/structure/segmentation.h"
+#include "structure/segmentation/chords.h"
+#include "structure/segmentation/surface_graph.h"
+#include "structure/segmentation/volume_fit.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/variants.h"
@@ -180,6 +183,28 @@ TEST_CASE("parts do not depend on pose, scale, or the order of the triangles") {
   }
   const Shape inside_out = cut(solids::flipped(truth));
   CHECK(partition(inside_out.triangle_part) == partition(truth.triangle_part));
+}
+
+TEST_CASE("the error of a volume scales with the shape, to the bit") {
+  solids::Polygon profile;  // a paraboloid that stands off the origin
+  for (int k = 0; k <= 12; ++k) profile.push_back({std::sqrt(k / 3.0), 5 + 0.5 * k});
+  profile.push_back({0, 11});
+  const auto error = [](const Shape& shape) {
+    const detail::SurfaceGraph graph = detail::surface_graph(shape);
+    const std::vector<std::int32_t> patch(static_cast<std::size_t>(graph.size()), 0);
+    const std::vector<detail::Chord> found = detail::chords(shape, graph, patch, 400);
+    std::vector<std::int32_t> all(found.size());
+    std::iota(all.begin(), all.end(), 0);
+    return detail::volume_error(found, all);
+  };
+  const Shape solid = solids::surface_of_revolution(profile, 24);
+  const double expected = error(solid);
+  CHECK(expected > 0);
+  for (const int exponent : {-40, -10, 10, 40}) {
+    Shape scaled = solid;
+    scaled.vertices *= std::exp2(exponent);
+    CHECK(error(scaled) == std::exp2(4 * exponent) * expected);  // area times squared length
+  }
 }
 
 TEST_CASE("the shape diameter tells thick from thin") {
