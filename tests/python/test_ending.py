@@ -23,7 +23,11 @@ def started(code):
 
 def ended(code):
     with started(code) as process:
-        out, errors = process.communicate(timeout=200)
+        try:
+            out, errors = process.communicate(timeout=200)
+        except subprocess.TimeoutExpired:
+            process.kill()  # leaving `with` would wait for it
+            raise
     return process.returncode, out, errors
 
 
