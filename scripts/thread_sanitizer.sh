@@ -4,9 +4,9 @@
 # ONETBB_SOURCE is a folder with the sources of oneTBB, for instance of `apt-get source onetbb`. The library of the
 # system is not built with the sanitizer, which then takes what its scheduler hands from thread to thread for races.
 set -euo pipefail
+source=${1:+$(realpath -m -- "$1")}
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-source=${1:-}
 if [[ ! -f $source/CMakeLists.txt || ! -f $source/include/oneapi/tbb/version.h ]]; then
   echo "scripts/thread_sanitizer.sh: expected a folder with the sources of oneTBB, found '$source'" >&2
   exit 2
