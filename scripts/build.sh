@@ -14,11 +14,8 @@ jobs=$(nproc)
 with_tests=ON
 [[ "$*" == stackabilize || "$*" == "stackabilize stackabilization_python" ]] && with_tests=OFF
 options=(-DSTACKABILIZATION_BUILD_TESTS=$with_tests -DSTACKABILIZATION_BUILD_EXPERIMENTS=$with_tests)
-if command -v ccache >/dev/null; then
-  options+=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
-fi
-cmake --preset release "${options[@]}"
+source scripts/compiler_cache.sh
+cmake --preset release "${options[@]}" "${cache_options[@]}"
 targets=()
 (($# > 0)) && targets=(--target "$@")
 cmake --build --preset release --parallel "$jobs" "${targets[@]}"

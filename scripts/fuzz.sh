@@ -11,12 +11,8 @@ if ! [[ $seconds =~ ^[1-9][0-9]*$ ]]; then
   exit 2
 fi
 
-options=()
-if command -v ccache >/dev/null; then
-  options+=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
-  export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
-fi
-cmake --preset fuzz "${options[@]}" >/dev/null
+source scripts/compiler_cache.sh
+cmake --preset fuzz "${cache_options[@]}" >/dev/null
 cmake --build --preset fuzz
 
 programs=build/fuzz/tests/fuzz

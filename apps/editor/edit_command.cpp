@@ -64,16 +64,23 @@ std::string stem_of(const std::string& name) {
   return name.substr(0, name.find('.'));
 }
 
-/// What was saved in `file` of the mesh file `model` with this source; nothing if there is no such file.
-/// Throws UsageError, with what to do, if it is of another shape.
-std::optional<editing::Document> saved_document(const std::filesystem::path& file, const std::string& model,
-                                                const std::string& source, const StackabilityOptions& measure,
-                                                const std::string& remedy) {
+/// Where the session of a mesh file is saved.
+struct SessionPlace {
+  std::filesystem::path file;  ///< of the session
+  std::string model, source;   ///< name of the mesh file, and the hash of what it holds now
+  std::string remedy;          ///< for a person whose session was made of another file
+};
+
+/// Returns the session that was saved; nothing if there is no such file. Throws UsageError with the remedy if
+/// it was made of another file.
+std::optional<editing::Document> saved_document(const SessionPlace& place,
+                                                const StackabilityOptions& measure) {
   std::error_code error;
-  if (file.empty() || !std::filesystem::exists(file, error)) return std::nullopt;
-  editing::Document document = editing::document_of_text(read_file(file), file.string(), measure);
-  if (document.source != source)
-    throw UsageError(model + " is not the file that " + file.string() + " was made of: " + remedy);
+  if (place.file.empty() || !std::filesystem::exists(place.file, error)) return std::nullopt;
+  const std::string name = place.file.string();
+  editing::Document document = editing::document_of_text(read_file(place.file), name, measure);
+  if (document.source != place.source)
+    throw UsageError(place.model + " is not the file that " + name + " was made of: " + place.remedy);
   return document;
 }
 
@@ -118,7 +125,8 @@ DroppedModel dropped_model(const EditCommandOptions& options, const std::string&
   if (exists && read_file(file) != bytes) throw UsageError(file.string() + " exists and is another file");
   DroppedModel dropped{{}, name, stem_of(name), session_file_of(file.string())};
   const std::string source = source_of_bytes(bytes);
-  if (auto saved = saved_document(dropped.autosave, name, source, options.measure, "move one of them away")) {
+  if (auto saved =
+          saved_document({dropped.autosave, name, source, "move one of them away"}, options.measure)) {
     dropped.document = std::move(*saved);
   } else {
     const Shape shape = read_shape(bytes, format_of_extension(name), name);
@@ -229,8 +237,9 @@ int run_edit_command(const CLI::App& command, const EditCommandOptions& options)
   const ThreadLimit limit(options.common);
   std::optional<editing::Document> document;
   if (!options.fresh)
-    document = saved_document(autosave, options.common.model, source_of(options), options.measure,
-                              "--fresh begins anew, --session names another file");
+    document = saved_document({autosave, options.common.model, source_of(options),
+                               "--fresh begins anew, --session names another file"},
+                              options.measure);
   RoomOptions room_options;
   room_options.resumed = document.has_value();
   if (!document) document = fresh_document(command, options);

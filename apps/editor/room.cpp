@@ -99,8 +99,7 @@ class EditingRoom::Implementation {
   Implementation(Document document, RoomOptions options, WebOptions web)
       : options_(std::move(options)),
         server_(web, {[this](WebRequest request, auto reply) { answer(std::move(request), reply); },
-                      [this](PageId page) { post([this, page] { opened(page); }); },
-                      [this](PageId page) { left(page); },
+                      [this](PageId page) { arrived(page); }, [this](PageId page) { left(page); },
                       [this](PageId page, std::string text) { received(page, std::move(text)); }}) {
     auto session = std::make_unique<EditingSession>(std::move(document), options_.session,
                                                     [this](const Event& event) { tell(event); });
@@ -125,10 +124,20 @@ class EditingRoom::Implementation {
 
   // From here on: the thread of the server.
 
+  void arrived(PageId page) {
+    backlogs_[page] = std::make_shared<Backlog>();
+    post([this, page] { opened(page); });
+  }
+
+  void left(PageId page) {
+    backlogs_.erase(page);
+    post([this, page] { closed(page); });
+  }
+
   void received(PageId page, std::string text) {
-    std::shared_ptr<Backlog>& backlog = backlogs_[page];
-    if (!backlog) backlog = std::make_shared<Backlog>();
-    if (backlog->floods) return;
+    const auto found = backlogs_.find(page);
+    if (found == backlogs_.end() || found->second->floods) return;
+    const std::shared_ptr<Backlog> backlog = found->second;
     if (backlog->waiting >= max_waiting_commands) {
       backlog->floods = true;
       return server_.close(page, "too many commands");
@@ -143,11 +152,6 @@ class EditingRoom::Implementation {
       loop_->post_drag(task);
     else
       loop_->post(task);
-  }
-
-  void left(PageId page) {
-    backlogs_.erase(page);
-    post([this, page] { closed(page); });
   }
 
   void answer(WebRequest request, const std::function<void(WebReply)>& reply) {

@@ -32,7 +32,8 @@ struct TreePoint {
 };
 
 /// Triangles of a shape in CGAL's AABB tree. No other code of this library builds one. Results are as exact
-/// as the predicates of the kernel. Safe to share between threads once built.
+/// as the predicates of the kernel. Safe to share between threads once built. Directions of rays have a
+/// length of about 1.
 template <class Kernel>
 class TriangleTree {
  public:
@@ -47,7 +48,7 @@ class TriangleTree {
                               to_cgal<Kernel>(shape.corner(t, 2)));
     tree_.insert(triangles_.cbegin(), triangles_.cend());
     tree_.build();
-    if (!triangles_.empty()) reach_ = power_of_two(box());
+    if (!triangles_.empty()) ray_length_ = magnitude(box());
   }
   TriangleTree(const TriangleTree&) = delete;
   TriangleTree& operator=(const TriangleTree&) = delete;
@@ -67,8 +68,7 @@ class TriangleTree {
   }
 
   /// Returns the first intersection of a ray with a triangle. Returns nothing when there is none, or when the
-  /// first triangle is parallel to the ray. Precondition, also of the next two: the length of `direction` is
-  /// about 1.
+  /// first triangle is parallel to the ray.
   std::optional<TreePoint> first_hit(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
     const auto hit = tree_.first_intersection(ray(origin, direction));
     if (!hit) return std::nullopt;
@@ -108,11 +108,11 @@ class TriangleTree {
   /// A ray of CGAL is two points. They are apart by about the largest coordinate, so that rounding the second
   /// one turns no ray, whatever the unit of the shape.
   typename Kernel::Ray_3 ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) const {
-    const Eigen::Vector3d second = origin + reach_ * direction;
+    const Eigen::Vector3d second = origin + ray_length_ * direction;
     return {to_cgal<Kernel>(origin), to_cgal<Kernel>(second)};
   }
-  /// The power of two at or below the largest coordinate of the box; 1 if all are 0.
-  static double power_of_two(const CGAL::Bbox_3& box) {
+  /// The largest absolute coordinate of the box, rounded down to a power of two; 1 if all are 0.
+  static double magnitude(const CGAL::Bbox_3& box) {
     double largest = 0;
     for (int k = 0; k < 3; ++k) largest = std::max({largest, std::abs(box.min(k)), std::abs(box.max(k))});
     return largest > 0 ? std::exp2(std::ilogb(largest)) : 1;
@@ -134,7 +134,7 @@ class TriangleTree {
   std::vector<std::int32_t> rows_;
   std::vector<Triangle> triangles_;  ///< one per entry of `rows_`
   Tree tree_;
-  double reach_ = 1;  ///< see `ray`
+  double ray_length_ = 1;  ///< distance of the two points of a ray, model units
 };
 
 }  // namespace stackabilization::detail

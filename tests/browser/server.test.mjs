@@ -120,11 +120,18 @@ test('a page that vanishes in the middle of a drag leaves the design as it was',
   again.close();
 });
 
-test('a flood of commands ends the page, not the program', async () => {
-  const page = await socket();
-  for (let k = 0; k < 20_000; ++k) page.send('{"do": "target", "value": 0.5}');
+test('a flood of commands ends the page, not the program, and others need not wait for it', async () => {
+  const page = await socket(), other = await socket();
+  await other.next((message) => message.type === 'tree');
+  for (let k = 0; k < 20_000; ++k) page.send(`{"do": "target", "value": ${(k + 1) / 40_000}}`);
   await page.closed;
   assert.equal((await ask(address.pathname)).status, 200);
+  other.send('{"do": "write"}');
+  other.send('{"do": "target", "value": 0.75}');
+  await other.next((message) => message.type === 'wishes' && message.target === 0.75);
+  const obeyed = other.messages.filter((message) => message.type === 'wishes').length;
+  assert.ok(obeyed < 1000, `${obeyed} commands of the flood were obeyed, which had 1000 waiting when it was closed`);
+  other.close();
 });
 
 test('a dropped file replaces no file, and no session of another shape', async () => {

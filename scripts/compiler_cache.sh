@@ -1,0 +1,7 @@
+# To be sourced in the root of the project: sets cache_options, what cmake needs to compile through ccache. None where
+# that is not installed.
+cache_options=()
+if command -v ccache >/dev/null; then
+  cache_options=(-DCMAKE_C_COMPILER_LAUNCHER=ccache -DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+fi
