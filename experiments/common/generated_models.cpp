@@ -39,6 +39,20 @@ class Boxes {
   Shape shape_;
 };
 
+/// The triangles of a grid of points in rows of `columns`, each cell cut in two. `closed`: each row goes on
+/// from its last point to its first.
+Triangles grid_faces(int rows, int columns, bool closed) {
+  const int cells = closed ? columns : columns - 1;
+  Triangles faces(2 * (rows - 1) * cells, 3);
+  for (int i = 0; i + 1 < rows; ++i)
+    for (int j = 0; j < cells; ++j) {
+      const int a = i * columns + j, b = i * columns + (j + 1) % columns;
+      faces.row(2 * (i * cells + j)) << a, b, b + columns;
+      faces.row(2 * (i * cells + j) + 1) << a, b + columns, a + columns;
+    }
+  return faces;
+}
+
 }  // namespace
 
 Shape wavy_cup(int triangles) {
@@ -67,6 +81,29 @@ Shape wavy_cup(int triangles) {
       faces.row(2 * (row + j) + 1) << row + j, next + right, next + j;
     }
   return make_shape(vertices, faces);
+}
+
+Shape bumpy_bowl(int triangles) {
+  const int cells = static_cast<int>(std::sqrt(triangles / 2.0)), corners = cells + 1;
+  Points points(corners * corners, 3);
+  for (int i = 0; i < corners; ++i)
+    for (int j = 0; j < corners; ++j) {
+      const double x = 2.0 * i / cells - 1, y = 2.0 * j / cells - 1;
+      points.row(i * corners + j) << x, y, 0.6 * (x * x + y * y) + 0.02 * std::sin(40 * x) * std::cos(37 * y);
+    }
+  return make_shape(points, grid_faces(corners, corners, false));
+}
+
+Shape oval_tube(int triangles) {
+  constexpr int rings = 11;
+  const int columns = std::max(3, triangles / (2 * (rings - 1)));
+  Points points(rings * columns, 3);
+  for (int i = 0; i < rings; ++i)
+    for (int j = 0; j < columns; ++j) {
+      const double angle = 2 * std::numbers::pi * j / columns;
+      points.row(i * columns + j) << std::cos(angle), 0.7 * std::sin(angle), 0.1 * i;
+    }
+  return make_shape(points, grid_faces(rings, columns, true));
 }
 
 Shape rack(int count) {

@@ -5,7 +5,9 @@
 //
 // Triangles: a thin-walled cup with a wavy wall, from 1,000 triangles doubling up to N, on one thread: the
 // tree, and one more direction as an interval and as a rational number, over evenly spread directions, and
-// along the axis of the cup, where its whole wall slides into itself (medians). Directions: the best of 100,
+// along the axis of the cup, where its whole wall slides into itself (medians). Sheets, of as many triangles:
+// a bumpy bowl without thickness, along z and aslant, where every triangle touches its copy and its
+// neighbours, and an upright tube, whose walls slide over their whole length. Directions: the best of 100,
 // 200 ... evenly spread ones, and beside them the search with sample spacings that try as many. Parts: a rack
 // of 4, 8 ... N bars between two posts: analysis of its structure, and one more direction. Threads: one
 // direction search on 1, 2 ... threads.
@@ -85,12 +87,14 @@ class Scaling {
     {
       const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
       against_triangles();
+      against_triangles_of_sheets();
       against_directions();
       against_parts();
     }
     against_threads();
     add_exponents();
     plot("triangles", "Cost of the exact separation, wavy cup, one thread");
+    plot("triangles of a sheet", "Cost of the exact separation, sheets, one thread");
     plot("directions", "Cost of the best direction, wavy cup, one thread");
     plot("parts", "Cost of a rack with more and more parts, one thread");
     plot("threads", "Search of the best direction on several threads");
@@ -121,6 +125,20 @@ class Scaling {
                    }));
       add_quantity("one direction, rational", timed_each(lattice_, exact));
       add_quantity("along the axis, rational", timed_each({5, Direction(0, 0, 1)}, exact));
+    }
+  }
+
+  void against_triangles_of_sheets() {
+    for (int triangles = 1024; triangles <= settings_.max_triangles; triangles *= 2) {
+      const auto add_query = [&](const std::string& quantity, const Shape& shape, const Direction& r) {
+        const SeparationTree tree(shape);
+        add("triangles of a sheet", quantity, shape.triangle_count(),
+            timed([&] { return separation(tree, tree, r).length; }));
+      };
+      const Shape bowl = bumpy_bowl(triangles);
+      add_query("bowl, along z", bowl, Direction(0, 0, 1));
+      add_query("bowl, aslant", bowl, Direction(0.3, -0.2, 1));
+      add_query("tube, along z", oval_tube(triangles), Direction(0, 0, 1));
     }
   }
 

@@ -40,3 +40,15 @@ TEST_CASE("a wavy cup is closed and has about as many triangles as asked for") {
     CHECK(findings.boundary_edges == 0);
   }
 }
+
+TEST_CASE("sheets have about as many triangles as asked for, and borders") {
+  for (const int triangles : {1000, 4096, 20000})
+    for (Shape (*const make)(int) : {bumpy_bowl, oval_tube}) {
+      const Shape sheet = make(triangles);
+      CHECK(static_cast<double>(sheet.triangle_count()) == Approx(triangles).epsilon(0.05));
+      const Findings findings = inspect(sheet);
+      CHECK_FALSE(findings.closed);
+      CHECK(findings.boundary_edges > 0);
+      CHECK(findings.degenerate_faces == 0);
+    }
+}

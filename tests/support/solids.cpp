@@ -308,6 +308,24 @@ Shape torus(const Torus& options) {
   return surface_of_revolution(profile, options.ring_segments);
 }
 
+Shape bumpy_bowl(int cells) {
+  const int corners = cells + 1;
+  Points points(corners * corners, 3);
+  Triangles triangles(2 * cells * cells, 3);
+  for (int i = 0; i < corners; ++i)
+    for (int j = 0; j < corners; ++j) {
+      const double x = -1 + 2.0 * i / cells, y = -1 + 2.0 * j / cells;
+      points.row(i * corners + j) << x, y, 0.6 * (x * x + y * y) + 0.02 * std::sin(40 * x) * std::cos(37 * y);
+    }
+  for (int i = 0; i < cells; ++i)
+    for (int j = 0; j < cells; ++j) {
+      const int a = i * corners + j, b = a + corners;
+      triangles.row(2 * (i * cells + j)) << a, b, b + 1;
+      triangles.row(2 * (i * cells + j) + 1) << a, b + 1, a + 1;
+    }
+  return make_shape(points, triangles);
+}
+
 Shape sphere(double radius, int levels) {
   const double g = std::numbers::phi;
   Points points(12, 3);

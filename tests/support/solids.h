@@ -133,6 +133,11 @@ Shape torus(const Torus& options);
 /// any diameter between corners.
 Shape sphere(double radius, int levels);
 
+/// An open sheet without thickness, z = 0.6 (x^2 + y^2) + 0.02 sin 40x cos 37y over [-1, 1]^2, each of the
+/// cells x cells squares cut in two. Over any line along (0.3, -0.2, 1) or z it has one point at most, so
+/// that f_max is 0 and every triangle touches its copy and its neighbours.
+Shape bumpy_bowl(int cells);
+
 /// Parts "top", "leg_1" .. "leg_4": square top of `width`, vertical square legs flush with its corners. f_max
 /// along z is the whole height.
 struct Table {

@@ -72,7 +72,7 @@ struct SeparationOptions {
   /// Limit of the number of pairs in the queue of the best-first search (32 bytes each). When the queue is
   /// full, further pairs are examined depth first, with no more than some hundred pairs beside the queue. The
   /// value stays the same; of several witnesses, another one may be returned.
-  std::int64_t max_queue = std::int64_t{1} << 20;
+  std::int64_t max_queue = std::int64_t{1} << 13;
 };
 
 /// Bounding-volume tree of the triangles of a shape. Built once in O(m log m), and queried for any number of

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -34,6 +35,49 @@ struct IntegerTriangle {
   std::array<mpz_class, 3> x, y, h;
 };
 
+/// Projects triangles along r, in integers that have one scale for all of them.
+class IntegerProjection {
+ public:
+  IntegerProjection(std::initializer_list<const TreeTriangle*> triangles, const Shear& shear)
+      : shear_(shear) {
+    constexpr int none = std::numeric_limits<int>::max();
+    int r_exponent = none;
+    point_exponent_ = none;
+    for (const TreeTriangle* triangle : triangles)
+      for (const auto& corner : triangle->corners)
+        for (const double coordinate : corner)
+          point_exponent_ = std::min(point_exponent_, lowest_exponent(coordinate));
+    if (point_exponent_ == none) point_exponent_ = 0;
+    for (int axis = 0; axis < 3; ++axis) r_exponent = std::min(r_exponent, lowest_exponent(shear.r[axis]));
+    rk_ = scaled_integer(std::abs(shear.r[shear.k]), r_exponent);
+    ri_ = scaled_integer(shear.r[shear.i], r_exponent);
+    rj_ = scaled_integer(shear.r[shear.j], r_exponent);
+  }
+
+  IntegerTriangle operator()(const TreeTriangle& source) const {
+    IntegerTriangle result;
+    for (int c = 0; c < 3; ++c) {
+      const auto& corner = source.corners[c];
+      result.h[c] = scaled_integer(shear_.sign * corner[shear_.k], point_exponent_);
+      result.x[c] = scaled_integer(corner[shear_.i], point_exponent_) * rk_ - result.h[c] * ri_;
+      result.y[c] = scaled_integer(corner[shear_.j], point_exponent_) * rk_ - result.h[c] * rj_;
+    }
+    return result;
+  }
+
+  /// Heights are integers times two to this power.
+  int point_exponent() const { return point_exponent_; }
+
+ private:
+  const Shear& shear_;
+  int point_exponent_;
+  mpz_class ri_, rj_, rk_;
+};
+
+mpz_class orientation(const IntegerTriangle& a, int p, int q, const IntegerTriangle& b, int s) {
+  return (a.x[q] - a.x[p]) * (b.y[s] - a.y[p]) - (a.y[q] - a.y[p]) * (b.x[s] - a.x[p]);
+}
+
 /// A point of a triangle: weights / denominator over the corners.
 struct Weights {
   std::array<mpz_class, 3> corner;
@@ -62,19 +106,10 @@ class ExactPair {
  public:
   ExactPair(const TreeTriangle& upper, const TreeTriangle& lower, const Shear& shear)
       : upper_source_(upper), lower_source_(lower), shear_(shear) {
-    int point_exponent = std::numeric_limits<int>::max(), r_exponent = point_exponent;
-    for (const TreeTriangle* triangle : {&upper, &lower})
-      for (const auto& corner : triangle->corners)
-        for (const double coordinate : corner)
-          point_exponent = std::min(point_exponent, lowest_exponent(coordinate));
-    for (int axis = 0; axis < 3; ++axis) r_exponent = std::min(r_exponent, lowest_exponent(shear.r[axis]));
-    if (point_exponent == std::numeric_limits<int>::max()) point_exponent = 0;
-    point_exponent_ = point_exponent;
-    const mpz_class rk = scaled_integer(std::abs(shear.r[shear.k]), r_exponent);
-    const mpz_class ri = scaled_integer(shear.r[shear.i], r_exponent);
-    const mpz_class rj = scaled_integer(shear.r[shear.j], r_exponent);
-    project(upper, rk, ri, rj, upper_);
-    project(lower, rk, ri, rj, lower_);
+    const IntegerProjection projection({&upper, &lower}, shear);
+    point_exponent_ = projection.point_exponent();
+    upper_ = projection(upper);
+    lower_ = projection(lower);
     compute_sides(upper_, lower_, of_upper_edges_, upper_area_);
     compute_sides(lower_, upper_, of_lower_edges_, lower_area_);
   }
@@ -107,20 +142,6 @@ class ExactPair {
 
  private:
   using IntegerSides = std::array<std::array<mpz_class, 3>, 3>;
-
-  void project(const TreeTriangle& source, const mpz_class& rk, const mpz_class& ri, const mpz_class& rj,
-               IntegerTriangle& result) const {
-    for (int c = 0; c < 3; ++c) {
-      const auto& corner = source.corners[c];
-      result.h[c] = scaled_integer(shear_.sign * corner[shear_.k], point_exponent_);
-      result.x[c] = scaled_integer(corner[shear_.i], point_exponent_) * rk - result.h[c] * ri;
-      result.y[c] = scaled_integer(corner[shear_.j], point_exponent_) * rk - result.h[c] * rj;
-    }
-  }
-
-  static mpz_class orientation(const IntegerTriangle& a, int p, int q, const IntegerTriangle& b, int s) {
-    return (a.x[q] - a.x[p]) * (b.y[s] - a.y[p]) - (a.y[q] - a.y[p]) * (b.x[s] - a.x[p]);
-  }
 
   static void compute_sides(const IntegerTriangle& base, const IntegerTriangle& other, IntegerSides& sides,
                             mpz_class& area) {
@@ -249,6 +270,11 @@ std::optional<Rational> exact_maximum(const TreeTriangle& upper, const TreeTrian
   ExactPair pair(upper, lower, shear);
   if (!pair.maximise(semantics)) return std::nullopt;
   return pair.value();
+}
+
+bool is_edge_on(const TreeTriangle& triangle, const Shear& shear) {
+  const IntegerTriangle seen = IntegerProjection({&triangle}, shear)(triangle);
+  return sgn(orientation(seen, 0, 1, seen, 2)) == 0;
 }
 
 ExactPoints exact_points(const TreeTriangle& upper, const TreeTriangle& lower, const Shear& shear,

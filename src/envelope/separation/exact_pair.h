@@ -13,6 +13,9 @@ namespace stackabilization::detail {
 std::optional<Rational> exact_maximum(const TreeTriangle& upper, const TreeTriangle& lower,
                                       const Shear& shear, ContactSemantics semantics);
 
+/// Returns whether the triangle projects to a segment or a point, in rational arithmetic.
+bool is_edge_on(const TreeTriangle& triangle, const Shear& shear);
+
 /// The points that attain that maximum, each exact coordinate rounded to the nearest double.
 struct ExactPoints {
   Eigen::Vector3d upper, lower;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "envelope/separation/edge_on_triangles.h"
 #include "envelope/separation/exact_pair.h"
 #include "envelope/separation/node_pair.h"
 #include "envelope/separation/separation_tree.h"
@@ -55,7 +56,9 @@ class SeparationQuery {
         scale_(std::abs(projection_.shear.r[projection_.shear.k])),
         node_bound_(std::max(upper.magnitude, lower.magnitude)),
         upper_nodes_(upper.nodes),
-        lower_nodes_(&upper == &lower ? no_nodes : lower.nodes) {
+        lower_nodes_(&upper == &lower ? no_nodes : lower.nodes),
+        upper_edge_on_(upper.triangles, projection_),
+        lower_edge_on_(lower.triangles, projection_) {
     max_queue_ = static_cast<std::size_t>(std::max(options.max_queue, std::int64_t{0}));
     if (options.abandon_above) abandon_above_ = *options.abandon_above * scale_;
     push(bounded(0, 0));
@@ -137,6 +140,8 @@ class SeparationQuery {
     return &upper_ == &lower_ ? upper_node(index) : lower_nodes_.get(index, projection_);
   }
 
+  EdgeOnTriangles& lower_edge_on() { return &upper_ == &lower_ ? upper_edge_on_ : lower_edge_on_; }
+
   /// The pair of nodes with its bound: -inf where nothing above the cut is in it.
   Task bounded(std::int32_t a, std::int32_t b) {
     return {node_bound_(upper_node(a), lower_node(b), cut_), a, b, false};
@@ -203,6 +208,9 @@ class SeparationQuery {
       for (std::int32_t b = 0; b < lower.count; ++b) {
         const PairBounds bounds = bound_pair(upper_triangle, lower_triangles[b], projection_, cut_);
         if (!(bounds.low <= floor_)) raise_floor(bounds.low, false);
+        if (hopeless(bounds.high) || upper_edge_on_.contains(a, upper_triangle) ||
+            lower_edge_on().contains(lower.first + b, lower_triangles[b]))
+          continue;
         push({bounds.high, a, lower.first + b, true});
       }
     }
@@ -236,6 +244,7 @@ class SeparationQuery {
   std::vector<Task> excess_;  ///< what it had no room for; the last is next, so what is below it waits
   SeparationWork work_;
   ProjectedNodes upper_nodes_, lower_nodes_;  ///< the second is empty where both shapes are one
+  EdgeOnTriangles upper_edge_on_, lower_edge_on_;
   std::optional<Rational> best_;
   std::int32_t best_upper_ = -1, best_lower_ = -1;  ///< in tree order
 };

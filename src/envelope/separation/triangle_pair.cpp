@@ -13,6 +13,7 @@ constexpr double underflow = std::numeric_limits<double>::min();
 struct Approximate {
   double value, error;
 
+  bool is_zero() const { return value == 0 && error == 0; }
   bool certainly_positive() const { return value > error; }
   bool certainly_negative() const { return value < -error; }
   bool certainly_not_negative() const { return value >= error; }
@@ -40,40 +41,64 @@ inline Approximate orientation(double px, double py, double qx, double qy, doubl
   return {ax * by - ay * bx, rounding + input};
 }
 
+/// For each corner of one triangle, the corner of another one that is the same point; -1 where there is none.
+using Shared = std::array<int, 3>;
+
+Shared shared_corners(const ProjectedTriangle& of, const ProjectedTriangle& with) {
+  Shared shared{-1, -1, -1};
+  for (int v = 0; v < 3; ++v)
+    for (int w = 0; w < 3; ++w)
+      if (of.h[v] == with.h[w] && of.source->corners[v] == with.source->corners[w]) shared[v] = w;
+  return shared;
+}
+
 /// side[e][v]: on which side of edge e of `base` corner v of `other` lies; positive inside.
 using Sides = std::array<std::array<Approximate, 3>, 3>;
 
-Sides sides(const ProjectedTriangle& base, const ProjectedTriangle& other, const Projection& projection) {
-  const double sign = base.area < 0 ? -1 : 1;
-  Sides result;
-  for (int e = 0; e < 3; ++e) {
-    const int p = (e + 1) % 3, q = (e + 2) % 3;
-    for (int v = 0; v < 3; ++v) {
-      result[e][v] =
-          orientation(base.x[p], base.y[p], base.x[q], base.y[q], other.x[v], other.y[v], projection);
-      result[e][v].value *= sign;
-    }
-  }
-  return result;
-}
+/// Separating-edge test: do two triangles have common columns, as far as the filter can tell?
+class Overlap {
+ public:
+  explicit Overlap(const Projection& projection) : projection_(projection) {}
 
-/// Separating-edge test: do the two have common columns, as far as the filter can tell?
-struct Overlap {
-  bool excluded = false;
-  bool certain = true;
-
-  void take(const Sides& sides, ContactSemantics semantics) {
-    const bool solid = semantics == ContactSemantics::solid;
-    for (const auto& edge : sides) {
-      bool all_outside = true, some_inside = false;
-      for (const Approximate& side : edge) {
-        all_outside = all_outside && (solid ? side.certainly_not_positive() : side.certainly_negative());
-        some_inside = some_inside || (solid ? side.certainly_positive() : side.certainly_not_negative());
+  /// Computes the sides of the edges of `base`, until one of them separates the two. `shared`: the corners of
+  /// `other` that are corners of `base`; an end of an edge is exactly on its line.
+  Sides sides(const ProjectedTriangle& base, const ProjectedTriangle& other, const Shared& shared) {
+    const double sign = base.area < 0 ? -1 : 1;
+    Sides result;
+    for (int e = 0; e < 3 && !excluded_; ++e) {
+      const int p = (e + 1) % 3, q = (e + 2) % 3;
+      for (int v = 0; v < 3; ++v) {
+        if (shared[v] == p || shared[v] == q) {
+          result[e][v] = {0, 0};
+          continue;
+        }
+        result[e][v] =
+            orientation(base.x[p], base.y[p], base.x[q], base.y[q], other.x[v], other.y[v], projection_);
+        result[e][v].value *= sign;
       }
-      excluded = excluded || all_outside;
-      certain = certain && some_inside;
+      take(result[e]);
     }
+    return result;
   }
+
+  bool excluded() const { return excluded_; }
+  bool certain() const { return certain_; }
+
+ private:
+  void take(const std::array<Approximate, 3>& edge) {
+    const bool solid = projection_.semantics == ContactSemantics::solid;
+    bool all_outside = true, some_inside = false;
+    for (const Approximate& side : edge) {
+      all_outside = all_outside && (solid ? side.certainly_not_positive() : side.certainly_negative());
+      some_inside = some_inside || (solid ? side.certainly_positive() : side.certainly_not_negative());
+    }
+    excluded_ = excluded_ || all_outside;
+    certain_ = certain_ && some_inside;
+  }
+
+  const Projection& projection_;
+  bool excluded_ = false;
+  bool certain_ = true;
 };
 
 /// Collects bounds on a maximum from the vertices of the common region.
@@ -81,6 +106,11 @@ class MaximumBounds {
  public:
   explicit MaximumBounds(double low_limit, double high_limit)
       : low_limit_(low_limit), high_limit_(high_limit) {}
+
+  void take_exact(double value) {
+    high_ = std::max(high_, value);
+    low_ = std::max(low_, value);
+  }
 
   void take(double value, double error, bool certain) {
     error += underflow;
@@ -103,9 +133,13 @@ class MaximumBounds {
 /// as a barycentric combination of corner height differences. A term carries the roundings of its difference,
 /// its product and two sums; a weight those of two sums. A quotient of w (1 + a) and v (1 + b) is off by less
 /// than (|a| + |b|) w / (v (1 - |b|)).
-void take_corners(const ProjectedTriangle& point, const ProjectedTriangle& base, const Sides& sides,
-                  double sign, MaximumBounds& bounds) {
+void take_corners(const ProjectedTriangle& point, const ProjectedTriangle& base, const Shared& shared,
+                  const Sides& sides, double sign, MaximumBounds& bounds) {
   for (int v = 0; v < 3; ++v) {
+    if (shared[v] >= 0) {
+      bounds.take_exact(0);
+      continue;
+    }
     bool possible = true, certain = true;
     double weighted = 0, weighted_error = 0, weight = 0, weight_error = 0;
     for (int e = 0; e < 3; ++e) {
@@ -131,7 +165,8 @@ void take_corners(const ProjectedTriangle& point, const ProjectedTriangle& base,
 }
 
 /// Position of the zero along an edge whose ends lie at signed distances p and q from a line: p / (p - q),
-/// known to twice the relative error of p - q where that is below a half.
+/// known to twice the relative error of p - q where that is below a half. An end on the line is a corner of
+/// the common region, not a crossing.
 struct Crossing {
   double parameter = 0, error = infinity;
   bool possible = false, certain = false;
@@ -139,8 +174,8 @@ struct Crossing {
   Crossing(const Approximate& p, const Approximate& q) {
     const bool same_side = (p.certainly_positive() && q.certainly_positive()) ||
                            (p.certainly_negative() && q.certainly_negative());
-    possible = !same_side;
-    if (same_side) return;
+    possible = !same_side && !p.is_zero() && !q.is_zero();
+    if (!possible) return;
     const bool opposite = (p.certainly_not_negative() && q.certainly_not_positive()) ||
                           (p.certainly_not_positive() && q.certainly_not_negative());
     const double distance = std::abs(p.value - q.value), distance_error = p.error + q.error;
@@ -173,7 +208,8 @@ void take_edges(const ProjectedTriangle& upper, const ProjectedTriangle& lower, 
 
 }  // namespace
 
-ProjectedTriangle::ProjectedTriangle(const TreeTriangle& triangle, const Projection& projection) {
+ProjectedTriangle::ProjectedTriangle(const TreeTriangle& triangle, const Projection& projection)
+    : source(&triangle) {
   for (int c = 0; c < 3; ++c) {
     const double* p = triangle.corners[c].data();
     h[c] = projection.shear.height(p);
@@ -205,23 +241,23 @@ PairBounds bound_pair(const ProjectedTriangle& upper, const ProjectedTriangle& l
     if (!(degenerate && projection.semantics == ContactSemantics::solid)) result.high = highest;
     return result;
   }
-  const Sides of_upper_edges = sides(upper, lower, projection),
-              of_lower_edges = sides(lower, upper, projection);
-  Overlap overlap;
-  overlap.take(of_upper_edges, projection.semantics);
-  overlap.take(of_lower_edges, projection.semantics);
-  if (overlap.excluded) return result;
+  const Shared upper_shared = shared_corners(upper, lower), lower_shared = shared_corners(lower, upper);
+  Overlap overlap(projection);
+  const Sides of_upper_edges = overlap.sides(upper, lower, lower_shared);
+  if (overlap.excluded()) return result;
+  const Sides of_lower_edges = overlap.sides(lower, upper, upper_shared);
+  if (overlap.excluded()) return result;
 
   const DoubleDouble lowest = exact_difference(upper.h_low, lower.h_high);
   MaximumBounds bounds(lowest.high, highest.high);
-  take_corners(upper, lower, of_lower_edges, 1, bounds);
-  take_corners(lower, upper, of_upper_edges, -1, bounds);
+  take_corners(upper, lower, upper_shared, of_lower_edges, 1, bounds);
+  take_corners(lower, upper, lower_shared, of_upper_edges, -1, bounds);
   take_edges(upper, lower, of_upper_edges, of_lower_edges, bounds);
   if (bounds.high() < highest.high)
     result.high = {bounds.high(), 0};
   else
     result.high = highest;
-  if (overlap.certain) result.low = bounds.low() > lowest.high ? DoubleDouble{bounds.low(), 0} : lowest;
+  if (overlap.certain()) result.low = bounds.low() > lowest.high ? DoubleDouble{bounds.low(), 0} : lowest;
   return result;
 }
 

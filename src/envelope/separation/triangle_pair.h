@@ -22,6 +22,7 @@ struct Projection {
 
 /// A triangle seen along a direction: projected corners in double, heights exact.
 struct ProjectedTriangle {
+  const TreeTriangle* source = nullptr;  ///< must outlive this
   std::array<double, 3> x, y, h;
   double x_low, x_high, y_low, y_high, h_low, h_high;
   double area, area_error;  ///< twice the signed projected area: computed value, bound on its error
@@ -41,7 +42,8 @@ struct PairBounds {
 };
 
 /// Computes the bounds of one pair. Most pairs cost one or two comparisons. A pair that cannot exceed `floor`
-/// returns early with a high of -inf.
+/// returns early with a high of -inf. Corners that are the same point of space count as such: no rounding
+/// makes neighbours of a surface that lie side by side overlap, or lifts the point that they share.
 PairBounds bound_pair(const ProjectedTriangle& upper, const ProjectedTriangle& lower,
                       const Projection& projection, const DoubleDouble& floor);
 

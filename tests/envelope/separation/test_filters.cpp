@@ -30,8 +30,8 @@ Shape stretched(const Shape& shape, const Eigen::Vector3d& factors) {
   return transformed(shape, factors.asDiagonal(), Eigen::Vector3d::Zero());
 }
 
-/// Soups in general position and on grids, slivers, details next to something large, and products that
-/// underflow.
+/// Soups in general position and on grids, slivers, details next to something large, products that underflow,
+/// and neighbours that share corners and edges.
 std::vector<Shape> hostile_shapes(std::uint64_t seeds = 4) {
   const double tiny = std::ldexp(1.0, -540);
   std::vector<Shape> list;
@@ -44,6 +44,8 @@ std::vector<Shape> hostile_shapes(std::uint64_t seeds = 4) {
     list.push_back(concatenate(stretched(soup(seed, 0), {tiny, tiny, 1}), box({1, 1, 0}, {2, 2, 1})));
     list.push_back(
         concatenate(stretched(soup(seed, 2), {1e-170, 1e-150, 1e-160}), box({1, 1, 0}, {2, 2, 1})));
+    for (const Shape& surface : {bumpy_bowl(3), box({1, 2, 1e-9})})
+      list.push_back(transformed(surface, random_rotation(seed), Eigen::Vector3d::Zero()));
   }
   return list;
 }

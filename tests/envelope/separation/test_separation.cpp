@@ -35,6 +35,23 @@ Shape scaled(const Shape& shape, double factor) {
   return transformed(shape, factor * Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
 }
 
+/// A sheet that is upright everywhere, whose projected triangles have areas that are zero but for rounding.
+Shape oval_tube(int rings, int segments) {
+  Points points((rings + 1) * segments, 3);
+  Triangles triangles(2 * rings * segments, 3);
+  for (int ring = 0; ring <= rings; ++ring)
+    for (int k = 0; k < segments; ++k)
+      points.row(ring * segments + k) << std::cos(6.2832 * k / segments),
+          0.7 * std::sin(6.2832 * k / segments), ring;
+  for (int row = 0, ring = 0; ring < rings; ++ring)
+    for (int k = 0; k < segments; ++k) {
+      const int a = ring * segments + k, b = ring * segments + (k + 1) % segments;
+      triangles.row(row++) << a, b, b + segments;
+      triangles.row(row++) << a, b + segments, a + segments;
+    }
+  return make_shape(points, triangles);
+}
+
 const std::vector<Direction>& plain_directions() {
   static const std::vector<Direction> list = {{0, 0, 1},      {0, 0, -2}, {1, 0, 0},    {0, -3, 0}, {1, 1, 0},
                                               {0.3, -0.2, 1}, {1, 2, 3},  {-1, 0.1, 0}, {2, -1, -2}};
@@ -194,6 +211,26 @@ TEST_CASE("a sheet parallel to r has no area to collide with") {
   CHECK_FALSE(minimal_stacking_translation(wall, upwards).blocked);
   CHECK(exact_f_max(wall, upwards, ContactSemantics::closed) == Rational(1.0));
   CHECK(exact_f_max(wall, Direction(0, 1, 0)) == Rational(0.0));
+}
+
+TEST_CASE("neighbours in a sheet need no rational arithmetic") {
+  const Shape sheet = bumpy_bowl(40);
+  const SeparationTree tree(sheet);
+  for (const Direction& r : {Direction(0, 0, 1), Direction(0.3, -0.2, 1)})
+    for (const ContactSemantics semantics : {ContactSemantics::solid, ContactSemantics::closed}) {
+      const Separation found = separation(tree, tree, r, {semantics, {}});
+      CHECK(found.blocked);
+      CHECK(found.value == Rational(0.0));
+      CHECK(found.work.exact_pairs < 10);
+      CHECK(found.work.triangle_pairs < 40 * sheet.triangle_count());
+    }
+}
+
+TEST_CASE("each triangle of a wall along r is found edge-on once, not with each neighbour") {
+  const SeparationTree tree(oval_tube(3, 50));
+  const Separation found = separation(tree, tree, upwards);
+  CHECK_FALSE(found.blocked);
+  CHECK(found.work.exact_pairs == 0);
 }
 
 TEST_CASE("points and segments block in closed semantics") {
