@@ -20,14 +20,14 @@ constexpr int levels_below = 3;
 /// Nodes narrower than this fraction of a rectangle count as a whole in it.
 constexpr double fine = 0.25;
 
-Rectangle common(const Rectangle& a, const Rectangle& b) {
+PlanarBox common(const PlanarBox& a, const PlanarBox& b) {
   return {std::max(a.x_low, b.x_low), std::min(a.x_high, b.x_high), std::max(a.y_low, b.y_low),
           std::min(a.y_high, b.y_high)};
 }
 
 /// The smallest and the largest of the signed areas that the line from p along (dx, dy) spans with the
 /// corners.
-std::pair<double, double> sides(double px, double py, double dx, double dy, const Rectangle& box) {
+std::pair<double, double> sides(double px, double py, double dx, double dy, const PlanarBox& box) {
   const double middle = dx * ((box.y_low + box.y_high) / 2 - py) - dy * ((box.x_low + box.x_high) / 2 - px);
   const double spread = std::abs(dx) * box.height() / 2 + std::abs(dy) * box.width() / 2;
   return {middle - spread, middle + spread};
@@ -135,15 +135,15 @@ void HeightBounds::make_patches(const ProjectedMesh& mesh) {
     }
 }
 
-HeightBound HeightBounds::over(const Rectangle& rectangle, const Eigen::Vector2d& slope) {
+HeightBound HeightBounds::over(const PlanarBox& rectangle, const Eigen::Vector2d& slope) {
   if (!rectangle.meets(box())) return {};
   HeightBound bound = over(0, rectangle, slope);
   if (!box().contains(rectangle)) bound.low = -infinity;
   return bound;
 }
 
-HeightBound HeightBounds::over(std::int32_t index, const Rectangle& rectangle, const Eigen::Vector2d& slope) {
-  const Rectangle box = nodes_[at(index)].box;
+HeightBound HeightBounds::over(std::int32_t index, const PlanarBox& rectangle, const Eigen::Vector2d& slope) {
+  const PlanarBox box = nodes_[at(index)].box;
   if (nodes_[at(index)].faces.size() <= leaf_faces && (!slope.isZero(0) || !rectangle.contains(box)))
     return direct(nodes_[at(index)], common(box, rectangle), slope);
   if (rectangle.contains(box) || nodes_[at(index)].depth == max_depth ||
@@ -161,7 +161,7 @@ HeightBound HeightBounds::over(std::int32_t index, const Rectangle& rectangle, c
 }
 
 /// Bounds of u - slope . p from those of u over a box.
-HeightBound HeightBounds::sheared(const HeightBound& bound, const Rectangle& box,
+HeightBound HeightBounds::sheared(const HeightBound& bound, const PlanarBox& box,
                                   const Eigen::Vector2d& slope) const {
   const double steepness = std::abs(slope.x()) + std::abs(slope.y());
   const double middle = slope.x() * (box.x_low + box.x_high) / 2 + slope.y() * (box.y_low + box.y_high) / 2;
@@ -171,7 +171,7 @@ HeightBound HeightBounds::sheared(const HeightBound& bound, const Rectangle& box
 }
 
 Eigen::Vector2d HeightBounds::slope_at(double x, double y) const {
-  const Rectangle point{x, x, y, y};
+  const PlanarBox point{x, x, y, y};
   if (!box().contains(point)) return Eigen::Vector2d::Zero();
   const Node* node = &nodes_.front();
   while (node->first_child >= 0) {
@@ -211,7 +211,7 @@ HeightBound HeightBounds::whole(std::int32_t index, int levels) {
   return nodes_[at(index)].bound;
 }
 
-HeightBound HeightBounds::direct(const Node& node, const Rectangle& rectangle, const Eigen::Vector2d& slope) {
+HeightBound HeightBounds::direct(const Node& node, const PlanarBox& rectangle, const Eigen::Vector2d& slope) {
   ++call_;
   HeightBound result;
   const auto state = [this](std::int32_t patch) -> PatchState& {
@@ -245,11 +245,11 @@ HeightBound HeightBounds::direct(const Node& node, const Rectangle& rectangle, c
 void HeightBounds::split(std::int32_t index) {
   if (nodes_[at(index)].first_child >= 0) return;
   const auto first = static_cast<std::int32_t>(nodes_.size());
-  const Rectangle box = nodes_[at(index)].box;
+  const PlanarBox box = nodes_[at(index)].box;
   const double x = box.x_low / 2 + box.x_high / 2, y = box.y_low / 2 + box.y_high / 2;
-  for (const Rectangle& quarter :
-       {Rectangle{box.x_low, x, box.y_low, y}, Rectangle{x, box.x_high, box.y_low, y},
-        Rectangle{box.x_low, x, y, box.y_high}, Rectangle{x, box.x_high, y, box.y_high}}) {
+  for (const PlanarBox& quarter :
+       {PlanarBox{box.x_low, x, box.y_low, y}, PlanarBox{x, box.x_high, box.y_low, y},
+        PlanarBox{box.x_low, x, y, box.y_high}, PlanarBox{x, box.x_high, y, box.y_high}}) {
     Node child;
     child.box = quarter;
     child.depth = nodes_[at(index)].depth + 1;
@@ -262,7 +262,7 @@ void HeightBounds::split(std::int32_t index) {
   nodes_[at(index)].first_child = first;
 }
 
-HeightBounds::Overlap HeightBounds::overlap(const Face& face, const Rectangle& box) const {
+HeightBounds::Overlap HeightBounds::overlap(const Face& face, const PlanarBox& box) const {
   const auto [x_low, x_high] = std::minmax({face.x[0], face.x[1], face.x[2]});
   const auto [y_low, y_high] = std::minmax({face.y[0], face.y[1], face.y[2]});
   if (x_low > box.x_high + error_ || box.x_low > x_high + error_ || y_low > box.y_high + error_ ||
@@ -282,7 +282,7 @@ HeightBounds::Overlap HeightBounds::overlap(const Face& face, const Rectangle& b
   return certain ? Overlap::certain : Overlap::possible;
 }
 
-bool HeightBounds::meets(const Border& border, const Rectangle& box) const {
+bool HeightBounds::meets(const Border& border, const PlanarBox& box) const {
   if (std::min(border.x[0], border.x[1]) > box.x_high + error_ ||
       box.x_low > std::max(border.x[0], border.x[1]) + error_ ||
       std::min(border.y[0], border.y[1]) > box.y_high + error_ ||
@@ -295,11 +295,11 @@ bool HeightBounds::meets(const Border& border, const Rectangle& box) const {
 }
 
 /// Of the part of a face over the box.
-HeightBound HeightBounds::plane_bound(const Face& face, const Rectangle& box,
+HeightBound HeightBounds::plane_bound(const Face& face, const PlanarBox& box,
                                       const Eigen::Vector2d& slope) const {
   const auto [x_low, x_high] = std::minmax({face.x[0], face.x[1], face.x[2]});
   const auto [y_low, y_high] = std::minmax({face.y[0], face.y[1], face.y[2]});
-  Rectangle part = common(box, {x_low - error_, x_high + error_, y_low - error_, y_high + error_});
+  PlanarBox part = common(box, {x_low - error_, x_high + error_, y_low - error_, y_high + error_});
   const HeightBound range = sheared({face.h_low, face.h_high}, part, slope);
   if (face.plane_error == infinity) return range;
   const double x = (part.x_low + part.x_high) / 2, y = (part.y_low + part.y_high) / 2;

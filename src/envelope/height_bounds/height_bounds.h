@@ -11,16 +11,16 @@
 namespace stackabilization::detail {
 
 /// A rectangle along the axes of a projection, low <= high.
-struct Rectangle {
+struct PlanarBox {
   double x_low, x_high, y_low, y_high;
 
   double width() const { return x_high - x_low; }
   double height() const { return y_high - y_low; }
   /// Returns whether the other rectangle is within this one, borders included.
-  bool contains(const Rectangle& other) const {
+  bool contains(const PlanarBox& other) const {
     return x_low <= other.x_low && other.x_high <= x_high && y_low <= other.y_low && other.y_high <= y_high;
   }
-  bool meets(const Rectangle& other) const {
+  bool meets(const PlanarBox& other) const {
     return x_low <= other.x_high && other.x_low <= x_high && y_low <= other.y_high && other.y_low <= y_high;
   }
 };
@@ -56,10 +56,10 @@ class HeightBounds {
   explicit HeightBounds(ProjectedMesh mesh);
 
   /// Returns the box of the projection.
-  const Rectangle& box() const { return nodes_.front().box; }
+  const PlanarBox& box() const { return nodes_.front().box; }
   /// Returns bounds of u(p) - slope . p over the points p of a rectangle, where u is the envelope. With the
   /// slope of the surface they are narrow for large rectangles too.
-  HeightBound over(const Rectangle& rectangle, const Eigen::Vector2d& slope = Eigen::Vector2d::Zero());
+  HeightBound over(const PlanarBox& rectangle, const Eigen::Vector2d& slope = Eigen::Vector2d::Zero());
   /// Returns the slope of the face that is highest over a point, as far as rounding can tell; zero where
   /// there is none, or where many faces are near.
   Eigen::Vector2d slope_at(double x, double y) const;
@@ -78,7 +78,7 @@ class HeightBounds {
     std::int32_t patch;
   };
   struct Node {
-    Rectangle box;
+    PlanarBox box;
     std::vector<std::int32_t> faces, borders;
     std::int32_t first_child = -1;
     std::int32_t depth = 0;
@@ -89,14 +89,14 @@ class HeightBounds {
 
   void make_faces(const ProjectedMesh& mesh);
   void make_patches(const ProjectedMesh& mesh);
-  HeightBound over(std::int32_t node, const Rectangle& rectangle, const Eigen::Vector2d& slope);
-  HeightBound sheared(const HeightBound& bound, const Rectangle& box, const Eigen::Vector2d& slope) const;
+  HeightBound over(std::int32_t node, const PlanarBox& rectangle, const Eigen::Vector2d& slope);
+  HeightBound sheared(const HeightBound& bound, const PlanarBox& box, const Eigen::Vector2d& slope) const;
   HeightBound whole(std::int32_t node, int levels);
-  HeightBound direct(const Node& node, const Rectangle& rectangle, const Eigen::Vector2d& slope);
+  HeightBound direct(const Node& node, const PlanarBox& rectangle, const Eigen::Vector2d& slope);
   void split(std::int32_t node);
-  Overlap overlap(const Face& face, const Rectangle& rectangle) const;
-  bool meets(const Border& border, const Rectangle& rectangle) const;
-  HeightBound plane_bound(const Face& face, const Rectangle& rectangle, const Eigen::Vector2d& slope) const;
+  Overlap overlap(const Face& face, const PlanarBox& rectangle) const;
+  bool meets(const Border& border, const PlanarBox& rectangle) const;
+  HeightBound plane_bound(const Face& face, const PlanarBox& rectangle, const Eigen::Vector2d& slope) const;
 
   std::vector<Face> faces_;
   std::vector<Border> borders_;

@@ -77,7 +77,7 @@ DropMap drop_map(const Shape& base, const Shape& shape, const Direction& directi
   if (!(step > 0)) throw UsageError("the step of a map must be a positive length");
   Place place = given_place(shape, direction);
   const detail::PlaceRegion region(detail::LocalShapes(base, shape, direction), options.region);
-  const detail::Rectangle box = region.box(yaw_degrees * std::numbers::pi / 180, 0);
+  const detail::PlanarBox box = region.box(yaw_degrees * std::numbers::pi / 180, 0);
   if (!((box.width() / step + 1) * (box.height() / step + 1) <= max_map_places))
     throw UsageError("the step of the map is so small that it has more than four million places");
   DropMap map{grid(box.x_low, box.x_high, step), grid(box.y_low, box.y_high, step), {}, false};

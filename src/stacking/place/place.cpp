@@ -23,7 +23,7 @@ namespace {
 using detail::CellBound;
 using detail::LocalPlace;
 using detail::PlaceCell;
-using detail::Rectangle;
+using detail::PlanarBox;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Turned trees that are kept.
@@ -167,7 +167,7 @@ class PlaceSearch {
     for (const double quarter : {0.0, 0.5, -0.5, 1.0}) {
       if (quarter != 0 && !options_.turn) break;
       const double yaw = quarter * std::numbers::pi;
-      const Rectangle box = region_.box(yaw, 0);
+      const PlanarBox box = region_.box(yaw, 0);
       for (const double y : {box.y_low, box.y_low / 2 + box.y_high / 2, box.y_high})
         for (const double x : {box.x_low, box.x_low / 2 + box.x_high / 2, box.x_high})
           try_if_allowed({x, y, yaw});
@@ -189,7 +189,7 @@ class PlaceSearch {
 
   /// Two halves, across the side along which places of the cell differ most.
   void split(const OpenCell& open) {
-    const Rectangle& box = open.cell.box;
+    const PlanarBox& box = open.cell.box;
     PlaceCell first = open.cell, second = open.cell;
     const double turn = 2 * open.cell.half_turn * radius_;
     if (turn >= std::max(box.width(), box.height())) {

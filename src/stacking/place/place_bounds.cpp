@@ -28,7 +28,7 @@ ProjectedMesh projected(const WeldedMesh& mesh, const EdgeTable& edges, double s
 }
 
 /// A box around a rectangle turned by `yaw` about the origin.
-Rectangle turned(const Rectangle& box, double yaw) {
+PlanarBox turned(const PlanarBox& box, double yaw) {
   const double c = std::cos(yaw), s = std::sin(yaw);
   const double x = box.x_low / 2 + box.x_high / 2, y = box.y_low / 2 + box.y_high / 2;
   const double half_x = (std::abs(c) * box.width() + std::abs(s) * box.height()) / 2;
@@ -37,26 +37,26 @@ Rectangle turned(const Rectangle& box, double yaw) {
   return {turned_x - half_x, turned_x + half_x, turned_y - half_y, turned_y + half_y};
 }
 
-double radius(const Rectangle& box) {
+double radius(const PlanarBox& box) {
   return std::hypot(std::max(std::abs(box.x_low), std::abs(box.x_high)),
                     std::max(std::abs(box.y_low), std::abs(box.y_high)));
 }
 
-Rectangle grown(const Rectangle& box, double margin) {
+PlanarBox grown(const PlanarBox& box, double margin) {
   return {box.x_low - margin, box.x_high + margin, box.y_low - margin, box.y_high + margin};
 }
 
 /// Where the points of a rectangle of the shape can be at the places of a cell.
-Rectangle reach(const Rectangle& part, const PlaceCell& cell) {
-  Rectangle box = cell.yaw == 0 && cell.half_turn == 0 ? part : turned(part, cell.yaw);
+PlanarBox reach(const PlanarBox& part, const PlaceCell& cell) {
+  PlanarBox box = cell.yaw == 0 && cell.half_turn == 0 ? part : turned(part, cell.yaw);
   if (cell.half_turn > 0) box = grown(box, radius(part) * cell.half_turn);
   return {box.x_low + cell.box.x_low, box.x_high + cell.box.x_high, box.y_low + cell.box.y_low,
           box.y_high + cell.box.y_high};
 }
 
 /// Where the points of a rectangle of the base can be, seen from the shape, at the places of a cell.
-Rectangle reach_back(const Rectangle& part, const PlaceCell& cell) {
-  const Rectangle moved{part.x_low - cell.box.x_high, part.x_high - cell.box.x_low,
+PlanarBox reach_back(const PlanarBox& part, const PlaceCell& cell) {
+  const PlanarBox moved{part.x_low - cell.box.x_high, part.x_high - cell.box.x_low,
                         part.y_low - cell.box.y_high, part.y_high - cell.box.y_low};
   if (cell.yaw == 0 && cell.half_turn == 0) return moved;
   return grown(turned(moved, -cell.yaw), radius(moved) * cell.half_turn);
@@ -64,7 +64,7 @@ Rectangle reach_back(const Rectangle& part, const PlaceCell& cell) {
 
 /// What a rectangle shows, and an upper bound of what its parts can show.
 struct Part {
-  Rectangle box;
+  PlanarBox box;
   double low, high;
 
   friend bool operator<(const Part& a, const Part& b) {
@@ -72,10 +72,10 @@ struct Part {
   }
 };
 
-std::array<Rectangle, 4> quarters(const Rectangle& box) {
+std::array<PlanarBox, 4> quarters(const PlanarBox& box) {
   const double x = box.x_low / 2 + box.x_high / 2, y = box.y_low / 2 + box.y_high / 2;
-  return {Rectangle{box.x_low, x, box.y_low, y}, Rectangle{x, box.x_high, box.y_low, y},
-          Rectangle{box.x_low, x, y, box.y_high}, Rectangle{x, box.x_high, y, box.y_high}};
+  return {PlanarBox{box.x_low, x, box.y_low, y}, PlanarBox{x, box.x_high, box.y_low, y},
+          PlanarBox{box.x_low, x, y, box.y_high}, PlanarBox{x, box.x_high, y, box.y_high}};
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ class PlaceBounds::Side {
 
   /// Examines parts of the rectangle until one shows `enough`: the most promising part, the most promising
   /// quarter of it and so on, then the next part.
-  void search(const Rectangle& start, double enough, CellBound& best) const {
+  void search(const PlanarBox& start, double enough, CellBound& best) const {
     const double finest = finest_part * std::max(start.width(), start.height());
     std::priority_queue<Part> parts;
     parts.push(examined(start));
@@ -111,7 +111,7 @@ class PlaceBounds::Side {
         if (std::max(part.box.width(), part.box.height()) <= finest) break;
         std::array<Part, 4> next;
         std::size_t i = 0;
-        for (const Rectangle& quarter : quarters(part.box)) next[i++] = examined(quarter);
+        for (const PlanarBox& quarter : quarters(part.box)) next[i++] = examined(quarter);
         std::sort(next.begin(), next.end());
         for (i = 0; i < 3; ++i)
           if (next[i].high >= enough) parts.push(next[i]);
@@ -124,8 +124,8 @@ class PlaceBounds::Side {
     if (part.low > best.low) best = {part.low, BoundWitness{of_shape_, part.box}};
   }
 
-  Part examined(const Rectangle& box) const {
-    const Rectangle there = grown(of_shape_ ? reach(box, cell_) : reach_back(box, cell_), margin_);
+  Part examined(const PlanarBox& box) const {
+    const PlanarBox there = grown(of_shape_ ? reach(box, cell_) : reach_back(box, cell_), margin_);
     const HeightBound here = own_.over(box);
     if (here.high == -unbounded) return {box, -unbounded, -unbounded};
     const HeightBound far = other_.over(there);
@@ -139,12 +139,12 @@ class PlaceBounds::Side {
 
   /// An upper bound of how low the other surface gets where every point of the rectangle can be: at the turn
   /// in the middle of the cell, at the centre and the corners of the places that all of them reach.
-  double lowest_there(const Rectangle& box) const {
-    const Rectangle& shifts = cell_.box;
-    const Rectangle own = of_shape_ && cell_.yaw != 0 ? turned(box, cell_.yaw) : box;
-    const Rectangle all = of_shape_ ? Rectangle{own.x_high + shifts.x_low, own.x_low + shifts.x_high,
+  double lowest_there(const PlanarBox& box) const {
+    const PlanarBox& shifts = cell_.box;
+    const PlanarBox own = of_shape_ && cell_.yaw != 0 ? turned(box, cell_.yaw) : box;
+    const PlanarBox all = of_shape_ ? PlanarBox{own.x_high + shifts.x_low, own.x_low + shifts.x_high,
                                                 own.y_high + shifts.y_low, own.y_low + shifts.y_high}
-                                    : Rectangle{own.x_high - shifts.x_high, own.x_low - shifts.x_low,
+                                    : PlanarBox{own.x_high - shifts.x_high, own.x_low - shifts.x_low,
                                                 own.y_high - shifts.y_high, own.y_low - shifts.y_low};
     if (all.width() < 0 || all.height() < 0) return unbounded;
     const Eigen::Rotation2Dd back(of_shape_ ? 0 : -cell_.yaw);
@@ -159,15 +159,15 @@ class PlaceBounds::Side {
   }
 
   /// Compares the surfaces along the slope that they have in common where they slide along each other.
-  void narrow(Part& part, const Rectangle& there) const {
-    const Rectangle& box = part.box;
+  void narrow(Part& part, const PlanarBox& there) const {
+    const PlanarBox& box = part.box;
     const Eigen::Vector2d slope =
         -own_.slope_at(box.x_low / 2 + box.x_high / 2, box.y_low / 2 + box.y_high / 2);
     if (slope.isZero(0)) return;
     // u(p) - slope_there . p over there, slope_there . p - slope . q for the places p of q.
     const Eigen::Vector2d slope_there = Eigen::Rotation2Dd(of_shape_ ? cell_.yaw : -cell_.yaw) * slope;
     const Eigen::Vector2d shift_slope = of_shape_ ? slope_there : Eigen::Vector2d(-slope);
-    const Rectangle& shifts = cell_.box;
+    const PlanarBox& shifts = cell_.box;
     const double middle = shift_slope.x() * (shifts.x_low + shifts.x_high) / 2 +
                           shift_slope.y() * (shifts.y_low + shifts.y_high) / 2;
     const double spread =
@@ -179,14 +179,14 @@ class PlaceBounds::Side {
   }
 
   /// Largest distance from the axis of what turns.
-  double turned_radius(const Rectangle& box) const {
+  double turned_radius(const PlanarBox& box) const {
     if (of_shape_) return radius(box);
-    const Rectangle& shifts = cell_.box;
+    const PlanarBox& shifts = cell_.box;
     return radius({box.x_low - shifts.x_high, box.x_high - shifts.x_low, box.y_low - shifts.y_high,
                    box.y_high - shifts.y_low});
   }
 
-  Rectangle box() const { return own_.box(); }
+  PlanarBox box() const { return own_.box(); }
 
  private:
   HeightBounds& own_;
@@ -204,7 +204,7 @@ PlaceBounds::PlaceBounds(const LocalShapes& shapes)
 CellBound PlaceBounds::bound(const PlaceCell& cell, const BoundWitness& of_cell_around) {
   CellBound best;
   const Side side(*this, cell, of_cell_around.of_shape);
-  for (const Rectangle& part : quarters(of_cell_around.part)) side.take(side.examined(part), best);
+  for (const PlanarBox& part : quarters(of_cell_around.part)) side.take(side.examined(part), best);
   return best;
 }
 

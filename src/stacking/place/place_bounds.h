@@ -12,7 +12,7 @@ namespace stackabilization::detail {
 /// A rectangle of one of the shapes, in its own coordinates, that shows a lower bound.
 struct BoundWitness {
   bool of_shape = true;  ///< of the shape that comes down, or of the base
-  Rectangle part{};
+  PlanarBox part{};
 };
 
 /// A lower bound of the separation over a cell of places.

@@ -24,7 +24,7 @@ std::vector<Eigen::Vector2d> flat_hull(const Shape& shape) {
 /// The part of the segment from p to q within the box, as parameters (Liang and Barsky); nothing if there is
 /// none.
 std::optional<std::pair<double, double>> clipped(const Eigen::Vector2d& p, const Eigen::Vector2d& q,
-                                                 const Rectangle& box) {
+                                                 const PlanarBox& box) {
   double from = 0, to = 1;
   const auto cut = [&](double start, double rise, double limit) {  // start + t rise <= limit
     if (rise == 0) return start <= limit;
@@ -49,9 +49,9 @@ PlaceRegion::PlaceRegion(const LocalShapes& shapes, const std::vector<Eigen::Vec
     if (!corner.allFinite()) throw UsageError("the corners of a region must be finite");
 }
 
-Rectangle PlaceRegion::inside(double yaw) const {
+PlanarBox PlaceRegion::inside(double yaw) const {
   const double c = std::cos(yaw), s = std::sin(yaw);
-  Rectangle turned{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+  PlanarBox turned{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
                    std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const Eigen::Vector2d& point : hull_) {
     const double x = c * point.x() - s * point.y(), y = s * point.x() + c * point.y();
@@ -63,16 +63,16 @@ Rectangle PlaceRegion::inside(double yaw) const {
   return {x_low, x_high, y_low, y_high};
 }
 
-Rectangle PlaceRegion::box(double yaw, double half_turn) const {
+PlanarBox PlaceRegion::box(double yaw, double half_turn) const {
   if (!polygon_.empty()) {
-    Rectangle box{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+    PlanarBox box{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
                   std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
     for (const Eigen::Vector2d& corner : polygon_)
       box = {std::min(box.x_low, corner.x()), std::max(box.x_high, corner.x()),
              std::min(box.y_low, corner.y()), std::max(box.y_high, corner.y())};
     return box;
   }
-  const Rectangle middle = inside(yaw);
+  const PlanarBox middle = inside(yaw);
   const double reach = radius_ * half_turn;
   return {middle.x_low - reach, middle.x_high + reach, middle.y_low - reach, middle.y_high + reach};
 }
@@ -87,7 +87,7 @@ std::optional<LocalPlace> PlaceRegion::place_in(const PlaceCell& cell) const {
     const auto point = polygon_point(cell.box);
     return point ? std::optional(LocalPlace{point->x(), point->y(), cell.yaw}) : std::nullopt;
   }
-  const Rectangle allowed = inside(cell.yaw);
+  const PlanarBox allowed = inside(cell.yaw);
   if (!allowed.meets(cell.box)) return std::nullopt;
   const auto nearest = [](double low, double high, double allowed_low, double allowed_high) {
     return std::clamp(low / 2 + high / 2, std::max(low, allowed_low), std::min(high, allowed_high));
@@ -107,7 +107,7 @@ bool PlaceRegion::polygon_contains(double x, double y) const {
   return inside;
 }
 
-std::optional<Eigen::Vector2d> PlaceRegion::polygon_point(const Rectangle& box) const {
+std::optional<Eigen::Vector2d> PlaceRegion::polygon_point(const PlanarBox& box) const {
   const Eigen::Vector2d centre(box.x_low / 2 + box.x_high / 2, box.y_low / 2 + box.y_high / 2);
   if (polygon_contains(centre.x(), centre.y())) return centre;
   for (std::size_t i = 0; i < polygon_.size(); ++i) {

@@ -16,7 +16,7 @@ struct LocalPlace {
 
 /// Places with x and y in a rectangle, and a turn of yaw - half_turn to yaw + half_turn.
 struct PlaceCell {
-  Rectangle box;
+  PlanarBox box;
   double yaw = 0, half_turn = 0;  ///< radians
 };
 
@@ -27,7 +27,7 @@ class PlaceRegion {
   PlaceRegion(const LocalShapes& shapes, const std::vector<Eigen::Vector2d>& polygon);
 
   /// Returns a rectangle that holds all places with a turn in the range of the cell, whatever its box.
-  Rectangle box(double yaw, double half_turn) const;
+  PlanarBox box(double yaw, double half_turn) const;
   /// Returns whether the cell certainly has no allowed place.
   bool excludes(const PlaceCell& cell) const;
   /// Returns an allowed place of the cell with the turn in its middle, at its centre if possible.
@@ -35,10 +35,10 @@ class PlaceRegion {
 
  private:
   /// Range of the centre with this turn so that one of the boxes is within the other.
-  Rectangle inside(double yaw) const;
+  PlanarBox inside(double yaw) const;
   bool polygon_contains(double x, double y) const;
   /// A point of the polygon in the rectangle, its centre if possible.
-  std::optional<Eigen::Vector2d> polygon_point(const Rectangle& box) const;
+  std::optional<Eigen::Vector2d> polygon_point(const PlanarBox& box) const;
 
   Outline base_;
   std::vector<Eigen::Vector2d> hull_;     ///< points of the shape that decide its box at any turn

@@ -29,7 +29,7 @@ struct Bounded {
 
 TEST_CASE("a flat top bounds its height from both sides, also across its triangles") {
   Bounded box(solids::box({0, 0, 0}, {2, 2, 1}));
-  for (const Rectangle& inside : {Rectangle{0.25, 1.75, 0.25, 1.75}, Rectangle{0.7, 0.7, 0.6, 0.6}}) {
+  for (const PlanarBox& inside : {PlanarBox{0.25, 1.75, 0.25, 1.75}, PlanarBox{0.7, 0.7, 0.6, 0.6}}) {
     CHECK(box.bounds.over(inside).low == Approx(1).margin(1e-12));
     CHECK(box.bounds.over(inside).high == Approx(1).margin(1e-12));
   }
@@ -70,11 +70,11 @@ TEST_CASE("bounds over random rectangles hold for the envelope at random points"
   for (const Shape& shape : {solids::sphere(1, 3), solids::torus({}), solids::frustum_shell({}),
                              solids::table({}), solids::stair_plate({})}) {
     Bounded bounded(shape);
-    const Rectangle box = bounded.bounds.box();
+    const PlanarBox box = bounded.bounds.box();
     for (int i = 0; i < 200; ++i) {
       const double size = std::pow(unit(random), 3) * box.width();
       const double x = box.x_low + unit(random) * box.width(), y = box.y_low + unit(random) * box.height();
-      const Rectangle part{x, x + size, y, y + size * unit(random)};
+      const PlanarBox part{x, x + size, y, y + size * unit(random)};
       const Eigen::Vector2d slope(unit(random) - 0.5, unit(random) - 0.5);
       const HeightBound level = bounded.bounds.over(part), tilted = bounded.bounds.over(part, slope);
       Window window{part.x_low, part.y_low, std::max(part.width(), 1e-9) / 4, 4, 1};
