@@ -11,6 +11,7 @@
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/envelope/height_field.h"
 #include "stackabilization/stacking/map.h"
+#include "stackabilization/stacking/place.h"
 #include "stackabilization/stacking/validation.h"
 
 /// What needs the rendering room. In a program built without it every function throws UsageError unless it
@@ -53,6 +54,15 @@ struct PlacedCopies {
   std::vector<std::string> notes;
 };
 void write_stack_picture(const PictureFile& file, const PlacedCopies& stack);
+/// A shape that came down on another one; `notes` are lines below the heading.
+struct DropView {
+  Shape base, shape;  ///< where they are at the end
+  Place place;
+  DropMap map;
+  Direction direction{0, 0, 1};
+  std::vector<std::string> notes;
+};
+void write_drop_picture(const PictureFile& file, DropView view);
 void write_structure_picture(const PictureFile& file, const StructuredShape& structured);
 /// A shape before and after edits; `notes` are lines below the heading.
 struct EditedShape {

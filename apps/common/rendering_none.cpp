@@ -33,6 +33,10 @@ void write_map_picture(const PictureFile&, const StackabilityMap&) {
   refuse_rendering();
 }
 
+void write_drop_picture(const PictureFile&, DropView) {
+  refuse_rendering();
+}
+
 void write_stack_picture(const PictureFile&, const PlacedCopies&) {
   refuse_rendering();
 }

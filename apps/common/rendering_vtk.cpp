@@ -1,4 +1,5 @@
 #include <memory>
+#include <utility>
 
 #include "apps/common/interrupt.h"
 #include "apps/common/rendering.h"
@@ -58,6 +59,15 @@ void write_stack_picture(const PictureFile& file, const PlacedCopies& stack) {
   options.title = file.title;
   options.notes = stack.notes;
   write_picture(file, stack_picture(stack.copies, stack.direction, options));
+}
+
+void write_drop_picture(const PictureFile& file, DropView view) {
+  DropPictureOptions options;
+  options.title = file.title;
+  options.notes = std::move(view.notes);
+  write_picture(file, drop_picture({std::move(view.base), std::move(view.shape), view.place,
+                                    std::move(view.map), view.direction},
+                                   options));
 }
 
 void write_structure_picture(const PictureFile& file, const StructuredShape& structured) {

@@ -2,12 +2,14 @@
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "apps/common/command.h"
 #include "apps/common/interrupt.h"
 #include "apps/common/measurement.h"
 #include "apps/common/output.h"
 #include "apps/common/progress.h"
+#include "apps/common/rendering.h"
 #include "apps/common/values.h"
 #include "stackabilization/mesh/convex_hull.h"
 #include "stackabilization/stacking/place.h"
@@ -33,7 +35,9 @@ struct DropCommandOptions {
   std::vector<Eigen::Vector2d> region;
   std::optional<Length> eps, step;
   std::optional<std::int64_t> max_cells;
-  std::optional<std::string> output, map;
+  std::optional<std::string> output, map, picture;
+
+  bool needs_map() const { return map || picture; }
 };
 
 /// The shape that falls, and what it falls on.
@@ -43,7 +47,9 @@ struct Scene {
 };
 
 void check(const DropCommandOptions& options) {
-  check_outputs(options.common, {{{"--output", options.output, OutputKind::mesh}, {"--map", options.map}},
+  check_outputs(options.common, {{{"--output", options.output, OutputKind::mesh},
+                                  {"--map", options.map},
+                                  {"--picture", options.picture, OutputKind::picture}},
                                  {{"the object of --onto", options.onto}}});
   refuse_option(options.common.model == "-" && options.onto == "-", "--onto",
                 "and MODEL cannot both be standard input");
@@ -51,11 +57,12 @@ void check(const DropCommandOptions& options) {
   refuse_option(options.turn && !best, "--turn", "needs --place best");
   refuse_option(options.eps && !best, "--eps", "needs --place best");
   refuse_option(options.max_cells && !best, "--max-cells", "needs --place best");
-  refuse_option(!options.region.empty() && !best && !options.map, "--corner",
-                "limits the places of --place best and of --map");
+  refuse_option(!options.region.empty() && !best && !options.needs_map(), "--corner",
+                "limits the places of --place best, of --map and of --picture");
   refuse_option(!options.region.empty() && options.region.size() < 3, "--corner",
                 "is given three times at least, for a polygon");
-  refuse_option(options.step && !options.map, "--step", "needs --map");
+  refuse_option(options.step && !options.needs_map(), "--step", "needs --map or --picture");
+  if (options.picture) require_rendering();
 }
 
 PlaceOptions place_options(const DropCommandOptions& options, const Scene& scene) {
@@ -140,6 +147,14 @@ std::string drop_text(const Scene& scene, const Drop& drop, const std::optional<
   return table.text();
 }
 
+std::vector<std::string> picture_notes(const Scene& scene, const Drop& drop,
+                                       const std::optional<BestPlace>& best) {
+  const Unit unit = scene.item.shape.unit;
+  return {"lowest point " + quantity(drop.height, unit) + " above " +
+          (drop.on_floor ? "the floor, where it stands" : "that of what it rests on") +
+          (best ? "; nowhere lower than " + quantity(best->bound, unit) : std::string())};
+}
+
 std::string csv_text(const DropMap& map) {
   std::string text = "x,y,height\n";
   for (std::size_t k = 0; k < map.heights.size(); ++k)
@@ -148,7 +163,7 @@ std::string csv_text(const DropMap& map) {
   return text;
 }
 
-/// The map of `--map`, with the turn of the place that was chosen.
+/// The map of `--map` and of the picture, with the turn of the place that was chosen.
 DropMap map_of(const DropCommandOptions& options, const Scene& scene, const PlaceOptions& place,
                const Drop& drop) {
   double step = length_in(options.step, scene.item.shape.unit);
@@ -180,14 +195,18 @@ int run_drop_command(const CLI::App& command, const DropCommandOptions& options)
   const Drop drop = best ? best->drop
                          : drop_at(scene.base.shape, scene.item.shape, direction,
                                    given_place(scene.item.shape, direction), options.semantics);
-  if (options.map)
-    write_text_output(options.common, *options.map, csv_text(map_of(options, scene, place, drop)));
-  if (options.output) {
-    const RigidTransform lift{Eigen::Matrix3d::Identity(), drop.lift.to_double() * direction.vector()};
-    write_mesh_output(
-        options.common, *options.output,
-        concatenate(scene.base.shape, transformed(scene.item.shape, composed(lift, drop.transform))));
+  const RigidTransform lift{Eigen::Matrix3d::Identity(), drop.lift.to_double() * direction.vector()};
+  const Shape dropped = transformed(scene.item.shape, composed(lift, drop.transform));
+  if (options.needs_map()) {
+    DropMap map = map_of(options, scene, place, drop);
+    if (options.map) write_text_output(options.common, *options.map, csv_text(map));
+    if (options.picture)
+      write_drop_picture({*options.picture, title_of(scene.item) + " on " + title_of(scene.base)},
+                         {scene.base.shape, dropped, drop.place, std::move(map), direction,
+                          picture_notes(scene, drop, best)});
   }
+  if (options.output)
+    write_mesh_output(options.common, *options.output, concatenate(scene.base.shape, dropped));
   Json document = document_head(command, scene.item);
   document["onto"] = scene.base.name;
   document["direction"] = to_json(direction.vector());
@@ -247,6 +266,8 @@ Command make_drop_command(CLI::App& program) {
             options->max_cells);
   add_mesh_output(*command, options->common, options->output, "both");
   command->add_option("--map", options->map, "Write the height at every place of a grid (CSV; - is stdout)")
+      ->type_name("FILE");
+  command->add_option("--picture", options->picture, "Draw both, and the heights around (.png or .svg)")
       ->type_name("FILE");
   add_length(*command,
              {"--step", "Distance between places of the map (default: 1/32 of what it falls on)", true},

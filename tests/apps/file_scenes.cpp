@@ -48,6 +48,7 @@ const std::vector<Output>& outputs() {
       {"drop", "--json", ".json", {"--onto", "after.obj"}},
       {"drop", "--output", ".3mf", {"--onto", "after.obj"}},
       {"drop", "--map", ".csv", {"--onto", "after.obj"}},
+      {"drop", "--picture", ".png", {"--onto", "after.obj"}},
       {"validate", "--json", ".json"},
       {"structure", "--json", ".json"},
       {"structure", "--save", ".json"},

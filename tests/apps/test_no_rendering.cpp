@@ -13,6 +13,7 @@ TEST_CASE("a program without rendering says so instead of drawing") {
       {"measure", box, "--picture", folder / "box.png"},
       {"map", box, "--picture", folder / "box.svg"},
       {"stack", box, "--picture", folder / "box.png"},
+      {"drop", box, "--onto", box, "--picture", folder / "box.png"},
       {"suggest", box, "--pictures", folder / "ideas"},
       {"structure", box, "--picture", folder / "box.png"},
       {"deform", box, "--edit", "shape scale 2", "--picture", folder / "box.png"}};

@@ -39,6 +39,7 @@ TEST_CASE("every --picture is a picture of its kind") {
                                                           {"map", cup, "--step-degrees", "30"},
                                                           {"stack", cup, "-n", "3"},
                                                           {"stack", cup, "--into", cup},
+                                                          {"drop", cup, "--onto", cup},
                                                           {"structure", cup},
                                                           {"deform", cup, "--edit", "shape scale 0.9"}};
   for (const std::vector<std::string>& command : commands)
@@ -53,6 +54,19 @@ TEST_CASE("every --picture is a picture of its kind") {
       CHECK((name == "picture.png" ? is_png(bytes) : is_svg(bytes)));
       std::filesystem::remove(folder / name);
     }
+}
+
+TEST_CASE("the picture of a drop says how high it lies, and how low it could") {
+  const TemporaryFolder folder;
+  const std::string step = folder.model(
+      "step.obj", concatenate(solids::box({0, 0, 0}, {2, 2, 1}), solids::box({2, 0, 0}, {4, 2, 2})));
+  const std::string cube = folder.model("cube.obj", solids::box({2.5, 0.5, 7}, {3.5, 1.5, 8}));
+  CHECK(run_program({"drop", cube, "--onto", step, "--place", "best", "--eps", "0.01", "--step", "0.5",
+                     "--picture", folder / "drop.svg"})
+            .status == 0);
+  const std::string text = bytes_of(folder / "drop.svg");
+  CHECK(text.find("lowest point 1 above that of what it rests on; nowhere lower than ") != std::string::npos);
+  CHECK(text.find("7 x 3 places of its centre") != std::string::npos);
 }
 
 TEST_CASE("solutions come with pictures of the shape and of stacks, before and after") {

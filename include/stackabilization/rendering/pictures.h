@@ -11,6 +11,7 @@
 #include "stackabilization/envelope/height_field.h"
 #include "stackabilization/rendering/drawing.h"
 #include "stackabilization/stacking/map.h"
+#include "stackabilization/stacking/place.h"
 #include "stackabilization/stacking/stackability.h"
 #include "stackabilization/structure/structure.h"
 
@@ -149,6 +150,27 @@ struct StacksPictureOptions {
 /// when the directions differ or the number of copies is out of range, and RenderError when there is no
 /// OpenGL context.
 Drawing stacks_picture(const ImprovedShape& shapes, const StacksPictureOptions& options = {});
+
+/// A shape that came down along a direction, what it rests on, and the heights at places around.
+struct DroppedShape {
+  Shape base, shape;             ///< both where they are at the end
+  Place place;                   ///< of `shape`
+  DropMap map;                   ///< with the turn of `place`
+  Direction direction{0, 0, 1};  ///< against which it came down
+};
+
+/// Options of `drop_picture`.
+struct DropPictureOptions {
+  int width = 1400, height = 760;  ///< pixels
+  std::string title;               ///< heading; may be empty
+  std::vector<std::string> notes;  ///< lines under the heading, such as the height
+};
+
+/// Draws what is below (yellow) and what came down on it (orange), and beside them the map: one cell of
+/// colour per place, u to the right and v up, with a ring around the place taken. The direction points up.
+/// Throws UsageError when the map has no place or a height that is not finite, and RenderError when there is
+/// no OpenGL context.
+Drawing drop_picture(const DroppedShape& dropped, const DropPictureOptions& options = {});
 
 /// Draws the sampled gap function f = u - l with its colour bar and the position of its maximum. Needs no
 /// OpenGL.

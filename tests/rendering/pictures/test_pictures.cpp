@@ -230,6 +230,39 @@ TEST_CASE("a map names its best direction and refuses what is not a map") {
   CHECK_THROWS_AS(map_picture(map), UsageError);
 }
 
+TEST_CASE("a picture of a drop has one cell per place, in the colour of its height") {
+  DroppedShape dropped{solids::stairs({}), solids::box({0, 0, 3}, {1, 1, 4}), {}, {}, {0, 0, 1}};
+  dropped.map = {{0, 1, 2}, {10, 11}, {0, 1, 2, 3, 4, 5}, false};
+  dropped.place = {2, 10, 0};
+  const Drawing drawing = drop_picture(dropped, {800, 450, "box on stairs", {"lowest point 2"}});
+  check_nothing_clipped(drawing);
+  CHECK(says(drawing, "box on stairs"));
+  CHECK(says(drawing, "lowest point 2"));
+  CHECK(says(drawing, "3 x 2 places of its centre"));
+  std::vector<PlacedImage> images;
+  for (const DrawingElement& element : drawing.elements)
+    if (const auto* image = std::get_if<PlacedImage>(&element)) images.push_back(*image);
+  const auto map = std::find_if(images.begin(), images.end(),
+                                [](const PlacedImage& image) { return image.sampling == Sampling::cells; });
+  REQUIRE(map != images.end());
+  REQUIRE(map->image.width == 3);
+  REQUIRE(map->image.height == 2);
+  for (int j = 0; j < 2; ++j)
+    for (int i = 0; i < 3; ++i) CHECK(map->image.pixel(i, 1 - j) == bytes_of(viridis((3 * j + i) / 5.0)));
+  const Image all = rasterize(drawing);
+  for (const Colour& colour : {palette::input, palette::lower, palette::contact})
+    CHECK(pixels_of(all, colour) > 50);
+
+  dropped.place.x = 7;
+  CHECK(says(drop_picture(dropped), "it lies at none of them"));
+  dropped.map = {{0}, {0}, {2}, false};
+  CHECK(says(drop_picture(dropped), "2 high at each"));
+  dropped.map.heights = {};
+  CHECK_THROWS_AS(drop_picture(dropped), UsageError);
+  dropped.map.heights = {std::nan("")};
+  CHECK_THROWS_AS(drop_picture(dropped), UsageError);
+}
+
 TEST_CASE("numbers in pictures are short and plain") {
   CHECK(detail::number_text(0.5) == "0.5");
   CHECK(detail::number_text(1.0 / 3) == "0.3333");
