@@ -1,6 +1,7 @@
 #include "apps/common/measurement.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "apps/common/rendering.h"
 #include "stackabilization/envelope/height_field.h"
@@ -35,6 +36,24 @@ Measurement measure_exactly(const StackabilitySolver& solver, const Direction& d
   measurement.contacts =
       contact_regions({solver.shape(), solver.tree(), direction, exact.separation}, options);
   return measurement;
+}
+
+LayerFit measure_layer(const StackabilitySolver& solver, const Measurement& measured, double layer,
+                       int resolution) {
+  const Shape& shape = solver.shape();
+  const Direction direction(measured.values.direction);
+  const double height = measured.values.extent;
+  ContactOptions options;
+  options.semantics = measured.options.semantics;
+  options.band = height > 0 ? std::min(1.0, layer / height) : 1;
+  const ContactQuery query{shape, solver.tree(), direction, *measured.separation};
+  LayerFit result{layer, close_fit(query, options), contact_regions(query, options).regions, 0, resolution};
+  const Eigen::MatrixXd samples =
+      gap(height_field_by_scanline(shape, direction, window_around(shape, direction, resolution)));
+  for (const double sample : samples.reshaped())
+    if (!std::isnan(sample))
+      result.largest_gap = std::max(result.largest_gap, measured.values.f_max - sample);
+  return result;
 }
 
 Measurement measure_by_sampling(const StackabilitySolver& solver, const Direction& direction, Method method,

@@ -24,6 +24,15 @@ struct Sampling {
   std::optional<double> half_resolution_error;  ///< the same at half the resolution
 };
 
+/// How much of a copy lies within a layer of the one below when they touch.
+struct LayerFit {
+  double layer = 0;  ///< distance along the direction, model units
+  CloseFit fit;
+  std::vector<ContactRegion> regions;  ///< where it does
+  double largest_gap = 0;              ///< between the two, at samples, model units
+  int resolution = 0;                  ///< samples along the longer side
+};
+
 /// One direction measured: what `measure` and `search` report.
 struct Measurement {
   Method method = Method::exact;
@@ -31,11 +40,16 @@ struct Measurement {
   Stackability values;
   std::optional<Separation> separation;  ///< exact method only
   Contacts contacts;                     ///< exact method only
+  std::optional<LayerFit> layer;         ///< exact method only, where asked for
   std::optional<Sampling> sampling;      ///< sampled methods only
 };
 
 /// Exact f_max with its witness and contact regions, and S.
 Measurement measure_exactly(const StackabilitySolver& solver, const Direction& direction);
+
+/// Precondition: `measured` comes from `measure_exactly`.
+LayerFit measure_layer(const StackabilitySolver& solver, const Measurement& measured, double layer,
+                       int resolution);
 
 /// f_max from a height field of `resolution` samples along its longer side, set beside the exact one.
 Measurement measure_by_sampling(const StackabilitySolver& solver, const Direction& direction, Method method,

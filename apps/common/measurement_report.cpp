@@ -98,6 +98,25 @@ void add_omissions(Json& document, const Contacts& contacts, const std::vector<s
                                   {"coincident_parts", std::move(coincident)}};
 }
 
+Json layer_json(const LayerFit& layer) {
+  return {{"distance", layer.layer},
+          {"close_share", layer.fit.share()},
+          {"close_area", layer.fit.close_area},
+          {"shadow_area", layer.fit.shadow_area},
+          {"complete", layer.fit.complete},
+          {"largest_sampled_gap", layer.largest_gap},
+          {"resolution", layer.resolution}};
+}
+
+void add_layer_lines(TextTable& table, const LayerFit& layer, Unit unit) {
+  table.add("Close fit", (layer.fit.complete ? "" : "at least ") + percent(layer.fit.share()),
+            "of the area seen along the direction lies within " + quantity(layer.layer, unit) +
+                " of the copy below when they touch");
+  table.add("", quantity(layer.largest_gap, unit),
+            "largest distance between the two, of " + std::to_string(layer.resolution) +
+                " samples along the longer side");
+}
+
 void add_contact_lines(TextTable& table, const Measurement& measurement, const Model& model) {
   const std::vector<ContactRegion>& regions = measurement.contacts.regions;
   table.add("Contacts", counted(static_cast<long long>(regions.size()), "region"),
@@ -154,6 +173,7 @@ void add_measurement(Json& document, const Measurement& measurement, const Model
   const std::vector<std::string>& names = model.shape.part_names;
   document["contacts"] = separation ? to_json(measurement.contacts.regions, names) : Json(nullptr);
   add_omissions(document, measurement.contacts, names);
+  if (measurement.layer) document["layer"] = layer_json(*measurement.layer);
   if (measurement.sampling) document["sampling"] = sampling_json(*measurement.sampling);
 }
 
@@ -172,6 +192,7 @@ std::string measurement_text(const Measurement& measurement, const Model& model)
   add_box_lines(table, measurement, unit);
   if (measurement.sampling) add_sampling_lines(table, measurement, unit);
   if (measurement.separation) add_contact_lines(table, measurement, model);
+  if (measurement.layer) add_layer_lines(table, *measurement.layer, unit);
   return table.text() + "Each further copy adds " + quantity(values.f_max, unit) +
          (unit == Unit::unknown ? " (model units)" : "") + " to the stack" +
          (share ? ": " + percent(*share) + " of the height.\n" : ".\n");

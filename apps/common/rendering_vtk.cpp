@@ -45,7 +45,9 @@ DepthBufferMaker depth_buffer_maker(const Shape& shape) {
 void write_measurement_picture(const PictureFile& file, const Shape& shape, const Measurement& measurement) {
   PictureOptions options;
   options.title = file.title;
-  write_picture(file, measure_picture(shape, measurement.values, measurement.contacts.regions, options));
+  const std::vector<ContactRegion>& touching =
+      measurement.layer ? measurement.layer->regions : measurement.contacts.regions;
+  write_picture(file, measure_picture(shape, measurement.values, touching, options));
 }
 
 void write_map_picture(const PictureFile& file, const StackabilityMap& map) {

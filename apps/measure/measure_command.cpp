@@ -17,6 +17,7 @@ struct MeasureCommandOptions {
   Method method = Method::exact;
   int resolution = 1024;
   StackabilityOptions stackability;
+  std::optional<Length> layer;
   std::optional<std::string> picture;
 };
 
@@ -27,6 +28,7 @@ std::string essential_measurement(const Stackability& values) {
 int run_measure_command(const CLI::App& command, const MeasureCommandOptions& options) {
   const Stopwatch watch;
   check_outputs(options.common, {{{"--picture", options.picture, OutputKind::picture}}});
+  refuse_option(options.layer && options.method != Method::exact, "--layer", "needs --method exact");
   if (options.picture || options.method == Method::gl_raster) require_rendering();
   const Direction direction(options.direction.value_or(Eigen::Vector3d::UnitZ()));
   const ThreadLimit limit(options.common);
@@ -35,10 +37,12 @@ int run_measure_command(const CLI::App& command, const MeasureCommandOptions& op
       named(model, [&] { return StackabilitySolver(model.shape, options.stackability); });
   if (options.picture && !(solver.box_volume() > 0))
     throw InputError(display_name(model) + ": the shape is flat, and --picture draws shapes with volume");
-  const Measurement measurement =
-      options.method == Method::exact
-          ? measure_exactly(solver, direction)
-          : measure_by_sampling(solver, direction, options.method, options.resolution);
+  Measurement measurement = options.method == Method::exact
+                                ? measure_exactly(solver, direction)
+                                : measure_by_sampling(solver, direction, options.method, options.resolution);
+  if (options.layer)
+    measurement.layer =
+        measure_layer(solver, measurement, options.layer->in(model.shape.unit), options.resolution);
 
   Json document = document_head(command, model);
   add_measurement(document, measurement, model);
@@ -72,6 +76,9 @@ Command make_measure_command(CLI::App& program) {
             options->resolution);
   add_semantics_option(*command, options->stackability.semantics);
   add_boxes_option(*command, options->stackability.boxes);
+  add_length(*command,
+             {"--layer", "Say how much of a copy lies within this of the one below when they touch", true},
+             options->layer);
   command->add_option("--picture", options->picture, "Draw envelopes, contacts and gap (.png or .svg)")
       ->type_name("FILE");
   return {command, [command, options] { return run_measure_command(*command, *options); }, &options->common};

@@ -79,19 +79,22 @@ def inspect(mesh, *, self_intersections=False, format=None, unit=None, up=None, 
     return _results.Inspection(run_command("inspect", mesh, options).document)
 
 
-def measure(mesh, *, direction=None, method=None, resolution=None, semantics=None, boxes=None, format=None, unit=None,
-            up=None, labels=None, threads=None):
+def measure(mesh, *, direction=None, method=None, resolution=None, layer=None, semantics=None, boxes=None, format=None,
+            unit=None, up=None, labels=None, threads=None):
     """Measure how well a mesh stacks along one direction.
 
     direction: three numbers, exact doubles (default: 0, 0, 1).
     method: 'exact' (default), or 'rays' or 'raster', which sample the surface; resolution: their samples
     along the longer side (default: 1024).
+    layer: say how much of a copy lies within this of the one below when they touch, model units or a text such as
+    '0.2mm' (`layer` of the result; for prints, with method 'exact').
     semantics: 'solid' (default): walls may slide along each other; 'closed': touching counts, for sheets.
     boxes: 'oriented' (default): minimal boxes, whatever the pose; 'frame': boxes along the axes.
     format, unit, up, labels: how a file is read, see `load`. threads: at most so many (default: all).
     """
-    options = {"direction": direction, "method": method, "resolution": resolution, "semantics": semantics,
-               "boxes": boxes, "format": format, "unit": unit, "up": up, "labels": labels, "threads": threads}
+    options = {"direction": direction, "method": method, "resolution": resolution, "layer": layer,
+               "semantics": semantics, "boxes": boxes, "format": format, "unit": unit, "up": up, "labels": labels,
+               "threads": threads}
     return _results.Measurement(run_command("measure", mesh, options).document)
 
 

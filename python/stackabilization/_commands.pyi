@@ -37,9 +37,9 @@ def inspect(
 
 def measure(
     mesh: MeshLike, *, direction: Vector | None = None, method: Literal["exact", "rays", "raster"] | None = None,
-    resolution: int | None = None, semantics: Semantics | None = None, boxes: Boxes | None = None,
-    format: str | None = None, unit: Unit | None = None, up: Up | None = None, labels: Path | None = None,
-    threads: int | None = None,
+    resolution: int | None = None, layer: Length | None = None, semantics: Semantics | None = None,
+    boxes: Boxes | None = None, format: str | None = None, unit: Unit | None = None, up: Up | None = None,
+    labels: Path | None = None, threads: int | None = None,
 ) -> Measurement: ...
 
 def search(

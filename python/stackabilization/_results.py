@@ -296,6 +296,7 @@ class Measurement(OfModel):
                                                       fraction)
     witness: Witness | None = field("What causes f_max; None where nothing does, or sampled.", convert=Witness)
     contacts: tuple[Contact, ...] | None = field("Where a copy rests on the one below; None where sampled.", convert=_contacts)
+    layer: Document | None = field("How much lies within a layer of the copy below; None where not asked for.", convert=copied)
     sampling: Document | None = field("What sampling did to f_max; None where exact.", convert=copied)
 
 

@@ -163,6 +163,27 @@ TEST_CASE("measure tells sliding walls from touching ones") {
   CHECK(run_program({"measure", model, "--semantics", "closed", "--json", "-"}).json()["f_max"] == 3);
 }
 
+TEST_CASE("measure says how much of a copy lies within a layer of the one below") {
+  // Over the treads of these stairs f is 0.75, 1.5, 2.25 and 3: copies are 2.25, 1.5, 0.75 and 0 apart.
+  const TemporaryFolder folder;
+  Shape stairs = solids::stairs({});
+  stairs.unit = Unit::centimetre;
+  const std::string model = folder.model("stairs.3mf", stairs);
+  const json layer = run_program({"measure", model, "--layer", "8mm", "--json", "-"}).json()["layer"];
+  CHECK(layer["distance"].get<double>() == Approx(0.8));
+  CHECK(layer["close_share"].get<double>() == Approx(0.5).epsilon(1e-7));
+  CHECK(layer["close_area"].get<double>() == Approx(4).epsilon(1e-7));
+  CHECK(layer["shadow_area"].get<double>() == Approx(8).epsilon(1e-7));
+  CHECK(layer["complete"] == true);
+  CHECK(layer["largest_sampled_gap"].get<double>() == Approx(2.25));
+  const json all = run_program({"measure", model, "--layer", "100", "--json", "-"}).json()["layer"];
+  CHECK(all["close_share"] == 1);
+  CHECK(run_program({"measure", model, "--layer", "8mm"}).out.find("50.0 %") != std::string::npos);
+  CHECK_FALSE(run_program({"measure", model, "--json", "-"}).json().contains("layer"));
+  check_refused(folder, {"measure", model, "--layer", "0"}, 2, "--layer");
+  check_refused(folder, {"measure", model, "--layer", "1", "--method", "rays"}, 2, "needs --method exact");
+}
+
 TEST_CASE("measure by samples stays below the exact value and says how far") {
   const TemporaryFolder folder;
   const std::string model = folder.model("cup.obj", solids::frustum_shell({}));

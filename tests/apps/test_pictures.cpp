@@ -35,6 +35,7 @@ TEST_CASE("every --picture is a picture of its kind") {
   const std::string cup = folder.model("cup.obj", solids::frustum_shell({}));
   const std::vector<std::vector<std::string>> commands = {{"measure", cup},
                                                           {"measure", cup, "--method", "raster"},
+                                                          {"measure", cup, "--layer", "0.5"},
                                                           {"search", cup, "--cone-degrees", "5"},
                                                           {"map", cup, "--step-degrees", "30"},
                                                           {"stack", cup, "-n", "3"},

@@ -58,6 +58,14 @@ def test_results_are_copied_and_pickled(cup):
                              st.map(cup, step_degrees=45).stackability)
 
 
+def test_a_layer_says_how_much_is_close(cup):
+    layer = st.measure(cup, layer=0.5).layer
+    assert 0 < layer["close_share"] < 1 and layer["distance"] == 0.5
+    assert st.measure(cup).layer is None
+    with pytest.raises(st.UsageError, match="--layer needs --method exact"):
+        st.measure(cup, layer=0.5, method="rays")
+
+
 def test_sampling_says_what_it_did(cup):
     sampled = st.measure(cup, method="raster", resolution=64)
     assert sampled.sampling["resolution"] == 64 and sampled.witness is None and sampled.f_max_exact is None

@@ -182,20 +182,40 @@ std::vector<std::int32_t> coincident_parts(const PatchesByParts& by_parts, const
   return parts;
 }
 
+void check(const ContactOptions& options) {
+  if (!(options.band >= 0 && options.band <= 1))
+    throw UsageError("the contact band must lie between 0 and 1");
+}
+
+/// The polygons of the contact band. Precondition: the separation is blocked.
+ContactPolygons polygons_of(const ContactQuery& query, const ContactOptions& options) {
+  constexpr std::int64_t pairs_per_triangle = 8;
+  const auto& [shape, tree, direction, separation] = query;
+  const double extent = range_along(shape, frame_of(direction).w).length() / direction.length();
+  return contact_polygons(
+      tree.data(), direction,
+      {options.semantics, separation.value.to_double() - options.band * extent,
+       options.max_pairs + pairs_per_triangle * shape.triangle_count(), tolerance::relative * extent});
+}
+
+double shadow_area(const Shape& shape, const Frame& frame) {
+  std::vector<ConvexPolygon> outlines;
+  Points corners(3, 3);
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+    for (int c = 0; c < 3; ++c) corners.row(c) = shape.corner(t, c);
+    outlines.push_back(outline_of(corners, frame));
+  }
+  return union_area(outlines);
+}
+
 }  // namespace
 
 Contacts contact_regions(const ContactQuery& query, const ContactOptions& options) {
   const auto& [shape, tree, direction, separation] = query;
-  if (!(options.band >= 0 && options.band <= 1))
-    throw UsageError("the contact band must lie between 0 and 1");
+  check(options);
   if (!separation.blocked) return {};
   const Setting setting{frame_of(direction), options, tolerance::relative * diagonal(shape)};
-  const double extent = range_along(shape, setting.frame.w).length() / direction.length();
-  constexpr std::int64_t pairs_per_triangle = 8;
-  ContactPolygons found = contact_polygons(
-      tree.data(), direction,
-      {options.semantics, separation.value.to_double() - options.band * extent,
-       options.max_pairs + pairs_per_triangle * shape.triangle_count(), tolerance::relative * extent});
+  ContactPolygons found = polygons_of(query, options);
   if (found.polygons.empty()) found.polygons.push_back(witness_polygon(separation.witness));
 
   PatchesByParts by_parts;
@@ -215,6 +235,21 @@ Contacts contact_regions(const ContactQuery& query, const ContactOptions& option
     }
   std::stable_sort(contacts.regions.begin(), contacts.regions.end(), comes_first);
   return contacts;
+}
+
+CloseFit close_fit(const ContactQuery& query, const ContactOptions& options) {
+  check(options);
+  const Frame frame = frame_of(query.direction);
+  CloseFit fit;
+  fit.shadow_area = shadow_area(query.shape, frame);
+  if (!query.separation.blocked) return fit;
+  const ContactPolygons found = polygons_of(query, options);
+  fit.complete = found.complete;
+  std::vector<ConvexPolygon> outlines;
+  for (const ContactPolygon& polygon : found.polygons)
+    outlines.push_back(outline_of(polygon.upper_points, frame));
+  fit.close_area = union_area(outlines);
+  return fit;
 }
 
 }  // namespace stackabilization

@@ -7,6 +7,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/envelope/contacts.h"
 #include "support/catch.h"
+#include "support/directions.h"
 #include "support/solids.h"
 #include "support/variants.h"
 
@@ -123,6 +124,46 @@ TEST_CASE("a cup touches in one ring, whose area is the band's") {
       const double polygon = segments / 2.0 * std::sin(2 * std::numbers::pi / segments);
       CHECK(regions[0].area == Approx(polygon * (outer * outer - inner * inner)).margin(grid_area));
     }
+}
+
+TEST_CASE(
+    "the close portion of a cup is a ring of its shadow, and that of a table its legs, then all of it") {
+  const auto fit_of = [](const Shape& shape, const Direction& direction, double layer) {
+    const SeparationTree tree(shape);
+    const Separation found = separation(tree, tree, direction);
+    ContactOptions options;
+    options.band = layer / range_along(shape, frame_of(direction).w).length();
+    return close_fit({shape, tree, direction, found}, options);
+  };
+  FrustumShell cup;
+  for (const int segments : {8, 64})
+    for (const double layer : {0.1, 0.4, 2.0}) {
+      cup.segments = segments;
+      const CloseFit fit = fit_of(frustum_shell(cup), upwards, layer);
+      const double inner = 3 - layer / 7.5, outer = layer <= 0.25 ? 3 + 2 * layer : 3.5 + (layer - 0.25) / 8;
+      const double polygon = segments / 2.0 * std::sin(2 * std::numbers::pi / segments);
+      CHECK(fit.close_area == Approx(polygon * (outer * outer - inner * inner)).margin(grid_area));
+      CHECK(fit.shadow_area == Approx(16 * polygon).margin(grid_area));
+      CHECK(fit.complete);
+    }
+  // Over the legs f is 6, elsewhere the 0.5 of the top.
+  const Shape board = solids::table({});
+  CHECK(fit_of(board, upwards, 0.1).share() == Approx(4.0 / 64).epsilon(1e-7));
+  CHECK(fit_of(board, upwards, 5.4).share() == Approx(4.0 / 64).epsilon(1e-7));
+  CHECK(fit_of(board, upwards, 5.6).share() == Approx(1).epsilon(1e-7));
+  // In another pose and along a longer vector it is the same.
+  const Eigen::Matrix3d turn = random_rotation(3);
+  const CloseFit turned = fit_of(transformed(board, turn, {1, 2, 3}), Direction(3 * turn.col(2)), 0.1);
+  CHECK(turned.share() == Approx(4.0 / 64).epsilon(1e-6));
+  CHECK(turned.shadow_area == Approx(64).epsilon(1e-6));
+}
+
+TEST_CASE("a shape without a shadow has no close portion") {
+  const Shape wall =
+      named(transformed(box({1, 1, 1}), Eigen::Vector3d(1, 0, 1).asDiagonal(), {0, 0, 0}), "wall");
+  const SeparationTree tree(wall);
+  const Separation found = separation(tree, tree, upwards);
+  CHECK(close_fit({wall, tree, upwards, found}, {}).share() == 0);
 }
 
 TEST_CASE("the area of a union does not count overlaps twice") {
