@@ -1,6 +1,7 @@
 // The filters of the exact separation may only ever be too careful. Their bounds are held against exact
 // values here, pair by pair: a bound that is wrong by a rounding would show in the end-to-end tests only by
 // luck.
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -152,6 +153,49 @@ TEST_CASE("the bound of a pair of nodes holds every pair below it") {
           REQUIRE(at_least(highest, exact));
         }
     }
+  }
+}
+
+TEST_CASE("the bound of two nodes holds where nothing is to spare") {
+  // Points and the same points moved by r without rounding: multiples of the last bits of r, whose sums with
+  // r have as many bits. So two triangles differ by r exactly, or have one column in common.
+  const Eigen::Vector3d r(0.3, -0.2, 1);
+  Random random(11);
+  const auto random_point = [&](double x_low, double x_high) {
+    const auto on_grid = [](double value, int bits) {
+      return std::ldexp(std::round(std::ldexp(value, bits)), -bits);
+    };
+    return Eigen::Vector3d(on_grid(random.uniform(x_low, x_high), 54),
+                           on_grid(random.uniform(-0.04, 0.04), 55), on_grid(random.uniform(0, 0.5), 52));
+  };
+  const auto triangle = [](const std::array<Eigen::Vector3d, 3>& corners) {
+    Points points(3, 3);
+    for (int c = 0; c < 3; ++c) points.row(c) = corners[static_cast<std::size_t>(c)].transpose();
+    Triangles triangles(1, 3);
+    triangles << 0, 1, 2;
+    return make_shape(points, triangles);
+  };
+  const auto check = [&](const Shape& below, const Shape& above) {
+    const SeparationTree::Data upper = SeparationTree(below).data().in_file_axes();
+    const SeparationTree::Data lower = SeparationTree(above).data().in_file_axes();
+    const double size = std::max(upper.magnitude, lower.magnitude);
+    const Projection projection(Direction(r), size, ContactSemantics::closed);
+    const DoubleDouble bound = NodePairBound(size)(ProjectedNode(upper.nodes[0], projection),
+                                                   ProjectedNode(lower.nodes[0], projection), no_floor);
+    const std::optional<Rational> exact =
+        exact_height(triangles_of(below).front(), triangles_of(above).front(), projection);
+    REQUIRE(exact);
+    REQUIRE(at_least(bound, exact));
+  };
+  for (int k = 0; k < 2000; ++k) {
+    const std::array<Eigen::Vector3d, 3> corners = {random_point(0, 0.15), random_point(0, 0.15),
+                                                    random_point(0, 0.15)};
+    check(triangle({corners[0] + r, corners[1] + r, corners[2] + r}), triangle(corners));
+    // The one lies to the left of the column along r through a corner of the other, whose rest is to the
+    // right.
+    const Eigen::Vector3d shared = random_point(0.07, 0.08), left(-2, 0, 0), right(2, 0, 0);
+    check(triangle({shared + r, shared + r + left, shared + r + left + Eigen::Vector3d(0, 0.5, 0)}),
+          triangle({shared, shared + right, shared + right + Eigen::Vector3d(0, 0.5, 0)}));
   }
 }
 
