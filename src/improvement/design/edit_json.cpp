@@ -64,7 +64,7 @@ Operation operation_from_json(const JsonNode& node) {
   }
   if (node.has("taper")) {
     const JsonNode taper = node["taper"];
-    taper.expect_keys({"factor", "axis", "along"}, 2);
+    taper.expect_keys({"factor", "axis", "along"}, 1);
     Taper operation{taper["factor"].number(), taper["axis"].numbers(3), {}};
     if (taper.has("along")) operation.along = taper["along"].numbers(3);
     return operation;

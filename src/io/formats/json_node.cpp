@@ -63,8 +63,11 @@ void JsonNode::expect_keys(const std::vector<std::string_view>& keys, std::size_
   for (const auto& [key, value] : value_->items())
     if (std::find(known.begin(), known.end(), key) == known.end())
       fail("there is no key " + in_quotes(key) + " here" + nearest_hint(key, known));
-  for (std::size_t k = 0; k + optional < keys.size(); ++k)
-    if (!has(keys[k])) fail("the key '" + known[k] + "' is missing");
+  for (std::size_t k = 0; k + optional < keys.size(); ++k) expect_key(known[k]);
+}
+
+void JsonNode::expect_key(const std::string& key) const {
+  if (!has(key)) fail("the key '" + key + "' is missing");
 }
 
 bool JsonNode::has(std::string_view key) const {
@@ -72,7 +75,9 @@ bool JsonNode::has(std::string_view key) const {
 }
 
 JsonNode JsonNode::operator[](std::string_view key) const {
-  return {value_->at(std::string(key)), *name_, place_ + "/" + std::string(key)};
+  const std::string name(key);
+  expect_key(name);
+  return {value_->at(name), *name_, place_ + "/" + name};
 }
 
 std::size_t JsonNode::list_size() const {

@@ -27,7 +27,7 @@ class JsonNode {
   /// missing.
   void expect_keys(const std::vector<std::string_view>& keys, std::size_t optional = 0) const;
   bool has(std::string_view key) const;
-  JsonNode operator[](std::string_view key) const;  ///< precondition: `has(key)`
+  JsonNode operator[](std::string_view key) const;  ///< checks that the key is there
 
   std::size_t list_size() const;               ///< checks that the value is a list
   JsonNode operator[](std::size_t row) const;  ///< precondition: row < list_size()
@@ -50,6 +50,8 @@ class JsonNode {
   [[noreturn]] void fail_expected(const std::string& what) const;
 
  private:
+  void expect_key(const std::string& key) const;
+
   const nlohmann::ordered_json* value_;
   const std::string* name_;
   std::string place_;  ///< JSON pointer
