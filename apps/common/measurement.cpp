@@ -46,8 +46,11 @@ LayerFit measure_layer(const StackabilitySolver& solver, const Measurement& meas
   ContactOptions options;
   options.semantics = measured.options.semantics;
   options.band = height > 0 ? std::min(1.0, layer / height) : 1;
-  const ContactQuery query{shape, solver.tree(), direction, *measured.separation};
-  LayerFit result{layer, close_fit(query, options), contact_regions(query, options).regions, 0, resolution};
+  LayerFit result;
+  result.layer = layer;
+  result.resolution = resolution;
+  result.contacts = contact_regions({shape, solver.tree(), direction, *measured.separation}, options);
+  result.fit = close_fit(shape, direction, result.contacts);
   const Eigen::MatrixXd samples =
       gap(height_field_by_scanline(shape, direction, window_around(shape, direction, resolution)));
   for (const double sample : samples.reshaped())

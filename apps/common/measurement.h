@@ -26,11 +26,11 @@ struct Sampling {
 
 /// How much of a copy lies within a layer of the one below when they touch.
 struct LayerFit {
-  double layer = 0;  ///< distance along the direction, model units
+  double layer = 0;   ///< distance along the direction, model units
+  Contacts contacts;  ///< where it does
   CloseFit fit;
-  std::vector<ContactRegion> regions;  ///< where it does
-  double largest_gap = 0;              ///< between the two, at samples, model units
-  int resolution = 0;                  ///< samples along the longer side
+  double largest_gap = 0;  ///< between the two, at samples, model units
+  int resolution = 0;      ///< samples along the longer side
 };
 
 /// One direction measured: what `measure` and `search` report.
@@ -47,7 +47,8 @@ struct Measurement {
 /// Exact f_max with its witness and contact regions, and S.
 Measurement measure_exactly(const StackabilitySolver& solver, const Direction& direction);
 
-/// Precondition: `measured` comes from `measure_exactly`.
+/// What of a copy lies within `layer` (model units) of the one below, and how far apart they are at samples,
+/// `resolution` along the longer side. Precondition: `measured` comes from `measure_exactly`.
 LayerFit measure_layer(const StackabilitySolver& solver, const Measurement& measured, double layer,
                        int resolution);
 

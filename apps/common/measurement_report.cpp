@@ -102,7 +102,7 @@ Json layer_json(const LayerFit& layer) {
   return {{"distance", layer.layer},
           {"close_share", layer.fit.share()},
           {"close_area", layer.fit.close_area},
-          {"shadow_area", layer.fit.shadow_area},
+          {"projected_area", layer.fit.projected_area},
           {"complete", layer.fit.complete},
           {"largest_sampled_gap", layer.largest_gap},
           {"resolution", layer.resolution}};

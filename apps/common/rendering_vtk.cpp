@@ -46,7 +46,7 @@ void write_measurement_picture(const PictureFile& file, const Shape& shape, cons
   PictureOptions options;
   options.title = file.title;
   const std::vector<ContactRegion>& touching =
-      measurement.layer ? measurement.layer->regions : measurement.contacts.regions;
+      measurement.layer ? measurement.layer->contacts.regions : measurement.contacts.regions;
   write_picture(file, measure_picture(shape, measurement.values, touching, options));
 }
 

@@ -173,7 +173,7 @@ TEST_CASE("measure says how much of a copy lies within a layer of the one below"
   CHECK(layer["distance"].get<double>() == Approx(0.8));
   CHECK(layer["close_share"].get<double>() == Approx(0.5).epsilon(1e-7));
   CHECK(layer["close_area"].get<double>() == Approx(4).epsilon(1e-7));
-  CHECK(layer["shadow_area"].get<double>() == Approx(8).epsilon(1e-7));
+  CHECK(layer["projected_area"].get<double>() == Approx(8).epsilon(1e-7));
   CHECK(layer["complete"] == true);
   CHECK(layer["largest_sampled_gap"].get<double>() == Approx(2.25));
   const json all = run_program({"measure", model, "--layer", "100", "--json", "-"}).json()["layer"];

@@ -29,8 +29,7 @@ struct ContactRegion {
   std::int32_t lower_part = -1;         ///< touching part of the copy above
   double area = 0;  ///< area of the union of the polygons seen along r, model units squared
   /// Area centroid on the upper envelope, model units; the mean of the points when the area is zero.
-  Eigen::Vector3d
-      upper_centre;  ///< area centroid on the upper envelope (mean of the points where the area is zero)
+  Eigen::Vector3d upper_centre;
   Eigen::Vector3d lower_centre;          ///< the same on the lower envelope, before the lift
   Eigen::Vector3d long_axis;             ///< unit vector orthogonal to r: main direction of a line region
   std::vector<ContactPolygon> polygons;  ///< convex, one per pair of triangles; they may overlap
@@ -78,19 +77,20 @@ Contacts contact_regions(const ContactQuery& query, const ContactOptions& option
 
 /// How much of a copy lies close to the one below when they touch, seen along r.
 struct CloseFit {
-  double close_area = 0;   ///< area of the contact band { f >= f_max - eps }, model units squared
-  double shadow_area = 0;  ///< area of the projection of the shape, model units squared
+  double close_area = 0;      ///< area of the contact regions together, model units squared
+  double projected_area = 0;  ///< area of the projection of the shape, model units squared
   /// As Contacts::complete; otherwise `close_area` is a lower bound.
   bool complete = true;
 
   /// Returns the close portion of the projection, in [0, 1]; 0 where the projection has no area.
-  double share() const { return shadow_area > 0 ? std::min(1.0, close_area / shadow_area) : 0; }
+  double share() const { return projected_area > 0 ? std::min(1.0, close_area / projected_area) : 0; }
 };
 
-/// Computes the areas of the contact band and of the projection. A layer of thickness t between copies, such
-/// as one of a 3D print, is a band of t / h(M, r). Accuracy as `contact_regions` up to 4096 pairs of
-/// triangles; areas of more are measured along scan lines, to about a thousandth of the rectangle around
-/// them. Throws UsageError for a band outside [0, 1].
-CloseFit close_fit(const ContactQuery& query, const ContactOptions& options);
+/// Computes the areas that contact regions of a shape and the shape itself cover, seen along r. A layer of
+/// thickness t between copies, such as one of a 3D print, is a contact band of t / h(M, r). Areas of up to
+/// 4096 pairs of triangles, or triangles, are as accurate as `contact_regions`; those of more are measured
+/// along scan lines, to about a thousandth of the rectangle around them. Precondition: `contacts` belong to
+/// this shape and direction.
+CloseFit close_fit(const Shape& shape, const Direction& direction, const Contacts& contacts);
 
 }  // namespace stackabilization

@@ -49,15 +49,6 @@ ContactPolygon witness_polygon(const Witness& witness) {
   return polygon;
 }
 
-ConvexPolygon outline_of(const Points& points, const Frame& frame) {
-  ConvexPolygon outline;
-  for (Eigen::Index p = 0; p < points.rows(); ++p) {
-    const Eigen::Vector3d local = frame.to_local(points.row(p).transpose());
-    outline.push_back({local.x(), local.y()});
-  }
-  return outline;
-}
-
 /// Merges the patches of fully covered upper triangles. On dense meshes many small patches cover most upper
 /// triangles completely; the triangle then replaces them. (Patches over one triangle whose overlaps and gaps
 /// have exactly the same area would be mistaken for a full cover.)
@@ -69,9 +60,7 @@ std::vector<Tile> tiles(const std::vector<Patch>& patches, const Shape& shape, c
     std::size_t last = first;
     for (; last < patches.size() && patches[last].polygon.upper_triangle == triangle; ++last)
       area += outline_area(patches[last].outline);
-    Points corners(3, 3);
-    for (int c = 0; c < 3; ++c) corners.row(c) = shape.corner(triangle, c);
-    const ConvexPolygon whole = outline_of(corners, frame);
+    const ConvexPolygon whole = outline_of(shape, triangle, frame);
     if (last - first > 1 && std::abs(area - outline_area(whole)) <= tolerance::relative * area) {
       result.push_back({whole, first, last});
     } else {
@@ -182,40 +171,20 @@ std::vector<std::int32_t> coincident_parts(const PatchesByParts& by_parts, const
   return parts;
 }
 
-void check(const ContactOptions& options) {
-  if (!(options.band >= 0 && options.band <= 1))
-    throw UsageError("the contact band must lie between 0 and 1");
-}
-
-/// The polygons of the contact band. Precondition: the separation is blocked.
-ContactPolygons polygons_of(const ContactQuery& query, const ContactOptions& options) {
-  constexpr std::int64_t pairs_per_triangle = 8;
-  const auto& [shape, tree, direction, separation] = query;
-  const double extent = range_along(shape, frame_of(direction).w).length() / direction.length();
-  return contact_polygons(
-      tree.data(), direction,
-      {options.semantics, separation.value.to_double() - options.band * extent,
-       options.max_pairs + pairs_per_triangle * shape.triangle_count(), tolerance::relative * extent});
-}
-
-double shadow_area(const Shape& shape, const Frame& frame) {
-  std::vector<ConvexPolygon> outlines;
-  Points corners(3, 3);
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-    for (int c = 0; c < 3; ++c) corners.row(c) = shape.corner(t, c);
-    outlines.push_back(outline_of(corners, frame));
-  }
-  return union_area(outlines);
-}
-
 }  // namespace
 
 Contacts contact_regions(const ContactQuery& query, const ContactOptions& options) {
   const auto& [shape, tree, direction, separation] = query;
-  check(options);
+  if (!(options.band >= 0 && options.band <= 1))
+    throw UsageError("the contact band must lie between 0 and 1");
   if (!separation.blocked) return {};
   const Setting setting{frame_of(direction), options, tolerance::relative * diagonal(shape)};
-  ContactPolygons found = polygons_of(query, options);
+  const double extent = range_along(shape, setting.frame.w).length() / direction.length();
+  constexpr std::int64_t pairs_per_triangle = 8;
+  ContactPolygons found = contact_polygons(
+      tree.data(), direction,
+      {options.semantics, separation.value.to_double() - options.band * extent,
+       options.max_pairs + pairs_per_triangle * shape.triangle_count(), tolerance::relative * extent});
   if (found.polygons.empty()) found.polygons.push_back(witness_polygon(separation.witness));
 
   PatchesByParts by_parts;
@@ -237,19 +206,15 @@ Contacts contact_regions(const ContactQuery& query, const ContactOptions& option
   return contacts;
 }
 
-CloseFit close_fit(const ContactQuery& query, const ContactOptions& options) {
-  check(options);
-  const Frame frame = frame_of(query.direction);
-  CloseFit fit;
-  fit.shadow_area = shadow_area(query.shape, frame);
-  if (!query.separation.blocked) return fit;
-  const ContactPolygons found = polygons_of(query, options);
-  fit.complete = found.complete;
-  std::vector<ConvexPolygon> outlines;
-  for (const ContactPolygon& polygon : found.polygons)
-    outlines.push_back(outline_of(polygon.upper_points, frame));
-  fit.close_area = union_area(outlines);
-  return fit;
+CloseFit close_fit(const Shape& shape, const Direction& direction, const Contacts& contacts) {
+  const Frame frame = frame_of(direction);
+  std::vector<ConvexPolygon> close, all;
+  for (const ContactRegion& region : contacts.regions)
+    for (const ContactPolygon& polygon : region.polygons)
+      close.push_back(outline_of(polygon.upper_points, frame));
+  for (std::int32_t t = 0; t < static_cast<std::int32_t>(shape.triangle_count()); ++t)
+    all.push_back(outline_of(shape, t, frame));
+  return {union_area(close), union_area(all), contacts.complete};
 }
 
 }  // namespace stackabilization

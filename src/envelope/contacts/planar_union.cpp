@@ -45,6 +45,21 @@ double separating_distance(const ConvexPolygon& a, const ConvexPolygon& b) {
 
 }  // namespace
 
+ConvexPolygon outline_of(const Points& points, const Frame& frame) {
+  ConvexPolygon outline;
+  for (Eigen::Index p = 0; p < points.rows(); ++p) {
+    const Eigen::Vector3d local = frame.to_local(points.row(p).transpose());
+    outline.push_back({local.x(), local.y()});
+  }
+  return outline;
+}
+
+ConvexPolygon outline_of(const Shape& shape, std::int32_t triangle, const Frame& frame) {
+  Points corners(3, 3);
+  for (int c = 0; c < 3; ++c) corners.row(c) = shape.corner(triangle, c);
+  return outline_of(corners, frame);
+}
+
 double outline_area(const ConvexPolygon& outline) {
   double twice = 0;
   for (std::size_t p = 2; p < outline.size(); ++p)

@@ -2,13 +2,23 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
+
+#include "stackabilization/core/direction.h"
+#include "stackabilization/core/shape.h"
 
 namespace stackabilization::detail {
 
 /// Corners of a convex polygon in the plane, in order, either orientation; may degenerate to a segment or a
 /// point.
 using ConvexPolygon = std::vector<Eigen::Vector2d>;
+
+/// Returns the outline of coplanar points in order (k x 3), seen along the third axis of `frame`.
+ConvexPolygon outline_of(const Points& points, const Frame& frame);
+
+/// Returns the outline of a triangle, row of Shape::triangles, seen along the third axis of `frame`.
+ConvexPolygon outline_of(const Shape& shape, std::int32_t triangle, const Frame& frame);
 
 double outline_area(const ConvexPolygon& outline);
 

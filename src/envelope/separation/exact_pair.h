@@ -13,9 +13,6 @@ namespace stackabilization::detail {
 std::optional<Rational> exact_maximum(const TreeTriangle& upper, const TreeTriangle& lower,
                                       const Shear& shear, ContactSemantics semantics);
 
-/// Returns whether the triangle projects to a segment or a point, in rational arithmetic.
-bool is_edge_on(const TreeTriangle& triangle, const Shear& shear);
-
 /// The points that attain that maximum, each exact coordinate rounded to the nearest double.
 struct ExactPoints {
   Eigen::Vector3d upper, lower;
@@ -23,5 +20,8 @@ struct ExactPoints {
 /// Computes these points. Precondition: `exact_maximum` returns a value.
 ExactPoints exact_points(const TreeTriangle& upper, const TreeTriangle& lower, const Shear& shear,
                          ContactSemantics semantics);
+
+/// Returns whether the triangle projects to a segment or a point, in rational arithmetic.
+bool is_edge_on(const TreeTriangle& triangle, const Shear& shear);
 
 }  // namespace stackabilization::detail

@@ -127,13 +127,13 @@ TEST_CASE("a cup touches in one ring, whose area is the band's") {
 }
 
 TEST_CASE(
-    "the close portion of a cup is a ring of its shadow, and that of a table its legs, then all of it") {
+    "the close portion of a cup is a ring of its projection, and that of a table its legs, then all of it") {
   const auto fit_of = [](const Shape& shape, const Direction& direction, double layer) {
     const SeparationTree tree(shape);
     const Separation found = separation(tree, tree, direction);
     ContactOptions options;
     options.band = layer / range_along(shape, frame_of(direction).w).length();
-    return close_fit({shape, tree, direction, found}, options);
+    return close_fit(shape, direction, contact_regions({shape, tree, direction, found}, options));
   };
   FrustumShell cup;
   for (const int segments : {8, 64})
@@ -143,7 +143,7 @@ TEST_CASE(
       const double inner = 3 - layer / 7.5, outer = layer <= 0.25 ? 3 + 2 * layer : 3.5 + (layer - 0.25) / 8;
       const double polygon = segments / 2.0 * std::sin(2 * std::numbers::pi / segments);
       CHECK(fit.close_area == Approx(polygon * (outer * outer - inner * inner)).margin(grid_area));
-      CHECK(fit.shadow_area == Approx(16 * polygon).margin(grid_area));
+      CHECK(fit.projected_area == Approx(16 * polygon).margin(grid_area));
       CHECK(fit.complete);
     }
   // Over the legs f is 6, elsewhere the 0.5 of the top.
@@ -155,15 +155,15 @@ TEST_CASE(
   const Eigen::Matrix3d turn = random_rotation(3);
   const CloseFit turned = fit_of(transformed(board, turn, {1, 2, 3}), Direction(3 * turn.col(2)), 0.1);
   CHECK(turned.share() == Approx(4.0 / 64).epsilon(1e-6));
-  CHECK(turned.shadow_area == Approx(64).epsilon(1e-6));
+  CHECK(turned.projected_area == Approx(64).epsilon(1e-6));
 }
 
-TEST_CASE("a shape without a shadow has no close portion") {
+TEST_CASE("a shape whose projection has no area has no close portion") {
   const Shape wall =
       named(transformed(box({1, 1, 1}), Eigen::Vector3d(1, 0, 1).asDiagonal(), {0, 0, 0}), "wall");
   const SeparationTree tree(wall);
   const Separation found = separation(tree, tree, upwards);
-  CHECK(close_fit({wall, tree, upwards, found}, {}).share() == 0);
+  CHECK(close_fit(wall, upwards, contact_regions({wall, tree, upwards, found})).share() == 0);
 }
 
 TEST_CASE("the area of a union does not count overlaps twice") {
