@@ -25,6 +25,7 @@ Command make_stack_command(CLI::App& program);
 Command make_gap_command(CLI::App& program);
 Command make_drop_command(CLI::App& program);
 Command make_items_command(CLI::App& program);
+Command make_draft_command(CLI::App& program);
 Command make_validate_command(CLI::App& program);
 Command make_structure_command(CLI::App& program);
 Command make_deform_command(CLI::App& program);

@@ -10,6 +10,7 @@
 #include "stackabilization/deformation/deformation_model.h"
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/envelope/height_field.h"
+#include "stackabilization/stacking/draft.h"
 #include "stackabilization/stacking/map.h"
 #include "stackabilization/stacking/place.h"
 #include "stackabilization/stacking/validation.h"
@@ -63,6 +64,15 @@ struct DropView {
   std::vector<std::string> notes;
 };
 void write_drop_picture(const PictureFile& file, DropView view);
+/// Undercuts and draft of a shape; `notes` are lines below the heading.
+struct DraftView {
+  const Shape& shape;
+  const DraftAnalysis& draft;
+  Direction direction{0, 0, 1};
+  double min_draft = 0;  ///< degrees
+  std::vector<std::string> notes;
+};
+void write_draft_picture(const PictureFile& file, const DraftView& view);
 void write_structure_picture(const PictureFile& file, const StructuredShape& structured);
 /// A shape before and after edits; `notes` are lines below the heading.
 struct EditedShape {

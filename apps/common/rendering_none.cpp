@@ -37,6 +37,10 @@ void write_drop_picture(const PictureFile&, DropView) {
   refuse_rendering();
 }
 
+void write_draft_picture(const PictureFile&, const DraftView&) {
+  refuse_rendering();
+}
+
 void write_stack_picture(const PictureFile&, const PlacedCopies&) {
   refuse_rendering();
 }

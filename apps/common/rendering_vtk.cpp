@@ -72,6 +72,14 @@ void write_drop_picture(const PictureFile& file, DropView view) {
                                    options));
 }
 
+void write_draft_picture(const PictureFile& file, const DraftView& view) {
+  DraftPictureOptions options;
+  options.title = file.title;
+  options.notes = view.notes;
+  options.min_draft = view.min_draft;
+  write_picture(file, draft_picture(view.shape, view.draft, view.direction, options));
+}
+
 void write_structure_picture(const PictureFile& file, const StructuredShape& structured) {
   StructurePictureOptions options;
   options.title = file.title;

@@ -200,6 +200,18 @@ def items(mesh, *more, direction=None, clearance=None, lateral_clearance=None, s
     return _results.Items(answer.document, answer.texts["table"])
 
 
+def draft(mesh, *, direction=None, draft_degrees=None, format=None, unit=None, up=None, labels=None, threads=None):
+    """Say what of a mesh is undercut, so that neither half of a mould can leave it, and how much draft the rest has; a Draft.
+
+    direction: the halves part along it (default: 0, 0, 1). draft_degrees: draft that is enough (default: 1).
+    format, unit, up, labels: how a file is read, see `load`. threads: at most so many (default: all).
+    """
+    options = {"direction": direction, "draft_degrees": draft_degrees, "format": format, "unit": unit, "up": up,
+               "labels": labels, "threads": threads, "output": "table"}
+    answer = run_command("draft", mesh, options)
+    return _results.Draft(answer.document, _table_of(answer.texts["table"]))
+
+
 def validate(mesh, *, direction=None, format=None, unit=None, up=None, labels=None, threads=None):
     """Find f_max by independent methods: height fields, collision tests and, for small meshes, Minkowski sums.
 

@@ -4,8 +4,8 @@ from typing import Any, Literal, NamedTuple, overload
 from . import _results
 from ._core import Mesh
 from ._results import (
-    Comparison, Deformation, Drop, Gap, Inspection, Items, Map, Measurement, Nest, Search, Separation, Stack, Structure,
-    Suggestions, Validation,
+    Comparison, Deformation, Draft, Drop, Gap, Inspection, Items, Map, Measurement, Nest, Search, Separation, Stack,
+    Structure, Suggestions, Validation,
 )
 from ._types import (
     Boxes, DeformationModel, Length, MeshLike, Names, Path, Primitives, Progress, Relaxed, Segmentation, Semantics,
@@ -76,6 +76,11 @@ def items(
     semantics: Semantics | None = None, format: str | None = None, unit: Unit | None = None, up: Up | None = None,
     labels: Path | None = None, threads: int | None = None,
 ) -> Items: ...
+
+def draft(
+    mesh: MeshLike, *, direction: Vector | None = None, draft_degrees: float | None = None, format: str | None = None,
+    unit: Unit | None = None, up: Up | None = None, labels: Path | None = None, threads: int | None = None,
+) -> Draft: ...
 
 def drop(
     mesh: MeshLike, *, onto: MeshLike, place: Literal["given", "best"] | None = None, turn: bool = False,

@@ -440,6 +440,49 @@ class Gap(OfModel):
     witness: Witness | None = field("What touches first.", convert=Witness)
 
 
+class Draft(OfModel):
+    """Undercuts and draft of a mesh of m triangles. Areas are of the surface, in model units squared."""
+
+    __slots__ = ("_triangles",)
+    _triangles: Floats
+    _shown = ("undercut_area", "min_draft_degrees")
+
+    def __init__(self, document: Document, triangles: Floats) -> None:
+        super().__init__(document)
+        triangles.setflags(write=False)
+        object.__setattr__(self, "_triangles", triangles)
+
+    direction: Floats = field("(3,) as given: the halves of the mould part along it.", convert=vector)
+    draft_degrees: float = field("Draft that is enough.")
+    complete: bool = field("Were all pairs of triangles above each other looked at? Otherwise undercuts are too small.")
+    area: float = field("Of the surface, without inner_area.")
+    undercut_area: float = field("Neither half of the mould can leave it.")
+    little_draft_area: float = field("Not undercut, with less draft than is enough.")
+    inner_area: float = field("Where parts touch or overlap: no surface of the object.")
+    min_draft_degrees: float | None = field("Of what is not undercut; None where all is.")
+    parts: list[Document] = field("The same areas per part, with its name.", convert=copied)
+
+    @property
+    def triangle_draft_degrees(self) -> Floats:
+        """(m,) angles to the direction, from 0 (a wall along it) to 90."""
+        return self._triangles[:, 1]
+
+    @property
+    def triangle_areas(self) -> Floats:
+        """(m,)."""
+        return self._triangles[:, 2]
+
+    @property
+    def triangle_undercut_areas(self) -> Floats:
+        """(m,)."""
+        return self._triangles[:, 3]
+
+    @property
+    def triangle_inner_areas(self) -> Floats:
+        """(m,)."""
+        return self._triangles[:, 4]
+
+
 class LoadItem(Result):
     """A mesh as an item of a load planner: lengths in whole numbers of `step`, rounded up."""
 

@@ -41,6 +41,7 @@ TEST_CASE("every --picture is a picture of its kind") {
                                                           {"stack", cup, "-n", "3"},
                                                           {"stack", cup, "--into", cup},
                                                           {"drop", cup, "--onto", cup},
+                                                          {"draft", cup},
                                                           {"structure", cup},
                                                           {"deform", cup, "--edit", "shape scale 0.9"}};
   for (const std::vector<std::string>& command : commands)

@@ -31,6 +31,7 @@ COMMANDS = [
     ["gap", "MODEL", "--direction", "0.3", "-0.2", "1"],
     ["drop", "--onto", "MODEL", "--place", "best", "--max-cells", "300", "-o", "OUT.stl"],
     ["items", "--step", "0.01", "-o", "OUT.csv"],
+    ["draft", "-o", "OUT.csv"],
     ["compare", "MODEL"],
     ["validate"],
     ["structure", "--save", "OUT.json"],

@@ -143,3 +143,17 @@ def test_a_map_agrees_with_its_solver(cup):
 
 def test_independent_methods_agree(cup):
     assert st.validate(cup).passed
+
+
+def test_what_lies_between_others_is_undercut():
+    boxes = [box((0, 0, 5), (10, 10, 6)), box((1, 4, 2), (9, 5, 3))]
+    seat_over_bar = (numpy.vstack([corners for corners, _ in boxes]),
+                     numpy.vstack([boxes[0][1], boxes[1][1] + len(boxes[0][0])]))
+    draft = st.draft(seat_over_bar)
+    assert draft.undercut_area == pytest.approx(16) and draft.area == pytest.approx(274) and draft.complete
+    assert draft.triangle_undercut_areas.sum() == pytest.approx(16) and draft.min_draft_degrees == 0
+    assert set(draft.triangle_draft_degrees) == {0, 90} and not draft.triangle_areas.flags.writeable
+    assert (draft.triangle_inner_areas == 0).all() and draft.parts[0]["undercut_area"] == draft.undercut_area
+    assert st.draft(seat_over_bar, draft_degrees=0).little_draft_area == 0
+    with pytest.raises(st.UsageError, match="draft"):
+        st.draft(seat_over_bar, draft_degrees=91)

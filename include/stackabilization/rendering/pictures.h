@@ -10,6 +10,7 @@
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/envelope/height_field.h"
 #include "stackabilization/rendering/drawing.h"
+#include "stackabilization/stacking/draft.h"
 #include "stackabilization/stacking/map.h"
 #include "stackabilization/stacking/place.h"
 #include "stackabilization/stacking/stackability.h"
@@ -74,8 +75,7 @@ struct DeformationPictureOptions {
   std::string title;               ///< heading; may be empty
   std::vector<std::string> notes;  ///< lines under the heading, such as the edits and what they moved
   /// Vertices of the shape along edited curves.
-  std::vector<std::vector<std::int32_t>>
-      curves;  ///< vertices of the shape along curves to be shown as edited
+  std::vector<std::vector<std::int32_t>> curves;
 };
 
 /// Draws a shape before (yellow) and after (green) edits, side by side from one viewpoint and in one scale.
@@ -171,6 +171,20 @@ struct DropPictureOptions {
 /// Throws UsageError when the map has no place or a height that is not finite, and RenderError when there is
 /// no OpenGL context.
 Drawing drop_picture(const DroppedShape& dropped, const DropPictureOptions& options = {});
+
+/// Options of `draft_picture`.
+struct DraftPictureOptions {
+  int width = 1400, height = 760;  ///< pixels
+  double min_draft = 1;            ///< smallest draft that counts as enough, degrees in [0, 90]
+  std::string title;               ///< heading; may be empty
+  std::vector<std::string> notes;  ///< lines under the heading, such as the areas
+};
+
+/// Draws a shape from above and from below, with the direction up: surfaces with enough draft green, those
+/// with less yellow, undercuts red. Throws RenderError when there is no OpenGL context. Precondition: `draft`
+/// belongs to this shape and direction.
+Drawing draft_picture(const Shape& shape, const DraftAnalysis& draft, const Direction& direction,
+                      const DraftPictureOptions& options = {});
 
 /// Draws the sampled gap function f = u - l with its colour bar and the position of its maximum. Needs no
 /// OpenGL.

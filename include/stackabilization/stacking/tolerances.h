@@ -24,4 +24,10 @@ inline constexpr double direction_bound = 1e-3;
 /// triangles covers stays open.
 inline constexpr double direction_cell = 1e-7;
 
+/// Distance from a surface at which a point is beside it, fraction of the extent along the direction.
+inline constexpr double beside_surface = 1e-7;
+
+/// Largest slope of a wall against a direction. The projection of a wall is too narrow to be divided.
+inline constexpr double wall_slope = 1e-5;
+
 }  // namespace stackabilization::tolerance

@@ -230,6 +230,23 @@ TEST_CASE("a map names its best direction and refuses what is not a map") {
   CHECK_THROWS_AS(map_picture(map), UsageError);
 }
 
+TEST_CASE("a picture of draft shows what is undercut, what is steep and what is not") {
+  const Shape seat = solids::named(solids::box({0, 0, 4}, {5, 5, 5}), "seat");
+  const Shape bar = solids::named(solids::box({1, 1, 0}, {4, 4, 1}), "bar");
+  const Shape stool = concatenate(seat, bar);
+  const auto drawing_of = [](const Shape& shape) {
+    return draft_picture(shape, analyse_draft(shape, SeparationTree(shape), {0, 0, 1}), {0, 0, 1},
+                         {800, 450, 1, "stool", {"two notes"}});
+  };
+  const Drawing drawing = drawing_of(stool);
+  check_nothing_clipped(drawing);
+  for (const std::string text : {"stool", "two notes", "leaves the mould", "undercut"})
+    CHECK(says(drawing, text));
+  // The swatch of the legend has 200 pixels or so; the top of the bar and what is over it have more.
+  const long long swatch = pixels_of(rasterize(drawing_of(bar)), palette::contact);
+  CHECK(pixels_of(rasterize(drawing), palette::contact) > swatch + 500);
+}
+
 TEST_CASE("a picture of a drop has one cell per place, in the colour of its height") {
   DroppedShape dropped{solids::stairs({}), solids::box({0, 0, 3}, {1, 1, 4}), {}, {}, {0, 0, 1}};
   dropped.map = {{0, 1, 2}, {10, 11}, {0, 1, 2, 3, 4, 5}, false};
