@@ -128,7 +128,7 @@ void write_mesh_output(const CommonOptions& common, const std::string& path, con
 void write_mesh_output(const CommonOptions& common, const std::string& path, const Copies& copies) {
   if (common.caller) return;
   write_mesh(common, path, copies);
-  say_unit(common, path, copies.shape.unit);
+  say_unit(common, path, copies.shapes.front().unit);
 }
 
 void deliver(const CommonOptions& common, const Json& document, const std::string& text) {

@@ -53,6 +53,7 @@ struct PlacedCopies {
   std::vector<Shape> copies;
   Direction direction{0, 0, 1};
   std::vector<std::string> notes;
+  std::vector<Shape> separators = {};  ///< bodies between them
 };
 void write_stack_picture(const PictureFile& file, const PlacedCopies& stack);
 /// A shape that came down on another one; `notes` are lines below the heading.

@@ -60,6 +60,7 @@ void write_stack_picture(const PictureFile& file, const PlacedCopies& stack) {
   StackPictureOptions options;
   options.title = file.title;
   options.notes = stack.notes;
+  options.separators = stack.separators;
   write_picture(file, stack_picture(stack.copies, stack.direction, options));
 }
 

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "apps/common/caller.h"
 #include "apps/common/command.h"
 #include "apps/common/output.h"
 #include "apps/common/rendering.h"
@@ -20,8 +21,24 @@ PlacedCopies placed_copies(const StackRun& run, const Model& model, const Direct
   for (const StackedCopy& copy : run.result.copies) {
     const RigidTransform lift{Eigen::Matrix3d::Identity(), copy.offset.to_double() * direction.vector()};
     stack.copies.push_back(transformed(model.shape, composed(lift, copy.transform)));
+    if (static_cast<int>(stack.separators.size()) < run.gap_count())
+      stack.separators.push_back(transformed(*run.separators, composed(lift, copy.transform)));
   }
   return stack;
+}
+
+/// The copies, and after each of them the separators above it.
+Copies copies_to_write(const StackRun& run, const Model& model, const Direction& direction) {
+  const Copies stacked = stacked_copies(model.shape, direction, run.result);
+  if (run.gap_count() == 0 || run.separators->triangle_count() == 0) return stacked;
+  Copies all{{model.shape, *run.separators}, {}};
+  for (const PlacedCopy& copy : stacked.placed) {
+    all.placed.push_back(copy);
+    const std::size_t number = all.placed.size() / 2 + 1;
+    if (static_cast<int>(number) > run.gap_count()) break;
+    all.placed.push_back({"separator" + std::to_string(number), copy.rotation, copy.translation, 1});
+  }
+  return all;
 }
 
 int run_stack_command(const CLI::App& command, const StackCommandOptions& options) {
@@ -32,12 +49,15 @@ int run_stack_command(const CLI::App& command, const StackCommandOptions& option
   const ThreadLimit limit(options.common);
   const Model model = load_model(options.common);
   const StackRun stack = named(model, [&] { return run_stack(options, model); });
+  check_drawn(options, stack.options.copies);
 
   Json document = document_head(command, model);
   add_stack(document, stack, direction);
   add_document_tail(document, options.common, model, watch);
+  if (stack.gap_count() > 0 && stack.separators->triangle_count() > 0 && options.common.caller)
+    options.common.caller->written_meshes["separators"] = *stack.separators;
   if (options.output)
-    write_mesh_output(options.common, *options.output, stacked_copies(model.shape, direction, stack.result));
+    write_mesh_output(options.common, *options.output, copies_to_write(stack, model, direction));
   if (options.picture)
     write_stack_picture({*options.picture, title_of(model)}, placed_copies(stack, model, direction));
   deliver(options.common, document,
@@ -57,6 +77,16 @@ void add_twist_option(CLI::App& command, StackCommandOptions& options) {
   command.add_option_function<std::string>(angle.name, take, angle.description)->type_name("A|auto");
 }
 
+void add_copies_option(CLI::App& command, StackCommandOptions& options) {
+  const Count count = {"-n", "Number of copies, or max: as many as --within holds (default: 2)", 1,
+                       max_copies};
+  const auto take = [count, &options](const std::string& text) {
+    options.max_copies = text == "max";
+    if (!options.max_copies) options.copies = static_cast<int>(parse_count(count, text));
+  };
+  command.add_option_function<std::string>(count.name, take, count.description)->type_name("N|max");
+}
+
 }  // namespace
 
 Command make_stack_command(CLI::App& program) {
@@ -65,7 +95,7 @@ Command make_stack_command(CLI::App& program) {
       add_command(program, "stack", "Stack copies of a shape, or put it into another one",
                   "stackabilize stack chair.obj -n 10 --unit m --within 2m -o stack.3mf");
   add_common_options(*command, options->common);
-  add_count(*command, {"-n", "Number of copies (default: 2)", 1, max_copies}, options->copies);
+  add_copies_option(*command, *options);
   command->add_option("--into", options->into, "Lower MODEL into this container instead of stacking copies")
       ->type_name("CONTAINER");
   add_direction(*command, "--direction", options->direction, "Stacking direction (default: 0 0 1)");
@@ -78,6 +108,10 @@ Command make_stack_command(CLI::App& program) {
              options->clearance);
   add_length(*command, {"--lateral-clearance", "Sideways play that every contact allows"},
              options->lateral_clearance);
+  add_length(*command, {"--layer", "Lift copies by whole layers of a print, this thick", true},
+             options->layer);
+  command->add_flag("--separators", options->separators,
+                    "Fill the gaps where they are narrow with bodies of their own, for another material");
   add_length(*command, {"--within", "Room along the direction: exit status 1 if the stack is higher", true},
              options->within);
   add_mesh_output(*command, options->common, options->output, "the stack");

@@ -11,6 +11,10 @@ constexpr int max_drawn_copies = 200;
 
 }  // namespace
 
+void check_drawn(const StackCommandOptions& options, int copies) {
+  refuse_option(options.picture && copies > max_drawn_copies, "--picture", "draws at most 200 copies");
+}
+
 void check(const StackCommandOptions& options) {
   std::vector<InputFile> container;
   if (options.into) container.push_back({"the container", *options.into});
@@ -18,16 +22,23 @@ void check(const StackCommandOptions& options) {
                                   {"--picture", options.picture, OutputKind::picture}},
                                  container});
   if (options.picture) require_rendering();
-  refuse_option(options.picture && options.copy_count() > max_drawn_copies, "--picture",
-                "draws at most 200 copies");
+  check_drawn(options, options.copy_count());
   refuse_option(options.best_twist && options.period, "--twist-degrees auto",
                 "cannot be combined with --period");
+  const bool turned = options.twist_degrees || options.best_twist || options.period;
+  refuse_option(options.max_copies && !options.within, "-n max", "needs the room of --within");
+  refuse_option(options.max_copies && turned, "-n max", "is for copies that are not turned");
+  refuse_option(options.layer && turned, "--layer",
+                "is for copies that are not turned: others are not sliced alike");
+  refuse_option(options.separators && !options.layer, "--separators", "needs the thickness of a --layer");
+  refuse_option(options.separators && !options.clearance, "--separators", "needs a --clearance to fill");
   if (!options.into) return;
   const char* const reason = "makes no sense with --into, which puts one MODEL into one container";
-  refuse_option(options.copies.has_value(), "-n", reason);
+  refuse_option(options.copies.has_value() || options.max_copies, "-n", reason);
   refuse_option(options.twist_degrees || options.best_twist, "--twist-degrees", reason);
   refuse_option(options.period.has_value(), "--period", reason);
   refuse_option(options.within.has_value(), "--within", reason);
+  refuse_option(options.layer.has_value(), "--layer", reason);
   refuse_option(options.common.model == "-" && *options.into == "-", "--into",
                 "and MODEL cannot both be standard input");
 }
@@ -45,6 +56,7 @@ StackOptions stack_options(const StackCommandOptions& options, Unit unit) {
   stack.twist_degrees = options.twist_degrees.value_or(0);
   stack.clearance = play.clearance;
   stack.play = play.lateral;
+  stack.layer = length_in(options.layer, unit);
   return stack;
 }
 

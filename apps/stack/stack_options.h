@@ -15,12 +15,15 @@ struct StackCommandOptions {
   CommonOptions common;
   StackabilityOptions stackability;
   std::optional<int> copies;        ///< -n; default 2
+  bool max_copies = false;          ///< -n max: as many as --within holds
   std::optional<std::string> into;  ///< container that MODEL is lowered into
   std::optional<Eigen::Vector3d> direction;
   std::optional<double> twist_degrees;  ///< a fixed twist
   bool best_twist = false;              ///< --twist-degrees auto
   std::optional<int> period;
   std::optional<Length> clearance, lateral_clearance, within;
+  std::optional<Length> layer;        ///< thickness of the layers of a print
+  bool separators = false;            ///< fill the gaps
   std::optional<std::string> output;  ///< mesh file
   std::optional<std::string> picture;
 
@@ -30,6 +33,8 @@ struct StackCommandOptions {
 
 /// Throws UsageError when options contradict each other.
 void check(const StackCommandOptions& options);
+/// Throws UsageError when so many copies cannot be drawn, and are to be.
+void check_drawn(const StackCommandOptions& options, int copies);
 
 /// Lengths in units of a model, 0 where not given. Throws UsageError when they cannot be converted.
 struct Play {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "apps/common/measurement.h"
@@ -113,6 +114,11 @@ void add_stack(Json& document, const StackRun& run, const Direction& direction) 
   document["poses"] = run.poses;
   document["clearance"] = run.options.clearance;
   document["lateral_clearance"] = run.options.play;
+  document["layer"] = run.options.layer > 0 ? Json(run.options.layer) : Json(nullptr);
+  document["separators"] = run.separators ? Json{{"gaps", run.gap_count()},
+                                                 {"regions", run.separators->part_count()},
+                                                 {"triangles", run.separators->triangle_count()}}
+                                          : Json(nullptr);
   document["offsets"] = std::move(offsets);
   document["exact_offsets"] = std::move(exact_offsets);
   document["copies"] = copies_json(result, direction);
@@ -136,6 +142,14 @@ std::string stack_text(const StackRun& run, const Model& model, const Direction&
   table.add("Copies", std::to_string(run.options.copies), "offsets " + offsets_text(result, unit));
   table.add("Height", quantity(result.height, unit),
             "of the stack; one copy is " + quantity(run.extent, unit));
+  if (run.options.layer > 0)
+    table.add("Layers", rounded(std::round(result.increment / run.options.layer)),
+              "from each copy to the next, " + quantity(run.options.layer, unit) + " each");
+  if (run.separators)
+    table.add("Separators",
+              std::to_string(run.gap_count()) + " x " + std::to_string(run.separators->part_count()),
+              run.separators->part_count() > 0 ? "bodies that fill the gaps where they are narrow"
+                                               : "the copies are close to each other over no area");
   add_pose_lines(table, run);
   table.add("Boxes", quantity(result.stack_volume, unit, 3),
             "of the stack, and " + quantity(result.box_volume, unit, 3) + " of one copy (" +

@@ -1,8 +1,10 @@
 #include "apps/stack/stack_run.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/stacking/separators.h"
 #include "stackabilization/stacking/stack_search.h"
 
 namespace stackabilization::apps {
@@ -27,6 +29,26 @@ void fill_searched_period(StackRun& run, const Model& model, const Direction& di
   run.result = std::move(found.stack);
 }
 
+/// What the wish takes of a straight stack of `run.options.copies`.
+Wish wish_of(const StackCommandOptions& options, const Model& model, const StackRun& run) {
+  const Direction direction = options.stacking_direction();
+  StackabilityOptions measure = options.stackability;
+  measure.play = run.options.play;
+  double gap = run.options.clearance;
+  if (run.options.layer > 0) {
+    StackOptions one = run.options;
+    one.copies = 1;
+    gap = stack_copies(model.shape, direction, one).increment -
+          stackability(model.shape, direction, measure).f_max;
+  }
+  measure.clearance = gap;
+  Wish wish;
+  wish.length = options.within->in(model.shape.unit);
+  wish.plan =
+      plan_stack(stackability(model.shape, direction, measure), {run.options.copies, wish.length, gap});
+  return wish;
+}
+
 }  // namespace
 
 StackRun run_stack(const StackCommandOptions& options, const Model& model) {
@@ -35,15 +57,11 @@ StackRun run_stack(const StackCommandOptions& options, const Model& model) {
   run.options = stack_options(options, model.shape.unit);
   run.period = options.period.value_or(1);
   run.extent = HullSupport(model.shape).extent(direction);
-  if (options.within) {
-    Wish wish;
-    wish.length = options.within->in(model.shape.unit);
-    StackabilityOptions measure = options.stackability;
-    measure.clearance = run.options.clearance;
-    measure.play = run.options.play;
-    wish.plan = plan_stack(stackability(model.shape, direction, measure),
-                           {run.options.copies, wish.length, run.options.clearance});
-    run.wish = wish;
+  if (options.within) run.wish = wish_of(options, model, run);
+  if (run.wish && options.max_copies) {
+    const std::int64_t fitting = run.wish->plan.copies_now.value_or(max_copies);
+    run.options.copies = static_cast<int>(std::clamp<std::int64_t>(fitting, 1, max_copies));
+    run.wish = wish_of(options, model, run);
   }
   if (options.best_twist)
     fill_searched_twist(run, model, direction);
@@ -51,6 +69,9 @@ StackRun run_stack(const StackCommandOptions& options, const Model& model) {
     fill_searched_period(run, model, direction);
   else
     run.result = stack_copies(model.shape, direction, run.options);
+  if (options.separators)
+    run.separators =
+        separators(model.shape, direction, {run.options.semantics, run.result.increment, run.options.layer});
   if (run.wish) run.wish->met = run.result.height <= run.wish->length * (1 + tolerance::relative);
   return run;
 }

@@ -28,6 +28,11 @@ struct StackRun {
   int period = 1;
   std::vector<std::string> poses;  ///< per copy of a period, when it was searched
   std::optional<Wish> wish;
+  /// Bodies in the gap above a copy, in its coordinates; only where asked for.
+  std::optional<Shape> separators;
+
+  /// Returns how many copies have separators above them.
+  int gap_count() const { return separators ? options.copies - 1 : 0; }
 };
 
 StackRun run_stack(const StackCommandOptions& options, const Model& model);

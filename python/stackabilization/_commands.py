@@ -130,25 +130,28 @@ def map(mesh, *, step_degrees=None, semantics=None, boxes=None, format=None, uni
 
 
 def stack(mesh, *, n=None, into=None, direction=None, twist_degrees=None, period=None, clearance=None,
-          lateral_clearance=None, within=None, semantics=None, boxes=None, format=None, unit=None, up=None, labels=None,
-          threads=None):
+          lateral_clearance=None, layer=None, separators=False, within=None, semantics=None, boxes=None, format=None,
+          unit=None, up=None, labels=None, threads=None):
     """Stack copies of a mesh, or lower it into another one.
 
-    n: number of copies (default: 2). direction: they come from above along it (default: 0, 0, 1).
+    n: number of copies (default: 2), or 'max': as many as `within` holds. direction: they come from above along it (default: 0, 0, 1).
     twist_degrees: turn of each copy about the direction, or 'auto' for the best one; period: turn or flip
     copies in a cycle of this length, from 1 to 5, the best one found.
     clearance: air between copies along the direction; lateral_clearance: sideways play that every contact
-    allows; within: room along the direction. All three are model units, or texts such as '2mm'.
+    allows; layer: lift copies by whole layers of a print, this thick; within: room along the direction. All four are
+    model units, or texts such as '2mm'. separators: have the bodies that fill the gaps where they are narrow, too.
     into: a mesh that `mesh` is lowered into, at its place across the direction; then a Nest is returned.
     semantics, boxes: as in `measure`. format, unit, up, labels: how a file is read, see `load`.
     threads: at most so many (default: all).
     """
     options = {"n": n, "into": into, "direction": direction, "twist_degrees": twist_degrees, "period": period,
-               "clearance": clearance, "lateral_clearance": lateral_clearance, "within": within,
+               "clearance": clearance, "lateral_clearance": lateral_clearance, "layer": layer, "separators": separators, "within": within,
                "semantics": semantics, "boxes": boxes, "format": format, "unit": unit, "up": up, "labels": labels,
                "threads": threads}
-    document = run_command("stack", mesh, options).document
-    return _results.Stack(document) if into is None else _results.Nest(document)
+    answer = run_command("stack", mesh, options)
+    if into is not None:
+        return _results.Nest(answer.document)
+    return _results.Stack(answer.document, answer.meshes.get("separators"))
 
 
 def gap(mesh, above, *, direction=None, semantics=None, format=None, unit=None, up=None, labels=None, threads=None):

@@ -57,9 +57,10 @@ def map(
 ) -> Map: ...
 
 def stack(
-    mesh: MeshLike, *, n: int | None = None, into: MeshLike | None = None, direction: Vector | None = None,
+    mesh: MeshLike, *, n: int | Literal["max"] | None = None, into: MeshLike | None = None, direction: Vector | None = None,
     twist_degrees: float | Literal["auto"] | None = None, period: int | None = None,
-    clearance: Length | None = None, lateral_clearance: Length | None = None, within: Length | None = None,
+    clearance: Length | None = None, lateral_clearance: Length | None = None, layer: Length | None = None,
+    separators: bool = False, within: Length | None = None,
     semantics: Semantics | None = None, boxes: Boxes | None = None, format: str | None = None,
     unit: Unit | None = None, up: Up | None = None, labels: Path | None = None, threads: int | None = None,
 ) -> Stack: ...

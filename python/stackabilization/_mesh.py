@@ -30,7 +30,8 @@ def load(path: Path, *, format: str | None = None, unit: Unit | None = None, up:
 
 
 #: Keywords that are True or False, and those that are three numbers.
-FLAGS = {"self_intersections", "bend", "change_height", "any_quality", "all", "front", "twist", "turn", "no_pictures"}
+FLAGS = {"self_intersections", "bend", "change_height", "any_quality", "all", "front", "twist", "turn", "no_pictures",
+         "separators"}
 VECTORS = {"direction", "plane", "keep_extent", "fix_point"}
 
 

@@ -379,8 +379,22 @@ def _transforms(copies: Sequence[Document]) -> Floats:
 class Stack(OfModel):
     """Copies on top of each other."""
 
-    __slots__ = ()
+    __slots__ = ("_separators",)
+    _separators: Mesh | None
     _shown = ("n", "height", "nesting_increment", "stackability")
+
+    def __init__(self, document: Document, separators: Mesh | None) -> None:
+        super().__init__(document)
+        object.__setattr__(self, "_separators", separators)
+
+    @property
+    def separators(self) -> Mesh | None:
+        """The bodies above the first copy, which `transforms[k]` takes to their places above copy k.
+
+        None where they were not asked for, or the copies are close to each other over no area.
+        """
+        return self._separators
+
     direction: Floats = field("(3,) as given; copies come from above along it.", convert=vector)
     n: int = field("Number of copies.")
     transforms: Floats = field("(n, 4, 4): takes the mesh to its place as each copy, bottom first.", "copies",
@@ -392,6 +406,7 @@ class Stack(OfModel):
     poses: tuple[Document, ...] = field("Per copy of a period, how it is turned.", convert=_names)
     clearance: float = field("Air along the direction, model units.")
     lateral_clearance: float = field("Sideways play, model units.")
+    layer: float | None = field("Thickness of the layers of which each lift is a whole number; None where not asked for.")
     copy_height: float = field("Of one copy, model units.")
     height: float = field("Of the stack, model units.")
     nesting_increment: float = field("What each further copy adds, model units.")

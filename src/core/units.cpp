@@ -59,8 +59,9 @@ Shape in_unit(const Shape& shape, Unit unit) {
 }
 
 Copies in_unit(const Copies& copies, Unit unit) {
-  const Fraction by = checked_conversion(copies.shape.unit, unit);
-  Copies result{in_unit(copies.shape, unit), copies.placed};
+  const Fraction by = checked_conversion(copies.shapes.front().unit, unit);
+  Copies result{{}, copies.placed};
+  for (const Shape& shape : copies.shapes) result.shapes.push_back(in_unit(shape, unit));
   for (PlacedCopy& copy : result.placed) copy.translation = copy.translation * by.numerator / by.denominator;
   return result;
 }

@@ -220,3 +220,46 @@ TEST_CASE("stack --into lowers one object into another") {
   CHECK(result["saving"] == 1);
   CHECK(run_program({"stack", content, "--into", container, "--quiet"}).out == "-6\n");
 }
+
+TEST_CASE("a stack of prints is as high as the room allows, in whole layers, with separators of its own") {
+  const TemporaryFolder folder;
+  Shape box = solids::box({40, 30, 2});
+  box.unit = Unit::millimetre;
+  const std::string model = folder.model("tile.3mf", box), mesh = folder / "stack.3mf";
+  // 2.25 mm per further copy, nine layers of 0.25: 2 + 9 x 2.25 = 22.25 of 24 mm.
+  const std::vector<std::string> print = {"stack",       model,   "-n",           "max",
+                                          "--within",    "24",    "--layer",      "0.25",
+                                          "--clearance", "0.2mm", "--separators", "--json"};
+  const json stack = run_program(joined(print, {"-", "-o", mesh})).json();
+  CHECK(stack["n"] == 10);
+  CHECK(stack["within"]["met"] == true);
+  CHECK(stack["within"]["straight"]["copies_now"] == 10);
+  CHECK(stack["nesting_increment"] == 2.25);
+  CHECK(stack["layer"] == 0.25);
+  CHECK(stack["separators"]["gaps"] == 9);
+  CHECK(stack["separators"]["regions"] == 1);
+  const Shape written = read_shape(mesh);
+  REQUIRE(written.part_count() == 19);
+  CHECK(written.part_names[1] == "separator1/region_1");
+  for (Eigen::Index part = 0; part < 19; ++part) {
+    const Range along = range_along(extract_part(written, part), Eigen::Vector3d::UnitZ());
+    CHECK(along.low == Approx(part / 2 * 2.25 + part % 2 * 2));
+    CHECK(along.length() == Approx(part % 2 == 0 ? 2 : 0.25));
+  }
+  const std::string text =
+      run_program({"stack", model, "-n", "max", "--within", "2.3cm", "--layer", "0.25"}).out;
+  CHECK(text.find("Layers") != std::string::npos);
+  CHECK(text.find("Copies        11 ") != std::string::npos);
+  CHECK(run_program({"stack", model, "-n", "max", "--within", "1"}).status == 1);
+
+  check_refused(folder, {"stack", model, "-n", "max"}, 2, "--within");
+  check_refused(folder, {"stack", model, "-n", "most"}, 2, "-n");
+  check_refused(folder, {"stack", model, "-n", "max", "--within", "9", "--period", "2"}, 2, "-n max");
+  check_refused(folder, {"stack", model, "--layer", "1", "--twist-degrees", "5"}, 2, "--layer");
+  check_refused(folder, {"stack", model, "--layer", "0"}, 2, "--layer");
+  check_refused(folder, {"stack", model, "--layer", "1", "--separators"}, 2, "--clearance");
+  check_refused(folder, {"stack", model, "--clearance", "1", "--separators"}, 2, "--layer");
+  check_refused(folder, {"stack", model, "--layer", "1", "--into", model}, 2, "--layer");
+  check_refused(folder, {"stack", model, "-n", "max", "--within", "900", "--picture", folder / "a.png"}, 2,
+                "at most 200");
+}

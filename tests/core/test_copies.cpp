@@ -12,7 +12,7 @@ namespace {
 
 /// Coordinates that need all 17 digits, in places that need them too.
 Copies turned(int count, const Shape& shape) {
-  Copies copies{shape, {}};
+  Copies copies{{shape}, {}};
   for (int k = 0; k < count; ++k) {
     PlacedCopy copy;
     copy.name = "copy" + std::to_string(k + 1);
@@ -49,7 +49,8 @@ TEST_CASE("copies as one shape are the shape in each place, its parts named afte
   CHECK(all.part_names == std::vector<std::string>{"copy1/leg", "copy1/seat <&>", "copy2/leg",
                                                    "copy2/seat <&>", "copy3/leg", "copy3/seat <&>"});
   for (std::size_t k = 0; k < 3; ++k) {
-    const Shape moved = transformed(copies.shape, copies.placed[k].rotation, copies.placed[k].translation);
+    const Shape moved =
+        transformed(copies.shapes.front(), copies.placed[k].rotation, copies.placed[k].translation);
     CHECK(all.vertices.middleRows(static_cast<Eigen::Index>(8 * k), 8) == moved.vertices);
   }
   Copies same = copies;
@@ -70,6 +71,26 @@ TEST_CASE("3MF holds the meshes of copies once, and brings them back to the bit"
     CHECK(same_corners(back, all));
     CHECK(same_parts(back, all));
   }
+}
+
+TEST_CASE("copies of two shapes are one file, each mesh once") {
+  Copies copies = turned(3, two_parts());
+  copies.shapes.push_back(two_tetrahedra());
+  PlacedCopy between;
+  between.shape = 1;
+  between.name = "between";
+  between.translation = {0.1, 0.2, 1.0 / 3};
+  copies.placed.insert(copies.placed.begin() + 1, between);
+  const Shape all = as_one_shape(copies);
+  CHECK(all.triangle_count() == 3 * 12 + two_tetrahedra().triangle_count());
+  CHECK(all.part_names[2] == "between/" + two_tetrahedra().part_names[0]);
+  const std::string bytes = shape_bytes(copies, Format::three_mf);
+  CHECK(count_of(model_of(bytes), "<mesh>") == 2 + two_tetrahedra().part_names.size());
+  CHECK(count_of(model_of(bytes), "<item ") == 4);
+  const Shape back = read_shape(bytes, Format::three_mf, "test");
+  CHECK(same_corners(back, all));
+  CHECK(same_parts(back, all));
+  CHECK(same_parts(read_shape(shape_bytes(copies, Format::gltf), Format::gltf, "test"), all));
 }
 
 TEST_CASE("GLB holds the meshes of copies once, and all copies are the same shape again") {

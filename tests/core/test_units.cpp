@@ -63,7 +63,7 @@ TEST_CASE("shapes and copies in another unit are the same things") {
   PlacedCopy copy;
   copy.name = "copy";
   copy.translation = Eigen::Vector3d(0, 0, 3);
-  const Copies copies{shape, {copy}};
+  const Copies copies{{shape}, {copy}};
   const Shape once = as_one_shape(in_unit(copies, Unit::centimetre));
   const Shape other = in_unit(as_one_shape(copies), Unit::centimetre);
   CHECK((once.vertices - other.vertices).cwiseAbs().maxCoeff() < 1e-14);

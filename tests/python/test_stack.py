@@ -1,6 +1,7 @@
 """Stacks as transforms, and one mesh in another."""
 
 import fractions
+import pickle
 
 import numpy
 import pytest
@@ -34,6 +35,18 @@ def test_copies_of_a_real_chair_touch_and_do_not_overlap(chair):
 def test_clearance_may_have_a_unit():
     stack = st.stack(box((0, 0, 0), (1, 1, 1)), unit="cm", clearance="2mm")
     assert stack.clearance == pytest.approx(0.2) and stack.nesting_increment == pytest.approx(1.2)
+
+
+def test_prints_are_stacked_in_whole_layers_with_separators():
+    tile = box((0, 0, 0), (4, 3, 2))
+    stack = st.stack(tile, n="max", within=9, clearance=0.2, layer=0.25, separators=True)
+    assert (stack.n, stack.nesting_increment, stack.layer) == (4, 2.25, 0.25)
+    body = stack.separators
+    assert (body.vertices.min(axis=0).tolist(), body.vertices.max(axis=0).tolist()) == ([0, 0, 2], [4, 3, 2.25])
+    below, above = placed((body.vertices, body.faces), stack.transforms[0]), placed(tile, stack.transforms[1])
+    assert st.gap(below, above).gap == 0
+    assert pickle.loads(pickle.dumps(stack)).separators.vertices.shape == body.vertices.shape
+    assert st.stack(tile).separators is None
 
 
 def test_the_room_that_is_asked_for_is_met_or_not():

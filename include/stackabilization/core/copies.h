@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,15 +14,16 @@ struct PlacedCopy {
   std::string name;                                        ///< UTF-8; parts of the copy are named "NAME/PART"
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< orthogonal, determinant +1
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();   ///< model units
+  std::size_t shape = 0;                                   ///< index into Copies::shapes
 };
 
-/// Copies of one shape.
+/// Copies of one shape, or of a few.
 struct Copies {
-  Shape shape;                     ///< the shape in its own coordinates
+  std::vector<Shape> shapes;       ///< in their own coordinates, of one unit; at least one
   std::vector<PlacedCopy> placed;  ///< copies with different names
 };
 
-/// Returns all copies as one shape, in their order. Throws InputError when `copies.shape` is invalid or names
+/// Returns all copies as one shape, in their order. Throws InputError when a shape is invalid or names
 /// repeat. Throws UsageError when the result has more vertices or triangles than can be indexed.
 Shape as_one_shape(const Copies& copies);
 

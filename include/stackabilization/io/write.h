@@ -35,9 +35,9 @@ void write_shape(const Shape& shape, const std::filesystem::path& path, const Wr
 /// Returns the bytes of that file. `options.format` is ignored.
 std::string shape_bytes(const Shape& shape, Format format, const WriteOptions& options = {});
 
-/// Writes copies of a shape. 3MF and GLB contain the meshes once and a placement for each copy: 3MF as items
-/// of the build (`partnumber` is the name), GLB as nodes. The other formats contain `as_one_shape(copies)`,
-/// and so do 3MF and GLB when there are more placements than `read_shape` accepts.
+/// Writes copies of shapes. 3MF and GLB contain the meshes of a shape once and a placement for each copy: 3MF
+/// as items of the build (`partnumber` is the name), GLB as nodes. The other formats contain
+/// `as_one_shape(copies)`, and so do 3MF and GLB when there are more placements than `read_shape` accepts.
 ///
 /// Reading the file gives `as_one_shape(copies)`. With 3MF the result is identical, because its decimal
 /// numbers preserve doubles. With GLB the vertices of one copy have single precision and the placements

@@ -36,6 +36,7 @@ struct StackPictureOptions {
   int width = 1200, height = 900;  ///< pixels
   std::string title;               ///< heading; may be empty
   std::vector<std::string> notes;  ///< lines under the heading, such as the numbers of the stack
+  std::vector<Shape> separators;   ///< bodies between the copies, drawn orange
   bool side_view = true;           ///< whether to draw a horizontal view beside the 3/4 view
 };
 

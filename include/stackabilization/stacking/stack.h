@@ -26,6 +26,10 @@ struct StackOptions {
   double clearance = 0;   ///< additional gap along r at each contact, model units, in [0, 1e60]
   double play = 0;        ///< lateral play that every contact must leave free, model units, >= 0
   int play_corners = 16;  ///< see DilationOptions
+  /// Thickness of the layers of a print, model units, in [0, 1e60]; 0: none. Otherwise each copy is lifted by
+  /// a whole number of layers above the one below, so that all are sliced alike, and the gap is the clearance
+  /// or up to a layer more. For copies without twist or poses.
+  double layer = 0;
 };
 
 /// Position of a copy in a stack: p -> transform(p) + offset * r.
@@ -78,6 +82,10 @@ Line box_axis(const Shape& shape, const Direction& direction, BoxModel boxes);
 /// twist (largest mean over closed chains of contacts). For one pose with twist, it is exact over contacts of
 /// copies less than n apart. Otherwise it is the mean over the last period of the stack, or over the whole
 /// stack when this has only one period.
+///
+/// With layers the lift of each copy above the one below, in units of r, is a multiple of `layer` / |r|
+/// rounded to double, the next one above sep + clearance (within tolerance::relative where there is
+/// clearance).
 ///
 /// Throws UsageError for options out of range, for transforms that are not rigid, and for a clearance so
 /// large that the shape vanishes in rounding. Throws InputError when `validate(shape)` fails or V(M) = 0.

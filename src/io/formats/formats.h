@@ -39,9 +39,9 @@ std::string write_obj(const Shape& shape);
 std::string write_off(const Shape& shape);
 std::string write_ply(const Shape& shape, Encoding encoding);
 std::string write_stl(const Shape& shape, Encoding encoding);
-/// Writes 3MF. Empty `copies`: the shape itself, without a name.
-std::string write_three_mf(const Shape& shape, const std::vector<PlacedCopy>& copies = {});
-std::string write_glb(const Shape& shape, const std::vector<PlacedCopy>& copies = {});
+/// Writes 3MF. Without placed copies, here and for GLB: the first shape itself, without a name.
+std::string write_three_mf(const Copies& copies);
+std::string write_glb(const Copies& copies);
 std::string write_vtp(const Shape& shape, Encoding encoding);
 
 /// Returns the rows of the triangles of every part, ascending.

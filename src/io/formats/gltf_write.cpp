@@ -16,18 +16,17 @@ namespace {
 /// Model under construction for writing: one buffer.
 class GlbWriter {
  public:
-  std::string write(const Shape& shape, const std::vector<PlacedCopy>& copies) {
+  std::string write(const Copies& copies) {
     model_.asset.version = "2.0";
     model_.asset.generator = "Stackabilization";
     model_.buffers.emplace_back();
     model_.scenes.emplace_back();
     model_.defaultScene = 0;
-    const std::vector<PartMesh> meshes = split_by_part(shape);
-    for (std::size_t part = 0; part < meshes.size(); ++part)
-      if (!meshes[part].triangles.empty())
-        add_mesh(shape, meshes[part], printable_name(shape.part_names[part]));
-    if (copies.empty()) model_.scenes[0].nodes = add_nodes("");
-    for (const PlacedCopy& copy : copies) add_copy(copy, metres_per_unit(shape.unit));
+    std::vector<MeshRange> meshes;
+    for (const Shape& shape : copies.shapes) meshes.push_back(add_meshes(shape));
+    if (copies.placed.empty()) model_.scenes[0].nodes = add_nodes(meshes.front(), "");
+    const double metres = metres_per_unit(copies.shapes.front().unit);
+    for (const PlacedCopy& copy : copies.placed) add_copy(copy, meshes[copy.shape], metres);
     model_.buffers[0].data.assign(bytes_.begin(), bytes_.end());
     std::ostringstream stream;
     tinygltf::TinyGLTF writer;
@@ -37,6 +36,20 @@ class GlbWriter {
   }
 
  private:
+  /// Meshes of a shape: the first one, and the one behind the last.
+  struct MeshRange {
+    std::size_t first, last;
+  };
+
+  MeshRange add_meshes(const Shape& shape) {
+    const std::size_t first = model_.meshes.size();
+    const std::vector<PartMesh> parts = split_by_part(shape);
+    for (std::size_t part = 0; part < parts.size(); ++part)
+      if (!parts[part].triangles.empty())
+        add_mesh(shape, parts[part], printable_name(shape.part_names[part]));
+    return {first, model_.meshes.size()};
+  }
+
   void add_mesh(const Shape& shape, const PartMesh& part, const std::string& name) {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
@@ -49,9 +62,9 @@ class GlbWriter {
   }
 
   /// A node for each mesh, `prefix` before its name; their numbers.
-  std::vector<int> add_nodes(const std::string& prefix) {
+  std::vector<int> add_nodes(const MeshRange& meshes, const std::string& prefix) {
     std::vector<int> added;
-    for (std::size_t mesh = 0; mesh < model_.meshes.size(); ++mesh) {
+    for (std::size_t mesh = meshes.first; mesh < meshes.last; ++mesh) {
       tinygltf::Node node;
       node.name = prefix + model_.meshes[mesh].name;
       node.mesh = static_cast<int>(mesh);
@@ -62,7 +75,7 @@ class GlbWriter {
   }
 
   /// A node with the placement, the meshes below it.
-  void add_copy(const PlacedCopy& copy, double metres) {
+  void add_copy(const PlacedCopy& copy, const MeshRange& meshes, double metres) {
     Eigen::Matrix3d turn;  // z up becomes y up
     turn << 1, 0, 0, 0, 0, 1, 0, -1, 0;
     Eigen::Affine3d placement = Eigen::Affine3d::Identity();
@@ -71,7 +84,7 @@ class GlbWriter {
     tinygltf::Node node;
     node.name = printable_name(copy.name);
     for (const double entry : placement.matrix().reshaped()) node.matrix.push_back(entry + 0.0);
-    node.children = add_nodes(node.name + "/");
+    node.children = add_nodes(meshes, node.name + "/");
     model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()));
     model_.nodes.push_back(node);
   }
@@ -131,8 +144,8 @@ class GlbWriter {
 
 }  // namespace
 
-std::string write_glb(const Shape& shape, const std::vector<PlacedCopy>& copies) {
-  return GlbWriter().write(shape, copies);
+std::string write_glb(const Copies& copies) {
+  return GlbWriter().write(copies);
 }
 
 }  // namespace stackabilization

@@ -155,29 +155,42 @@ void append_attribute(std::string& text, const char* name, std::int64_t value) {
   text += std::string(" ") + name + "=\"" + std::to_string(value) + "\"";
 }
 
-/// Composes the XML of a model: an object per part, one of them all, and an item per copy.
+/// Composes the XML of a model: an object per part, one of them all per shape of several parts, and an item
+/// per copy; without copies, an item per part.
 class ModelWriter {
  public:
-  std::string write(const Shape& shape, const std::vector<PlacedCopy>& copies) {
+  std::string write(const Copies& copies) {
     const char* unit = "millimeter";
     for (const UnitName& candidate : unit_names)
-      if (candidate.unit == shape.unit) unit = candidate.name;
+      if (candidate.unit == copies.shapes.front().unit) unit = candidate.name;
     text_ = std::string("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"") + unit +
             "\" xml:lang=\"en-US\" xmlns=\"" + core_namespace + "\">\n<resources>\n";
-    const std::vector<PartMesh> meshes = split_by_part(shape);
-    for (std::size_t part = 0; part < meshes.size(); ++part)
-      if (!meshes[part].triangles.empty())
-        add_object(shape, meshes[part], static_cast<std::int64_t>(part) + 1, shape.part_names[part]);
-    if (!copies.empty() && objects_.size() > 1) add_assembly(static_cast<std::int64_t>(meshes.size()) + 1);
+    std::vector<std::vector<std::int64_t>> objects;
+    for (const Shape& shape : copies.shapes) objects.push_back(add_shape(shape, !copies.placed.empty()));
     text_ += "</resources>\n<build>\n";
-    for (const std::int64_t id : objects_) {
-      if (copies.empty()) add_item(id, nullptr);
-      for (const PlacedCopy& copy : copies) add_item(id, &copy);
-    }
+    if (copies.placed.empty())
+      for (const std::int64_t id : objects.front()) add_item(id, nullptr);
+    for (const PlacedCopy& copy : copies.placed)
+      for (const std::int64_t id : objects[copy.shape]) add_item(id, &copy);
     return text_ + "</build>\n</model>\n";
   }
 
  private:
+  /// Returns the objects of a shape, `as_one` at most one.
+  std::vector<std::int64_t> add_shape(const Shape& shape, bool as_one) {
+    const std::vector<PartMesh> meshes = split_by_part(shape);
+    std::vector<std::int64_t> objects;
+    for (std::size_t part = 0; part < meshes.size(); ++part) {
+      ++last_id_;
+      if (meshes[part].triangles.empty()) continue;
+      add_object(shape, meshes[part], last_id_, shape.part_names[part]);
+      objects.push_back(last_id_);
+    }
+    if (!as_one || objects.size() < 2) return objects;
+    add_assembly(++last_id_, objects);
+    return {last_id_};
+  }
+
   void add_object(const Shape& shape, const PartMesh& mesh, std::int64_t id, const std::string& name) {
     text_ += "<object";
     append_attribute(text_, "id", id);
@@ -198,21 +211,18 @@ class ModelWriter {
       text_ += "/>\n";
     }
     text_ += "</triangles>\n</mesh>\n</object>\n";
-    objects_.push_back(id);
   }
 
-  /// All objects so far as components of one, which takes their place.
-  void add_assembly(std::int64_t id) {
+  void add_assembly(std::int64_t id, const std::vector<std::int64_t>& components) {
     text_ += "<object";
     append_attribute(text_, "id", id);
     text_ += " type=\"model\">\n<components>\n";
-    for (const std::int64_t object : objects_) {
+    for (const std::int64_t object : components) {
       text_ += "<component";
       append_attribute(text_, "objectid", object);
       text_ += "/>\n";
     }
     text_ += "</components>\n</object>\n";
-    objects_ = {id};
   }
 
   /// `copy` is null for an object where it is, without a name.
@@ -235,7 +245,7 @@ class ModelWriter {
   }
 
   std::string text_;
-  std::vector<std::int64_t> objects_;
+  std::int64_t last_id_ = 0;
 };
 
 }  // namespace
@@ -252,7 +262,7 @@ Shape read_three_mf(const Source& source) {
   return ThreeMfAssembler(source, &archive, entry, parse_model({*text, source.name}, entry)).assemble();
 }
 
-std::string write_three_mf(const Shape& shape, const std::vector<PlacedCopy>& copies) {
+std::string write_three_mf(const Copies& copies) {
   const std::string types =
       "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
       "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
@@ -267,7 +277,7 @@ std::string write_three_mf(const Shape& shape, const std::vector<PlacedCopy>& co
       model_relationship + "\"/>\n</Relationships>\n";
   return zip({{"[Content_Types].xml", types},
               {"_rels/.rels", relationships},
-              {default_model, ModelWriter().write(shape, copies)}});
+              {default_model, ModelWriter().write(copies)}});
 }
 
 }  // namespace stackabilization

@@ -86,9 +86,9 @@ std::string shape_bytes(const Shape& shape, Format format, const WriteOptions& o
     case Format::stl:
       return write_stl(shape, options.encoding);
     case Format::three_mf:
-      return write_three_mf(shape);
+      return write_three_mf({{shape}, {}});
     case Format::gltf:
-      return write_glb(shape);
+      return write_glb({{shape}, {}});
     case Format::vtp:
       break;
   }
@@ -99,9 +99,12 @@ namespace {
 
 /// Returns whether the copies can be read back from placements.
 bool can_be_instanced(const Copies& copies) {
-  const auto count = static_cast<std::int64_t>(copies.placed.size());
-  return count * (copies.shape.part_count() + 1) <= max_placed_objects &&
-         count * copies.shape.triangle_count() <= max_instanced_triangles;
+  std::int64_t objects = 0, triangles = 0;
+  for (const PlacedCopy& copy : copies.placed) {
+    objects += copies.shapes[copy.shape].part_count() + 1;
+    triangles += copies.shapes[copy.shape].triangle_count();
+  }
+  return objects <= max_placed_objects && triangles <= max_instanced_triangles;
 }
 
 Format format_of_output(const std::filesystem::path& path, const WriteOptions& options) {
@@ -125,9 +128,8 @@ Format format_of_output(const std::filesystem::path& path, const WriteOptions& o
 std::string shape_bytes(const Copies& copies, Format format, const WriteOptions& options) {
   if ((format != Format::three_mf && format != Format::gltf) || !can_be_instanced(copies))
     return shape_bytes(as_one_shape(copies), format, options);
-  validate(copies.shape);
-  return format == Format::three_mf ? write_three_mf(copies.shape, copies.placed)
-                                    : write_glb(copies.shape, copies.placed);
+  for (const Shape& shape : copies.shapes) validate(shape);
+  return format == Format::three_mf ? write_three_mf(copies) : write_glb(copies);
 }
 
 void write_shape(const Shape& shape, const std::filesystem::path& path, const WriteOptions& options) {

@@ -38,7 +38,8 @@ Drawing stack_picture(const std::vector<Shape>& copies, const Direction& directi
   drawing.add(heading.elements);
   const double top = heading.bottom + size;
 
-  const Scene scene = stack_scene(copies, palette::input);
+  Scene scene = stack_scene(copies, palette::input);
+  for (const Shape& body : options.separators) scene.add(SceneMesh{body, {palette::lower}});
   const double height = options.height - top - margin, dimension_room = 3 * size;
   const double width = (options.width - 2 * margin) / (options.side_view ? 2 : 1);
   ViewOptions view_options;

@@ -23,7 +23,7 @@ StackResult stack_copies(const Shape& shape, const Direction& direction, const S
 }
 
 Copies stacked_copies(const Shape& shape, const Direction& direction, const StackResult& stack) {
-  Copies copies{shape, {}};
+  Copies copies{{shape}, {}};
   for (const StackedCopy& copy : stack.copies) {
     const Eigen::Vector3d lift = copy.offset.to_double() * direction.vector();
     copies.placed.push_back({"copy" + std::to_string(copies.placed.size() + 1), copy.transform.rotation,

@@ -22,8 +22,23 @@ void check(const StackOptions& options) {
     throw UsageError("a stack needs from 1 to " + std::to_string(largest_stack) + " copies");
   if (!(options.clearance >= 0 && options.clearance <= tolerance::max_coordinate))
     throw UsageError("the clearance must be a length from 0 to 10^60");
+  if (!(options.layer >= 0 && options.layer <= tolerance::max_coordinate))
+    throw UsageError("the thickness of a layer must be a length from 0 to 10^60");
+  if (options.layer > 0 && (reduced_degrees(options.twist_degrees) != 0 || options.poses.size() > 1))
+    throw UsageError("copies in whole layers can have neither a twist nor different poses");
   if (options.axis_point && !options.axis_point->allFinite())
     throw UsageError("the point of the twist axis needs three finite coordinates");
+}
+
+/// Returns the smallest multiple of `layer` that is no less than `separation`, and than `wanted` but for
+/// rounding.
+Rational whole_layers(const Rational& separation, const Rational& wanted, double layer) {
+  constexpr double max_layers = 9007199254740992;  // 2^53: beyond, doubles skip whole numbers
+  const double layers = wanted.to_double() / layer;
+  if (!(layers <= max_layers)) throw UsageError("the layers are too thin for a lift of the shape");
+  double count = std::ceil(layers - tolerance::relative * std::max(1.0, layers));
+  while (Rational(count) * Rational(layer) < separation) ++count;
+  return Rational(count) * Rational(layer);
 }
 
 std::optional<SeparationTree> dilated_tree(const Shape& shape, const Direction& direction,
@@ -40,7 +55,8 @@ StackPairs::StackPairs(const Shape& shape, const Direction& direction, const Sta
     : direction_(direction),
       semantics_(options.semantics),
       twist_degrees_(reduced_degrees(options.twist_degrees)),
-      clearance_(options.clearance / direction.length()) {
+      clearance_(options.clearance / direction.length()),
+      layer_(options.layer / direction.length()) {
   check(options);
   validate(shape);
   axis_ =
@@ -97,6 +113,7 @@ const Demand& StackPairs::demand(int below, int above, int lag) {
   demand.blocked = found.blocked;
   if (found.blocked) {
     demand.lift = found.value + Rational(clearance_);
+    if (layer_ > 0) demand.lift = whole_layers(found.value, demand.lift, layer_);
     demand.approximate = demand.lift.to_double();
   }
   return demands_.emplace(key, std::move(demand)).first->second;

@@ -15,7 +15,7 @@ namespace stackabilization {
 /// Lift that one copy requires of a later copy.
 struct Demand {
   bool blocked = false;  ///< whether the copies can collide; otherwise they pass each other at any height
-  /// Smallest lift between the copies: sep plus clearance, in units of r, exact.
+  /// Smallest lift between the copies: sep plus clearance in whole layers, in units of r, exact.
   Rational lift;
   double approximate = 0;  ///< nearest double of `lift`
 };
@@ -43,7 +43,8 @@ class StackPairs {
   /// Returns the lift that copy j with pose `below` requires of copy j + lag with pose `above`.
   const Demand& demand(int below, int above, int lag);
   const Direction& direction() const { return direction_; }  ///< r
-  double clearance() const { return clearance_; }            ///< units of r
+  /// Returns the most that a demand adds to sep, units of r.
+  double max_gap() const { return clearance_ + layer_; }
 
  private:
   struct Pose {
@@ -58,7 +59,8 @@ class StackPairs {
   Direction direction_;
   ContactSemantics semantics_;
   double twist_degrees_;
-  double clearance_;
+  double clearance_;  ///< units of r, and so is the layer
+  double layer_;
   Line axis_;
   std::shared_ptr<const std::vector<Pose>> poses_;
   std::vector<int> sequence_;

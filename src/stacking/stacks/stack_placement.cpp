@@ -37,7 +37,7 @@ class StackDescent {
     const int pose = pose_of(sequence_, k);
     for (int j = first_to_last.first; j >= first_to_last.second; --j) {
       const auto lower = static_cast<std::size_t>(j);
-      const double bound = levels_[lower] - pairs_.span(pose).approximate_bottom + pairs_.clearance();
+      const double bound = levels_[lower] - pairs_.span(pose).approximate_bottom + pairs_.max_gap();
       if (bound < stop.approximate - slack(levels_[lower], stop.approximate)) break;
       const Demand& demand = pairs_.demand(pose_of(sequence_, j), pose, k - j);
       if (!demand.blocked) continue;
@@ -167,7 +167,7 @@ double repeating_increment(StackPairs& pairs, const std::vector<int>& sequence) 
 /// One pose with twist: lifts depend on the lag alone, and their growth is the largest of sep(lag) / lag.
 double twisted_increment(StackPairs& pairs, int pose, int copies) {
   const Span& span = pairs.span(pose);
-  const double max_lift = span.approximate_top - span.approximate_bottom + pairs.clearance();
+  const double max_lift = span.approximate_top - span.approximate_bottom + pairs.max_gap();
   double most = 0;
   for (int lag = 1; lag == 1 || (lag < copies && max_lift / lag >= most); ++lag) {
     const Demand& demand = pairs.demand(pose, pose, lag);
