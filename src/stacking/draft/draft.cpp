@@ -70,6 +70,10 @@ Points common_part(const Points& polygon, const Points& other, const Eigen::Vect
   return kept;
 }
 
+/// Bounds of the work on one triangle: triangles in the column of a wall, and pairs of pieces of which one is
+/// hidden from above and the other from below.
+constexpr std::size_t max_in_column = 1 << 13, max_pairs_of_pieces = 1 << 20;
+
 /// Convex pieces of a triangle in the frame of the direction, and the frame in which their areas are seen.
 class Pieces {
  public:
@@ -85,11 +89,19 @@ class Pieces {
   Eigen::Vector3d centre(const Points& piece) const {
     return piece.transpose() * outline_centroid(outline_of(piece, frame_));
   }
-  /// Returns the intersection of the unions.
-  std::vector<Points> common(std::vector<Points> some, std::vector<Points> others) const {
+  bool cover_all(const std::vector<Points>& pieces) const {
+    return !pieces.empty() && share(pieces) >= 1 - tolerance::relative;
+  }
+  /// Returns the intersection of the unions. Where there are too many pairs of pieces it returns nothing, and
+  /// `complete` becomes false.
+  std::vector<Points> common(std::vector<Points> some, std::vector<Points> others, bool& complete) const {
     if (some.empty() || others.empty()) return {};
-    if (share(some) >= 1 - tolerance::relative) return others;
-    if (share(others) >= 1 - tolerance::relative) return some;
+    if (cover_all(some)) return others;
+    if (cover_all(others)) return some;
+    if (some.size() > max_pairs_of_pieces / others.size()) {
+      complete = false;
+      return {};
+    }
     std::vector<Points> both;
     for (const Points& one : some)
       for (const Points& other : others)
@@ -107,41 +119,55 @@ struct Hidden {
   std::vector<Points> from_above, from_below;
 };
 
+/// What is known of one triangle.
+struct Examined {
+  TriangleDraft draft;
+  std::vector<Points> undercut;  ///< in the frame of the direction
+  bool complete = true;          ///< see DraftAnalysis
+};
+
 /// Everything is in the frame of the direction, which is +z there.
 class DraftPass {
  public:
-  explicit DraftPass(Shape shape)
+  /// `copies`: triangles with the same points as others.
+  DraftPass(Shape shape, const std::vector<TriangleCopy>& copies)
       : shape_(std::move(shape)),
         height_(range_along(shape_, Eigen::Vector3d::UnitZ())),
-        tree_(shape_, rows_with_area(shape_)),
+        tree_(shape_, distinct_triangles(shape_, copies)),
         solid_(closed_parts(shape_)),
         locator_(solid_) {}
 
-  /// Fills `draft`; returns the pieces of the undercut. `hidden`: what contact polygons know of the triangle.
-  std::vector<Points> examine(std::int32_t t, Hidden hidden, TriangleDraft& draft) const {
+  /// `hidden`: what contact polygons know of the triangle, which is nothing for walls.
+  Examined examine(std::int32_t t, Hidden hidden) const {
+    Examined result;
+    TriangleDraft& draft = result.draft;
     const Eigen::Vector3d vector = area_vector(shape_, t), normal = vector.stableNormalized();
     const double across = vector.head<2>().norm();
     draft.area = vector.norm();
-    if (normal.isZero()) return {};
+    if (normal.isZero()) return result;
     const bool wall = std::abs(vector.z()) <= tolerance::wall_slope * across;
     if (!wall) draft.angle = std::atan2(std::abs(vector.z()), across) * 180 / std::numbers::pi;
     const Pieces pieces(triangle_points(t), wall ? normal : Eigen::Vector3d(0, 0, 1));
-    std::vector<Points> undercut, inner;
-    for (Points& piece : wall ? pieces.common(hidden_beside(t, pieces, 1), hidden_beside(t, pieces, -1))
-                              : pieces.common(std::move(hidden.from_above), std::move(hidden.from_below)))
-      (is_inner(pieces.centre(piece), normal) ? inner : undercut).push_back(std::move(piece));
-    draft.undercut_area = pieces.share(undercut) * draft.area;
+    std::vector<Points> inner;
+    for (Points& piece :
+         wall ? hidden_beside(t, pieces, result.complete)
+              : pieces.common(std::move(hidden.from_above), std::move(hidden.from_below), result.complete))
+      (is_inner(pieces.centre(piece), normal) ? inner : result.undercut).push_back(std::move(piece));
+    draft.undercut_area = pieces.share(result.undercut) * draft.area;
     draft.inner_area = std::min(pieces.share(inner) * draft.area, draft.area - draft.undercut_area);
-    return undercut;
+    return result;
   }
 
  private:
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-  static std::vector<std::int32_t> rows_with_area(const Shape& shape) {
+  static std::vector<std::int32_t> distinct_triangles(const Shape& shape,
+                                                      const std::vector<TriangleCopy>& copies) {
+    std::vector<char> repeated(static_cast<std::size_t>(shape.triangle_count()));
+    for (const TriangleCopy& copy : copies) repeated[static_cast<std::size_t>(copy.copy)] = 1;
     std::vector<std::int32_t> rows;
     for (std::int32_t t = 0; t < static_cast<std::int32_t>(shape.triangle_count()); ++t)
-      if (has_area(shape, t)) rows.push_back(t);
+      if (!repeated[static_cast<std::size_t>(t)] && has_area(shape, t)) rows.push_back(t);
     return rows;
   }
   Points triangle_points(std::int32_t t) const {
@@ -150,16 +176,39 @@ class DraftPass {
     return corners;
   }
 
-  /// Returns what of a wall is hidden from above and from below when one looks along its side `side`, 1 ahead
-  /// of the normal and -1 behind it. Only where both sides are hidden the wall is: one side of it is solid.
-  std::vector<Points> hidden_beside(std::int32_t wall, const Pieces& pieces, double side) const {
+  /// Returns what of a wall is hidden on both of its sides, of which one may be solid.
+  std::vector<Points> hidden_beside(std::int32_t wall, const Pieces& pieces, bool& complete) const {
+    std::vector<Points> ahead = hidden_beside(wall, pieces, 1, complete);
+    if (ahead.empty()) return ahead;
+    return pieces.common(std::move(ahead), hidden_beside(wall, pieces, -1, complete), complete);
+  }
+
+  /// Returns what of a wall is hidden from above and from below on its side `side`: 1 ahead of the normal, -1
+  /// behind it.
+  std::vector<Points> hidden_beside(std::int32_t wall, const Pieces& pieces, double side,
+                                    bool& complete) const {
+    const Points corners = triangle_points(wall);
+    const double low = corners.col(2).minCoeff(), high = corners.col(2).maxCoeff(), own = high - low;
+    // Most hidden walls are inside a solid, whose triangles are near.
+    const Hidden near = shadows(wall, side, {low - own, high + own}, complete);
+    if (pieces.cover_all(near.from_above) && pieces.cover_all(near.from_below)) return {corners};
+    Hidden all = shadows(wall, side, height_, complete);
+    return pieces.common(std::move(all.from_above), std::move(all.from_below), complete);
+  }
+
+  /// Returns what triangles between two heights hide of a wall on one side.
+  Hidden shadows(std::int32_t wall, double side, const Range& heights, bool& complete) const {
     const Points corners = triangle_points(wall);
     const Eigen::Vector3d normal = unit_normal(shape_, wall);
     const double reach = tolerance::beside_surface * height_.length();
     const Eigen::RowVector3d low = corners.colwise().minCoeff().array() - 2 * reach,
                              high = corners.colwise().maxCoeff().array() + 2 * reach;
     std::vector<std::size_t> met;
-    tree_.append_met(CGAL::Bbox_3(low.x(), low.y(), height_.low, high.x(), high.y(), height_.high), met);
+    tree_.append_met(CGAL::Bbox_3(low.x(), low.y(), heights.low, high.x(), high.y(), heights.high), met);
+    if (met.size() > max_in_column) {
+      complete = false;
+      return {};
+    }
     std::sort(met.begin(), met.end());
     Hidden hidden;
     for (const std::size_t entry : met) {
@@ -169,7 +218,7 @@ class DraftPass {
         if (Points part = common_part(corners, shadow_of(*section, above), normal); part.rows() > 2)
           (above ? hidden.from_above : hidden.from_below).push_back(std::move(part));
     }
-    return pieces.common(std::move(hidden.from_above), std::move(hidden.from_below));
+    return hidden;
   }
 
   /// Returns the segment in which triangle `t` meets the plane normal . p = offset.
@@ -233,17 +282,19 @@ DraftAnalysis analyse_draft(const Shape& shape, const SeparationTree& tree, cons
     hidden[static_cast<std::size_t>(polygon.lower_triangle)].from_above.push_back(polygon.lower_points *
                                                                                   to_world);
   }
-  const DraftPass pass(transformed(shape, to_local, Eigen::Vector3d::Zero()));
+  const DraftPass pass(transformed(shape, to_local, Eigen::Vector3d::Zero()), tree.data().copies);
+  std::vector<Examined> examined(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t t) {
+    examined[t] = pass.examine(static_cast<std::int32_t>(t), std::move(hidden[t]));
+  });
   DraftAnalysis result;
   result.complete = found.complete;
-  result.triangles.resize(count);
-  std::vector<std::vector<Points>> undercuts(count);
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t t) {
-    undercuts[t] = pass.examine(static_cast<std::int32_t>(t), std::move(hidden[t]), result.triangles[t]);
-  });
-  for (std::size_t t = 0; t < count; ++t)
-    for (const Points& piece : undercuts[t])
+  for (std::size_t t = 0; t < count; ++t) {
+    result.complete = result.complete && examined[t].complete;
+    result.triangles.push_back(examined[t].draft);
+    for (const Points& piece : examined[t].undercut)
       result.undercuts.push_back({static_cast<std::int32_t>(t), piece * to_local});
+  }
   return result;
 }
 

@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -188,4 +189,35 @@ TEST_CASE("too many pairs give less undercut, and say so") {
   CHECK_FALSE(draft.complete);
   // All but the top of the first and the bottom of the last is hidden.
   CHECK(sums_of(draft).undercut <= 100 * (24 + undercut_of_beam) - 24 + 1);
+}
+
+TEST_CASE("a wall has enough triangles above and below it when many coincide") {
+  Shape all = named(box({1, 1, 1}, {2, 2, 2}), "core");
+  for (int k = 0; k < 400; ++k) {
+    all = concatenate(all, named(box({0, 0, -1}, {3, 3, 0}), "below_" + std::to_string(k)));
+    all = concatenate(all, named(box({0, 0, 3}, {3, 3, 4}), "above_" + std::to_string(k)));
+  }
+  const DraftAnalysis draft = draft_of(all);
+  CHECK_FALSE(draft.complete);  // the slabs themselves make too many pairs
+  double walls = 0;
+  for (std::size_t t = 0; t < 12; ++t)
+    if (draft.triangles[t].angle == 0) walls += draft.triangles[t].undercut_area;
+  CHECK(walls == Approx(4));
+}
+
+TEST_CASE("a wall with more triangles above it than are examined is not called undercut") {
+  // Walls across x and y: the box around one of them, a quarter of the sheet, has 1,800 triangles, or 9,800.
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(std::numbers::pi / 4, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Shape core = named(transformed(box({-0.7, -0.7, 1}, {0.7, 0.7, 2}), turn, {0, 0, 0}), "core");
+  const Shape base = named(box({-2, -2, -1}, {2, 2, 0}), "base");
+  for (const int cells : {60, 140}) {
+    const Shape sheet = named(moved(bumpy_bowl(cells), {0, 0, 9}), "sheet");
+    const DraftAnalysis draft = draft_of(concatenate(concatenate(core, base), sheet));
+    CHECK(draft.complete == (cells == 60));
+    double walls = 0;
+    for (std::size_t t = 0; t < 12; ++t)
+      if (draft.triangles[t].angle == 0) walls += draft.triangles[t].undercut_area;
+    CHECK(walls == Approx(cells == 60 ? 4 * 1.4 : 0));
+  }
 }
