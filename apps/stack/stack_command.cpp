@@ -77,6 +77,17 @@ void add_twist_option(CLI::App& command, StackCommandOptions& options) {
   command.add_option_function<std::string>(angle.name, take, angle.description)->type_name("A|auto");
 }
 
+void add_step_options(CLI::App& command, StackCommandOptions& options) {
+  const Choices<bool> places = {{"given", false}, {"best", true}};
+  add_choice(command, "--place", options.best_place, places,
+             "best: shift each copy against the one below so that it comes to rest lowest "
+             "(default: given, straight on top of it)");
+  command.add_flag("--turn", options.turn, "With --place best, copies may turn about the direction, too");
+  add_length(command,
+             {"--max-shift", "Largest shift of --place best (default: a quarter of the longer side)"},
+             options.max_shift);
+}
+
 void add_copies_option(CLI::App& command, StackCommandOptions& options) {
   const Count count = {"-n", "Number of copies, or max: as many as --within holds (default: 2)", 1,
                        max_copies};
@@ -104,6 +115,7 @@ Command make_stack_command(CLI::App& program) {
   add_twist_option(*command, *options);
   add_count(*command, {"--period", "Turn or flip copies in a cycle of this length, the best one found", 1, 5},
             options->period);
+  add_step_options(*command, *options);
   add_length(*command, {"--clearance", "Air between copies along the direction, as 0.5 or 2mm"},
              options->clearance);
   add_length(*command, {"--lateral-clearance", "Sideways play that every contact allows"},

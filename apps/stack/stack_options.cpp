@@ -25,11 +25,16 @@ void check(const StackCommandOptions& options) {
   check_drawn(options, options.copy_count());
   refuse_option(options.best_twist && options.period, "--twist-degrees auto",
                 "cannot be combined with --period");
-  const bool turned = options.twist_degrees || options.best_twist || options.period;
+  const bool twisted = options.twist_degrees || options.best_twist || options.period;
+  const bool turned = twisted || options.best_place;
+  refuse_option(options.best_place && twisted, "--place best",
+                "cannot be combined with --twist-degrees or --period");
+  refuse_option(options.turn && !options.best_place, "--turn", "needs --place best");
+  refuse_option(options.max_shift && !options.best_place, "--max-shift", "needs --place best");
   refuse_option(options.max_copies && !options.within, "-n max", "needs the room of --within");
-  refuse_option(options.max_copies && turned, "-n max", "is for copies that are not turned");
+  refuse_option(options.max_copies && turned, "-n max", "is for copies straight on top of each other");
   refuse_option(options.layer && turned, "--layer",
-                "is for copies that are not turned: others are not sliced alike");
+                "is for copies straight on top of each other: others are not sliced alike");
   refuse_option(options.separators && !options.layer, "--separators", "needs the thickness of a --layer");
   refuse_option(options.separators && !options.clearance, "--separators", "needs a --clearance to fill");
   if (!options.into) return;
@@ -39,6 +44,7 @@ void check(const StackCommandOptions& options) {
   refuse_option(options.period.has_value(), "--period", reason);
   refuse_option(options.within.has_value(), "--within", reason);
   refuse_option(options.layer.has_value(), "--layer", reason);
+  refuse_option(options.best_place, "--place best", reason);
   refuse_option(options.common.model == "-" && *options.into == "-", "--into",
                 "and MODEL cannot both be standard input");
 }

@@ -21,6 +21,9 @@ struct StackCommandOptions {
   std::optional<double> twist_degrees;  ///< a fixed twist
   bool best_twist = false;              ///< --twist-degrees auto
   std::optional<int> period;
+  bool best_place = false;  ///< --place best
+  bool turn = false;        ///< with it: copies may turn, too
+  std::optional<Length> max_shift;
   std::optional<Length> clearance, lateral_clearance, within;
   std::optional<Length> layer;        ///< thickness of the layers of a print
   bool separators = false;            ///< fill the gaps

@@ -48,6 +48,19 @@ Json stack_wish_json(const Wish& wish) {
             {"copies_now", to_json(plan.copies_now)}}}};
 }
 
+Json step_json(const StepResult& step) {
+  return {{"x", step.shift.x},
+          {"y", step.shift.y},
+          {"yaw_degrees", step.shift.yaw_degrees},
+          {"straight", step.straight},
+          {"straight_height", step.straight_height},
+          {"second_height", step.second.drop.height},
+          {"bound", step.second.bound},
+          {"proven", step.second.proven},
+          {"cells", step.second.cells},
+          {"open_cells", step.second.open}};
+}
+
 std::string offsets_text(const StackResult& result, Unit unit) {
   std::string text;
   const std::size_t shown = std::min(result.copies.size(), listed_offsets);
@@ -57,12 +70,26 @@ std::string offsets_text(const StackResult& result, Unit unit) {
   return symbol.empty() ? text : text + " " + symbol;
 }
 
-void add_pose_lines(TextTable& table, const StackRun& run) {
+void add_step_lines(TextTable& table, const StepResult& step, Unit unit) {
+  const BestPlace& second = step.second;
+  if (step.straight)
+    table.add("Step", "none", "no shift makes the stack lower than straight copies");
+  else
+    table.add("Step", quantity(step.shift.x, unit) + ", " + quantity(step.shift.y, unit),
+              (step.shift.yaw_degrees != 0 ? "and " + rounded(step.shift.yaw_degrees) + " degrees " : "") +
+                  "from each copy to the next; straight, the stack is " +
+                  quantity(step.straight_height, unit) + " high");
+  table.add(second.proven ? "Proven" : "Bound", quantity(second.bound, unit),
+            "no place of the second copy is lower; the one found has " + quantity(second.drop.height, unit));
+}
+
+void add_pose_lines(TextTable& table, const StackRun& run, Unit unit) {
   if (run.options.twist_degrees != 0 || run.untwisted_stackability)
     table.add("Twist", rounded(run.options.twist_degrees) + " degrees",
               run.untwisted_stackability ? "per copy, the best one found; without it the stackability is " +
                                                stackability_text(*run.untwisted_stackability)
                                          : "per copy");
+  if (run.step) add_step_lines(table, *run.step, unit);
   if (run.poses.empty()) return;
   table.add("Poses", joined(run.poses, ", then "));
 }
@@ -112,6 +139,7 @@ void add_stack(Json& document, const StackRun& run, const Direction& direction) 
   document["untwisted_stackability"] = to_json(run.untwisted_stackability);
   document["period"] = run.period;
   document["poses"] = run.poses;
+  document["step"] = run.step ? step_json(*run.step) : Json(nullptr);
   document["clearance"] = run.options.clearance;
   document["lateral_clearance"] = run.options.play;
   document["layer"] = run.options.layer > 0 ? Json(run.options.layer) : Json(nullptr);
@@ -150,7 +178,7 @@ std::string stack_text(const StackRun& run, const Model& model, const Direction&
               std::to_string(run.gap_count()) + " x " + std::to_string(run.separators->part_count()),
               run.separators->part_count() > 0 ? "bodies that fill the gaps where they are narrow"
                                                : "the copies are close to each other over no area");
-  add_pose_lines(table, run);
+  add_pose_lines(table, run, unit);
   table.add("Boxes", quantity(result.stack_volume, unit, 3),
             "of the stack, and " + quantity(result.box_volume, unit, 3) + " of one copy (" +
                 name_of(run.options.boxes) + ")");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/common/interrupt.h"
+#include "apps/common/progress.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/stacking/separators.h"
 #include "stackabilization/stacking/stack_search.h"
@@ -10,6 +12,11 @@
 namespace stackabilization::apps {
 
 namespace {
+
+/// How close the proof of a step comes, fraction of the extent along the direction.
+constexpr double default_accuracy = 0x1p-10;
+/// Default of --max-shift, fraction of the longer side of the box across the direction.
+constexpr double default_shift = 0.25;
 
 void fill_searched_twist(StackRun& run, const Model& model, const Direction& direction) {
   TwistOptions search;
@@ -27,6 +34,25 @@ void fill_searched_period(StackRun& run, const Model& model, const Direction& di
   PeriodResult found = best_period_stack(model.shape, direction, search);
   run.poses = std::move(found.poses);
   run.result = std::move(found.stack);
+}
+
+void fill_searched_step(StackRun& run, const StackCommandOptions& options, const Model& model) {
+  const Direction direction = options.stacking_direction();
+  const Frame frame = frame_of(direction);
+  StepOptions search;
+  search.stack = run.options;
+  search.turn = options.turn;
+  search.accuracy = default_accuracy * run.extent;
+  search.max_shift = options.max_shift ? options.max_shift->in(model.shape.unit)
+                                       : default_shift * std::max(range_along(model.shape, frame.u).length(),
+                                                                  range_along(model.shape, frame.v).length());
+  ProgressBar bar("Placing", options.common.caller);
+  const DeferredInterrupts interrupts(options.common.caller);
+  search.progress = [&bar](double fraction) { bar.show(fraction); };
+  search.cancelled = [&interrupts] { return interrupts.requested(); };
+  run.step = best_step_stack(model.shape, direction, search);
+  if (interrupts.requested()) throw Interrupted();
+  run.result = std::move(run.step->stack);
 }
 
 /// What the wish takes of a straight stack of `run.options.copies`.
@@ -65,6 +91,8 @@ StackRun run_stack(const StackCommandOptions& options, const Model& model) {
   }
   if (options.best_twist)
     fill_searched_twist(run, model, direction);
+  else if (options.best_place)
+    fill_searched_step(run, options, model);
   else if (run.period > 1)
     fill_searched_period(run, model, direction);
   else

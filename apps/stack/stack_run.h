@@ -9,6 +9,7 @@
 #include "apps/stack/stack_options.h"
 #include "stackabilization/stacking/plan.h"
 #include "stackabilization/stacking/stack.h"
+#include "stackabilization/stacking/stack_step.h"
 
 namespace stackabilization::apps {
 
@@ -28,6 +29,7 @@ struct StackRun {
   int period = 1;
   std::vector<std::string> poses;  ///< per copy of a period, when it was searched
   std::optional<Wish> wish;
+  std::optional<StepResult> step;  ///< what --place best found, but for its stack
   /// Bodies in the gap above a copy, in its coordinates; only where asked for.
   std::optional<Shape> separators;
 

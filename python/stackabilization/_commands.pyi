@@ -59,6 +59,7 @@ def map(
 def stack(
     mesh: MeshLike, *, n: int | Literal["max"] | None = None, into: MeshLike | None = None, direction: Vector | None = None,
     twist_degrees: float | Literal["auto"] | None = None, period: int | None = None,
+    place: Literal["given", "best"] | None = None, turn: bool = False, max_shift: Length | None = None,
     clearance: Length | None = None, lateral_clearance: Length | None = None, layer: Length | None = None,
     separators: bool = False, within: Length | None = None,
     semantics: Semantics | None = None, boxes: Boxes | None = None, format: str | None = None,

@@ -404,6 +404,8 @@ class Stack(OfModel):
     twist_degrees: float = field("Turn of each copy against the one below.")
     period: int = field("Length of the cycle of poses.")
     poses: tuple[Document, ...] = field("Per copy of a period, how it is turned.", convert=_names)
+    step: Document | None = field("Shift x, y and turn yaw_degrees from each copy to the next, and its proof; None where "
+                                  "not searched.", convert=copied)
     clearance: float = field("Air along the direction, model units.")
     lateral_clearance: float = field("Sideways play, model units.")
     layer: float | None = field("Thickness of the layers of which each lift is a whole number; None where not asked for.")

@@ -4,6 +4,7 @@
 #include "stackabilization/stacking/rigid_transform.h"
 #include "support/catch.h"
 #include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 using namespace stackabilization::apps;
@@ -262,4 +263,31 @@ TEST_CASE("a stack of prints is as high as the room allows, in whole layers, wit
   check_refused(folder, {"stack", model, "--layer", "1", "--into", model}, 2, "--layer");
   check_refused(folder, {"stack", model, "-n", "max", "--within", "900", "--picture", folder / "a.png"}, 2,
                 "at most 200");
+}
+
+TEST_CASE("copies step aside where they come lower, with a proof") {
+  // A peg beside the groove below the plate: straight the feet stand on pegs.
+  const TemporaryFolder folder;
+  Shape shape = solids::named(solids::box({0, 0, 0}, {1, 4, 2}), "foot_1");
+  shape = concatenate(shape, solids::named(solids::box({2, 0, 0}, {4, 4, 2}), "foot_2"));
+  shape = concatenate(shape, solids::named(solids::box({0, 0, 2}, {4, 4, 3}), "plate"));
+  shape = concatenate(shape, solids::named(solids::box({0.1, 1, 3}, {0.9, 3, 4}), "peg"));
+  const std::string model = folder.model("peg.obj", shape);
+  const json stack =
+      run_program({"stack", model, "-n", "4", "--place", "best", "--max-shift", "1.2", "--json", "-"}).json();
+  CHECK(stack["height"] == 13);
+  CHECK(stack["step"]["straight_height"] == 16);
+  CHECK(stack["step"]["proven"] == true);
+  CHECK(stack["step"]["bound"].get<double>() > 2.99);
+  CHECK(stack["copies"][1]["translation"][0] == stack["step"]["x"]);
+  CHECK(stack["copies"][1]["translation"][2] == 3);
+  const std::string text = run_program({"stack", model, "--place", "best", "--max-shift", "0.2"}).out;
+  CHECK(text.find("no shift makes the stack lower") != std::string::npos);
+  CHECK(run_program({"stack", model, "--json", "-"}).json()["step"].is_null());
+  check_refused(folder, {"stack", model, "--turn"}, 2, "--turn needs --place best");
+  check_refused(folder, {"stack", model, "--max-shift", "1"}, 2, "--max-shift needs --place best");
+  check_refused(folder, {"stack", model, "--place", "best", "--period", "2"}, 2, "--place best");
+  check_refused(folder, {"stack", model, "--place", "best", "--layer", "1"}, 2, "--layer");
+  check_refused(folder, {"stack", model, "--place", "best", "--into", model}, 2, "--place best");
+  check_refused(folder, {"stack", model, "--place", "best", "-n", "101"}, 2, "100 copies");
 }

@@ -1,5 +1,6 @@
 #include "stacking/validation/exact_body.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <utility>
