@@ -181,16 +181,6 @@ TEST_CASE("undercuts of triangles in any position agree with rays") {
   }
 }
 
-TEST_CASE("too many pairs give less undercut, and say so") {
-  Shape boxes = named(i_beam(), "beam_0");
-  for (int k = 1; k < 100; ++k)
-    boxes = concatenate(boxes, named(moved(i_beam(), {0, 0, 4.5 * k}), "beam_" + std::to_string(k)));
-  const DraftAnalysis draft = draft_of(boxes);
-  CHECK_FALSE(draft.complete);
-  // All but the top of the first and the bottom of the last is hidden.
-  CHECK(sums_of(draft).undercut <= 100 * (24 + undercut_of_beam) - 24 + 1);
-}
-
 TEST_CASE("a wall has enough triangles above and below it when many coincide") {
   Shape all = named(box({1, 1, 1}, {2, 2, 2}), "core");
   for (int k = 0; k < 400; ++k) {
