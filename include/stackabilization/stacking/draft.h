@@ -45,7 +45,7 @@ struct DraftAnalysis {
 /// polygons, computed in double precision within tolerance::relative of the extent; those of walls along r
 /// are decided 1e-7 of the extent beside them. A triangle with more than 4096 pieces is measured along scan
 /// lines, to about a thousandth. The shape may be open. Inner portions are looked for in closed parts, with
-/// two exact tests per piece. Work is bounded, see `complete`: 64 pairs per triangle plus 2^19, 2^13
+/// two exact tests per piece. Work is bounded, see `complete`: 16 pairs per triangle plus 2^16, 2^13
 /// triangles above and below a wall, 2^16 pairs of pieces of one triangle. Precondition: `tree` is the tree
 /// of `shape`.
 DraftAnalysis analyse_draft(const Shape& shape, const SeparationTree& tree, const Direction& direction);

@@ -16,6 +16,7 @@
 
 #include "envelope/contacts/contact_polygons.h"
 #include "envelope/contacts/planar_union.h"
+#include "mesh/planar.h"
 #include "mesh/surface_moments.h"
 #include "mesh/triangle_tree.h"
 #include "stackabilization/core/tolerances.h"
@@ -93,6 +94,19 @@ Points common_part(const Points& polygon, const Points& other, const Eigen::Vect
 /// hidden from above and the other from below.
 constexpr std::size_t max_in_column = 1 << 13, max_pairs_of_pieces = 1 << 16;
 
+/// Returns whether all corners of a convex polygon lie in another one.
+bool contains(const ConvexPolygon& outer, const ConvexPolygon& inner) {
+  double twice = 0;
+  for (std::size_t p = 2; p < outer.size(); ++p) twice += cross(outer[p - 1] - outer[0], outer[p] - outer[0]);
+  const double sign = twice < 0 ? -1 : 1;
+  for (std::size_t p = 0; p < outer.size(); ++p) {
+    const Eigen::Vector2d &a = outer[p], side = outer[(p + 1) % outer.size()] - a;
+    for (const Eigen::Vector2d& corner : inner)
+      if (sign * cross(side, corner - a) < 0) return false;
+  }
+  return twice != 0;
+}
+
 /// Pieces that are united first.
 constexpr std::size_t few = 8;
 
@@ -117,6 +131,11 @@ class Pieces {
     std::vector<ConvexPolygon> largest;
     double share = 0;
     for (std::size_t k = 0; k < outlines.size(); ++k) {
+      const auto first_few = largest.begin() + static_cast<std::ptrdiff_t>(std::min(few, largest.size()));
+      const bool known = std::any_of(largest.begin(), first_few, [&](const ConvexPolygon& larger) {
+        return contains(larger, outlines[k].second);
+      });
+      if (known && k + 1 < outlines.size()) continue;
       largest.push_back(std::move(outlines[k].second));
       const bool last = k + 1 == outlines.size();
       if (!last && (largest.size() % few != 0 || !std::has_single_bit(largest.size() / few))) continue;
@@ -391,7 +410,7 @@ class DraftPass {
 }  // namespace
 
 DraftAnalysis analyse_draft(const Shape& shape, const SeparationTree& tree, const Direction& direction) {
-  constexpr std::int64_t pairs_per_triangle = 64, more_pairs = std::int64_t{1} << 19;
+  constexpr std::int64_t pairs_per_triangle = 16, more_pairs = std::int64_t{1} << 16;
   const Frame frame = frame_of(direction);
   Eigen::Matrix3d to_local, to_world;
   to_local << frame.u.transpose(), frame.v.transpose(), frame.w.transpose();
