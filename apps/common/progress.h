@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/common/caller.h"
+#include "apps/common/interrupt.h"
 
 namespace stackabilization::apps {
 
@@ -26,6 +27,19 @@ class ProgressBar {
   bool terminal_;
   int shown_percent_ = -1;
 };
+
+/// Returns work(options) with `progress` and `cancelled` of the options set: a bar with this label shows how
+/// far it is, and a signal, or the caller, ends it with Interrupted.
+template <class Options, class Work>
+auto with_progress(const std::string& label, const Caller* caller, Options options, const Work& work) {
+  ProgressBar bar(label, caller);
+  const DeferredInterrupts interrupts(caller);
+  options.progress = [&bar](double fraction) { bar.show(fraction); };
+  options.cancelled = [&interrupts] { return interrupts.requested(); };
+  auto result = work(options);
+  if (interrupts.requested()) throw Interrupted();
+  return result;
+}
 
 /// One line of words on standard error that is written over, only when that is a terminal; gone when the
 /// object goes.

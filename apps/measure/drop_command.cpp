@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "apps/common/command.h"
-#include "apps/common/interrupt.h"
 #include "apps/common/measurement.h"
 #include "apps/common/output.h"
 #include "apps/common/progress.h"
@@ -13,13 +12,12 @@
 #include "apps/common/values.h"
 #include "stackabilization/mesh/convex_hull.h"
 #include "stackabilization/stacking/place.h"
+#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization::apps {
 
 namespace {
 
-/// Default of --eps, fraction of the extent of the higher one of the two along the direction.
-constexpr double default_accuracy = 0x1p-10;
 /// Places along the longer side of a map, where no step is given.
 constexpr double default_map_places = 32;
 
@@ -73,21 +71,9 @@ PlaceOptions place_options(const DropCommandOptions& options, const Scene& scene
   if (options.max_cells) place.max_cells = *options.max_cells;
   const double extent = std::max(HullSupport(scene.item.shape).extent(scene.direction),
                                  HullSupport(scene.base.shape).extent(scene.direction));
-  place.accuracy = options.eps ? options.eps->in(scene.item.shape.unit) : default_accuracy * extent;
+  place.accuracy = options.eps ? options.eps->in(scene.item.shape.unit) : tolerance::place_height * extent;
   if (!(place.accuracy > 0)) throw UsageError("--eps is needed: both shapes are flat along the direction");
   return place;
-}
-
-/// A search or a map that shows its progress, and can be interrupted.
-template <class Work>
-auto with_progress(const std::string& what, const Caller* caller, PlaceOptions options, const Work& work) {
-  ProgressBar bar(what, caller);
-  const DeferredInterrupts interrupts(caller);
-  options.progress = [&bar](double fraction) { bar.show(fraction); };
-  options.cancelled = [&interrupts] { return interrupts.requested(); };
-  auto result = work(options);
-  if (interrupts.requested()) throw Interrupted();
-  return result;
 }
 
 Json place_json(const Place& place) {

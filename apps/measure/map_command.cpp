@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "apps/common/command.h"
-#include "apps/common/interrupt.h"
 #include "apps/common/measurement.h"
 #include "apps/common/output.h"
 #include "apps/common/progress.h"
@@ -30,18 +29,6 @@ struct Summary {
   MapSample best, worst;
   double mean = 0;  ///< every sample counts the same: they are spread evenly
 };
-
-StackabilityMap map_with_progress(const StackabilitySolver& solver, const MapCommandOptions& options) {
-  ProgressBar bar("Mapping", options.common.caller);
-  const DeferredInterrupts interrupts(options.common.caller);
-  MapOptions map;
-  map.step_degrees = options.step_degrees.value_or(default_step_degrees);
-  map.progress = [&bar](double fraction) { bar.show(fraction); };
-  map.cancelled = [&interrupts] { return interrupts.requested(); };
-  StackabilityMap result = stackability_map(solver, map);
-  if (interrupts.requested()) throw Interrupted();
-  return result;
-}
 
 Summary summary_of(const StackabilityMap& map) {
   const auto less = [](const MapSample& a, const MapSample& b) { return a.stackability < b.stackability; };
@@ -103,7 +90,11 @@ int run_map_command(const CLI::App& command, const MapCommandOptions& options) {
   const Model model = load_model(options.common);
   const StackabilitySolver solver =
       named(model, [&] { return StackabilitySolver(model.shape, options.stackability); });
-  const StackabilityMap map = map_with_progress(solver, options);
+  MapOptions mapping;
+  mapping.step_degrees = options.step_degrees.value_or(default_step_degrees);
+  const StackabilityMap map =
+      with_progress("Mapping", options.common.caller, mapping,
+                    [&](const MapOptions& shown) { return stackability_map(solver, shown); });
   const Summary summary = summary_of(map);
 
   Json document = document_head(command, model);

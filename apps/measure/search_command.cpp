@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "apps/common/command.h"
-#include "apps/common/interrupt.h"
 #include "apps/common/measurement.h"
 #include "apps/common/output.h"
 #include "apps/common/progress.h"
@@ -45,17 +44,6 @@ SearchOptions search_options(const SearchCommandOptions& options) {
   search.certify = options.certify;
   if (options.max_cells) search.max_cells = *options.max_cells;
   return search;
-}
-
-SearchResult search_with_progress(const StackabilitySolver& solver, SearchOptions search,
-                                  const Caller* caller) {
-  ProgressBar bar("Searching", caller);
-  const DeferredInterrupts interrupts(caller);
-  search.progress = [&bar](double fraction) { bar.show(fraction); };
-  search.cancelled = [&interrupts] { return interrupts.requested(); };
-  SearchResult result = best_direction(solver, search);
-  if (interrupts.requested()) throw Interrupted();
-  return result;
 }
 
 void add_search(Json& document, const SearchResult& result) {
@@ -112,7 +100,9 @@ int run_search_command(const CLI::App& command, const SearchCommandOptions& opti
   const Model model = load_model(options.common);
   const StackabilitySolver solver =
       named(model, [&] { return StackabilitySolver(model.shape, options.stackability); });
-  const SearchResult result = search_with_progress(solver, search, options.common.caller);
+  const SearchResult result =
+      with_progress("Searching", options.common.caller, search,
+                    [&](const SearchOptions& shown) { return best_direction(solver, shown); });
   const Measurement measurement = measure_exactly(solver, Direction(result.best.direction));
 
   Json document = document_head(command, model);

@@ -32,11 +32,11 @@ Copies copies_to_write(const StackRun& run, const Model& model, const Direction&
   const Copies stacked = stacked_copies(model.shape, direction, run.result);
   if (run.gap_count() == 0 || run.separators->triangle_count() == 0) return stacked;
   Copies all{{model.shape, *run.separators}, {}};
-  for (const PlacedCopy& copy : stacked.placed) {
+  for (std::size_t k = 0; k < stacked.placed.size(); ++k) {
+    const PlacedCopy& copy = stacked.placed[k];
     all.placed.push_back(copy);
-    const std::size_t number = all.placed.size() / 2 + 1;
-    if (static_cast<int>(number) > run.gap_count()) break;
-    all.placed.push_back({"separator" + std::to_string(number), copy.rotation, copy.translation, 1});
+    if (k + 1 < stacked.placed.size())
+      all.placed.push_back({"separator" + std::to_string(k + 1), copy.rotation, copy.translation, 1});
   }
   return all;
 }
@@ -92,8 +92,8 @@ void add_copies_option(CLI::App& command, StackCommandOptions& options) {
   const Count count = {"-n", "Number of copies, or max: as many as --within holds (default: 2)", 1,
                        max_copies};
   const auto take = [count, &options](const std::string& text) {
-    options.max_copies = text == "max";
-    if (!options.max_copies) options.copies = static_cast<int>(parse_count(count, text));
+    options.as_many_as_fit = text == "max";
+    if (!options.as_many_as_fit) options.copies = static_cast<int>(parse_count(count, text));
   };
   command.add_option_function<std::string>(count.name, take, count.description)->type_name("N|max");
 }

@@ -31,15 +31,15 @@ void check(const StackCommandOptions& options) {
                 "cannot be combined with --twist-degrees or --period");
   refuse_option(options.turn && !options.best_place, "--turn", "needs --place best");
   refuse_option(options.max_shift && !options.best_place, "--max-shift", "needs --place best");
-  refuse_option(options.max_copies && !options.within, "-n max", "needs the room of --within");
-  refuse_option(options.max_copies && turned, "-n max", "is for copies straight on top of each other");
+  refuse_option(options.as_many_as_fit && !options.within, "-n max", "needs the room of --within");
+  refuse_option(options.as_many_as_fit && turned, "-n max", "is for copies straight on top of each other");
   refuse_option(options.layer && turned, "--layer",
                 "is for copies straight on top of each other: others are not sliced alike");
   refuse_option(options.separators && !options.layer, "--separators", "needs the thickness of a --layer");
   refuse_option(options.separators && !options.clearance, "--separators", "needs a --clearance to fill");
   if (!options.into) return;
   const char* const reason = "makes no sense with --into, which puts one MODEL into one container";
-  refuse_option(options.copies.has_value() || options.max_copies, "-n", reason);
+  refuse_option(options.copies.has_value() || options.as_many_as_fit, "-n", reason);
   refuse_option(options.twist_degrees || options.best_twist, "--twist-degrees", reason);
   refuse_option(options.period.has_value(), "--period", reason);
   refuse_option(options.within.has_value(), "--within", reason);

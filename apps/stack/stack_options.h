@@ -15,7 +15,7 @@ struct StackCommandOptions {
   CommonOptions common;
   StackabilityOptions stackability;
   std::optional<int> copies;        ///< -n; default 2
-  bool max_copies = false;          ///< -n max: as many as --within holds
+  bool as_many_as_fit = false;      ///< -n max: as many as --within holds
   std::optional<std::string> into;  ///< container that MODEL is lowered into
   std::optional<Eigen::Vector3d> direction;
   std::optional<double> twist_degrees;  ///< a fixed twist

@@ -3,18 +3,16 @@
 #include <algorithm>
 #include <utility>
 
-#include "apps/common/interrupt.h"
 #include "apps/common/progress.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/stacking/separators.h"
 #include "stackabilization/stacking/stack_search.h"
+#include "stackabilization/stacking/tolerances.h"
 
 namespace stackabilization::apps {
 
 namespace {
 
-/// How close the proof of a step comes, fraction of the extent along the direction.
-constexpr double default_accuracy = 0x1p-10;
 /// Default of --max-shift, fraction of the longer side of the box across the direction.
 constexpr double default_shift = 0.25;
 
@@ -42,16 +40,13 @@ void fill_searched_step(StackRun& run, const StackCommandOptions& options, const
   StepOptions search;
   search.stack = run.options;
   search.turn = options.turn;
-  search.accuracy = default_accuracy * run.extent;
+  search.accuracy = tolerance::place_height * run.extent;
   search.max_shift = options.max_shift ? options.max_shift->in(model.shape.unit)
                                        : default_shift * std::max(range_along(model.shape, frame.u).length(),
                                                                   range_along(model.shape, frame.v).length());
-  ProgressBar bar("Placing", options.common.caller);
-  const DeferredInterrupts interrupts(options.common.caller);
-  search.progress = [&bar](double fraction) { bar.show(fraction); };
-  search.cancelled = [&interrupts] { return interrupts.requested(); };
-  run.step = best_step_stack(model.shape, direction, search);
-  if (interrupts.requested()) throw Interrupted();
+  run.step = with_progress("Placing", options.common.caller, search, [&](const StepOptions& shown) {
+    return best_step_stack(model.shape, direction, shown);
+  });
   run.result = std::move(run.step->stack);
 }
 
@@ -84,7 +79,7 @@ StackRun run_stack(const StackCommandOptions& options, const Model& model) {
   run.period = options.period.value_or(1);
   run.extent = HullSupport(model.shape).extent(direction);
   if (options.within) run.wish = wish_of(options, model, run);
-  if (run.wish && options.max_copies) {
+  if (run.wish && options.as_many_as_fit) {
     const std::int64_t fitting = run.wish->plan.copies_now.value_or(max_copies);
     run.options.copies = static_cast<int>(std::clamp<std::int64_t>(fitting, 1, max_copies));
     run.wish = wish_of(options, model, run);

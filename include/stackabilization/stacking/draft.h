@@ -42,12 +42,14 @@ struct DraftAnalysis {
 
 /// Finds what keeps a shape in a mould of two halves that part along r and -r: a surface point is undercut
 /// when it lies neither on the upper nor on the lower envelope. The visible portions of triangles are
-/// polygons, computed in double precision within tolerance::relative of the extent; those of walls along r
-/// are decided 1e-7 of the extent beside them. A triangle with more than 4096 pieces is measured along scan
-/// lines, to about a thousandth. The shape may be open. Inner portions are looked for in closed parts, with
-/// two exact tests per piece. Work is bounded, see `complete`: 16 pairs per triangle plus 2^16, 2^13
-/// triangles above and below a wall, 2^16 pairs of pieces of one triangle. Precondition: `tree` is the tree
-/// of `shape`.
+/// polygons, computed in double precision within tolerance::relative of the diagonal; those of walls along r
+/// are decided tolerance::beside_surface beside them. A triangle with more than 4096 pieces is measured along
+/// scan lines, to about a thousandth. The shape may be open.
+///
+/// Inner portions are pieces with closed parts on both sides, by exact tests of some of their points.
+/// Triangles with the same points count once. Work is bounded, see `complete`: 16 pairs per triangle plus
+/// 2^16, 2^13 triangles above and below a wall, 2^16 pairs of pieces of one triangle. Deterministic for any
+/// number of threads. Precondition: `tree` is the tree of `shape`.
 DraftAnalysis analyse_draft(const Shape& shape, const SeparationTree& tree, const Direction& direction);
 
 }  // namespace stackabilization

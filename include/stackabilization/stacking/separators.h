@@ -16,7 +16,8 @@ struct SeparatorOptions {
 
 /// Returns the bodies that fill the gap between a copy and the one above it, where that is narrow: what a
 /// printer puts between copies that are printed on top of each other. They lie on the copy below, in the
-/// coordinates of the shape, one part per contact region (see contact_regions), largest first. Each body
+/// coordinates of the shape, one part per contact region with an area (see contact_regions), largest first;
+/// where there are too many pairs of triangles, as Contacts::complete says, they have gaps. Each body
 /// consists of closed prisms, one per pair of triangles, which touch. No triangles when the copies pass each
 /// other, or when no region has an area. Walls thinner than the layer may be pierced.
 ///

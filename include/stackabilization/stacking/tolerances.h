@@ -24,7 +24,11 @@ inline constexpr double direction_bound = 1e-3;
 /// triangles covers stays open.
 inline constexpr double direction_cell = 1e-7;
 
-/// Distance from a surface at which a point is beside it, fraction of the extent along the direction.
+/// Default of the largest difference between the height of a place and its bound, fraction of the extent of
+/// the higher one of the two shapes along the direction.
+inline constexpr double place_height = 0x1p-10;
+
+/// Distance from a surface at which a point is beside it, fraction of the diagonal of the shape.
 inline constexpr double beside_surface = 1e-7;
 
 /// Largest slope of a wall against a direction. The projection of a wall is too narrow to be divided.

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "envelope/contacts/clip.h"
 #include "envelope/contacts/contact_pairs.h"
 #include "envelope/separation/exact_pair.h"
 
@@ -24,19 +25,6 @@ struct LoopCorner {
 LoopCorner between(const LoopCorner& a, const LoopCorner& b, double t) {
   const auto mix = [t](double from, double to) { return from + t * (to - from); };
   return {mix(a.x, b.x), mix(a.y, b.y), mix(a.upper, b.upper), mix(a.lower, b.lower)};
-}
-
-/// Returns the portion of the convex polygon with value >= 0, for a function that is linear on it.
-template <typename Value>
-std::vector<LoopCorner> clip(const std::vector<LoopCorner>& polygon, const Value& value) {
-  std::vector<LoopCorner> kept;
-  for (std::size_t c = 0; c < polygon.size(); ++c) {
-    const LoopCorner &a = polygon[c], &b = polygon[(c + 1) % polygon.size()];
-    const double at_a = value(a), at_b = value(b);
-    if (at_a >= 0) kept.push_back(a);
-    if ((at_a > 0 && at_b < 0) || (at_a < 0 && at_b > 0)) kept.push_back(between(a, b, at_a / (at_a - at_b)));
-  }
-  return kept;
 }
 
 double edge_side(const ProjectedTriangle& triangle, int p, int q, double x, double y) {
@@ -58,9 +46,12 @@ std::vector<LoopCorner> common_polygon(const ProjectedTriangle& upper, const Pro
   for (int c = 0; c < 3; ++c) polygon.push_back({upper.x[c], upper.y[c], upper.h[c], 0});
   const double sign = lower.area < 0 ? -1 : 1;
   for (int edge = 0; edge < 3 && !polygon.empty(); ++edge)
-    polygon = clip(polygon, [&](const LoopCorner& corner) {
-      return sign * edge_side(lower, edge, (edge + 1) % 3, corner.x, corner.y);
-    });
+    polygon = clipped(
+        polygon,
+        [&](const LoopCorner& corner) {
+          return sign * edge_side(lower, edge, (edge + 1) % 3, corner.x, corner.y);
+        },
+        between);
   for (LoopCorner& corner : polygon) corner.lower = height_over(lower, corner.x, corner.y);
   return polygon;
 }
@@ -100,8 +91,9 @@ class ContactClipper {
     if (!certain && !exact_maximum(tree_.triangles[pair.upper_at], tree_.triangles[pair.lower_at],
                                    projection_.shear, projection_.semantics))
       return std::nullopt;
-    const std::vector<LoopCorner> polygon = clip(
-        common_polygon(upper, lower), [this](const LoopCorner& corner) { return corner.gap() - floor_; });
+    const std::vector<LoopCorner> polygon = clipped(
+        common_polygon(upper, lower), [this](const LoopCorner& corner) { return corner.gap() - floor_; },
+        between);
     if (polygon.empty()) return std::nullopt;
     return lift(pair, polygon);
   }

@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "core/diagonal.h"
 #include "envelope/contacts/contact_polygons.h"
 #include "envelope/contacts/planar_union.h"
 #include "stackabilization/core/errors.h"
@@ -33,13 +34,6 @@ struct Setting {
   ContactOptions options;
   double reach;  ///< polygons this near to each other, in model units, touch
 };
-
-double diagonal(const Shape& shape) {
-  Eigen::Vector3d extents;
-  for (int axis = 0; axis < 3; ++axis)
-    extents[axis] = range_along(shape, Eigen::Vector3d::Unit(axis)).length();
-  return extents.norm();
-}
 
 /// Returns the point that attains the separation, for contacts without area.
 ContactPolygon witness_polygon(const Witness& witness) {

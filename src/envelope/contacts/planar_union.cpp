@@ -60,11 +60,25 @@ ConvexPolygon outline_of(const Shape& shape, std::int32_t triangle, const Frame&
   return outline_of(corners, frame);
 }
 
-double outline_area(const ConvexPolygon& outline) {
+double signed_area(const ConvexPolygon& outline) {
   double twice = 0;
   for (std::size_t p = 2; p < outline.size(); ++p)
     twice += cross(outline[p - 1] - outline[0], outline[p] - outline[0]);
-  return std::abs(twice) / 2;
+  return twice / 2;
+}
+
+double outline_area(const ConvexPolygon& outline) {
+  return std::abs(signed_area(outline));
+}
+
+bool contains(const ConvexPolygon& outer, const ConvexPolygon& inner) {
+  const double area = signed_area(outer);
+  for (std::size_t p = 0; p < outer.size(); ++p) {
+    const Eigen::Vector2d &a = outer[p], side = outer[(p + 1) % outer.size()] - a;
+    for (const Eigen::Vector2d& corner : inner)
+      if (area * cross(side, corner - a) < 0) return false;
+  }
+  return area != 0;
 }
 
 Eigen::VectorXd outline_centroid(const ConvexPolygon& outline) {

@@ -20,7 +20,13 @@ ConvexPolygon outline_of(const Points& points, const Frame& frame);
 /// Returns the outline of a triangle, row of Shape::triangles, seen along the third axis of `frame`.
 ConvexPolygon outline_of(const Shape& shape, std::int32_t triangle, const Frame& frame);
 
+/// Returns the area of a convex outline, positive when its corners are counter-clockwise.
+double signed_area(const ConvexPolygon& outline);
 double outline_area(const ConvexPolygon& outline);
+
+/// Returns whether all corners of a convex outline lie in another one, border included. False for an outer
+/// one without area. In double precision.
+bool contains(const ConvexPolygon& outer, const ConvexPolygon& inner);
 
 /// Returns weights of the corners whose combination is the centroid of the area, or of the corners when the
 /// area is zero.

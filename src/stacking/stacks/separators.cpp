@@ -6,7 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/planar.h"
+#include "core/diagonal.h"
+#include "envelope/contacts/planar_union.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/envelope/contacts.h"
@@ -15,6 +16,8 @@ namespace stackabilization {
 
 namespace {
 
+using namespace detail;
+
 /// Collects prisms between polygons on a copy and the same columns on the copy above.
 class PrismBuilder {
  public:
@@ -22,11 +25,14 @@ class PrismBuilder {
   PrismBuilder(const Direction& direction, double lift, double no_area)
       : frame_(frame_of(direction)), lift_(lift * frame_.w.transpose()), no_area_(no_area) {}
 
-  /// Adds a prism to the part with this name.
-  void add(const ContactPolygon& polygon, const std::string& part) {
-    const double area = signed_area(polygon.upper_points);
+  /// The next prism begins a new part.
+  void begin_part() { new_part_ = true; }
+
+  void add(const ContactPolygon& polygon) {
+    const double area = signed_area(outline_of(polygon.upper_points, frame_));
     if (std::abs(area) <= no_area_) return;
-    if (shape_.part_names.empty() || shape_.part_names.back() != part) shape_.part_names.push_back(part);
+    if (new_part_) shape_.part_names.push_back("region_" + std::to_string(shape_.part_names.size() + 1));
+    new_part_ = false;
     const auto count = static_cast<std::int32_t>(polygon.upper_points.rows());
     const auto first = static_cast<std::int32_t>(corners_.size());
     for (std::int32_t k = 0; k < count; ++k)
@@ -56,16 +62,6 @@ class PrismBuilder {
   }
 
  private:
-  /// Area of a polygon seen along the direction, positive when it is counter-clockwise from above.
-  double signed_area(const Points& points) const {
-    const auto seen = [&](Eigen::Index k) {
-      return Eigen::Vector2d(frame_.to_local(points.row(k).transpose()).head<2>());
-    };
-    double twice = 0;
-    for (Eigen::Index k = 2; k < points.rows(); ++k) twice += cross(seen(k - 1) - seen(0), seen(k) - seen(0));
-    return twice / 2;
-  }
-
   void add_triangle(std::int32_t a, std::int32_t b, std::int32_t c) {
     triangles_.emplace_back(a, b, c);
     shape_.triangle_part.push_back(static_cast<std::int32_t>(shape_.part_names.size()) - 1);
@@ -74,6 +70,7 @@ class PrismBuilder {
   Frame frame_;
   Eigen::RowVector3d lift_;
   double no_area_;
+  bool new_part_ = true;
   Shape shape_;
   std::vector<Eigen::RowVector3d> corners_;
   std::vector<Eigen::Matrix<std::int32_t, 1, 3>> triangles_;
@@ -92,12 +89,10 @@ Shape separators(const Shape& shape, const Direction& direction, const Separator
   contact.semantics = options.semantics;
   const double extent = range_along(shape, direction.unit()).length();
   contact.band = extent > 0 ? std::min(1.0, options.layer / extent) : 1;
-  const double diagonal = (shape.vertices.colwise().maxCoeff() - shape.vertices.colwise().minCoeff()).norm();
-  PrismBuilder prisms(direction, options.lift, tolerance::relative * diagonal * diagonal);
-  int number = 0;
+  PrismBuilder prisms(direction, options.lift, tolerance::relative * std::pow(diagonal(shape), 2));
   for (const ContactRegion& region : contact_regions({shape, tree, direction, found}, contact).regions) {
-    const std::string name = "region_" + std::to_string(++number);
-    for (const ContactPolygon& polygon : region.polygons) prisms.add(polygon, name);
+    prisms.begin_part();
+    for (const ContactPolygon& polygon : region.polygons) prisms.add(polygon);
   }
   return std::move(prisms).result(shape.unit);
 }

@@ -143,6 +143,24 @@ TEST_CASE("where parts touch or overlap there is no surface") {
   CHECK(open.inner == 0);
 }
 
+TEST_CASE("what is inside is told apart below a surface that hides all") {
+  // A table on a board: legs stand inwards, so that the board lies below the whole underside of the top.
+  Shape all = concatenate(named(box({0, 0, 0}, {8, 8, 1}), "board"), named(box({0, 0, 5}, {8, 8, 6}), "top"));
+  for (const double x : {1.0, 6.0})
+    for (const double y : {1.0, 6.0}) all = concatenate(all, named(box({x, y, 1}, {x + 1, y + 1, 5}), "leg"));
+  const Sums sums = sums_of(draft_of(all));
+  CHECK(sums.inner == Approx(4 * 4).margin(grid_area));  // both ends of legs, and what they touch
+  CHECK(sums.undercut == Approx(2 * (64 - 4) + 4 * 4 * 4).margin(grid_area));  // with the sides of legs
+}
+
+TEST_CASE("a sheet without extent along the direction has no undercut") {
+  Shape sheet = transformed(subdivided(box({2, 3, 1})), Eigen::Vector3d(1, 1, 0).asDiagonal(), {0, 0, 5});
+  const Sums sums = sums_of(draft_of(sheet));
+  CHECK(sums.undercut == 0);
+  CHECK(sums.inner == 0);
+  CHECK(sums.least_draft == 90);
+}
+
 TEST_CASE("a sheet over the plane has no undercut, whichever side its triangles face") {
   for (const Shape& sheet : {bumpy_bowl(12), flipped(bumpy_bowl(12))}) {
     const DraftAnalysis draft = draft_of(sheet);

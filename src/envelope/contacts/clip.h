@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace stackabilization::detail {
+
+/// Returns the portion of a convex polygon with value(corner) >= 0, for a function that is linear on it
+/// (Sutherland and Hodgman 1974). `between(a, b, t)` returns the point a + t (b - a).
+template <class Corner, class Value, class Between>
+std::vector<Corner> clipped(const std::vector<Corner>& polygon, const Value& value, const Between& between) {
+  std::vector<Corner> kept;
+  for (std::size_t c = 0; c < polygon.size(); ++c) {
+    const Corner &a = polygon[c], &b = polygon[(c + 1) % polygon.size()];
+    const double at_a = value(a), at_b = value(b);
+    if (at_a >= 0) kept.push_back(a);
+    if ((at_a > 0 && at_b < 0) || (at_a < 0 && at_b > 0)) kept.push_back(between(a, b, at_a / (at_a - at_b)));
+  }
+  return kept;
+}
+
+}  // namespace stackabilization::detail

@@ -1,0 +1,55 @@
+#include "stacking/draft/solid_sides.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "core/extract_parts.h"
+#include "stackabilization/core/copies.h"
+#include "stackabilization/mesh/closed_surface.h"
+
+namespace stackabilization::detail {
+
+SolidSides::SolidSides(const Shape& shape, double reach) : reach_(reach) {
+  Copies closed;
+  for (Shape& part : extract_parts(shape)) {
+    const ClosedSurface surface = closed_surface(part);
+    if (!surface.closed) continue;
+    std::vector<Eigen::AlignedBox3d> boxes(surface.representatives.size());
+    for (std::size_t t = 0; t < surface.component.size(); ++t)
+      if (const std::int32_t component = surface.component[t]; component >= 0)
+        for (int c = 0; c < 3; ++c)
+          boxes[static_cast<std::size_t>(component)].extend(part.corner(static_cast<Eigen::Index>(t), c));
+    boxes_.insert(boxes_.end(), boxes.begin(), boxes.end());
+    PlacedCopy copy;
+    copy.name = std::to_string(closed.shapes.size());
+    copy.shape = closed.shapes.size();
+    closed.placed.push_back(std::move(copy));
+    closed.shapes.push_back(std::move(part));
+  }
+  if (closed.shapes.empty()) return;
+  solid_ = as_one_shape(closed);
+  locator_ = std::make_unique<SolidLocator>(solid_);
+}
+
+bool SolidSides::both(const Piece& piece, const Eigen::Vector3d& normal) const {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& corner : piece) centre += corner / static_cast<double>(piece.size());
+  return both(centre, normal) && std::all_of(piece.begin(), piece.end(), [&](const Eigen::Vector3d& corner) {
+           return both(Eigen::Vector3d((centre + corner) / 2), normal);
+         });
+}
+
+bool SolidSides::both(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const {
+  int around = 0;  // it takes two components, the boxes of which are soon asked
+  for (std::size_t k = 0; k < boxes_.size() && around < 2; ++k)
+    around += boxes_[k].exteriorDistance(point) <= reach_;
+  if (around < 2) return false;
+  for (const double side : {reach_, -reach_}) {
+    const Eigen::Vector3d p = point + side * normal;
+    if (locator_->locate({p.x(), p.y(), p.z()}).place == PointPlace::outside) return false;
+  }
+  return true;
+}
+
+}  // namespace stackabilization::detail
