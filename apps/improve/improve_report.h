@@ -22,8 +22,8 @@ struct ImproveReport {
 
   /// Is there a solution, and is each of them good?
   bool reached() const;
-  /// Why the wish was not met, and what would help; null without a diagnosis, and for a front that is reached:
-  /// its diagnosis is of what lies beyond its end.
+  /// Why the wish was not met, and what would help; null without a diagnosis, and for a front that is
+  /// reached: its diagnosis is of what lies beyond its end.
   const Diagnosis* diagnosis() const;
   /// The solutions, or what came nearest.
   std::vector<const SolutionReport*> shown() const;

@@ -70,15 +70,6 @@ inline Eigen::Vector3d area_vector(const Shape& shape) {
   return sum;
 }
 
-/// Sum of the triangles' areas.
-inline double area(const Shape& shape) {
-  double sum = 0;
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-    sum +=
-        (shape.corner(t, 1) - shape.corner(t, 0)).cross(shape.corner(t, 2) - shape.corner(t, 0)).norm() / 2;
-  return sum;
-}
-
 /// The message of the InputError that reading ends in.
 inline std::string refusal(Format format, const std::string& bytes, const std::string& name = "bad.file") {
   return message_of<InputError>([&] { read_shape(bytes, format, name); });

@@ -45,8 +45,8 @@ StructuredShape board_with_screw();
 StructuredShape rough_stool();
 
 /// A top, 10 x 10 x 1, on one leg, 0.8 x 0.8 x 10, in its middle, and an apron beside the leg, under the top.
-/// The joint of leg and apron, (0.4, 0, 9.5), is 0.5 below that of leg and top. The apron is joined to the top
-/// at its rim, at (4.9, 0, 10).
+/// The joint of leg and apron, (0.4, 0, 9.5), is 0.5 below that of leg and top. The apron is joined to the
+/// top at its rim, at (4.9, 0, 10).
 StructuredShape leg_and_apron();
 
 /// Trestle in the plane y = 0, 10 high: straight generalized cylinders "leg_left" and "leg_right" that lean

@@ -96,9 +96,9 @@ struct DiagnosisOptions {
 
 /// Explains why a search did not reach its target, for the candidate of largest S. Finds the blocking pairs,
 /// and changes that would help: another direction, freeing a part that had to stay, relaxing the height, the
-/// box or a measure of quality, leaving out a part (removal.h), taking the object apart (partition.h).
-/// Blocking pairs are always determined; reasons and remedies only within the limits of the options.
-/// Precondition: `result.nearest` is not empty.
+/// box or a measure of quality, leaving out parts with at most half of the surface (removal.h), taking the
+/// object apart (partition.h). Blocking pairs are always determined; reasons and remedies only within the
+/// limits of the options. Precondition: `result.nearest` is not empty.
 Diagnosis diagnose(const RequirementChecker& checker, const BestFirstResult& result,
                    const DiagnosisOptions& options = {});
 

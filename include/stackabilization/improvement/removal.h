@@ -31,6 +31,7 @@ struct Removal {
   std::vector<int> parts;                                ///< a class of symmetric parts
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  ///< of largest S of the rest, of those tried
   double stackability = 0;                               ///< S of the rest along `direction`
+  double area = 0;                                       ///< of the parts, fraction of the surface
 };
 
 /// Options of `removals`.

@@ -60,7 +60,8 @@ std::vector<FoundSymmetry> find_symmetries(const Shape& shape, const SymmetryOpt
 ///   surfaces in both directions, as fractions of the whole shape, and the sizes of the parts (root mean
 ///   square widths, or the sides of their minimal boxes where one of them lacks faces) within ten tolerances.
 ///   Two parts without such a match, whose ends may be cut off differently, are counterparts as well when
-///   nine tenths of the image of each lie on the other to a tenth of the tolerance, and all of it on the shape.
+///   nine tenths of the image of each lie on the other to a tenth of the tolerance, and all of it on the
+///   shape.
 /// * A part of revolution without a counterpart, whose ends no reflection exchanges, has two self-symmetries
 ///   with perpendicular planes through its axis, those of the whole shape first, and its revolution
 ///   (`SymmetryKind::revolution`).

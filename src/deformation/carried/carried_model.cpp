@@ -2,9 +2,9 @@
 
 #include <utility>
 
+#include "core/bounding_diagonal.h"
 #include "deformation/carried/carried_primitives.h"
 #include "stackabilization/core/tolerances.h"
-#include "structure/model/bounding_diagonal.h"
 
 namespace stackabilization {
 

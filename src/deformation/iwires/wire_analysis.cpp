@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "core/bounding_diagonal.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization {
@@ -25,13 +26,6 @@ void check(const WireAnalysisOptions& options) {
   for (const Symmetry& s : options.symmetries)
     if (!s.point.allFinite() || !s.axis.allFinite() || s.order < 2)
       throw UsageError("a symmetry needs a finite point and axis, and an order of two at least");
-}
-
-double diagonal_of(const Shape& shape) {
-  Eigen::AlignedBox3d box;
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
-    for (int k = 0; k < 3; ++k) box.extend(shape.corner(t, k));
-  return box.diagonal().norm();
 }
 
 PointColumns points_of(const Shape& shape, const FeatureCurve& curve) {
@@ -116,7 +110,7 @@ class Relations {
         options_(options),
         structure_(structure),
         sine_(std::sin(options.angle_tolerance * std::numbers::pi / 180)),
-        distance_(options.distance_tolerance * diagonal_of(shape)) {
+        distance_(options.distance_tolerance * bounding_diagonal(shape)) {
     for (const Wire& wire : structure.wires) points_.push_back(points_of(shape, wire.curve));
   }
 

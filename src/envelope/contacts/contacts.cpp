@@ -5,7 +5,7 @@
 #include <map>
 #include <utility>
 
-#include "core/diagonal.h"
+#include "core/bounding_diagonal.h"
 #include "envelope/contacts/contact_polygons.h"
 #include "envelope/contacts/planar_union.h"
 #include "stackabilization/core/errors.h"
@@ -172,7 +172,7 @@ Contacts contact_regions(const ContactQuery& query, const ContactOptions& option
   if (!(options.band >= 0 && options.band <= 1))
     throw UsageError("the contact band must lie between 0 and 1");
   if (!separation.blocked) return {};
-  const Setting setting{frame_of(direction), options, tolerance::relative * diagonal(shape)};
+  const Setting setting{frame_of(direction), options, tolerance::relative * bounding_diagonal(shape)};
   const double extent = range_along(shape, setting.frame.w).length() / direction.length();
   constexpr std::int64_t pairs_per_triangle = 8;
   ContactPolygons found = contact_polygons(

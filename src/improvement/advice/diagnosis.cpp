@@ -21,6 +21,8 @@ namespace {
 constexpr double worth_saying = 0.01;
 constexpr int max_blockers = 4;
 constexpr std::size_t max_constraints = 3, max_removals = 3;
+/// Largest portion of the surface that may be left out. Without more it would be another object.
+constexpr double max_removed_area = 0.5;
 /// Pieces of an object that is worth taking apart: a top and four legs.
 constexpr std::size_t max_pieces = 5;
 
@@ -277,6 +279,7 @@ class DiagnosisBuilder {
     std::size_t offered = 0;
     for (const Removal& removal : removals(rest_, along_best_direction())) {
       if (offered == max_removals || !helps(removal.stackability)) break;
+      if (removal.area > max_removed_area) continue;
       const bool all_may_go = std::none_of(removal.parts.begin(), removal.parts.end(), [&](int part) {
         return contains(checker_.requirements().kept_parts, part);
       });

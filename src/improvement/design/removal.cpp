@@ -12,12 +12,13 @@
 #include <string>
 #include <utility>
 
+#include "core/bounding_diagonal.h"
 #include "core/disjoint_sets.h"
 #include "improvement/design/best_measured.h"
 #include "improvement/design/members.h"
+#include "mesh/surface_moments.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/structure/tolerances.h"
-#include "structure/model/bounding_diagonal.h"
 #include "structure/segmentation/surface_graph.h"
 
 namespace stackabilization {
@@ -107,6 +108,16 @@ StructuredShape selected(const StructuredShape& structured, std::vector<int> par
   return result;
 }
 
+/// Returns the area of every part, as a fraction of that of all.
+Eigen::VectorXd area_fractions(const StructuredShape& structured) {
+  const Shape& shape = structured.shape;
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(structured.structure.parts.size()));
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    areas[shape.triangle_part[static_cast<std::size_t>(t)]] += detail::area_vector(shape, t).norm();
+  const double all = areas.sum();
+  return all > 0 ? Eigen::VectorXd(areas / all) : areas;
+}
+
 std::vector<int> all_but(const StructuredShape& structured, const std::vector<int>& parts) {
   const std::set<int> left_out(parts.begin(), parts.end());
   std::vector<int> others;
@@ -153,6 +164,7 @@ std::vector<StructuredShape> split_into_groups(const StructuredShape& structured
 
 std::vector<Removal> removals(const StructuredShape& structured, const RemovalOptions& options) {
   const std::vector<std::vector<int>> classes = symmetric_classes(structured.structure);
+  const Eigen::VectorXd areas = area_fractions(structured);
   std::vector<std::optional<Removal>> measured(classes.size());
   tbb::parallel_for(std::size_t{0}, classes.size(), [&](std::size_t k) {
     if (options.cancelled && options.cancelled()) return;
@@ -160,7 +172,7 @@ std::vector<Removal> removals(const StructuredShape& structured, const RemovalOp
     if (others.empty()) return;
     const Shape rest = selected(structured, std::move(others)).shape;
     const auto best = detail::best_measured(rest, options.measure, options.directions);
-    if (best) measured[k] = Removal{classes[k], best->direction, best->value};
+    if (best) measured[k] = Removal{classes[k], best->direction, best->value, areas(classes[k]).sum()};
   });
   std::vector<Removal> result;
   for (auto& removal : measured)

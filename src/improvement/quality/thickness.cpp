@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/bounding_diagonal.h"
 #include "mesh/barycentric.h"
 #include "mesh/ray_crossings.h"
 #include "mesh/surface_index.h"
@@ -18,7 +19,6 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/mesh/exact_triangles.h"
-#include "structure/model/bounding_diagonal.h"
 #include "structure/segmentation/surface_graph.h"
 
 namespace stackabilization {

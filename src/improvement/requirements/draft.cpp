@@ -6,9 +6,9 @@
 #include <numbers>
 #include <optional>
 
+#include "core/bounding_diagonal.h"
 #include "mesh/surface_moments.h"
 #include "stackabilization/core/tolerances.h"
-#include "structure/model/bounding_diagonal.h"
 
 namespace stackabilization {
 

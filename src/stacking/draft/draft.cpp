@@ -12,7 +12,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/diagonal.h"
+#include "core/bounding_diagonal.h"
 #include "envelope/contacts/contact_polygons.h"
 #include "mesh/surface_moments.h"
 #include "mesh/triangle_tree.h"
@@ -49,7 +49,7 @@ class DraftPass {
   DraftPass(Shape shape, const std::vector<std::size_t>& first)
       : shape_(std::move(shape)),
         height_(range_along(shape_, Eigen::Vector3d::UnitZ())),
-        reach_(tolerance::beside_surface * diagonal(shape_)),
+        reach_(tolerance::beside_surface * bounding_diagonal(shape_)),
         tree_(shape_, distinct_triangles(shape_, first)),
         sides_(shape_, reach_) {}
 
@@ -210,7 +210,7 @@ DraftAnalysis analyse_draft(const Shape& shape, const SeparationTree& tree, cons
   to_world << frame.u, frame.v, frame.w;
   const Eigen::Matrix3d to_local = to_world.transpose();
   // Of the diagonal, for a shape without extent along r has no triangle above another one either.
-  const double apart = tolerance::relative * diagonal(shape) / direction.length();
+  const double apart = tolerance::relative * bounding_diagonal(shape) / direction.length();
   const ContactPolygons found = contact_polygons(
       tree.data(), direction,
       {ContactSemantics::solid, apart, more_pairs + pairs_per_triangle * shape.triangle_count(), apart});

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/diagonal.h"
+#include "core/bounding_diagonal.h"
 #include "envelope/contacts/planar_union.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
@@ -89,7 +89,7 @@ Shape separators(const Shape& shape, const Direction& direction, const Separator
   contact.semantics = options.semantics;
   const double extent = range_along(shape, direction.unit()).length();
   contact.band = extent > 0 ? std::min(1.0, options.layer / extent) : 1;
-  PrismBuilder prisms(direction, options.lift, tolerance::relative * std::pow(diagonal(shape), 2));
+  PrismBuilder prisms(direction, options.lift, tolerance::relative * std::pow(bounding_diagonal(shape), 2));
   for (const ContactRegion& region : contact_regions({shape, tree, direction, found}, contact).regions) {
     prisms.begin_part();
     for (const ContactPolygon& polygon : region.polygons) prisms.add(polygon);

@@ -11,12 +11,12 @@
 #include <utility>
 #include <vector>
 
+#include "core/bounding_diagonal.h"
 #include "core/extract_parts.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/part_names.h"
 #include "structure/analysis/joint_symmetry.h"
 #include "structure/analysis/symmetrize.h"
-#include "structure/model/bounding_diagonal.h"
 #include "structure/model/symmetry_orbit.h"
 #include "structure/segmentation/segment.h"
 

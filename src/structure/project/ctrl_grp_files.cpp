@@ -6,12 +6,12 @@
 #include <cmath>
 #include <utility>
 
+#include "core/bounding_diagonal.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/io/read_file.h"
 #include "stackabilization/structure/analysis.h"
 #include "stackabilization/structure/tolerances.h"
-#include "structure/model/bounding_diagonal.h"
 #include "structure/model/fit_error.h"
 #include "structure/model/nearest_box.h"
 #include "structure/project/ctrl_grp_text.h"

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/bounding_diagonal.h"
 #include "io/formats/json_node.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
@@ -13,7 +14,6 @@
 #include "stackabilization/structure/analysis.h"
 #include "stackabilization/structure/tolerances.h"
 #include "structure/analysis/symmetrize.h"
-#include "structure/model/bounding_diagonal.h"
 
 namespace stackabilization {
 

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/bounding_diagonal.h"
 #include "core/extract_parts.h"
 #include "mesh/surface_moments.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/part_names.h"
 #include "structure/fitting/revolution_axis.h"
-#include "structure/model/bounding_diagonal.h"
 #include "structure/model/fit_error.h"
 #include "structure/segmentation/components.h"
 #include "structure/segmentation/hierarchical_fitting.h"

@@ -121,7 +121,7 @@ TEST_CASE("obstacles and contacts that read the same are told once") {
   CHECK(told[0].count == 36);
 
   Diagnosis diagnosis;
-  const Blocker blocker{.upper_part = 0, .lower_part = 0};
+  const Blocker blocker{.upper_part = 0, .lower_part = 0, .obstacle = {}};
   diagnosis.blockers = {blocker, blocker};
   const std::string words = text(diagnosis, cubes.structure), line = describe(blocker, cubes.structure);
   REQUIRE(mentions(words, line));

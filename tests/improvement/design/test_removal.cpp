@@ -9,6 +9,7 @@
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/structures.h"
+#include "support/variants.h"
 
 namespace stackabilization {
 namespace {
@@ -133,6 +134,7 @@ TEST_CASE("every removal is as good as the rest stacks") {
     const double slanted = stackability(rest, Direction(1, 0, 1)).value;
     CHECK(found[k].stackability == Approx(std::max(straight, slanted)));
     CHECK(found[k].direction == options.directions[slanted > straight ? 1 : 0]);
+    CHECK(found[k].area == Approx(1 - solids::surface_area(rest) / solids::surface_area(table.shape)));
     if (k > 0) CHECK(found[k - 1].stackability >= found[k].stackability);
   }
   CHECK(removals(structures::box_alone({1, 2, 3})).empty());

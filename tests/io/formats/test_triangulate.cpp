@@ -5,6 +5,7 @@
 #include "io/formats/triangulate.h"
 #include "support/catch.h"
 #include "support/meshes.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 using namespace stackabilization::test;
@@ -40,7 +41,7 @@ void check_cut(const Points& corners) {
   CHECK(shape.triangle_count() == corners.rows() - 2);
   const Eigen::Vector3d expected = polygon_area(corners);
   CHECK((area_vector(shape) - expected).norm() <= 1e-12 * expected.norm());
-  CHECK(area(shape) == Approx(expected.norm()).epsilon(1e-12));
+  CHECK(solids::surface_area(shape) == Approx(expected.norm()).epsilon(1e-12));
 }
 
 /// In every cyclic order of the corners, both ways round, and in a tilted plane.

@@ -1,4 +1,4 @@
-#include "structure/model/bounding_diagonal.h"
+#include "core/bounding_diagonal.h"
 
 namespace stackabilization {
 
