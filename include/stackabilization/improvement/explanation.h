@@ -23,11 +23,11 @@ enum class FormChangeKind {
   length,     ///< ratio of the length
   tallness,   ///< ratio of the upright size
   thickness,  ///< ratio of the thickness of a plate or a member
-  upper_end,  ///< ratio of the thickness of an upright member at its upper end
-  lower_end,  ///< ratio of the thickness of an upright member at its lower end
+  upper_end,  ///< ratio of the thickness of an upright member, or body, at its upper end
+  lower_end,  ///< the same at its lower end
   one_end,    ///< ratio of the thickness of another member at one end
-  rim,        ///< ratio of the width of an open vessel at its upper end
-  foot,       ///< ratio of the width of an open vessel at its lower end
+  rim,        ///< ratio of the width of an open vessel at its upper end: root of that of the area
+  foot,       ///< the same at its lower end
   bend,       ///< departure of a straight member from its chord, of the height of the object
   form,       ///< largest distance of any other part from an affine image of itself, of the height
 };

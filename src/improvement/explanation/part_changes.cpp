@@ -1,6 +1,7 @@
 #include "improvement/explanation/part_changes.h"
 
 #include <Eigen/Geometry>
+#include <Eigen/SVD>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,6 +12,7 @@
 
 #include "core/index.h"
 #include "improvement/explanation/affine_split.h"
+#include "improvement/explanation/taper_fit.h"
 #include "mesh/surface_moments.h"
 #include "stackabilization/improvement/tolerances.h"
 
@@ -35,9 +37,9 @@ constexpr double length_ratio = 1.25;
 constexpr double upright_ratio = 1.5;
 /// Ratio of length to mean radius below which a member is a body with a width.
 constexpr double stout_length = 6;
-/// Share of the outline, seen from above, that faces up near the upper end of an open vessel, at most; and
-/// how far down that end reaches, of the height.
-constexpr double open_share = 0.6, rim_share = 0.1;
+/// Share of the rectangle around the upper end, seen from above, that faces up there on an open vessel, at
+/// most; and how far down that end reaches, of the height.
+constexpr double open_share = 0.47, rim_share = 0.1;
 /// Departure from a chord or an affine image from which on a part is deformed, in visible displacements.
 constexpr double deformed = 5;
 /// A change is left out beside one of the object that a person sees so much better, as a ratio of multiples
@@ -189,35 +191,75 @@ class PartMeasurement {
   bool is_open() const {
     const Range along = range(frame_.up);
     const double from = along.high - rim_share * along.length();
-    double facing = 0, radius = 0;
+    const Eigen::Vector3d u = frame_.up.unitOrthogonal(), v = frame_.up.cross(u);
+    Eigen::AlignedBox2d end;
+    double facing = 0;
     for (const std::int32_t t : part_.triangles) {
       double low = std::numeric_limits<double>::infinity();
       for (int k = 0; k < 3; ++k) {
         const Eigen::Vector3d p = rest_.corner(t, k);
         low = std::min(low, frame_.up.dot(p));
-        if (frame_.up.dot(p) >= from)
-          radius = std::max(radius, frame_.level(p - part_.form.fit->centre()).norm());
+        if (frame_.up.dot(p) >= from) end.extend(Eigen::Vector2d(u.dot(p), v.dot(p)));
       }
       if (low >= from) facing += std::max(0.0, area_vector(rest_, t).dot(frame_.up));
     }
-    return facing < open_share * std::numbers::pi * radius * radius;
+    return facing < open_share * end.volume();
   }
 
   void measure_body() {
+    const double departure = departure_from(result_.map);
+    if (departure >= deformed * frame_.visible() && is_tapered()) return;
     const AffineSplit split = split_affine(result_.map.linear, frame_.up);
     measure_turns(split.turn);
     measure_sizes(split);
     measure_place();
+    add(Kind::form, departure / frame_.height, deformed * frame_.visible() / frame_.height);
+  }
+
+  /// Returns the largest distance of the surface from an image of itself at rest, less the displacement of
+  /// the whole. Across the surface: points may slide within it.
+  template <class Image>
+  double departure_from(const Image& image) const {
     const Points at_rest = part_.form.marks.on(rest_);
     double departure = 0;
     for (Eigen::Index k = 0; k < marks_.rows(); ++k) {
-      // Across the surface: points may slide within it.
       const Eigen::Vector3d normal =
           unit_normal(now_, part_.form.marks.triangles[static_cast<std::size_t>(k)]);
-      const Eigen::Vector3d image = result_.map(at_rest.row(k).transpose()) + frame_.shift;
-      departure = std::max(departure, std::abs(normal.dot(image - marks_.row(k).transpose())));
+      const Eigen::Vector3d place = image(at_rest.row(k).transpose()) + frame_.shift;
+      departure = std::max(departure, std::abs(normal.dot(place - marks_.row(k).transpose())));
     }
-    add(Kind::form, departure / frame_.height, deformed * frame_.visible() / frame_.height);
+    return departure;
+  }
+
+  /// Measures both ends of a part whose level sections stay alike, and get wider or narrower in proportion to
+  /// their height. Returns false, and adds nothing, for any other change.
+  bool is_tapered() {
+    const Range along = range(frame_.up);
+    if (!(along.length() > 0) || part_.form.fit->rank() < 3) return false;
+    const TaperMap taper =
+        fit_taper(part_.form.marks.on(rest_), marks_.rowwise() - frame_.shift.transpose(), frame_.up, along);
+    if (departure_from(taper) >= deformed * frame_.visible()) return false;
+    const double width = std::sqrt(range(taper.axes.row(0)).length() * range(taper.axes.row(1)).length());
+    std::array<double, 2> factors{};
+    for (std::size_t end = 0; end < 2; ++end) {
+      const Eigen::Matrix2d& map = taper.ends[end];
+      if (std::abs(std::atan2(map(1, 0) - map(0, 1), map.trace())) * width > frame_.visible()) return false;
+      const Eigen::Vector2d stretches = Eigen::JacobiSVD<Eigen::Matrix2d>(map).singularValues();
+      // The words know one width: what gets narrower one way only has others.
+      const bool seen = is_seen(stretches(0), width), both = is_seen(stretches(1), width);
+      if (seen != both || (seen && (stretches(0) > 1) != (stretches(1) > 1))) return false;
+      factors[end] = std::sqrt(std::max(0.0, map.determinant()));
+    }
+    const bool open = is_open();
+    add_ratio(open ? Kind::rim : Kind::upper_end, factors[1], width);
+    add_ratio(open ? Kind::foot : Kind::lower_end, factors[0], width);
+    add_ratio(Kind::tallness, taper.stretch, along.length());
+    const double at_top = taper.rise + (taper.stretch - 1) * along.length();
+    const double rise = taper.rise * at_top <= 0                  ? 0
+                        : std::abs(taper.rise) < std::abs(at_top) ? taper.rise
+                                                                  : at_top;
+    add_place(taper.axes.transpose() * taper.shift + rise * frame_.up);
+    return true;
   }
 
   /// Measures what became of upright lines and level planes.

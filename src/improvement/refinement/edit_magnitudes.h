@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "stackabilization/deformation/deformation_model.h"
+#include "stackabilization/improvement/contact_edits.h"
 
 namespace stackabilization::detail {
 

@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -12,6 +13,7 @@
 #include "support/solids.h"
 #include "support/still_designs.h"
 #include "support/structures.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 
@@ -223,6 +225,43 @@ TEST_CASE("A vessel has a rim and a foot", "[explanation]") {
                                     }));
   CHECK(amount(found, FormChangeKind::rim) == Approx(0.05).margin(0.004));
   CHECK(amount(found, FormChangeKind::foot) == Approx(-0.08).margin(0.004));
+}
+
+TEST_CASE("A body whose walls lean has other widths at its ends", "[explanation]") {
+  const auto tapered = [](Shape shape, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+    while (shape.triangle_count() < 1000) shape = solids::subdivided(shape);
+    const Shape now = mapped(shape, [&](const Eigen::Vector3d& p) {
+      const Eigen::Vector2d factors = low + p.z() / 3 * (high - low);
+      return Eigen::Vector3d(factors.x() * p.x(), factors.y() * p.y(), p.z());
+    });
+    return explain(
+        designs::alone(std::move(shape), structures::box_alone({6, 4, 3}).structure.parts[0].primitive), now);
+  };
+  const Shape block = solids::box({-3, -2, 0}, {3, 2, 3});
+  Shape crate = block;
+  Eigen::Index kept = 0;
+  for (Eigen::Index t = 0; t < block.triangle_count(); ++t) {
+    double low = 3;
+    for (int k = 0; k < 3; ++k) low = std::min(low, block.corner(t, k).z());
+    if (low < 3) crate.triangles.row(kept++) = block.triangles.row(t);
+  }
+  crate.triangles.conservativeResize(kept, 3);
+  crate.triangle_part.resize(static_cast<std::size_t>(kept));
+
+  const Explanation foot = tapered(crate, {0.88, 0.88}, {1, 1});
+  CHECK(lines(foot) == Lines{"part: foot 12 % narrower"});
+  CHECK(lines(tapered(block, {0.88, 0.88}, {1, 1})) == Lines{"part: lower end 12 % thinner"});
+  CHECK(lines(tapered(crate, {1, 1}, {1.2, 1.2})) == Lines{"part: rim 20 % wider"});
+
+  // Of two widths the root of their product; one width alone, or against the other, has no such word.
+  const Explanation both = tapered(crate, {0.8, 0.9}, {1, 1});
+  CHECK(amount(both, FormChangeKind::foot) == Approx(std::sqrt(0.72) - 1).margin(0.002));
+  CHECK(amount(both, FormChangeKind::form) == 0);
+  for (const Eigen::Vector2d& low : {Eigen::Vector2d(0.8, 1), Eigen::Vector2d(0.8, 1.2)}) {
+    const Explanation other = tapered(crate, low, {1, 1});
+    CHECK(amount(other, FormChangeKind::foot) == 0);
+    CHECK(amount(other, FormChangeKind::form) > 0);
+  }
 }
 
 TEST_CASE("A pose and a scale change no words", "[explanation]") {
