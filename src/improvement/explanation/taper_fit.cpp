@@ -19,7 +19,8 @@ TaperMap fit_taper(const Points& rest, const Points& now, const Eigen::Vector3d&
   map.height = along.length();
   const Eigen::Vector3d mean = rest.colwise().mean().transpose();
   map.from = mean + (along.low - up.dot(mean)) * up;
-  const Points from_rest = rest.rowwise() - map.from.transpose(), moved = now.rowwise() - map.from.transpose();
+  const Points from_rest = rest.rowwise() - map.from.transpose(),
+               moved = now.rowwise() - map.from.transpose();
   const Eigen::MatrixX2d across = from_rest * map.axes.transpose();
   const Eigen::VectorXd t = from_rest * up / map.height;
 

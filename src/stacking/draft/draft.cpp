@@ -30,9 +30,10 @@ using namespace detail;
 /// Limit of the triangles above and below a wall.
 constexpr std::size_t max_in_column = 1 << 13;
 
-/// Portions of a triangle below, and above, other triangles.
+/// Portions of a triangle that others hide: from above and from below; of a wall, ahead of its normal and
+/// behind it.
 struct Hidden {
-  std::vector<Piece> from_above, from_below;
+  std::vector<Piece> one_way, other_way;
 };
 
 /// What is known of one triangle.
@@ -64,14 +65,17 @@ class DraftPass {
     const bool wall = std::abs(vector.z()) <= tolerance::wall_slope * across;
     if (!wall) draft.angle = std::atan2(std::abs(vector.z()), across) * 180 / std::numbers::pi;
     const Pieces pieces(corners_of(t), wall ? normal : Eigen::Vector3d(0, 0, 1));
-    std::vector<Piece> all =
-        wall ? hidden_beside(t, pieces, result.complete)
-             : pieces.common(std::move(hidden.from_above), std::move(hidden.from_below), result.complete);
+    if (wall) hidden = hidden_beside(t, pieces, result.complete);
+    std::vector<Piece> all = pieces.common(hidden.one_way, hidden.other_way, result.complete);
     const double share = pieces.share(all);
     std::vector<Piece> inner;
     for (Piece& piece : all)
       (sides_.both(piece, normal) ? inner : result.undercut).push_back(std::move(piece));
-    // Pieces overlap: a large one may contain what a smaller one knows to be inside.
+    // Pieces overlap: a large one may contain what a smaller one, of either side, knows to be inside.
+    if (share > 0)
+      for (std::vector<Piece>* pieces_of_side : {&hidden.one_way, &hidden.other_way})
+        for (Piece& piece : *pieces_of_side)
+          if (sides_.both(piece, normal)) inner.push_back(std::move(piece));
     const double inner_share = std::min(share, pieces.share(inner));
     draft.inner_area = inner_share * draft.area;
     draft.undercut_area = (share - inner_share) * draft.area;
@@ -94,11 +98,12 @@ class DraftPass {
     return {shape_.corner(t, 0), shape_.corner(t, 1), shape_.corner(t, 2)};
   }
 
-  /// Returns what of a wall is hidden on both of its sides, of which one may be solid.
-  std::vector<Piece> hidden_beside(std::int32_t wall, const Pieces& pieces, bool& complete) const {
+  /// Returns what of a wall is hidden on each of its sides, of which one may be solid: nothing where one of
+  /// them is free.
+  Hidden hidden_beside(std::int32_t wall, const Pieces& pieces, bool& complete) const {
     std::vector<Piece> ahead = hidden_beside(wall, pieces, 1, complete);
-    if (ahead.empty()) return ahead;
-    return pieces.common(std::move(ahead), hidden_beside(wall, pieces, -1, complete), complete);
+    if (ahead.empty()) return {};
+    return {std::move(ahead), hidden_beside(wall, pieces, -1, complete)};
   }
 
   /// Returns what of a wall lies between triangles above and below on its side `side`: 1 ahead of the normal,
@@ -221,8 +226,8 @@ DraftAnalysis analyse_draft(const Shape& shape, const SeparationTree& tree, cons
     const auto upper = static_cast<std::size_t>(polygon.upper_triangle);
     const auto lower = static_cast<std::size_t>(polygon.lower_triangle);
     if (first[upper] != upper || first[lower] != lower) continue;
-    hidden[upper].from_below.push_back(turned(polygon.upper_points, to_local));
-    hidden[lower].from_above.push_back(turned(polygon.lower_points, to_local));
+    hidden[upper].other_way.push_back(turned(polygon.upper_points, to_local));
+    hidden[lower].one_way.push_back(turned(polygon.lower_points, to_local));
   }
   const DraftPass pass(transformed(shape, to_local, Eigen::Vector3d::Zero()), first);
   std::vector<Examined> examined(count);
