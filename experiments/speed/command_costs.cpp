@@ -1,10 +1,12 @@
 // Question: what does each command of the program cost on many parts and on many triangles?
 //
-//     command_costs [--largest-parts N] [--largest-triangles N] [--limit SECONDS] [--threads N] [-o FOLDER]
+//     command_costs [--largest-parts N] [--largest-triangles N] [--limit SECONDS] [--command NAME ...]
+//                   [--threads N] [-o FOLDER]
 //
 // Parts: grids of touching cubes, racks of bars between two posts, and cubes that are all in one place, of
 // 10, 100, 1,000 ... parts. Triangles: a thin-walled cup with a wavy wall of 1,000, 10,000 ... triangles.
-// Every command of the program is run on every one of them as a user would run it, in a process of its own.
+// Every command of the program, or those that --command names, is run on every one of them as a user would
+// run it, in a process of its own. Where a command asks for a second model, it is the same one.
 //
 // One row per model and command: exit status, processor and elapsed seconds, and most megabytes held at once.
 // `said` is what the program answered when it did not end with status 0 or 1. A command that uses more
@@ -13,6 +15,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <set>
 
@@ -31,6 +34,7 @@ namespace {
 
 struct Settings {
   int max_parts = 10000, max_triangles = 1000000, limit = 60;
+  std::vector<std::string> commands;  ///< those to run; all when empty
 };
 
 /// A folder of its own, gone with the object.
@@ -74,6 +78,10 @@ const std::vector<CommandLine>& command_lines() {
       {"search", {}},
       {"map", {"--step-degrees", "10", "-o", "FOLDER/map.csv"}},
       {"stack", {"--direction", "0", "0", "1", "-n", "10"}},
+      {"gap", {"FOLDER/model.obj", "--direction", "0", "0", "1"}},
+      {"drop", {"--onto", "FOLDER/model.obj", "--direction", "0", "0", "1"}},
+      {"items", {"--unit", "cm"}},
+      {"draft", {"--direction", "0", "0", "1"}},
       {"validate", {"--direction", "0", "0", "1"}},
       {"structure", {}},
       {"deform", {"--edit", "FIRST scale 1.01"}},
@@ -81,6 +89,7 @@ const std::vector<CommandLine>& command_lines() {
       {"improve",
        {"--direction", "0", "0", "1", "--target", "0.5", "--time", "10", "--no-pictures", "-o",
         "FOLDER/designs"}},
+      {"compare", {"FOLDER/model.obj"}},
   };
   return lines;
 }
@@ -126,9 +135,15 @@ class CommandCosts {
       const TemporaryFolder folder;
       write_shape(shape, folder.path() / "model.obj");
       for (const CommandLine& line : command_lines())
-        if (!stopped.contains(line.command) && !add(family.name, shape, line, folder.path()))
+        if (is_wanted(line.command) && !stopped.contains(line.command) &&
+            !add(family.name, shape, line, folder.path()))
           stopped.insert(line.command);
     }
+  }
+
+  bool is_wanted(const std::string& command) const {
+    const std::vector<std::string>& wanted = settings_.commands;
+    return wanted.empty() || std::find(wanted.begin(), wanted.end(), command) != wanted.end();
   }
 
   /// Did the command end by itself?
@@ -169,6 +184,11 @@ int main(int argc, char** argv) {
   experiment.app()
       .add_option("--limit", settings.limit, "processor seconds after which a command is stopped")
       ->check(CLI::Range(1, 86400));
+  std::vector<std::string> names;
+  for (const CommandLine& line : command_lines()) names.push_back(line.command);
+  experiment.app()
+      .add_option("--command", settings.commands, "command to run, repeatable (default: all)")
+      ->check(CLI::IsMember(names));
   return experiment.run(argc, argv,
                         [&](Report& report) { CommandCosts(settings, experiment.threads(), report).run(); });
 }

@@ -68,14 +68,15 @@ class DraftPass {
     if (wall) hidden = hidden_beside(t, pieces, result.complete);
     std::vector<Piece> all = pieces.common(hidden.one_way, hidden.other_way, result.complete);
     const double share = pieces.share(all);
+    // What lies inside is hidden both ways. Pieces overlap: a large one may contain what a smaller one, of
+    // either way, knows to be inside.
     std::vector<Piece> inner;
-    for (Piece& piece : all)
-      (sides_.both(piece, normal) ? inner : result.undercut).push_back(std::move(piece));
-    // Pieces overlap: a large one may contain what a smaller one, of either side, knows to be inside.
-    if (share > 0)
-      for (std::vector<Piece>* pieces_of_side : {&hidden.one_way, &hidden.other_way})
-        for (Piece& piece : *pieces_of_side)
-          if (sides_.both(piece, normal)) inner.push_back(std::move(piece));
+    if (share > 0) {
+      move_inner(hidden.one_way, pieces, normal, inner);
+      move_inner(hidden.other_way, pieces, normal, inner);
+      move_inner(all, pieces, normal, inner);
+      result.undercut = std::move(all);
+    }
     const double inner_share = std::min(share, pieces.share(inner));
     draft.inner_area = inner_share * draft.area;
     draft.undercut_area = (share - inner_share) * draft.area;
@@ -96,6 +97,18 @@ class DraftPass {
 
   Piece corners_of(std::int32_t t) const {
     return {shape_.corner(t, 0), shape_.corner(t, 1), shape_.corner(t, 2)};
+  }
+
+  /// Moves those pieces that are inside to `inner`, but for those within larger ones, which are left out.
+  void move_inner(std::vector<Piece>& list, const Pieces& pieces, const Eigen::Vector3d& normal,
+                  std::vector<Piece>& inner) const {
+    pieces.sort_largest_first(list);
+    std::erase_if(list, [&](const Piece& piece) {
+      if (pieces.is_within(piece, inner)) return true;
+      if (!sides_.both(piece, normal)) return false;
+      inner.push_back(piece);
+      return true;
+    });
   }
 
   /// Returns what of a wall is hidden on each of its sides, of which one may be solid: nothing where one of

@@ -71,6 +71,21 @@ double Pieces::share(const std::vector<Piece>& pieces) const {
   return std::min(1.0, union_area(outlines) / whole_);
 }
 
+void Pieces::sort_largest_first(std::vector<Piece>& pieces) const {
+  std::vector<std::pair<double, Piece>> with_area;
+  for (Piece& piece : pieces) with_area.emplace_back(outline_area(outline(piece)), std::move(piece));
+  std::stable_sort(with_area.begin(), with_area.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (std::size_t k = 0; k < pieces.size(); ++k) pieces[k] = std::move(with_area[k].second);
+}
+
+bool Pieces::is_within(const Piece& piece, const std::vector<Piece>& others) const {
+  const ConvexPolygon inner = outline(piece);
+  const auto end = others.begin() + static_cast<std::ptrdiff_t>(std::min(few, others.size()));
+  return std::any_of(others.begin(), end,
+                     [&](const Piece& other) { return contains(outline(other), inner); });
+}
+
 bool Pieces::cover_all(const std::vector<Piece>& pieces) const {
   return !pieces.empty() && share(pieces) >= 1 - tolerance::relative;
 }

@@ -1,8 +1,10 @@
 #include "stacking/draft/solid_sides.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "core/extract_parts.h"
 #include "stackabilization/core/copies.h"
@@ -12,6 +14,7 @@ namespace stackabilization::detail {
 
 SolidSides::SolidSides(const Shape& shape, double reach) : reach_(reach) {
   Copies closed;
+  std::vector<Box> all_boxes;
   for (Shape& part : extract_parts(shape)) {
     const ClosedSurface surface = closed_surface(part);
     if (!surface.closed) continue;
@@ -20,7 +23,9 @@ SolidSides::SolidSides(const Shape& shape, double reach) : reach_(reach) {
       if (const std::int32_t component = surface.component[t]; component >= 0)
         for (int c = 0; c < 3; ++c)
           boxes[static_cast<std::size_t>(component)].extend(part.corner(static_cast<Eigen::Index>(t), c));
-    boxes_.insert(boxes_.end(), boxes.begin(), boxes.end());
+    for (const Eigen::AlignedBox3d& box : boxes)
+      all_boxes.push_back(
+          {{box.min().x(), box.min().y(), box.min().z()}, {box.max().x(), box.max().y(), box.max().z()}});
     PlacedCopy copy;
     copy.name = std::to_string(closed.shapes.size());
     copy.shape = closed.shapes.size();
@@ -28,6 +33,7 @@ SolidSides::SolidSides(const Shape& shape, double reach) : reach_(reach) {
     closed.shapes.push_back(std::move(part));
   }
   if (closed.shapes.empty()) return;
+  boxes_ = decltype(boxes_)(all_boxes);
   solid_ = as_one_shape(closed);
   locator_ = std::make_unique<SolidLocator>(solid_);
 }
@@ -41,10 +47,11 @@ bool SolidSides::both(const Piece& piece, const Eigen::Vector3d& normal) const {
 }
 
 bool SolidSides::both(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const {
-  int around = 0;  // it takes two components, the boxes of which are soon asked
-  for (std::size_t k = 0; k < boxes_.size() && around < 2; ++k)
-    around += boxes_[k].exteriorDistance(point) <= reach_;
-  if (around < 2) return false;
+  // It takes two components, the boxes of which are soon asked.
+  const Eigen::Vector3d low = point.array() - reach_, high = point.array() + reach_;
+  const Box near({low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()});
+  auto met = boxes_.qbegin(boost::geometry::index::intersects(near));
+  if (met == boxes_.qend() || ++met == boxes_.qend()) return false;
   for (const double side : {reach_, -reach_}) {
     const Eigen::Vector3d p = point + side * normal;
     if (locator_->locate({p.x(), p.y(), p.z()}).place == PointPlace::outside) return false;

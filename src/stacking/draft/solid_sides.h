@@ -1,8 +1,10 @@
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
+#include <boost/geometry/index/rtree.hpp>
 #include <memory>
-#include <vector>
 
 #include "stackabilization/core/shape.h"
 #include "stacking/draft/pieces.h"
@@ -22,10 +24,14 @@ class SolidSides {
   bool both(const Piece& piece, const Eigen::Vector3d& normal) const;
 
  private:
+  using Corner = boost::geometry::model::point<double, 3, boost::geometry::cs::cartesian>;
+  using Box = boost::geometry::model::box<Corner>;
+
   bool both(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
 
   double reach_;
-  std::vector<Eigen::AlignedBox3d> boxes_;       ///< of the connected components of the closed parts
+  /// Boxes of the connected components of the closed parts.
+  boost::geometry::index::rtree<Box, boost::geometry::index::rstar<16>> boxes_;
   Shape solid_;                                  ///< the closed parts
   std::unique_ptr<const SolidLocator> locator_;  ///< null where there is none
 };
