@@ -130,11 +130,12 @@ def map(mesh, *, step_degrees=None, semantics=None, boxes=None, format=None, uni
 
 
 def stack(mesh, *, n=None, into=None, direction=None, twist_degrees=None, period=None, place=None,
-          turn=False, max_shift=None, clearance=None, lateral_clearance=None, layer=None, separators=False, within=None, semantics=None, boxes=None, format=None,
-          unit=None, up=None, labels=None, threads=None):
+          turn=False, max_shift=None, clearance=None, lateral_clearance=None, layer=None, separators=False,
+          within=None, semantics=None, boxes=None, format=None, unit=None, up=None, labels=None, threads=None):
     """Stack copies of a mesh, or lower it into another one.
 
-    n: number of copies (default: 2), or 'max': as many as `within` holds. direction: they come from above along it (default: 0, 0, 1).
+    n: number of copies (default: 2), or 'max': as many as `within` holds. direction: they come from above along it
+    (default: 0, 0, 1).
     twist_degrees: turn of each copy about the direction, or 'auto' for the best one; period: turn or flip
     copies in a cycle of this length, from 1 to 5, the best one found.
     place: 'given' (default), or 'best': each copy is shifted against the one below, by max_shift at most (default: a
@@ -147,7 +148,8 @@ def stack(mesh, *, n=None, into=None, direction=None, twist_degrees=None, period
     threads: at most so many (default: all).
     """
     options = {"n": n, "into": into, "direction": direction, "twist_degrees": twist_degrees, "period": period,
-               "place": place, "turn": turn, "max_shift": max_shift, "clearance": clearance, "lateral_clearance": lateral_clearance, "layer": layer, "separators": separators, "within": within,
+               "place": place, "turn": turn, "max_shift": max_shift, "clearance": clearance,
+               "lateral_clearance": lateral_clearance, "layer": layer, "separators": separators, "within": within,
                "semantics": semantics, "boxes": boxes, "format": format, "unit": unit, "up": up, "labels": labels,
                "threads": threads}
     answer = run_command("stack", mesh, options)

@@ -47,9 +47,9 @@ struct DraftAnalysis {
 /// scan lines, to about a thousandth. The shape may be open.
 ///
 /// Inner portions are pieces with closed parts on both sides, by exact tests of some of their points.
-/// Triangles with the same points count once. Work is bounded, see `complete`: 16 pairs per triangle plus
-/// 2^16, 2^13 triangles above and below a wall, 2^16 pairs of pieces of one triangle. Deterministic for any
-/// number of threads. Precondition: `tree` is the tree of `shape`.
+/// Triangles with the same points hide others as one, and have the same result. Work is bounded, see
+/// `complete`: 16 pairs per triangle plus 2^16, 2^13 triangles above and below a wall, 2^16 pairs of pieces
+/// of one triangle. Deterministic for any number of threads. Precondition: `tree` is the tree of `shape`.
 DraftAnalysis analyse_draft(const Shape& shape, const SeparationTree& tree, const Direction& direction);
 
 }  // namespace stackabilization

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "deformation/model/vertex_constraints.h"
+#include "mesh/clip.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
@@ -30,19 +31,6 @@ using PlanePoint = boost::geometry::model::point<double, 2, boost::geometry::cs:
 using PlaneBox = boost::geometry::model::box<PlanePoint>;
 using Entry = std::pair<PlaneBox, Eigen::Index>;
 using TriangleCorners = std::array<Eigen::Vector3d, 3>;
-
-/// Clips a convex polygon to one side of a bound of one coordinate: below it for sign 1, above it for sign
-/// -1.
-void clip(std::vector<Eigen::Vector3d>& polygon, int axis, double bound, double sign) {
-  const auto inside = [&](const Eigen::Vector3d& p) { return sign * (bound - p(axis)) >= 0; };
-  std::vector<Eigen::Vector3d> kept;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Eigen::Vector3d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    if (inside(a)) kept.push_back(a);
-    if (inside(a) != inside(b)) kept.push_back(a + (bound - a(axis)) / (b(axis) - a(axis)) * (b - a));
-  }
-  polygon = std::move(kept);
-}
 
 /// Heights that triangles reach in narrow columns along the third axis.
 class Columns {
@@ -69,8 +57,9 @@ class Columns {
                   std::vector<Eigen::Vector3d> polygon;
                   for (int k = 0; k < 3; ++k) polygon.push_back(points_.row(triangles_(entry.second, k)));
                   for (int axis = 0; axis < 2; ++axis) {
-                    clip(polygon, axis, q(axis) + half_width_, 1);
-                    clip(polygon, axis, q(axis) - half_width_, -1);
+                    const double low = q(axis) - half_width_, high = q(axis) + half_width_;
+                    polygon = detail::clipped(polygon, [&](const auto& p) { return high - p(axis); });
+                    polygon = detail::clipped(polygon, [&](const auto& p) { return p(axis) - low; });
                   }
                   for (const Eigen::Vector3d& p : polygon) top = std::max(top, p.z());
                 }));

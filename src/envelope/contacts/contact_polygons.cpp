@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "envelope/contacts/clip.h"
 #include "envelope/contacts/contact_pairs.h"
 #include "envelope/separation/exact_pair.h"
+#include "mesh/clip.h"
 
 namespace stackabilization::detail {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "core/disjoint_sets.h"
 #include "core/index.h"
+#include "mesh/clip.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/core/direction.h"
 #include "stackabilization/core/number_text.h"
@@ -34,18 +35,6 @@ constexpr int apart_pixels = 2;
 constexpr int bisections = 6;
 
 using SlabPolygon = std::vector<Eigen::Vector3d>;
-
-/// Returns the part of a convex polygon at and above a height along z.
-SlabPolygon clipped(const SlabPolygon& polygon, double height) {
-  SlabPolygon result;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Eigen::Vector3d &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
-    if (a.z() >= height) result.push_back(a);
-    if ((a.z() >= height) != (b.z() >= height))
-      result.push_back(a + (height - a.z()) / (b.z() - a.z()) * (b - a));
-  }
-  return result;
-}
 
 /// Pixels that a piece covers, as seen along z.
 struct PixelMask {
@@ -177,7 +166,8 @@ class ClosedSearch {
       if (!root) continue;
       const auto [entry, fresh] = found.try_emplace(*root);
       if (fresh) entry->second = {shape_.triangle_part[static_cast<std::size_t>(t)], grid_->empty()};
-      grid_->fill(entry->second.mask, clipped(polygon, level));
+      grid_->fill(entry->second.mask,
+                  detail::clipped(polygon, [&](const Eigen::Vector3d& p) { return p.z() - level; }));
     }
     std::vector<EndPiece> result;
     for (auto& [root, piece] : found)

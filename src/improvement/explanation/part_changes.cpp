@@ -208,7 +208,7 @@ class PartMeasurement {
 
   void measure_body() {
     const double departure = departure_from(result_.map);
-    if (departure >= deformed * frame_.visible() && is_tapered()) return;
+    if (departure >= deformed * frame_.visible() && measure_taper()) return;
     const AffineSplit split = split_affine(result_.map.linear, frame_.up);
     measure_turns(split.turn);
     measure_sizes(split);
@@ -232,8 +232,8 @@ class PartMeasurement {
   }
 
   /// Measures both ends of a part whose level sections stay alike, and get wider or narrower in proportion to
-  /// their height. Returns false, and adds nothing, for any other change.
-  bool is_tapered() {
+  /// their height. Returns whether it is such a part; nothing is measured of others.
+  bool measure_taper() {
     const Range along = range(frame_.up);
     if (!(along.length() > 0) || part_.form.fit->rank() < 3) return false;
     const TaperMap taper =

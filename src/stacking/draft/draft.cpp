@@ -72,9 +72,9 @@ class DraftPass {
     // either way, knows to be inside.
     std::vector<Piece> inner;
     if (share > 0) {
-      move_inner(hidden.one_way, pieces, normal, inner);
-      move_inner(hidden.other_way, pieces, normal, inner);
-      move_inner(all, pieces, normal, inner);
+      const auto is_inside = [&](const Piece& piece) { return sides_.both(piece, normal); };
+      for (std::vector<Piece>* list : {&hidden.one_way, &hidden.other_way, &all})
+        pieces.move_those(*list, inner, is_inside);
       result.undercut = std::move(all);
     }
     const double inner_share = std::min(share, pieces.share(inner));
@@ -97,18 +97,6 @@ class DraftPass {
 
   Piece corners_of(std::int32_t t) const {
     return {shape_.corner(t, 0), shape_.corner(t, 1), shape_.corner(t, 2)};
-  }
-
-  /// Moves those pieces that are inside to `inner`, but for those within larger ones, which are left out.
-  void move_inner(std::vector<Piece>& list, const Pieces& pieces, const Eigen::Vector3d& normal,
-                  std::vector<Piece>& inner) const {
-    pieces.sort_largest_first(list);
-    std::erase_if(list, [&](const Piece& piece) {
-      if (pieces.is_within(piece, inner)) return true;
-      if (!sides_.both(piece, normal)) return false;
-      inner.push_back(piece);
-      return true;
-    });
   }
 
   /// Returns what of a wall is hidden on each of its sides, of which one may be solid: nothing where one of
@@ -146,15 +134,15 @@ class DraftPass {
       complete = false;
       return {};
     }
-    std::vector<Section> sections;
+    std::vector<PlaneSection> sections;
     for (const std::size_t entry : met)
       if (const auto ends = section_of(tree_.rows()[entry], normal, offset + side * reach_))
-        sections.push_back(section(along, (*ends)[0], (*ends)[1]));
+        sections.push_back(plane_section(along, (*ends)[0], (*ends)[1]));
     std::vector<Piece> found;
     const auto point = [&](double s, double height) {
       return Eigen::Vector3d(offset * normal + s * along + height * Eigen::Vector3d::UnitZ());
     };
-    for (const Trapezoid& area : between(std::move(sections))) {
+    for (const Trapezoid& area : area_between(std::move(sections))) {
       const Piece quad{point(area.from, area.low_from), point(area.to, area.low_to),
                        point(area.to, area.high_to), point(area.from, area.high_from)};
       if (Piece part = common_part(corners, quad, normal); part.size() > 2) found.push_back(std::move(part));

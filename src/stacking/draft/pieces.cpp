@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "envelope/contacts/clip.h"
+#include "mesh/clip.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {
@@ -16,18 +16,23 @@ constexpr std::size_t max_pairs = 1 << 16;
 /// Largest outlines that are united first, and that hide smaller ones.
 constexpr std::size_t few = 8;
 
-/// Returns the outlines from the largest to the smallest, without those in one of the first few.
-std::vector<ConvexPolygon> largest_first(std::vector<ConvexPolygon> outlines) {
-  std::stable_sort(outlines.begin(), outlines.end(), [](const ConvexPolygon& a, const ConvexPolygon& b) {
-    return outline_area(a) > outline_area(b);
-  });
-  std::vector<ConvexPolygon> kept;
-  for (ConvexPolygon& outline : outlines) {
-    const auto end = kept.begin() + static_cast<std::ptrdiff_t>(std::min(few, kept.size()));
-    if (std::none_of(kept.begin(), end, [&](const ConvexPolygon& one) { return contains(one, outline); }))
-      kept.push_back(std::move(outline));
+/// Sorts outlines, or what has them, from the largest to the smallest.
+template <class Item, class OutlineOf>
+void sort_largest_first(std::vector<Item>& items, const OutlineOf& outline_of) {
+  std::vector<std::pair<double, Item>> with_area;
+  for (Item& item : items) {
+    const double area = outline_area(outline_of(item));
+    with_area.emplace_back(area, std::move(item));
   }
-  return kept;
+  std::stable_sort(with_area.begin(), with_area.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (std::size_t k = 0; k < items.size(); ++k) items[k] = std::move(with_area[k].second);
+}
+
+/// Returns whether an outline lies in one of the first few of others.
+bool is_in_first(const ConvexPolygon& outline, const std::vector<ConvexPolygon>& others) {
+  const auto end = others.begin() + static_cast<std::ptrdiff_t>(std::min(few, others.size()));
+  return std::any_of(others.begin(), end, [&](const ConvexPolygon& one) { return contains(one, outline); });
 }
 
 }  // namespace
@@ -40,11 +45,7 @@ Piece common_part(const Piece& piece, const Piece& other, const Eigen::Vector3d&
     const Eigen::Vector3d& from = other[c];
     Eigen::Vector3d across = along.cross(other[(c + 1) % other.size()] - from);
     if (across.dot(centre - from) < 0) across = -across;
-    kept = clipped(
-        kept, [&](const Eigen::Vector3d& p) { return across.dot(p - from); },
-        [](const Eigen::Vector3d& a, const Eigen::Vector3d& b, double t) {
-          return Eigen::Vector3d(a + t * (b - a));
-        });
+    kept = clipped(kept, [&](const Eigen::Vector3d& p) { return across.dot(p - from); });
   }
   return kept;
 }
@@ -60,30 +61,32 @@ ConvexPolygon Pieces::outline(const Piece& piece) const {
 
 double Pieces::share(const std::vector<Piece>& pieces) const {
   if (!(whole_ > 0)) return 0;
-  std::vector<ConvexPolygon> outlines;
+  std::vector<ConvexPolygon> outlines, kept;
   for (const Piece& piece : pieces) outlines.push_back(outline(piece));
-  outlines = largest_first(std::move(outlines));
+  sort_largest_first(outlines, [](const ConvexPolygon& one) -> const ConvexPolygon& { return one; });
+  for (ConvexPolygon& one : outlines)
+    if (!is_in_first(one, kept)) kept.push_back(std::move(one));
   // A union takes quadratic time, and the largest few often cover all.
-  for (std::size_t count = few; count < outlines.size(); count *= 2) {
-    const auto end = outlines.begin() + static_cast<std::ptrdiff_t>(count);
-    if (union_area({outlines.begin(), end}) >= whole_ * (1 - tolerance::relative)) return 1;
+  for (std::size_t count = few; count < kept.size(); count *= 2) {
+    const auto end = kept.begin() + static_cast<std::ptrdiff_t>(count);
+    if (union_area({kept.begin(), end}) >= whole_ * (1 - tolerance::relative)) return 1;
   }
-  return std::min(1.0, union_area(outlines) / whole_);
+  return std::min(1.0, union_area(kept) / whole_);
 }
 
-void Pieces::sort_largest_first(std::vector<Piece>& pieces) const {
-  std::vector<std::pair<double, Piece>> with_area;
-  for (Piece& piece : pieces) with_area.emplace_back(outline_area(outline(piece)), std::move(piece));
-  std::stable_sort(with_area.begin(), with_area.end(),
-                   [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (std::size_t k = 0; k < pieces.size(); ++k) pieces[k] = std::move(with_area[k].second);
-}
-
-bool Pieces::is_within(const Piece& piece, const std::vector<Piece>& others) const {
-  const ConvexPolygon inner = outline(piece);
-  const auto end = others.begin() + static_cast<std::ptrdiff_t>(std::min(few, others.size()));
-  return std::any_of(others.begin(), end,
-                     [&](const Piece& other) { return contains(outline(other), inner); });
+void Pieces::move_those(std::vector<Piece>& from, std::vector<Piece>& to,
+                        const std::function<bool(const Piece&)>& condition) const {
+  std::vector<ConvexPolygon> known;
+  for (const Piece& piece : to) known.push_back(outline(piece));
+  sort_largest_first(from, [this](const Piece& piece) { return outline(piece); });
+  std::erase_if(from, [&](const Piece& piece) {
+    ConvexPolygon own = outline(piece);
+    if (is_in_first(own, known)) return true;
+    if (!condition(piece)) return false;
+    known.push_back(std::move(own));
+    to.push_back(piece);
+    return true;
+  });
 }
 
 bool Pieces::cover_all(const std::vector<Piece>& pieces) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "envelope/contacts/planar_union.h"
@@ -24,10 +25,10 @@ class Pieces {
   double share(const std::vector<Piece>& pieces) const;
   /// Returns whether the union is the triangle, within tolerance::relative.
   bool cover_all(const std::vector<Piece>& pieces) const;
-  /// Sorts pieces by their areas, largest first; stable.
-  void sort_largest_first(std::vector<Piece>& pieces) const;
-  /// Returns whether a piece lies in one of the first 8 of others.
-  bool is_within(const Piece& piece, const std::vector<Piece>& others) const;
+  /// Moves pieces that meet a condition, largest first. Those in one of the first 8 of `to` meet it too, and
+  /// are left out without asking.
+  void move_those(std::vector<Piece>& from, std::vector<Piece>& to,
+                  const std::function<bool(const Piece&)>& condition) const;
   /// Returns the intersection of two unions. Where there are more than 2^16 pairs of pieces it returns
   /// nothing, and `complete` becomes false.
   std::vector<Piece> common(std::vector<Piece> some, std::vector<Piece> others, bool& complete) const;

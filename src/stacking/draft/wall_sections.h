@@ -5,8 +5,9 @@
 
 namespace stackabilization::detail {
 
-/// A segment in an upright plane: from `from` to `to` along the plane, with its heights there.
-struct Section {
+/// What an upright plane has in common with a triangle, a segment: where it is along the plane, and its
+/// heights there.
+struct PlaneSection {
   double from, to, height_from, height_to;  ///< model units, from <= to
 
   /// Returns the height at `s`. Precondition: from < to.
@@ -14,7 +15,7 @@ struct Section {
 };
 
 /// Returns the section from one point to another; `along` is the horizontal unit vector of the plane.
-Section section(const Eigen::Vector3d& along, const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+PlaneSection plane_section(const Eigen::Vector3d& along, const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
 /// The area between two heights at `from` and two at `to`.
 struct Trapezoid {
@@ -23,6 +24,6 @@ struct Trapezoid {
 
 /// Returns the area between the lower and the upper envelope of sections, from left to right: what has a
 /// section below and another one above. Upright sections are ignored. O(n^2) where many overlap.
-std::vector<Trapezoid> between(std::vector<Section> sections);
+std::vector<Trapezoid> area_between(std::vector<PlaneSection> sections);
 
 }  // namespace stackabilization::detail

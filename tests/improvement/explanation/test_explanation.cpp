@@ -228,11 +228,14 @@ TEST_CASE("A vessel has a rim and a foot", "[explanation]") {
 }
 
 TEST_CASE("A body whose walls lean has other widths at its ends", "[explanation]") {
-  const auto tapered = [](Shape shape, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+  const auto tapered = [](Shape shape, const Eigen::Vector2d& low, const Eigen::Vector2d& high,
+                          double twist = 0, double stretch = 1) {
     while (shape.triangle_count() < 1000) shape = solids::subdivided(shape);
     const Shape now = mapped(shape, [&](const Eigen::Vector3d& p) {
       const Eigen::Vector2d factors = low + p.z() / 3 * (high - low);
-      return Eigen::Vector3d(factors.x() * p.x(), factors.y() * p.y(), p.z());
+      const double turn = (p.z() / 3 - 0.5) * twist;
+      return Eigen::Vector3d(factors.x() * p.x() - turn * p.y(), factors.y() * p.y() + turn * p.x(),
+                             stretch * p.z());
     });
     return explain(
         designs::alone(std::move(shape), structures::box_alone({6, 4, 3}).structure.parts[0].primitive), now);
@@ -252,6 +255,10 @@ TEST_CASE("A body whose walls lean has other widths at its ends", "[explanation]
   CHECK(lines(foot) == Lines{"part: foot 12 % narrower"});
   CHECK(lines(tapered(block, {0.88, 0.88}, {1, 1})) == Lines{"part: lower end 12 % thinner"});
   CHECK(lines(tapered(crate, {1, 1}, {1.2, 1.2})) == Lines{"part: rim 20 % wider"});
+
+  const Explanation taller = tapered(crate, {0.88, 0.88}, {1, 1}, 0, 1.2);
+  CHECK(lines(taller) == Lines{"part 20 % taller, foot 12 % narrower"});
+  CHECK(amount(tapered(crate, {1, 1}, {1, 1}, 0.5), FormChangeKind::form) > 0.01);
 
   // Of two widths the root of their product; one width alone, or against the other, has no such word.
   const Explanation both = tapered(crate, {0.8, 0.9}, {1, 1});

@@ -156,6 +156,7 @@ TEST_CASE("what is inside is told apart below a surface that hides all") {
 TEST_CASE("a sheet without extent along the direction has no undercut") {
   Shape sheet = transformed(subdivided(box({2, 3, 1})), Eigen::Vector3d(1, 1, 0).asDiagonal(), {0, 0, 5});
   const Sums sums = sums_of(draft_of(sheet));
+  CHECK(sums.area == Approx(2 * 6));
   CHECK(sums.undercut == 0);
   CHECK(sums.inner == 0);
   CHECK(sums.least_draft == 90);

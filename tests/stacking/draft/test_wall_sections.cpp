@@ -9,9 +9,9 @@ using namespace stackabilization::detail;
 
 namespace {
 
-bool is_between(const std::vector<Section>& sections, double s, double height) {
+bool is_between(const std::vector<PlaneSection>& sections, double s, double height) {
   bool above = false, below = false;
-  for (const Section& one : sections) {
+  for (const PlaneSection& one : sections) {
     if (s < one.from || s > one.to) continue;
     above = above || one.at(s) > height;
     below = below || one.at(s) < height;
@@ -40,12 +40,12 @@ double area_of(const std::vector<Trapezoid>& areas) {
 TEST_CASE("what lies between random sections has one above and one below, and is told once") {
   for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
     solids::Random random(seed);
-    std::vector<Section> sections;
+    std::vector<PlaneSection> sections;
     for (int k = 0; k < 12; ++k) {
       const double a = random.uniform(0, 10), b = random.uniform(0, 10);
       sections.push_back({std::min(a, b), std::max(a, b), random.uniform(0, 5), random.uniform(0, 5)});
     }
-    const std::vector<Trapezoid> areas = between(sections);
+    const std::vector<Trapezoid> areas = area_between(sections);
     int inside = 0;
     for (int k = 0; k < 2000; ++k) {
       const double s = random.uniform(0, 10), height = random.uniform(0, 5);
@@ -55,15 +55,15 @@ TEST_CASE("what lies between random sections has one above and one below, and is
     }
     CHECK(inside > 200);
     std::reverse(sections.begin(), sections.end());
-    CHECK(area_of(between(sections)) == Approx(area_of(areas)));
+    CHECK(area_of(area_between(sections)) == Approx(area_of(areas)));
   }
 }
 
 TEST_CASE("the area between two crossing sections is two triangles") {
-  CHECK(area_of(between({{0, 4, 0, 4}, {0, 4, 4, 0}})) == Approx(8));
-  CHECK(area_of(between({{0, 4, 1, 1}, {0, 4, 3, 3}, {0, 4, 2, 2}})) == Approx(8));
-  CHECK(area_of(between({{0, 2, 1, 1}, {3, 4, 3, 3}})) == 0);
-  CHECK(between({{0, 4, 1, 1}, {2, 2, 0, 5}}).empty());
-  CHECK(area_of(between({{0, 4, 1, 1}, {0, 4, 1, 1}})) == 0);
-  CHECK(between({}).empty());
+  CHECK(area_of(area_between({{0, 4, 0, 4}, {0, 4, 4, 0}})) == Approx(8));
+  CHECK(area_of(area_between({{0, 4, 1, 1}, {0, 4, 3, 3}, {0, 4, 2, 2}})) == Approx(8));
+  CHECK(area_of(area_between({{0, 2, 1, 1}, {3, 4, 3, 3}})) == 0);
+  CHECK(area_between({{0, 4, 1, 1}, {2, 2, 0, 5}}).empty());
+  CHECK(area_of(area_between({{0, 4, 1, 1}, {0, 4, 1, 1}})) == 0);
+  CHECK(area_between({}).empty());
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -17,6 +18,14 @@ std::vector<Corner> clipped(const std::vector<Corner>& polygon, const Value& val
     if ((at_a > 0 && at_b < 0) || (at_a < 0 && at_b > 0)) kept.push_back(between(a, b, at_a / (at_a - at_b)));
   }
   return kept;
+}
+
+/// The same for points in space.
+template <class Value>
+std::vector<Eigen::Vector3d> clipped(const std::vector<Eigen::Vector3d>& polygon, const Value& value) {
+  return clipped(polygon, value, [](const Eigen::Vector3d& a, const Eigen::Vector3d& b, double t) {
+    return Eigen::Vector3d(a + t * (b - a));
+  });
 }
 
 }  // namespace stackabilization::detail
