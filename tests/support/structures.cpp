@@ -264,6 +264,32 @@ StructuredShape trestle() {
   return trestle.done();
 }
 
+StructuredShape slats_on_rails(bool skewed) {
+  Assembly rack;
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
+  std::vector<int> slats, rails;
+  for (int k = 0; k < 5; ++k) {
+    const double middle = 2.0 * k - 4;
+    slats.push_back(
+        rack.add_box("slat_" + std::to_string(k + 1), {-10, middle - 0.6, 0}, {10, middle + 0.6, 0.5}, 1));
+  }
+  for (const double side : {-8.0, 8.0})
+    rails.push_back(
+        rack.add_box(side < 0 ? "rail_1" : "rail_2", {side - 0.5, -5, -1}, {side + 0.5, 5, 0}, 1));
+  for (const int slat : slats) rack.mirror({slat}, x);
+  rack.mirror(rails, x);
+  if (!skewed) {
+    rack.mirror({slats[0], slats[4]}, y);
+    rack.mirror({slats[1], slats[3]}, y);
+    for (const int part : {slats[2], rails[0], rails[1]}) rack.mirror({part}, y);
+  }
+  for (std::size_t k = 0; k < slats.size(); ++k)
+    for (std::size_t side = 0; side < 2; ++side)
+      rack.joint(slats[k], rails[side],
+                 Eigen::RowVector3d(side == 0 ? -8 : 8, 2.0 * static_cast<double>(k) - 4, 0));
+  return rack.done();
+}
+
 StructuredShape mug(int around) {
   Assembly mug;
   const GeneralizedCylinder body = straight_cylinder({0, 0, 0}, {0, 0, 10}, 4, 11);

@@ -54,6 +54,11 @@ StructuredShape leg_and_apron();
 /// the axes of the legs. Mirror plane x = 0.
 StructuredShape trestle();
 
+/// Boxes "slat_1" to "slat_5" along x, 20 x 1.2 x 0.5, side by side at steps of 2 along y around the z axis,
+/// on "rail_1" and "rail_2" along y at x = -8 and 8. Mirror planes x = 0 and y = 0, but where `skewed`: only
+/// x = 0. A point joint of every slat with both rails.
+StructuredShape slats_on_rails(bool skewed = false);
+
 /// Mug around the z axis: "body", a straight generalized cylinder, and "handle", a curved one in the plane y
 /// = 0, with two point joints; mirror plane y = 0.
 StructuredShape mug(int around = 24);

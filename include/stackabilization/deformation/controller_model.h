@@ -11,8 +11,8 @@ namespace stackabilization {
 
 /// Limits on the size of a ControllerModel.
 struct ControllerLimits {
-  /// Largest number of points at which parts are joined. Points that symmetries map onto each other count
-  /// once. The time of a solve grows with the cube of this number, and its memory with the square.
+  /// Largest number of points at which parts are joined; images under symmetries count once. Rows of parts
+  /// are let go where they need more. Time grows with the cube of this number, memory with the square.
   std::size_t max_joint_points = 600;
 };
 

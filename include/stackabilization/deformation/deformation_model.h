@@ -26,11 +26,11 @@ enum class Following {
   /// Any way, cheap motions first: parts move, stretch and lean, generalized cylinders bend, single corners
   /// of cuboids move.
   free,
-  /// Only by affine maps, and straight generalized cylinders also as members of a frame: they lean, stretch
-  /// and change their radii linearly. Joints slide in the plane of plates and along straight members, where
-  /// they do not lie at the rim or the end (Relation::carrier), and all joints have a little slack
-  /// (Relation::slack). A part that moves as a whole keeps its heights along the move; if changes of it
-  /// across the move close its joints, no other part follows. Edits that need more are refused.
+  /// Only by affine maps; straight generalized cylinders lean, stretch and change their radii linearly.
+  /// Joints slide in plates and along straight members, not at the rim or the end (Relation::carrier), with a
+  /// little slack (Relation::slack). Rows of parts stay even (structure/part_rows.h). A part that moves as a
+  /// whole keeps its heights along the move; if changes of it and its rows across the move close its joints,
+  /// no other part follows. Edits that need more are refused.
   smooth,
 };
 

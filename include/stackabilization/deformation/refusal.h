@@ -48,8 +48,10 @@ enum class RefusalCause {
   proportions,  ///< `part` would lose its proportions
   unchanged,    ///< nothing would change
   undefined,    ///< stackability or distortion would be undefined
-  // Models without primitives. Last: saved searches hold the numbers of causes.
+  // Models without primitives.
   collapsed_triangle,  ///< triangle `index` would lose a side
+  // Models with primitives. New causes come last: saved searches hold their numbers.
+  uneven_row,  ///< the row around `part` would no longer have even steps, by `amount`
 };
 
 /// Why an edit was refused. The cause says which of the other members are set.

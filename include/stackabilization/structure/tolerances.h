@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 /// Tolerances of primitives, symmetries and project files.
 namespace stackabilization::tolerance {
 
@@ -33,6 +35,17 @@ inline constexpr double parallel = 0.99;
 /// Cosine of the angle up to which a direction counts as lying in an axis of a box or of a symmetry, 2.6
 /// degrees. It is wider than the error of a box fitted to noisy samples.
 inline constexpr double aligned = 0.999;
+
+/// How far control points of three consecutive parts of a row may be from even steps: fractions of the step,
+/// and of the diagonal of the shape. A person sees more.
+inline constexpr double row_step = 0.1, row_evenness = 0.005;
+
+/// How far control points of consecutive parts of a row may be from those of one form, fraction of the
+/// diagonal of the part: rungs of a ladder that tapers differ by less.
+inline constexpr double row_form = 0.1;
+
+/// Largest number of parts of a structure that is searched for rows, since all pairs are.
+inline constexpr std::size_t max_parts_in_rows = 1'000;
 
 /// Cosine of the angle up to which two normals belong to one flat face, or to faces flush with each other, 14
 /// degrees.

@@ -36,6 +36,7 @@ struct ControllerModel::Data {
       throw InputError("its parts are joined at " + std::to_string(rig.distinct_joints.size()) +
                        " points that no symmetry makes the same, and edits keep at most " +
                        std::to_string(limits.max_joint_points) + " of them");
+    if (rig.distinct_joints.size() + rig.row_points.size() > limits.max_joint_points) rig.row_points.clear();
     return rig;
   }
 

@@ -3,12 +3,14 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "core/index.h"
 #include "deformation/controllers/corrections.h"
 #include "deformation/controllers/edit_target.h"
 #include "deformation/controllers/primitive_validity.h"
 #include "deformation/controllers/propagation.h"
+#include "deformation/controllers/row_points.h"
 #include "mesh/barycentric.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/relation_residual.h"
@@ -130,20 +132,22 @@ class EditSolution {
     return std::nullopt;
   }
 
-  /// Returns the constraints of joints and fixed points.
+  /// Returns the constraints of joints, rows and fixed points.
   std::vector<Constraint> given_constraints() {
     std::vector<Constraint> constraints = joint_constraints(rig_);
+    for (Constraint& constraint : row_constraints(rig_)) constraints.push_back(std::move(constraint));
     fixed_points_ = fixed_point_constraints();
     constraints.insert(constraints.end(), fixed_points_.begin(), fixed_points_.end());
     return constraints;
   }
 
-  /// Closes the joints of the moved part by changes of it across the move alone. Returns false, and changes
-  /// nothing, when this is not enough.
+  /// Closes the joints of the moved part by changes of it across the move alone; the parts of its rows come
+  /// along. Returns false, and changes nothing, when this is not enough.
   bool give_way() {
     CorrectionSpace corrections(rig_, rig_.bases);
+    const std::set<int> row = classes_of_rows();
     for (int c = 0; c < rig_.space.class_count(); ++c)
-      if (c != class_) corrections.fix(c);
+      if (c != class_ && (!row.contains(c) || corrections_.is_fixed(c))) corrections.fix(c);
     const Eigen::Vector3d by = edit_.changes.head<3>(), along = by.normalized();
     const Eigen::Index values = start_[at(class_)].values.size();
     const auto points = static_cast<int>(control_points(task_.now[at(edit_.part)]).rows());
@@ -164,6 +168,17 @@ class EditSolution {
     if (closed && near && remains_at_most(settled_remainder, current_vertices())) return true;
     state_ = prescribed;
     return false;
+  }
+
+  /// Returns the classes of the rows that the edited class is in.
+  std::set<int> classes_of_rows() const {
+    std::set<int> found;
+    for (const RowPoint& point : rig_.row_points) {
+      std::set<int> classes;
+      for (const int part : point.parts) classes.insert(rig_.space.class_of(part));
+      if (classes.contains(class_)) found.merge(classes);
+    }
+    return found;
   }
 
   void solve() {
@@ -323,6 +338,7 @@ class EditSolution {
 
   std::optional<Refusal> broken() const {
     if (auto refusal = broken_relation()) return refusal;
+    if (auto refusal = uneven_row()) return refusal;
     for (std::size_t part = 0; part < primitives_.size(); ++part)
       if (auto refusal = defect(rig_.rest.parts[part].primitive, primitives_[part])) {
         refusal->part = static_cast<int>(part);
@@ -332,6 +348,16 @@ class EditSolution {
         !(gap <= tolerance::relation))
       return Refusal{.cause = RefusalCause::fixed_point, .amount = gap};
     return broken_extent();
+  }
+
+  std::optional<Refusal> uneven_row() const {
+    Refusal refusal{.cause = RefusalCause::uneven_row, .amount = 0};
+    for (const RowPoint& point : rig_.row_points) {
+      const double amount = unevenness(rig_, point, primitives_).norm() / diagonal();
+      if (!(amount <= refusal.amount)) refusal.part = point.parts[1], refusal.amount = amount;
+    }
+    if (refusal.amount <= tolerance::relation) return std::nullopt;
+    return refusal;
   }
 
   std::optional<Refusal> broken_relation() const {

@@ -252,6 +252,18 @@ std::vector<Constraint> joint_constraints(const Rig& rig) {
   return constraints;
 }
 
+std::vector<Constraint> row_constraints(const Rig& rig) {
+  std::vector<Constraint> constraints;
+  for (const RowPoint& point : rig.row_points) {
+    Constraint constraint;
+    for (std::size_t j = 0; j < point.parts.size(); ++j)
+      constraint.bound_points.push_back({point.parts[j], point.bindings[j], RowPoint::weights[j]});
+    constraint.target = point.at_rest;
+    constraints.push_back(std::move(constraint));
+  }
+  return constraints;
+}
+
 double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state) {
   const Eigen::VectorXd all = gaps(rig, constraints, state, rig.space.primitives(state.controls));
   return all.size() > 0 ? all.cwiseAbs().maxCoeff() : 0;

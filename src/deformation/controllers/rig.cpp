@@ -4,6 +4,7 @@
 
 #include "deformation/controllers/joint_copies.h"
 #include "deformation/controllers/reduced_basis.h"
+#include "deformation/controllers/row_points.h"
 #include "deformation/controllers/straightness.h"
 #include "stackabilization/deformation/tolerances.h"
 
@@ -56,6 +57,7 @@ Rig::Rig(const Structure& structure, Following following) : rest(structure), spa
     turnings.push_back(cylinder ? turning(*cylinder) : Eigen::MatrixXd());
   }
   distinct_joints = detail::distinct_joints(*this);
+  if (following == Following::smooth) row_points = detail::row_points(*this);
 }
 
 }  // namespace stackabilization::detail

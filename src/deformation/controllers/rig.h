@@ -18,6 +18,16 @@ struct JointPoint {
   std::array<PointBinding, 2> bindings;
 };
 
+/// A point of three consecutive parts of a row, bound to each of them.
+struct RowPoint {
+  /// Weights of the parts in the sum that says by how much their steps differ.
+  static constexpr std::array<double, 3> weights = {1, -2, 1};
+
+  std::array<int, 3> parts;
+  std::array<PointBinding, 3> bindings;
+  Eigen::Vector3d at_rest;  ///< the sum at rest, which edits keep; model units
+};
+
 /// Data of the controls of a structure that depend on its rest pose alone, computed once. Immutable, safe to
 /// share between threads.
 struct Rig {
@@ -29,6 +39,7 @@ struct Rig {
   std::vector<PrimitiveBinding> primitive_bindings;  ///< binding of each part
   std::vector<JointPoint> joints;                    ///< points of all joints; a line joint has two
   std::vector<int> distinct_joints;                  ///< rows of `joints`, see joint_copies.h
+  std::vector<RowPoint> row_points;                  ///< Following::smooth keeps rows even, see row_points.h
   /// Per class: edit_kernel, projected to the subspace of its self-symmetries.
   std::vector<Eigen::MatrixXd> edit_kernels;
   std::vector<Eigen::MatrixXd> bases;  ///< per class: reduced_basis, projected likewise

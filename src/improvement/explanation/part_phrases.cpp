@@ -13,6 +13,8 @@ namespace stackabilization::detail {
 namespace {
 
 constexpr std::size_t max_listed = 4;
+/// Words of so many letters tell parts apart as numbers do: "leg_lf" is leg lf.
+constexpr std::size_t longest_label = 2;
 
 constexpr std::array<std::string_view, 14> side_words = {"left",  "right", "front",  "back",  "rear",
                                                          "upper", "lower", "middle", "top",   "bottom",
@@ -91,8 +93,8 @@ PartPhrases::PartPhrases(const std::vector<std::string>& names, const std::vecto
     Name name{names[part], {}, {}, {}};
     std::vector<std::string> sides;
     for (const std::string& run : runs_of(names[part])) {
-      if (sort_of(static_cast<unsigned char>(run.front())) == Sort::digit)
-        name.numbers.push_back(run);
+      if (sort_of(static_cast<unsigned char>(run.front())) == Sort::digit || run.size() <= longest_label)
+        name.labels.push_back(run);
       else if (contains(side_words, run))
         sides.push_back(run);
       else if (!contains(generic_words, run))
@@ -127,24 +129,24 @@ bool PartPhrases::fits_others(const std::vector<std::string>& words, const std::
   return false;
 }
 
-/// Tells parts from others that share the words: by their numbers, by what else they are called, or by name.
+/// Tells parts from others that share the words: by their labels, by what else they are called, or by name.
 std::string PartPhrases::distinguished(const std::vector<std::string>& words,
                                        const std::vector<int>& parts) const {
-  std::vector<std::string> numbers, sides, names;
-  bool numbered = parts.size() <= max_listed, sided = numbered;
+  std::vector<std::string> labels, sides, names;
+  bool labelled = parts.size() <= max_listed, sided = labelled;
   for (const int part : parts) {
     const Name& name = parts_[at(part)];
     std::vector<std::string> others;
     for (const std::string& word : name.words)
       if (!contains(words, word)) others.push_back(word);
-    numbered = numbered && name.numbers.size() == 1 && others.empty() && !name.nameless;
-    sided = sided && name.numbers.empty() && !others.empty();
-    if (numbered) numbers.push_back(name.numbers.front());
+    labelled = labelled && name.labels.size() == 1 && others.empty() && !name.nameless;
+    sided = sided && name.labels.empty() && !others.empty();
+    if (labelled) labels.push_back(name.labels.front());
     if (sided) sides.push_back(joined_words(others));
     names.push_back(name.whole);
   }
   const bool several = parts.size() > 1;
-  if (numbered) return (several ? plural_phrase(words) : joined_words(words)) + " " + listed(numbers);
+  if (labelled) return (several ? plural_phrase(words) : joined_words(words)) + " " + listed(labels);
   if (sided) return listed(sides) + " " + (several ? plural_phrase(words) : joined_words(words));
   const std::string counted =
       several ? std::to_string(parts.size()) + " " + plural_phrase(words) : joined_words(words);
@@ -162,7 +164,10 @@ PartPhrase PartPhrases::phrase(const std::vector<int>& parts) const {
   if (words.empty() || !contains(words, noun)) {
     // The parts have no noun in common.
     std::vector<std::string> names;
-    for (const int part : parts) names.push_back(joined_words(parts_[at(part)].words));
+    for (const int part : parts) {
+      const std::vector<std::string>& own = parts_[at(part)].words;
+      names.push_back(fits_others(own, {part}) ? distinguished(own, {part}) : joined_words(own));
+    }
     if (names.size() <= max_listed && std::set(names.begin(), names.end()).size() == names.size())
       return {listed(names), true};
     return {std::to_string(parts.size()) + " parts", true};

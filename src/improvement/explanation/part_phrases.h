@@ -12,7 +12,8 @@ struct PartPhrase {
 };
 
 /// Finds what a person calls parts by their names. A name is cut into words at everything but letters, and
-/// between letters and digits. Words for a side, such as "left", come first.
+/// between letters and digits. Words for a side, such as "left", come first; numbers and words of one or two
+/// letters are labels, which come last.
 class PartPhrases {
  public:
   /// `names`: of all parts. `nouns`: one per part, for names without a word or with a word such as "part".
@@ -27,8 +28,8 @@ class PartPhrases {
  private:
   struct Name {
     std::string whole;
-    std::vector<std::string> words;  ///< in the order of the phrase, without numbers
-    std::vector<std::string> numbers;
+    std::vector<std::string> words;   ///< in the order of the phrase, without labels
+    std::vector<std::string> labels;  ///< numbers and words of one or two letters
     std::string noun;
     bool nameless = false;
   };

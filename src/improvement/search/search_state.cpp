@@ -71,7 +71,7 @@ Obstacle obstacle_of(const JsonNode& node, const Structure& rest) {
   node.expect_keys({"count", "cause", "rows", "x", "y", "z"}, 3);
   Refusal refusal;
   refusal.cause =
-      static_cast<RefusalCause>(row_of(node["cause"], 0, static_cast<int>(RefusalCause::collapsed_triangle)));
+      static_cast<RefusalCause>(row_of(node["cause"], 0, static_cast<int>(RefusalCause::uneven_row)));
   node["rows"].expect_size(rows_of_refusal.size());
   for (std::size_t k = 0; k < rows_of_refusal.size(); ++k)
     refusal.*rows_of_refusal[k] = row_of(node["rows"][k], -1, std::numeric_limits<int>::max());

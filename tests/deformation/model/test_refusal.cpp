@@ -71,8 +71,9 @@ TEST_CASE("every cause of a refusal has its sentence") {
       {proportions, "'leg 0.5' would lose its proportions"},
       {unchanged, "nothing would change"},
       {undefined, "stackability or distortion would be undefined"},
-      {collapsed_triangle, "triangle 2 loses a side"}};
-  REQUIRE(sentences.size() == static_cast<std::size_t>(collapsed_triangle) + 1);
+      {collapsed_triangle, "triangle 2 loses a side"},
+      {uneven_row, "the row around 'leg 0.5' would no longer be even, off by " + diagonal}};
+  REQUIRE(sentences.size() == static_cast<std::size_t>(uneven_row) + 1);
   for (std::size_t k = 0; k < sentences.size(); ++k) {
     CHECK(sentences[k].first == static_cast<RefusalCause>(k));
     CHECK(describe(refusal(sentences[k].first), two_parts()) == sentences[k].second);

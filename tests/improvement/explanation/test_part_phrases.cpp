@@ -30,6 +30,17 @@ TEST_CASE("Parts are called by the words that they share", "[explanation]") {
   CHECK(phrase(chair, {4, 7}) == "seat and back rail");
 }
 
+TEST_CASE("Words of one or two letters tell parts apart as numbers do", "[explanation]") {
+  const std::vector<std::string> bench = {"leg_lf", "leg_lb", "leg_rf",  "leg_rb",  "mid_l",
+                                          "mid_r",  "top",    "front_l", "front_r", "post00"};
+  CHECK(phrase(bench, {0, 1, 2, 3}) == "4 legs");
+  CHECK(phrase(bench, {0, 1}) == "legs lf and lb");
+  CHECK(phrase(bench, {2}) == "leg rf");
+  CHECK(phrase(bench, {4, 5}) == "2 mids");
+  CHECK(phrase(bench, {5, 8}) == "mid r and front r");
+  CHECK(phrase(bench, {9}) == "post");
+}
+
 TEST_CASE("Parts without a word are called by their form", "[explanation]") {
   const std::vector<std::string> parts = {"0_part0", "1_part1", "2_part2"};
   CHECK(phrase(parts, {0, 1, 2}) == "3 bars");
