@@ -36,12 +36,12 @@ inline constexpr double parallel = 0.99;
 /// degrees. It is wider than the error of a box fitted to noisy samples.
 inline constexpr double aligned = 0.999;
 
-/// How far control points of three consecutive parts of a row may be from even steps: fractions of the step,
-/// and of the diagonal of the shape. A person sees more.
-inline constexpr double row_step = 0.1, row_evenness = 0.005;
+/// How far control points of three consecutive parts of a row may be from even steps, fraction of the step.
+inline constexpr double row_step = 0.1;
+/// The same as a fraction of the diagonal of the shape: a person sees more.
+inline constexpr double row_evenness = 0.005;
 
-/// How far control points of consecutive parts of a row may be from those of one form, fraction of the
-/// diagonal of the part: rungs of a ladder that tapers differ by less.
+/// How far consecutive parts of a row may be from one form, fraction of their diagonals: rungs differ less.
 inline constexpr double row_form = 0.1;
 
 /// Largest number of parts of a structure that is searched for rows, since all pairs are.
