@@ -249,6 +249,24 @@ StructuredShape leg_and_apron() {
   return assembly.done();
 }
 
+StructuredShape ladder() {
+  Assembly ladder;
+  const GeneralizedCylinder left = straight_cylinder({-5, 0, 0}, {-3, 0, 16}, 0.4, 33),
+                            right = straight_cylinder({5, 0, 0}, {3, 0, 16}, 0.4, 33);
+  const int a = ladder.add("leg_left", tube(left, 12), left),
+            b = ladder.add("leg_right", tube(right, 12), right);
+  ladder.mirror({a, b}, Eigen::Vector3d::UnitX());
+  for (int k = 1; k <= 7; ++k) {
+    const Eigen::Vector3d end(5 - 0.25 * k, 0, 2 * k), other(-end.x(), 0, end.z());
+    const GeneralizedCylinder rung = straight_cylinder(other, end, 0.2, 9);
+    const int c = ladder.add("rung_" + std::to_string(k), tube(rung, 12), rung);
+    ladder.mirror({c}, Eigen::Vector3d::UnitX());
+    ladder.joint(a, c, other.transpose());
+    ladder.joint(b, c, end.transpose());
+  }
+  return ladder.done();
+}
+
 StructuredShape trestle() {
   Assembly trestle;
   const GeneralizedCylinder left = straight_cylinder({-4, 0, 0}, {-2, 0, 10}, 0.4, 21),

@@ -59,6 +59,11 @@ StructuredShape trestle();
 /// x = 0. A point joint of every slat with both rails.
 StructuredShape slats_on_rails(bool skewed = false);
 
+/// Ladder in the plane y = 0, 16 high: straight generalized cylinders "leg_left" and "leg_right" from x = -5
+/// and 5 to -3 and 3, and "rung_1" to "rung_7" between their axes at z = 2, 4, ..., 14, with point joints
+/// there. Mirror plane x = 0.
+StructuredShape ladder();
+
 /// Mug around the z axis: "body", a straight generalized cylinder, and "handle", a curved one in the plane y
 /// = 0, with two point joints; mirror plane y = 0.
 StructuredShape mug(int around = 24);

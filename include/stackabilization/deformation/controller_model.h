@@ -12,7 +12,8 @@ namespace stackabilization {
 /// Limits on the size of a ControllerModel.
 struct ControllerLimits {
   /// Largest number of points at which parts are joined; images under symmetries count once. Rows of parts
-  /// are let go where they need more. Time grows with the cube of this number, memory with the square.
+  /// stay even only while joints and their points are no more. Time grows with the cube, memory with the
+  /// square.
   std::size_t max_joint_points = 600;
 };
 

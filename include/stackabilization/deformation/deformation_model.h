@@ -27,8 +27,8 @@ enum class Following {
   /// of cuboids move.
   free,
   /// Only by affine maps; straight generalized cylinders lean, stretch and change their radii linearly.
-  /// Joints slide in plates and along straight members, not at the rim or the end (Relation::carrier), with a
-  /// little slack (Relation::slack). Rows of parts stay even (structure/part_rows.h). A part that moves as a
+  /// Joints slide in the planes of plates and along straight members (Relation::carrier), with a little slack
+  /// (Relation::slack). Rows of parts stay even (part_rows.h, ControllerLimits). A part that moves as a
   /// whole keeps its heights along the move; if changes of it and its rows across the move close its joints,
   /// no other part follows. Edits that need more are refused.
   smooth,

@@ -19,19 +19,6 @@ int point_count(const Primitive& primitive) {
   return static_cast<int>(control_points(primitive).rows());
 }
 
-std::vector<int> inverse(const std::vector<int>& order) {
-  std::vector<int> back(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) back[at(order[i])] = static_cast<int>(i);
-  return back;
-}
-
-/// Returns the composition of two permutations: first `a`, then `b`.
-std::vector<int> composed(const std::vector<int>& a, const std::vector<int>& b) {
-  std::vector<int> both;
-  for (const int i : a) both.push_back(b[at(i)]);
-  return both;
-}
-
 bool is_symmetry(const Relation& relation) {
   return relation.type == RelationType::symmetry || relation.type == RelationType::self_symmetry;
 }
@@ -100,8 +87,8 @@ void ControlSpace::spread_class(int first, const Structure& rest, const Relation
       Image& to = images_[at(other)];
       to.of_class = from.of_class;
       to.linear = (forward ? map : Eigen::Matrix3d(map.transpose())) * from.linear;
-      to.order = composed(from.order, forward ? order : inverse(order));
-      to.inverse_order = inverse(to.order);
+      to.order = composed_order(from.order, forward ? order : inverse_order(order));
+      to.inverse_order = inverse_order(to.order);
       tree_[at(row)] = true;
       members.push_back(other);
     }
@@ -114,7 +101,7 @@ void ControlSpace::add_stabiliser(int relation, const Structure& rest, const std
   const Image &from = images_[at(symmetry.parts.front())], &to = images_[at(symmetry.parts.back())];
   classes_[at(from.of_class)].stabilisers.push_back(
       {relation, to.linear.transpose() * isometry_of(symmetry.symmetry).linear() * from.linear,
-       composed(composed(from.order, order), to.inverse_order)});
+       composed_order(composed_order(from.order, order), to.inverse_order)});
 }
 
 void ControlSpace::prepare_projectors(Class& of_class) const {

@@ -10,7 +10,6 @@
 #include "deformation/controllers/edit_target.h"
 #include "deformation/controllers/primitive_validity.h"
 #include "deformation/controllers/propagation.h"
-#include "deformation/controllers/row_points.h"
 #include "mesh/barycentric.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/relation_residual.h"
@@ -145,9 +144,9 @@ class EditSolution {
   /// along. Returns false, and changes nothing, when this is not enough.
   bool give_way() {
     CorrectionSpace corrections(rig_, rig_.bases);
-    const std::set<int> row = classes_of_rows();
+    const std::set<int> yielding = classes_of_rows();
     for (int c = 0; c < rig_.space.class_count(); ++c)
-      if (c != class_ && (!row.contains(c) || corrections_.is_fixed(c))) corrections.fix(c);
+      if (!yielding.contains(c) || (c != class_ && corrections_.is_fixed(c))) corrections.fix(c);
     const Eigen::Vector3d by = edit_.changes.head<3>(), along = by.normalized();
     const Eigen::Index values = start_[at(class_)].values.size();
     const auto points = static_cast<int>(control_points(task_.now[at(edit_.part)]).rows());
@@ -170,13 +169,17 @@ class EditSolution {
     return false;
   }
 
-  /// Returns the classes of the rows that the edited class is in.
+  /// Returns the edited class, and those that share a row with it, with these, and so on.
   std::set<int> classes_of_rows() const {
-    std::set<int> found;
-    for (const RowPoint& point : rig_.row_points) {
-      std::set<int> classes;
-      for (const int part : point.parts) classes.insert(rig_.space.class_of(part));
-      if (classes.contains(class_)) found.merge(classes);
+    std::set<int> found = {class_};
+    for (std::size_t known = 0; known < found.size();) {
+      known = found.size();
+      for (const RowPoint& point : rig_.row_points) {
+        std::set<int> classes;
+        for (const int part : point.parts) classes.insert(rig_.space.class_of(part));
+        if (std::any_of(classes.begin(), classes.end(), [&](int c) { return found.contains(c); }))
+          found.merge(classes);
+      }
     }
     return found;
   }
@@ -351,13 +354,13 @@ class EditSolution {
   }
 
   std::optional<Refusal> uneven_row() const {
-    Refusal refusal{.cause = RefusalCause::uneven_row, .amount = 0};
-    for (const RowPoint& point : rig_.row_points) {
-      const double amount = unevenness(rig_, point, primitives_).norm() / diagonal();
-      if (!(amount <= refusal.amount)) refusal.part = point.parts[1], refusal.amount = amount;
-    }
-    if (refusal.amount <= tolerance::relation) return std::nullopt;
-    return refusal;
+    if (rig_.row_points.empty()) return std::nullopt;
+    Eigen::Index worst = 0;
+    const double gap = gaps(rig_, row_constraints(rig_), state_).cwiseAbs().maxCoeff(&worst) / diagonal();
+    if (gap <= tolerance::relation) return std::nullopt;
+    return Refusal{.cause = RefusalCause::uneven_row,
+                   .part = rig_.row_points[static_cast<std::size_t>(worst / 3)].parts[1],
+                   .amount = gap};
   }
 
   std::optional<Refusal> broken_relation() const {

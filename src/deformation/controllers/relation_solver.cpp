@@ -255,17 +255,21 @@ std::vector<Constraint> joint_constraints(const Rig& rig) {
 std::vector<Constraint> row_constraints(const Rig& rig) {
   std::vector<Constraint> constraints;
   for (const RowPoint& point : rig.row_points) {
+    constexpr std::array<double, 3> weights = {1, -2, 1};  // the difference of the two steps
     Constraint constraint;
-    for (std::size_t j = 0; j < point.parts.size(); ++j)
-      constraint.bound_points.push_back({point.parts[j], point.bindings[j], RowPoint::weights[j]});
-    constraint.target = point.at_rest;
+    for (std::size_t j = 0; j < weights.size(); ++j)
+      constraint.bound_points.push_back({point.parts[j], point.bindings[j], weights[j]});
     constraints.push_back(std::move(constraint));
   }
   return constraints;
 }
 
+Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state) {
+  return gaps(rig, constraints, state, rig.space.primitives(state.controls));
+}
+
 double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state) {
-  const Eigen::VectorXd all = gaps(rig, constraints, state, rig.space.primitives(state.controls));
+  const Eigen::VectorXd all = gaps(rig, constraints, state);
   return all.size() > 0 ? all.cwiseAbs().maxCoeff() : 0;
 }
 

@@ -40,8 +40,12 @@ struct SolverState {
 /// of the rig.
 std::vector<Constraint> joint_constraints(const Rig& rig);
 
-/// Returns one constraint per row point of the rig: even steps of a row stay even.
+/// Returns one constraint per row point of the rig, in its order: even steps of a row stay even.
 std::vector<Constraint> row_constraints(const Rig& rig);
+
+/// Returns the residuals of the constraints beyond their slack, model units: one of a constraint with a
+/// normal, three of any other.
+Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state);
 
 /// Returns the largest absolute residual of the constraints beyond their slack, model units.
 double largest_gap(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state);

@@ -18,14 +18,11 @@ struct JointPoint {
   std::array<PointBinding, 2> bindings;
 };
 
-/// A point of three consecutive parts of a row, bound to each of them.
+/// Points of three consecutive parts of a row at even steps, each bound to its part. They stay at even steps,
+/// as they do under every affine map of the whole.
 struct RowPoint {
-  /// Weights of the parts in the sum that says by how much their steps differ.
-  static constexpr std::array<double, 3> weights = {1, -2, 1};
-
   std::array<int, 3> parts;
   std::array<PointBinding, 3> bindings;
-  Eigen::Vector3d at_rest;  ///< the sum at rest, which edits keep; model units
 };
 
 /// Data of the controls of a structure that depend on its rest pose alone, computed once. Immutable, safe to

@@ -6,12 +6,10 @@
 
 namespace stackabilization::detail {
 
-/// Returns the row points of all rows of parts (structure/part_rows.h) that no symmetry makes the same: four
-/// points of every three consecutive parts, which say where a box or a straight cylinder is and what form it
-/// has, and one more for a curved cylinder. Precondition: `space` and `primitive_bindings` of `rig` are set.
+/// Returns points of every three consecutive parts of every row of parts (structure/part_rows.h), but for
+/// images of others under the symmetries: four of boxes, five of generalized cylinders, which say where a
+/// part is and what form it has as far as affine maps change it. Precondition: `rest`, `space` and
+/// `primitive_bindings` of `rig` are set.
 std::vector<RowPoint> row_points(const Rig& rig);
-
-/// Returns by how much the steps of a row differ at a row point, against rest. `now`: one primitive per part.
-Eigen::Vector3d unevenness(const Rig& rig, const RowPoint& point, const std::vector<Primitive>& now);
 
 }  // namespace stackabilization::detail

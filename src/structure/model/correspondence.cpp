@@ -82,4 +82,17 @@ std::vector<int> control_correspondence(const Primitive& a, const Primitive& b,
   return best;
 }
 
+std::vector<int> inverse_order(const std::vector<int>& order) {
+  std::vector<int> back(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    back[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+  return back;
+}
+
+std::vector<int> composed_order(const std::vector<int>& first, const std::vector<int>& second) {
+  std::vector<int> both;
+  for (const int i : first) both.push_back(second[static_cast<std::size_t>(i)]);
+  return both;
+}
+
 }  // namespace stackabilization

@@ -12,4 +12,10 @@ namespace stackabilization {
 /// closed curve. Empty when the kinds or the numbers of control points differ.
 std::vector<int> control_correspondence(const Primitive& a, const Primitive& b, const Eigen::Isometry3d& map);
 
+/// Returns the inverse of a permutation.
+std::vector<int> inverse_order(const std::vector<int>& order);
+
+/// Returns the composition of two permutations: first `first`, then `second`.
+std::vector<int> composed_order(const std::vector<int>& first, const std::vector<int>& second);
+
 }  // namespace stackabilization

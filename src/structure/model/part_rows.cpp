@@ -49,13 +49,11 @@ class RowSearch {
     std::set<std::pair<int, int>> used;
     for (int part = 0; part < count(); ++part)
       for (const Step& first : steps_[at(part)]) {
-        if (used.contains({part, first.part}) || before(part, first)) continue;
+        if (used.contains({part, first.part}) || opposite(part, first.part)) continue;
         PartRow row{{part}, {identity(part)}};
         for (std::optional<Step> next = first; next; next = after(row)) {
-          std::vector<int> order;
-          for (const int i : row.control_points.back()) order.push_back(next->order[at(i)]);
           row.parts.push_back(next->part);
-          row.control_points.push_back(std::move(order));
+          row.control_points.push_back(composed_order(row.control_points.back(), next->order));
         }
         if (row.parts.size() < 3) continue;
         for (std::size_t k = 1; k < row.parts.size(); ++k) {
@@ -82,10 +80,8 @@ class RowSearch {
     for (int a = 0; a < count(); ++a)
       for (int b = a + 1; b < count(); ++b)
         if (std::optional<std::vector<int>> order = correspondence(a, b)) {
-          std::vector<int> back(order->size());
-          for (std::size_t i = 0; i < order->size(); ++i) back[at((*order)[i])] = static_cast<int>(i);
+          alike[at(b)].push_back({a, inverse_order(*order)});
           alike[at(a)].push_back({b, std::move(*order)});
-          alike[at(b)].push_back({a, std::move(back)});
         }
     for (int a = 0; a < count(); ++a) {
       std::vector<Step> found;
@@ -111,33 +107,43 @@ class RowSearch {
     const Eigen::Vector3d by = between(a, b);
     if (std::abs(one.diagonal - other.diagonal) > allowed) return std::nullopt;
     if (by.norm() <= tolerance::relative * structure_.diagonal) return std::nullopt;
-    const Primitive &from = primitive(a), &to = primitive(b);
-    std::vector<int> order = control_correspondence(from, to, Eigen::Isometry3d(Eigen::Translation3d(by)));
+    std::vector<int> order =
+        control_correspondence(primitive(a), primitive(b), Eigen::Isometry3d(Eigen::Translation3d(by)));
     if (order.empty()) return std::nullopt;
+    const Eigen::VectorXd radii = radii_of(a);
     for (std::size_t i = 0; i < order.size(); ++i) {
       const auto k = static_cast<Eigen::Index>(i);
       if ((one.points.row(k) + by.transpose() - other.points.row(order[i])).norm() > allowed)
         return std::nullopt;
-      if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&from))
-        if (std::abs(cylinder->radii(k) - std::get<GeneralizedCylinder>(to).radii(order[i])) > allowed)
-          return std::nullopt;
+      if (radii.size() > 0 && std::abs(radii(k) - radii_of(b)(order[i])) > allowed) return std::nullopt;
     }
     return order;
   }
 
   const Primitive& primitive(int part) const { return structure_.parts[at(part)].primitive; }
 
-  /// Returns whether the control points of three parts are at even steps; `first`, `second`: from the middle
-  /// one to the outer ones.
+  /// Returns the radii of a generalized cylinder, none of a cuboid.
+  Eigen::VectorXd radii_of(int part) const {
+    const auto* cylinder = std::get_if<GeneralizedCylinder>(&primitive(part));
+    return cylinder ? cylinder->radii : Eigen::VectorXd();
+  }
+
+  /// Returns whether the control points and radii of three parts change by even steps; `first`, `second`:
+  /// from the middle one to the outer ones.
   bool is_even(int middle, const Step& first, const Step& second) const {
     const Points &points = parts_[at(middle)].points, &before = parts_[at(first.part)].points,
                  &after = parts_[at(second.part)].points;
+    const Eigen::VectorXd radii = radii_of(middle), before_radii = radii_of(first.part),
+                          after_radii = radii_of(second.part);
     const double allowed = std::min(tolerance::row_step * between(middle, first.part).norm(),
                                     tolerance::row_evenness * structure_.diagonal);
     for (Eigen::Index i = 0; i < points.rows(); ++i) {
       const int k = static_cast<int>(i);
       if ((before.row(first.order[at(k)]) + after.row(second.order[at(k)]) - 2 * points.row(i)).norm() >
           allowed)
+        return false;
+      if (radii.size() > 0 && std::abs(before_radii(first.order[at(k)]) + after_radii(second.order[at(k)]) -
+                                       2 * radii(i)) > allowed)
         return false;
     }
     return true;
@@ -154,9 +160,7 @@ class RowSearch {
     return nullptr;
   }
 
-  /// Returns whether a row that goes from `part` by `step` begins earlier.
-  bool before(int part, const Step& step) const { return opposite(part, step.part) != nullptr; }
-
+  /// Returns the step that goes on with a row.
   std::optional<Step> after(const PartRow& row) const {
     const int last = row.parts.back();
     const Step* next = opposite(last, row.parts[row.parts.size() - 2]);

@@ -70,6 +70,42 @@ TEST_CASE("what is fixed of a row holds the rest, and a part that cannot stay in
   CHECK(result.refusal->amount > tolerance::relation);
 }
 
+TEST_CASE("a row that is a little uneven at rest stays as it is when the whole changes its size") {
+  StructuredShape rest = structures::slats_on_rails(true);
+  const double off = 0.04;
+  std::get<Cuboid>(rest.structure.parts[1].primitive).corners.col(1).array() += off;
+  for (Relation& relation : rest.structure.relations)
+    if (relation.is_joint() && relation.parts[0] == 1) relation.points.col(1).array() += off;
+  const ControllerModel smooth(rest, {}, Following::smooth);
+  REQUIRE_FALSE(detail::Rig(rest.structure, Following::smooth).row_points.empty());
+  const DeformationResult result = smooth.deformed({{{HandleKind::shape, 0, 0}, Scale{1.3, {}}}});
+  REQUIRE_FALSE(result.refusal);
+  for (std::size_t k = 0; k < result.design.primitives.size(); ++k) {
+    const Points before = control_points(rest.structure.parts[k].primitive),
+                 now = control_points(result.design.primitives[k]);
+    const Points sides = now.rowwise() - now.row(0), sides_before = before.rowwise() - before.row(0);
+    CHECK((sides - 1.3 * sides_before).norm() <= 1e-9);
+  }
+}
+
+TEST_CASE("a rung that moves between leaning legs takes its row along, and the legs stay") {
+  const ControllerModel smooth(structures::ladder(), {}, Following::smooth);
+  const std::vector<Part>& rest = smooth.rest().structure.parts;
+  const std::vector<Primitive> now = edited(smooth, "rung_1", Move{Eigen::Vector3d(0, 0, 0.6)}).primitives;
+  for (const std::size_t leg : {0u, 1u})
+    CHECK(control_points(now[leg]) == control_points(rest[leg].primitive));
+  double last = 0;
+  for (std::size_t k = 2; k < 9; ++k) {
+    const GeneralizedCylinder rung = std::get<GeneralizedCylinder>(now[k]);
+    const Eigen::RowVector3d end = rung.centres.row(rung.centres.rows() - 1);
+    CHECK(std::abs(end.x()) == Approx(5 - end.z() / 8).margin(0.05));
+    if (k > 3)
+      CHECK(end.z() - last == Approx(last - std::get<GeneralizedCylinder>(now[k - 2]).centres(0, 2)));
+    last = end.z();
+  }
+  CHECK(std::get<GeneralizedCylinder>(now[2]).centres(0, 2) == Approx(2.6));
+}
+
 TEST_CASE("images of a row have no row points of their own") {
   const detail::Rig whole(structures::slats_on_rails().structure, Following::smooth),
       skewed(structures::slats_on_rails(true).structure, Following::smooth);

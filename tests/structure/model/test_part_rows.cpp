@@ -88,6 +88,19 @@ TEST_CASE("rungs that get longer by even steps are a row") {
   CHECK(rows_of(rungs) == RowsOfParts{{0, 1, 2}});
 }
 
+TEST_CASE("radii change by even steps too") {
+  const auto rods = [](double first, double second, double third) {
+    std::vector<Primitive> all;
+    for (const double radius : {first, second, third})
+      all.push_back(structures::straight_cylinder({2.0 * static_cast<double>(all.size()), 0, 0},
+                                                  {2.0 * static_cast<double>(all.size()), 0, 9}, radius, 8));
+    return rows_of(all).size();
+  };
+  CHECK(rods(0.3, 0.3, 0.3) == 1);
+  CHECK(rods(0.3, 0.4, 0.5) == 1);
+  CHECK(rods(0.3, 0.6, 0.3) == 0);
+}
+
 TEST_CASE("a grid has rows along its two ways, not across") {
   std::vector<Primitive> grid;
   for (int i = 0; i < 3; ++i)
