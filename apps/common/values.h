@@ -117,13 +117,6 @@ std::string choice_names(const Choices<Value>& choices) {
   return names;
 }
 
-template <class Value>
-const std::string& choice_name(const Choices<Value>& choices, const Value& wanted) {
-  for (const auto& [name, value] : choices)
-    if (value == wanted) return name;
-  throw UsageError("a value without a name was asked for");
-}
-
 /// Adds an option that takes one of the names of `choices` into `target` (a Value or std::optional of it).
 template <class Value, class Target>
 void add_choice(CLI::App& command, const std::string& name, Target& target, const Choices<Value>& choices,

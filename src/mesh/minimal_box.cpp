@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/angles.h"
 #include "mesh/affine_span.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/mesh/boxes.h"
@@ -220,7 +221,7 @@ void MinimalBoxSearch::visit_arcs() {
     const Eigen::Vector3d start = hull_.face_normals().row(from).transpose();
     const Eigen::Vector3d end = hull_.face_normals().row(to).transpose();
     const Eigen::Vector3d side = (end - start * start.dot(end)).stableNormalized();
-    arcs_.push_back({start, side, std::atan2(start.cross(end).norm(), start.dot(end))});
+    arcs_.push_back({start, side, detail::angle_between(start, end)});
     Sample high = *face_samples_[to];
     high.angle = arcs_.back().length;
     push(static_cast<int>(arcs_.size()) - 1, *face_samples_[from], high);

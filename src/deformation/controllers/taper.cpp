@@ -9,6 +9,7 @@
 #include "deformation/model/straight_curve.h"
 #include "stackabilization/core/direction.h"
 #include "stackabilization/deformation/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 
 namespace stackabilization::detail {
 
@@ -16,8 +17,6 @@ namespace {
 
 /// A section lies across the axis if the cosine of its tangent to the axis is at least this.
 constexpr double across = 0.7;
-/// Cosine from which on a direction lies along another one.
-constexpr double aligned = 0.99;
 
 /// The numbers from the least to the largest of those that were added.
 struct Interval {
@@ -100,10 +99,10 @@ class TaperMap {
   void settle_on(const Symmetry& symmetry, Eigen::Matrix3d& free) {
     const Eigen::Vector3d normal = symmetry.axis.normalized(), offset = symmetry.point - centre_;
     if (symmetry.kind == SymmetryKind::reflection) {
-      if ((free * normal).norm() < aligned) return;
+      if ((free * normal).norm() < tolerance::parallel) return;
       centre_ += offset.dot(normal) * normal;
       free -= free * normal * normal.transpose() * free;
-    } else if (std::abs(normal.dot(axis_)) >= aligned) {
+    } else if (std::abs(normal.dot(axis_)) >= tolerance::parallel) {
       centre_ += free * offset;
       free.setZero();
     }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/angles.h"
 #include "editing/session/handle_range.h"
 #include "editing/session/session_implementation.h"
 #include "stackabilization/core/errors.h"
@@ -20,7 +21,7 @@ double known_share(const Edit& made, const Edit& wanted) {
   const auto* b = std::get_if<Move>(&wanted.operation);
   if (!a || !b || made.handle != wanted.handle || !(b->by.squaredNorm() > 0)) return 0;
   const double share = a->by.dot(b->by) / b->by.squaredNorm();
-  return a->by.cross(b->by).norm() <= same_line_sine * a->by.norm() * b->by.norm() ? share : 0;
+  return detail::on_one_line(a->by, b->by, same_line_sine) ? share : 0;
 }
 
 }  // namespace

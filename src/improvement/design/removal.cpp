@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "core/angles.h"
 #include "core/bounding_diagonal.h"
 #include "core/disjoint_sets.h"
 #include "improvement/design/best_measured.h"
@@ -69,7 +70,7 @@ bool same_mirror_or_axis(const Symmetry& a, const Symmetry& b, double diagonal) 
   if (reflects != (b.kind == SymmetryKind::reflection)) return false;
   const Eigen::Vector3d between = b.point - a.point;
   const double off = reflects ? std::abs(a.axis.dot(between)) : a.axis.cross(between).norm();
-  return a.axis.cross(b.axis).norm() <= tolerance::same_symmetry &&
+  return detail::on_one_line(a.axis, b.axis, tolerance::same_symmetry) &&
          off <= tolerance::same_symmetry * diagonal;
 }
 

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/angles.h"
 #include "core/index.h"
 #include "improvement/explanation/affine_split.h"
 #include "improvement/explanation/taper_fit.h"
@@ -48,10 +49,6 @@ constexpr double minor = 1.0 / 7;
 /// Pieces of the surface of a part: enough for a vessel of many triangles.
 constexpr std::size_t max_pieces = 40000;
 constexpr int sweeps = 100;
-
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 /// Returns the one of two ratios that is nearer to 1; 1 if they are on different sides of it.
 double nearer(double a, double b) {

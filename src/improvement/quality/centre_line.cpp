@@ -12,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "core/angles.h"
 #include "deformation/model/straight_curve.h"
 #include "stackabilization/improvement/tolerances.h"
 #include "structure/model/nearest_box.h"
@@ -108,8 +109,7 @@ Eigen::VectorXd shares_of_line(const Points& points) {
 /// Returns the angle by which a line turns at `middle`, radians.
 double turn(const Eigen::RowVector3d& before, const Eigen::RowVector3d& middle,
             const Eigen::RowVector3d& after) {
-  const Eigen::RowVector3d a = middle - before, b = after - middle;
-  return std::atan2(a.cross(b).norm(), a.dot(b));
+  return angle_between((middle - before).transpose(), (after - middle).transpose());
 }
 
 }  // namespace

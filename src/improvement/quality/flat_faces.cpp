@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/angles.h"
 #include "core/index.h"
 #include "mesh/edge_table.h"
 #include "mesh/surface_moments.h"
@@ -112,14 +113,10 @@ std::vector<ParallelFaces> parallel_faces(const Shape& shape, const std::vector<
   std::vector<ParallelFaces> pairs;
   for (std::size_t a = 0; a < faces.size(); ++a)
     for (std::size_t b = a + 1; b < faces.size(); ++b) {
-      const double angle = angle_between_planes(faces[a].area_vector(shape), faces[b].area_vector(shape));
+      const double angle = angle_between_lines(faces[a].area_vector(shape), faces[b].area_vector(shape));
       if (angle <= tolerance::quality::coplanar) pairs.push_back({a, b, angle});
     }
   return pairs;
-}
-
-double angle_between_planes(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
 }
 
 }  // namespace stackabilization::detail

@@ -39,7 +39,4 @@ struct ParallelFaces {
 };
 std::vector<ParallelFaces> parallel_faces(const Shape& shape, const std::vector<FlatFace>& faces);
 
-/// Returns the angle between two planes from their normals of any length, radians, in [0, pi / 2].
-double angle_between_planes(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
-
 }  // namespace stackabilization::detail

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angles.h"
 #include "core/index.h"
 #include "mesh/surface_moments.h"
 #include "stackabilization/improvement/tolerances.h"
@@ -86,8 +87,8 @@ void PartForms::measure_faces(const Shape& now, int part, std::vector<QualityVal
   QualityValue &flatness = values[4], &parallelism = values[5];
   for (const FlatFace& face : form.faces) worsen(flatness, face.deviation_on(now) - face.deviation, part);
   for (const ParallelFaces& pair : form.parallel) {
-    const double angle = angle_between_planes(form.faces[pair.first].area_vector(now),
-                                              form.faces[pair.second].area_vector(now));
+    const double angle = angle_between_lines(form.faces[pair.first].area_vector(now),
+                                             form.faces[pair.second].area_vector(now));
     worsen(parallelism, (angle - pair.angle) * degrees_per_radian, part);
   }
 }

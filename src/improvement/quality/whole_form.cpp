@@ -8,12 +8,14 @@
 #include <numeric>
 #include <optional>
 
+#include "core/angles.h"
 #include "core/disjoint_sets.h"
 #include "core/index.h"
 #include "mesh/edge_table.h"
 #include "mesh/surface_index.h"
 #include "mesh/surface_moments.h"
 #include "stackabilization/improvement/tolerances.h"
+#include "stackabilization/structure/tolerances.h"
 #include "structure/segmentation/surface_graph.h"
 
 namespace stackabilization::detail {
@@ -23,9 +25,6 @@ namespace {
 constexpr int marks_of_whole = 600;
 /// Largest tilt of a seat at rest, as a cosine.
 constexpr double level = 0.985;
-
-/// Cosine of the angle from which on two planes are the same.
-constexpr double same_direction = 0.999;
 
 /// Returns whether no relation of the parts has a symmetry, while relations have others in its place: the
 /// diagonals of a square, and with them its quarter turns, since a square table may become a rectangular one.
@@ -40,10 +39,10 @@ bool may_be_lost(const Symmetry& symmetry, const Structure& structure) {
     const double cosine = std::abs(plane.axis.dot(symmetry.axis));
     const double offset = std::abs(plane.axis.dot(plane.point - symmetry.point)) / structure.diagonal;
     if (offset > tolerance::quality::same_plane) continue;
-    if (symmetry.kind == SymmetryKind::reflection && cosine >= same_direction) return false;
+    if (symmetry.kind == SymmetryKind::reflection && cosine >= tolerance::aligned) return false;
     other = other || (symmetry.kind == SymmetryKind::reflection
                           ? relation.type == RelationType::symmetry
-                          : cosine * cosine <= 1 - same_direction * same_direction);
+                          : cosine * cosine <= 1 - tolerance::aligned * tolerance::aligned);
   }
   return other;
 }
@@ -148,7 +147,7 @@ QualityValue WholeForm::symmetry(const Shape& now) const {
 }
 
 double WholeForm::tilt_of(const FlatFace& face, const Shape& shape) const {
-  return angle_between_planes(face.area_vector(shape), up_);
+  return angle_between_lines(face.area_vector(shape), up_);
 }
 
 double WholeForm::height_of(const FlatFace& face, const Shape& shape, double ground) const {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/angles.h"
 #include "deformation/model/straight_curve.h"
 #include "improvement/contacts/contact_handles.h"
 #include "improvement/contacts/contact_side.h"
@@ -22,7 +23,7 @@ using namespace detail;
 /// Returns +1 or -1 if the vectors lie on one line through 0, equally or oppositely directed, within
 /// tolerance::relation; else 0.
 int same_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  if (a.cross(b).norm() > tolerance::relation * a.norm() * b.norm()) return 0;
+  if (!on_one_line(a, b, tolerance::relation)) return 0;
   return a.dot(b) < 0 ? -1 : 1;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "core/angles.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/stacking/bundle_ascent.h"
 #include "stackabilization/stacking/direction_region.h"
@@ -25,7 +26,7 @@ constexpr double samples_per_half_angle = 4;
 constexpr double last_step = 0.01;
 
 bool are_parallel(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return a.cross(b).norm() <= tolerance::same_symmetry;
+  return on_one_line(a, b, tolerance::same_symmetry);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "core/angles.h"
 #include "mesh/surface_moments.h"
 #include "stackabilization/core/tolerances.h"
 
@@ -20,7 +20,7 @@ constexpr std::size_t crossed = 8;           ///< of each kind are paired for di
 using Lines = std::vector<Eigen::Vector3d>;
 
 bool same_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return a.cross(b).norm() < tolerance::relative;
+  return detail::on_one_line(a, b, tolerance::relative);
 }
 
 /// Appends unit vectors, up to `limit`, whose lines are neither in `known` nor in `lines`.

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/angles.h"
 #include "envelope/separation/separation_over_cone.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
@@ -90,9 +91,7 @@ class BranchAndBound {
   bool outside(const DirectionCell& cell) const {
     const Eigen::Vector3d middle = cell.middle();
     const double margin = cell.radius() + tolerance::relative;
-    const auto angle = [&](const Eigen::Vector3d& a) {
-      return std::atan2(middle.cross(a).norm(), std::abs(middle.dot(a)));
-    };
+    const auto angle = [&](const Eigen::Vector3d& a) { return detail::angle_between_lines(middle, a); };
     if (options_.cone && angle(axis_) > options_.cone->half_angle + margin) return true;
     return options_.plane_normal && std::numbers::pi / 2 - angle(normal_) > margin;
   }

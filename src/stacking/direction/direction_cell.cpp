@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/angles.h"
 #include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {
@@ -30,8 +31,7 @@ std::array<Eigen::Vector3d, 4> DirectionCell::corners() const {
 double DirectionCell::radius() const {
   const Eigen::Vector3d from = middle();
   double largest = 0;
-  for (const Eigen::Vector3d& corner : corners())
-    largest = std::max(largest, std::atan2(from.cross(corner).norm(), from.dot(corner)));
+  for (const Eigen::Vector3d& corner : corners()) largest = std::max(largest, angle_between(from, corner));
   return largest * (1 + tolerance::product_rounding) + tolerance::product_rounding;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angles.h"
 #include "stackabilization/core/direction.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
@@ -12,10 +13,6 @@
 namespace stackabilization {
 
 namespace {
-
-double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return std::atan2(a.cross(b).norm(), a.dot(b));
-}
 
 /// Points of a Fibonacci lattice on the cap around `axis`.
 std::vector<Eigen::Vector3d> cap(const Eigen::Vector3d& axis, double half_angle, double spacing) {
@@ -58,7 +55,7 @@ std::optional<Eigen::Vector3d> DirectionRegion::member(const Eigen::Vector3d& ve
   const Eigen::Vector3d result = with_sign(Direction(vector).vector());
   if (plane_normal_ && std::abs(result.dot(*plane_normal_)) > tolerance::relative * result.norm())
     return std::nullopt;
-  if (cone_ && angle_between(result, cone_->axis) > cone_->half_angle + tolerance::relative)
+  if (cone_ && detail::angle_between(result, cone_->axis) > cone_->half_angle + tolerance::relative)
     return std::nullopt;
   return result;
 }
@@ -71,7 +68,7 @@ std::optional<Eigen::Vector3d> DirectionRegion::nearest(const Eigen::Vector3d& v
     return member(projected.normalized());
   }
   const Eigen::Vector3d unit = with_sign(vector.normalized());
-  if (angle_between(unit, cone_->axis) <= cone_->half_angle) return unit;
+  if (detail::angle_between(unit, cone_->axis) <= cone_->half_angle) return unit;
   const Eigen::Vector3d away = (unit - cone_->axis * cone_->axis.dot(unit)).normalized();
   return cone_->axis * std::cos(cone_->half_angle) + away * std::sin(cone_->half_angle);
 }

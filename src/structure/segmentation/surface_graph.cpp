@@ -8,6 +8,7 @@
 #include <numbers>
 #include <span>
 
+#include "core/angles.h"
 #include "core/disjoint_sets.h"
 #include "core/index.h"
 #include "mesh/edge_table.h"
@@ -111,7 +112,7 @@ void GraphBuilder::turn_outward() {
 double GraphBuilder::bend(const TriangleSide& a, const TriangleSide& b) const {
   const Eigen::Vector3d n = graph_.normals.row(a.triangle), m = graph_.normals.row(b.triangle);
   if (n.isZero(0) || m.isZero(0)) return 0;
-  const double angle = std::atan2(n.cross(m).norm(), n.dot(m));
+  const double angle = angle_between(n, m);
   const Eigen::Vector3d across =
       (graph_.centres.row(b.triangle) - graph_.centres.row(a.triangle)).transpose();
   return across.dot(n - m) <= 0 ? angle : -angle;
