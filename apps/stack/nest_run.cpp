@@ -3,21 +3,13 @@
 #include "apps/common/output.h"
 #include "apps/common/rendering.h"
 #include "apps/stack/stack_run.h"
-#include "stackabilization/mesh/boxes.h"
 #include "stackabilization/stacking/nest.h"
 
 namespace stackabilization::apps {
 
 namespace {
 
-/// Boxes of the two objects and of both together, as in Eq. 4.
-struct Boxes {
-  double apart = 0;     ///< sum of the two boxes, model units cubed
-  double together = 0;  ///< box of both, nested
-};
-
-void add_nest(Json& document, const StackCommandOptions& options, const NestResult& result,
-              const Boxes& boxes) {
+void add_nest(Json& document, const StackCommandOptions& options, const NestResult& result) {
   document["semantics"] = name_of(options.stackability.semantics);
   document["boxes"] = name_of(options.stackability.boxes);
   document["n"] = 2;
@@ -31,9 +23,9 @@ void add_nest(Json& document, const StackCommandOptions& options, const NestResu
   document["content_height"] = result.content_height;
   document["height"] = result.total_height;
   document["saving"] = result.saving;
-  document["box_volume"] = boxes.apart;
-  document["stack_volume"] = boxes.together;
-  document["stackability"] = boxes.apart > 0 ? Json(1 - boxes.together / boxes.apart) : Json(nullptr);
+  document["box_volume"] = result.box_volume;
+  document["stack_volume"] = result.stack_box_volume;
+  document["stackability"] = to_json(result.stackability());
   document["conflicts"] = Json::array();
 }
 
@@ -65,26 +57,22 @@ int run_nest(const CLI::App& command, const StackCommandOptions& options) {
   nesting.semantics = options.stackability.semantics;
   nesting.clearance = play.clearance;
   nesting.play = play.lateral;
+  nesting.boxes = options.stackability.boxes;
   const NestResult result = nest(container.shape, content.shape, direction, nesting);
-  const Shape lowered =
-      transformed(content.shape, Eigen::Matrix3d::Identity(), result.offset.to_double() * direction.vector());
-  const Shape both = concatenate(container.shape, lowered);
-  const BoxModel model = options.stackability.boxes;
-  const auto volume = [model](const Shape& shape) { return box_volume(HullSupport(shape), model); };
-  const Boxes boxes{volume(container.shape) + volume(content.shape), volume(both)};
 
   Json document = document_head(command, content);
   document["into"] = container.name;
   document["direction"] = to_json(direction.vector());
   document["clearance"] = play.clearance;
   document["lateral_clearance"] = play.lateral;
-  add_nest(document, options, result, boxes);
+  add_nest(document, options, result);
   add_document_tail(document, options.common, content, watch);
-  if (options.output) write_mesh_output(options.common, *options.output, both);
+  if (options.output)
+    write_mesh_output(options.common, *options.output, concatenate(container.shape, result.content));
   if (options.picture) {
     const std::string note = "nesting saves " + quantity(result.saving, content.shape.unit) + " of height";
     write_stack_picture({*options.picture, title_of(content) + " in " + title_of(container)},
-                        {{container.shape, lowered}, direction, {note}});
+                        {{container.shape, result.content}, direction, {note}});
   }
   deliver(options.common, document,
           options.common.quiet ? exact_digits(result.offset_length) + "\n"

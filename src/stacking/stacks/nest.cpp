@@ -11,6 +11,11 @@
 
 namespace stackabilization {
 
+std::optional<double> NestResult::stackability() const {
+  if (!(box_volume > 0)) return std::nullopt;
+  return 1 - stack_box_volume / box_volume;
+}
+
 NestResult nest(const Shape& container, const Shape& content, const Direction& direction,
                 const NestOptions& options) {
   if (!(options.clearance >= 0 && options.clearance <= tolerance::max_coordinate))
@@ -38,6 +43,11 @@ NestResult nest(const Shape& container, const Shape& content, const Direction& d
   const Rational top = std::max(below.top, above.top + result.offset);
   result.total_height = (top - below.bottom).to_double() * unit;
   result.saving = result.container_height + result.content_height - result.total_height;
+  const auto volume = [&](const Shape& shape) { return box_volume(HullSupport(shape), options.boxes); };
+  result.content =
+      transformed(content, Eigen::Matrix3d::Identity(), result.offset.to_double() * direction.vector());
+  result.box_volume = volume(container) + volume(content);
+  result.stack_box_volume = volume(concatenate(container, result.content));
   return result;
 }
 

@@ -1,3 +1,5 @@
+#include <Eigen/Geometry>
+
 #include "stackabilization/core/errors.h"
 #include "stackabilization/stacking/nest.h"
 #include "support/catch.h"
@@ -27,6 +29,23 @@ TEST_CASE("a box that fits sinks to the bottom of a crate") {
   CHECK_FALSE(nested.on_floor);
   CHECK(nested.total_height == 6);
   CHECK(nested.saving == 3);
+  CHECK(nested.content.vertices.col(2).minCoeff() == 1);
+  CHECK(nested.box_volume == Approx(6 * 6 * 6 + 4 * 4 * 3));
+  CHECK(nested.stack_box_volume == Approx(6 * 6 * 6));
+  CHECK(*nested.stackability() == Approx(48. / 264));
+}
+
+TEST_CASE("boxes of a nest are of the model asked for, and sheets have no S") {
+  Shape sheet = solids::box({3, 3, 1});
+  sheet.vertices.col(2).setZero();
+  const NestResult flat = nest(sheet, sheet, twice_up);
+  CHECK(flat.box_volume == 0);
+  CHECK_FALSE(flat.stackability().has_value());
+  Shape turned = solids::box({-1, -1, 0}, {1, 1, 2});
+  turned = transformed(turned, Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
+                       Eigen::Vector3d::Zero());
+  CHECK(nest(turned, turned, twice_up).box_volume == Approx(16));
+  CHECK(nest(turned, turned, twice_up, {.boxes = BoxModel::frame}).box_volume > 16.1);
 }
 
 TEST_CASE("a box too wide, or without its play, stays on the rim") {
