@@ -71,6 +71,10 @@ struct Project {
 /// Throws InputError when the shape is invalid, or when the history could not be read back.
 std::string project_text(const Project& project);
 
+/// Returns an edit as JSON, in the form that is shown above. Throws InputError when it is an edit of a part
+/// that is no row of `part_names`.
+std::string edit_json(const Edit& edit, const std::vector<std::string>& part_names);
+
 /// Reads a project file with its history, if it has one. Throws InputError as `project_of_text`, with places
 /// such as "/history/nodes/2/parent", for unknown keys, parents that do not come before their children, parts
 /// and handles that the shape does not have, numbers that are not finite, and factors that are not positive.

@@ -164,6 +164,10 @@ std::string history_text(const Project& project) {
 
 }  // namespace
 
+std::string edit_json(const Edit& edit, const std::vector<std::string>& part_names) {
+  return to_json(edit, part_names).dump();
+}
+
 std::string project_text(const Project& project) {
   ProjectSections sections;
   if (!project.history.nodes.empty()) sections.history = history_text(project);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/structure/project_file.h"
@@ -57,6 +58,17 @@ TEST_CASE("a history comes back from its file with every number, and is written 
   const auto& constraints = back.history.nodes.back().constraints;
   CHECK(constraints.keep_extent->vector() == Eigen::Vector3d(0.3, 1.0 / 7, -1));
   CHECK(std::signbit(std::get<Move>(back.history.nodes.back().edits[0].operation).by.y()));
+}
+
+TEST_CASE("an edit by itself has the form that it has in a history") {
+  const Project project = rich_project();
+  const auto nodes = nlohmann::ordered_json::parse(project_text(project))["history"]["nodes"];
+  for (std::size_t k = 0; k < project.history.nodes.size(); ++k) {
+    const std::vector<Edit>& edits = project.history.nodes[k].edits;
+    for (std::size_t e = 0; e < edits.size(); ++e)
+      CHECK(edit_json(edits[e], project.rest.shape.part_names) == nodes[k]["edits"][e].dump());
+  }
+  CHECK_THROWS_AS(edit_json(project.history.nodes.back().edits[0], {}), InputError);
 }
 
 TEST_CASE("a project without a history stays what it was, and readers of the shape pass over one") {
