@@ -1,17 +1,20 @@
 """Checksums of what the program answers and writes, so that a change of the code is seen to change no result.
 
-    golden.py PROGRAM [--models FOLDER ...] [--only NAME ...] [--threads N ...] (--write FILE | --check FILE | --alike)
+    golden.py PROGRAM [--models FOLDER ...] [--only NAME ...] [--commands NAME ...] [--threads N ...] [--load N]
+              (--write FILE | --check FILE | --alike)
 
 Every command is run on every mesh of the folders (without one: the shipped models), without a limit of time, from
 inside the folder, so that no path is part of an answer. --write keeps the checksums of all JSON, meshes and tables;
 --check compares with those that were kept, and says what differs, is missing or new. With several --threads all counts
-must give the same bytes; --alike checks that alone. Status 1 where anything differs.
+must give the same bytes; --alike checks that alone. With --load the runs with all but the first number of threads have
+so many busy processes beside them, which must change nothing either. Status 1 where anything differs.
 
 The last digits depend on the compiler and the libraries: a file of checksums begins with both, and is compared only
 where they are the same.
 """
 
 import argparse
+import contextlib
 import hashlib
 import json
 import platform
@@ -23,7 +26,7 @@ from pathlib import Path
 SUFFIXES = {".obj", ".off", ".ply", ".stl", ".3mf", ".glb", ".gltf"}
 SHIPPED = Path(__file__).resolve().parents[2] / "data" / "models"
 SEARCH = ["--target", "0.6", "--expansions", "4", "--no-pictures", "-o", "OUT"]
-# OUT stands for a folder or, with a suffix, for a file, of its own.
+# OUT stands for a folder or, with a suffix, for a file, of its own; MODEL for the model itself.
 COMMANDS = {
     "inspect": ["inspect"],
     "measure": ["measure", "--direction", "0.3", "-0.2", "1"],
@@ -32,6 +35,10 @@ COMMANDS = {
     "map": ["map", "--step-degrees", "30", "-o", "OUT.csv"],
     "stack": ["stack", "-n", "3", "-o", "OUT.obj"],
     "validate": ["validate"],
+    "gap": ["gap", "MODEL", "--direction", "0.1", "0", "1"],
+    "draft": ["draft"],
+    "items": ["items", "-o", "OUT.csv"],
+    "compare": ["compare", "MODEL"],
     "structure": ["structure", "--save", "OUT.json"],
     "deform": ["deform", "--edit", "FIRST scale 1.05 along 0 0 1", "-o", "OUT.ply"],
     "deform_surface": ["deform", "--model", "surface", "--edit", "shape scale 1.05 along 1 0 0", "-o", "OUT.ply"],
@@ -61,14 +68,29 @@ def first_part(program, model):
         return "shape"
 
 
-def answers(program, model, threads, keep=None):
-    """The checksum of everything that all commands give, by command and file. `keep`: folder for all of that."""
+@contextlib.contextmanager
+def busy(count):
+    """So many processes that take what processor time they get."""
+    loops = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(count)]
+    try:
+        yield
+    finally:
+        for loop in loops:
+            loop.kill()
+            loop.wait()
+
+
+def answers(program, model, threads, commands, keep=None):
+    """The checksum of everything that the commands give, by command and file. `keep`: folder for all of that."""
     found = {}
     first = first_part(program, model)
-    for name, words in COMMANDS.items():
+    for name in commands:
         with tempfile.TemporaryDirectory() as folder:
             out = Path(folder)
-            words = [word.replace("OUT", str(out / "out")).replace("FIRST", first) for word in words]
+            stands_for = {"OUT": str(out / "out"), "FIRST": first, "MODEL": model.name}
+            words = list(COMMANDS[name])
+            for mark, text in stands_for.items():
+                words = [word.replace(mark, text) for word in words]
             line = [program, words[0], model.name, *words[1:], "--threads", str(threads), "--quiet",
                     "--no-timing", "--json", str(out / "answer.json")]
             run = subprocess.run(line, capture_output=True, cwd=model.parent)
@@ -102,7 +124,10 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--models", nargs="+", type=Path, default=[SHIPPED])
     parser.add_argument("--only", nargs="+", help="names of models, without suffix")
+    parser.add_argument("--commands", nargs="+", choices=COMMANDS, default=list(COMMANDS), metavar="NAME",
+                        help="those of " + ", ".join(COMMANDS))
     parser.add_argument("--threads", nargs="+", type=int, default=[1, 2])
+    parser.add_argument("--load", type=int, default=0)
     parser.add_argument("--keep", type=Path, help="folder for the answers and files, to see what differs")
     how = parser.add_mutually_exclusive_group(required=True)
     how.add_argument("--write", type=Path)
@@ -126,7 +151,10 @@ def main():
     good = True
     all_found = {}
     for model in models:
-        by_threads = {threads: answers(program, model, threads, options.keep) for threads in options.threads}
+        by_threads = {}
+        for threads in options.threads:
+            with busy(options.load if by_threads else 0):
+                by_threads[threads] = answers(program, model, threads, options.commands, options.keep)
         found = by_threads[options.threads[0]]
         for threads, others in by_threads.items():
             good &= compare({f"{model.name}/{key}": value for key, value in found.items()},
