@@ -44,7 +44,9 @@ class SuggestionScorer {
     return meter_.energy(design, measured.value - at_rest_);
   }
 
-  double excess(const Shape& shape, const Stackability& measured) const { return gap_.of(shape, measured); }
+  double excess(const Shape& shape, const Stackability& measured) const {
+    return gap_.of(shape, measured).equal;
+  }
 
   /// Fills in the effect of `suggestion.edit` on `design`.
   void score(Suggestion& suggestion, const Design& design) const {

@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 namespace stackabilization::detail {
@@ -13,6 +15,48 @@ namespace {
 
 /// Approximate number of blocks.
 constexpr int many_blocks = 96;
+
+/// Directions across r, with their opposites, along which an overlap is measured.
+constexpr int overlap_axes = 8;
+using Extents = Eigen::Matrix<double, overlap_axes, 1>;
+
+/// Smallest and largest coordinates of points across r, along each of the axes of overlaps.
+class Silhouette {
+ public:
+  explicit Silhouette(const Frame& frame) : frame_(frame) {
+    for (int k = 0; k < overlap_axes; ++k) {
+      const double angle = k * std::numbers::pi / overlap_axes;
+      axes_.row(k) << std::cos(angle), std::sin(angle);
+    }
+  }
+
+  /// Adds the part of a triangle on which sign * z >= least, z along r.
+  void add(const std::array<Eigen::Vector3d, 3>& triangle, double sign, double least) {
+    for (int corner = 0; corner < 3; ++corner) {
+      const Eigen::Vector3d from = frame_.to_local(triangle[static_cast<std::size_t>(corner)]),
+                            to = frame_.to_local(triangle[static_cast<std::size_t>((corner + 1) % 3)]);
+      const double above = sign * from.z() - least, next = sign * to.z() - least;
+      if (above >= 0) add(from.head<2>());
+      if ((above < 0) != (next < 0)) add((from + above / (above - next) * (to - from)).head<2>());
+    }
+  }
+
+  /// Returns the least distance by which `other` has to move along one of the axes, either way, to pass.
+  double overlap(const Silhouette& other) const {
+    return std::min((high_ - other.low_).minCoeff(), (other.high_ - low_).minCoeff());
+  }
+
+ private:
+  void add(const Eigen::Vector2d& point) {
+    const Extents at = axes_ * point;
+    low_ = low_.cwiseMin(at);
+    high_ = high_.cwiseMax(at);
+  }
+
+  const Frame& frame_;
+  Eigen::Matrix<double, overlap_axes, 2> axes_;
+  Extents low_ = Extents::Constant(std::numeric_limits<double>::infinity()), high_ = -low_;
+};
 
 }  // namespace
 
@@ -84,6 +128,18 @@ BlockSeparation BlockSeparations::separation(const Placed& upper, const Placed& 
   return {true, (enclosure.lower + enclosure.upper) / 2 * direction_.length()};
 }
 
+double BlockSeparations::overlap(const Placed& upper, const Placed& lower, double lift) const {
+  const auto silhouette = [&](const Shape& block, double sign, double least) {
+    Silhouette result(frame_);
+    for (Eigen::Index t = 0; t + 1 < block.triangle_count(); ++t)  // the last one is the anchor
+      result.add({block.corner(t, 0), block.corner(t, 1), block.corner(t, 2)}, sign, least);
+    return result;
+  };
+  const Silhouette below = silhouette(upper.shape, 1, lower.box.min().z() + lift),
+                   above = silhouette(lower.shape, -1, lift - upper.box.max().z());
+  return std::max(0.0, below.overlap(above));
+}
+
 std::vector<BlockPair> BlockSeparations::pairs_above(const Shape& shape, double least) const {
   const int count = static_cast<int>(blocks_.size());
   const Eigen::Vector3d at = anchor(shape);
@@ -103,7 +159,8 @@ std::vector<BlockPair> BlockSeparations::pairs_above(const Shape& shape, double 
                          (lower.min().head<2>().array() > upper.max().head<2>().array()).any();
       if (apart || upper.max().z() - lower.min().z() < least) continue;
       const BlockSeparation between = separation(with_tree(a), with_tree(b));
-      if (between.blocked && between.f >= least) pairs.push_back({a, b, between.f});
+      if (between.blocked && between.f >= least)
+        pairs.push_back({a, b, between.f, overlap(with_tree(a), with_tree(b), least)});
     }
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const BlockPair& a, const BlockPair& b) { return a.f > b.f; });

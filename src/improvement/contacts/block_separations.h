@@ -14,6 +14,10 @@ namespace stackabilization::detail {
 struct BlockPair {
   int upper = 0, lower = 0;
   double f = 0;  ///< separation of the two blocks when the pair was found, model units
+  /// Least distance, model units, by which the lower block has to move across r so that the pair is no longer
+  /// in the way above the separation that was asked for. An estimate: that of the convex hulls of what meets
+  /// there, over some directions across r.
+  double overlap = 0;
 };
 
 /// Separation of a pair of blocks.
@@ -36,7 +40,7 @@ class BlockSeparations {
                    int max_slabs = 12);
 
   /// Returns the blocked pairs whose separation in `shape` is at least `least` (model units), largest
-  /// separation first. `shape` must have the triangles of `rest`.
+  /// separation first, with their overlaps. `shape` must have the triangles of `rest`.
   std::vector<BlockPair> pairs_above(const Shape& shape, double least) const;
   /// Computes the separation of each of `pairs` in `shape`.
   std::vector<BlockSeparation> separations(const Shape& shape, const std::vector<BlockPair>& pairs) const;
@@ -57,6 +61,8 @@ class BlockSeparations {
   Eigen::Vector3d anchor(const Shape& shape) const;
   Placed placed(const Shape& shape, int block, const Eigen::Vector3d& anchor) const;
   BlockSeparation separation(const Placed& upper, const Placed& lower) const;
+  /// Returns BlockPair::overlap of two blocks for copies at a distance of `lift`, model units.
+  double overlap(const Placed& upper, const Placed& lower, double lift) const;
 
   std::vector<Block> blocks_;
   Direction direction_;

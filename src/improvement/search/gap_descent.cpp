@@ -39,20 +39,25 @@ class Pursuit {
   }
 
   GapDescentResult run() {
-    for (int step = 0; step < options_.steps && now_.excess > 0; ++step)
+    for (int step = 0; step < options_.steps && excess(now_) > 0; ++step)
       if (stopped_here() || !advance()) break;
-    return {std::move(now_.candidate), evaluations_};
+    return {std::move(now_.candidate), now_.excess.equal, stuck_, evaluations_};
   }
 
  private:
   struct State {
     Candidate candidate;
-    double excess = 0;  ///< summed excess of all pairs of blocks, fraction of the extent
+    detail::SummedExcess excess;
   };
+
+  /// Returns the excess that is made small.
+  double excess(const State& state) const {
+    return options_.measure == GapMeasure::equal ? state.excess.equal : state.excess.by_overlap;
+  }
 
   /// Returns D + F / F_now, see `descend_gaps`.
   double merit(const State& state) const {
-    return state.candidate.energy.distortion.total() + state.excess / now_.excess;
+    return state.candidate.energy.distortion.total() + excess(state) / excess(now_);
   }
 
   /// Returns the edits that regions with f above the allowed separation suggest.
@@ -93,7 +98,8 @@ class Pursuit {
     std::optional<std::size_t> best;
     for (std::size_t k = 0; k < made.size(); ++k)
       if (made[k] && merit(*made[k]) < (best ? merit(*made[*best]) : before)) best = k;
-    if (!best) return false;
+    stuck_ = !best;
+    if (stuck_) return false;
     Candidate& next = made[*best]->candidate;
     next.direction = now_.candidate.direction;
     next.reasons = now_.candidate.reasons;
@@ -114,6 +120,7 @@ class Pursuit {
   detail::GapExcess gap_;
   double at_rest_;
   State now_;
+  bool stuck_ = false;
   std::int64_t evaluations_ = 0;
 };
 

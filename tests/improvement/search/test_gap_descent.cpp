@@ -1,7 +1,9 @@
 // Proportions of designs, and the pursuit of all contacts at once.
 #include <cmath>
+#include <string>
 #include <variant>
 
+#include "improvement/contacts/gap_excess.h"
 #include "improvement/requirements/size_ratios.h"
 #include "improvement/search/gap_descent.h"
 #include "stackabilization/deformation/factory.h"
@@ -93,9 +95,37 @@ TEST_CASE("a pursuit frees every contact of one height, where one edit alone wou
   options = {};
   options.steps = 1;
   CHECK(descend_gaps(checker, start, options).candidate.design.edits.size() == 1);
+  CHECK_FALSE(descend_gaps(checker, start, options).stuck);
+  CHECK(descend_gaps(checker, start, options).excess > 0);
+  CHECK(result.excess == 0);
   options.cancelled = [] { return true; };
   CHECK(descend_gaps(checker, start, options).candidate.design.edits.empty());
   Requirements met = wanted;
   met.target = -1;
   CHECK(descend_gaps(RequirementChecker(*space, met), start).candidate.design.edits.empty());
+}
+
+TEST_CASE("a pair counts by the portion of its overlap that is left") {
+  // Legs from 3.1 to 3.9 under a top that ends at 4: each has to move out by 0.9 to pass the top below.
+  const designs::Still space(structures::table());
+  const RequirementChecker checker(space, designs::frame_requirements(0.05));
+  const Direction up(0, 0, 1);
+  const detail::GapExcess gap(checker, up);
+  const double excess = 4 * (6 - 0.95 * 6) / 6;  // of four legs that stand on the top, 6 above the ground
+  for (const double move : {0.0, 0.3, 0.6, 0.89, 0.95}) {
+    Shape moved = space.rest().shape;
+    for (Eigen::Index t = 0; t < moved.triangle_count(); ++t) {
+      const std::string& name =
+          moved.part_names[static_cast<std::size_t>(moved.triangle_part[static_cast<std::size_t>(t)])];
+      if (name.find("leg") != 0) continue;
+      for (const std::int32_t v : moved.triangles.row(t)) {
+        const double x = space.rest().shape.vertices(v, 0);
+        moved.vertices(v, 0) = x + (x < 0 ? -move : move);
+      }
+    }
+    const detail::SummedExcess found = gap.of(moved, checker.measure(moved, up));
+    INFO(move);
+    CHECK(found.equal == Approx(move < 0.9 ? excess : 0).margin(1e-9));
+    CHECK(found.by_overlap == Approx(move < 0.9 ? excess * (1 - move / 0.9) : 0).margin(1e-9));
+  }
 }
