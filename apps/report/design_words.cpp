@@ -1,10 +1,14 @@
 #include "apps/report/design_words.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "apps/common/text.h"
 #include "apps/report/page.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/improvement/tolerances.h"
 
 namespace stackabilization::apps {
 
@@ -12,6 +16,9 @@ namespace {
 
 /// Measures of quality that use less than half of their limit are in the JSON only; see `violation`.
 constexpr double near_limit = -0.05;
+
+/// A stack that drifts by less than this portion of its height is straight to the eye.
+constexpr double seen_drift = 1e-3;
 
 }  // namespace
 
@@ -27,10 +34,20 @@ std::string saving_text(const StackHeights& stack, Unit unit) {
          ", " + (share == percent(0) ? "about as high" : share + (saved < 0 ? " more" : " less"));
 }
 
+std::string lean_text(const Stackability& measured, int copies, Unit unit) {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const double lean = std::acos(std::clamp(up.dot(measured.direction.normalized()), -1.0, 1.0)),
+               drift = measured.stack_drift(copies);
+  if (lean > tolerance::max_lean || drift <= seen_drift * measured.stack_height(copies)) return "";
+  return " The stack leans by " + significant_text(lean * 180 / std::numbers::pi, 2) +
+         " degrees: the last copy stands " + quantity(drift, unit) + " beside the first.";
+}
+
 std::string headline_text(const Stackability& before, const Stackability& after, const StackHeights& stack,
                           Unit unit) {
   return "Each further copy adds " + quantity(after.f_max, unit) + " instead of " +
-         quantity(before.f_max, unit) + ". " + saving_text(stack, unit) + ".";
+         quantity(before.f_max, unit) + ". " + saving_text(stack, unit) + "." +
+         lean_text(after, stack.copies, unit);
 }
 
 std::vector<std::string> edit_lines(const std::vector<Edit>& edits,

@@ -22,7 +22,11 @@ struct StackHeights {
 
 /// "5 copies: 2.1 m high instead of 4.5 m, 53.3 % less"
 std::string saving_text(const StackHeights& stack, Unit unit);
-/// "Each further copy adds 0.2 m instead of 0.8 m. 5 copies: 1.6 m high instead of 4 m, 60 % less."
+/// " The stack leans by 3 degrees: the last copy stands 7 cm beside the first.", of objects that stand in it,
+/// with z upwards; empty where it goes straight up.
+std::string lean_text(const Stackability& measured, int copies, Unit unit);
+/// "Each further copy adds 0.2 m instead of 0.8 m. 5 copies: 1.6 m high instead of 4 m, 60 % less.", and how
+/// far a stack leans that does not go straight up.
 std::string headline_text(const Stackability& before, const Stackability& after, const StackHeights& stack,
                           Unit unit);
 /// What was edited, a line per edit; one line that says so when nothing was.

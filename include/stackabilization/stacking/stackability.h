@@ -51,6 +51,11 @@ struct Stackability {
   /// Returns the height along r of a stack of `copies` copies, h + (copies - 1) f_max, model units.
   /// Precondition: copies >= 1.
   double stack_height(int copies) const { return extent + (copies - 1) * f_max; }
+  /// Returns by how far the last of `copies` copies stands beside the first, with z upwards, model units: 0
+  /// along the z axis. Precondition: copies >= 1.
+  double stack_drift(int copies) const {
+    return (copies - 1) * f_max * direction.head<2>().norm() / direction.norm();
+  }
   double stack_box_volume() const { return extent * base; }  ///< V(M, r)
   /// Returns S for the translation f, model units: 1 - (f / h) V(M, r) / V(M), Eq. 3; NaN if V(M) = 0.
   double value_at(double f) const;

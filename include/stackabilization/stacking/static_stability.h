@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "stackabilization/core/direction.h"
 #include "stackabilization/core/shape.h"
@@ -14,10 +15,11 @@ struct StaticStabilityOptions {
   ContactSemantics semantics = ContactSemantics::solid;  ///< semantics of the f_max between copies
   /// Points within this distance of the contact support the copy, fraction of the extent h, in (0, 1).
   double band = 0.002;
+  /// Direction against gravity, of any length > 0. If empty, r.
+  std::optional<Eigen::Vector3d> up;
 };
 
-/// Static stability of a stack of copies along r. r points upwards, and the lowest copy stands on level
-/// ground.
+/// Static stability of a stack of copies along r, the lowest of which stands on level ground.
 struct StaticStability {
   bool stands = false;  ///< whether the stack is stable: the tilt is positive
   /// Tipping angle: the smallest tilt of the ground at which the stack topples, about the worst side of the
@@ -31,17 +33,18 @@ struct StaticStability {
   bool of_solid = false;
 };
 
-/// Computes the static stability of a stack. The stack topples at copy k when, seen along r, the centre of
+/// Computes the static stability of a stack. The stack topples at copy k when, seen from above, the centre of
 /// mass of copies k ... n-1 leaves the convex hull of the support of copy k. The support consists of the
 /// contacts with the copy below within the band; for copy 0, of the vertices within the band of the lowest
-/// vertex. Copies are moved by multiples of f_max along r. The tipping angle about a side of the hull is
-/// atan(d / H). d is the distance from the side to the centre of mass, seen along r. H is the height of the
-/// centre of mass above the side. The angle is 90 degrees when the centre of mass is below the side.
+/// vertex. Copies are moved by multiples of f_max along r: where r leans, the stack leans. The tipping angle
+/// about a side of the hull is atan(d / H). d is the distance from the side to the centre of mass, seen from
+/// above. H is the height of the centre of mass above the side. The angle is 90 degrees when the centre of
+/// mass is below the side.
 ///
 /// Contacts on slopes count as supports; sliding is ignored. Components of a closed surface are bodies. A
 /// component inside the box of a larger one and of opposite orientation is a cavity. Double precision. Throws
-/// UsageError for options out of range. Throws InputError when `validate(shape)` fails, the shape has no
-/// area, or its copies pass each other along r.
+/// UsageError for options out of range, and where r does not point upwards. Throws InputError when
+/// `validate(shape)` fails, the shape has no area, or its copies pass each other along r.
 StaticStability static_stability(const Shape& shape, const Direction& direction,
                                  const StaticStabilityOptions& options = {});
 

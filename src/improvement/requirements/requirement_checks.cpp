@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <set>
 #include <utility>
 
+#include "core/angles.h"
 #include "improvement/requirements/draft.h"
 #include "improvement/requirements/size_ratios.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/deformation/tolerances.h"
 #include "stackabilization/envelope/contacts.h"
+#include "stackabilization/improvement/tolerances.h"
 #include "stackabilization/stacking/static_stability.h"
 
 namespace stackabilization::detail {
@@ -33,6 +36,14 @@ double primitive_displacement(const Primitive& rest, const Primitive& now) {
     farthest = std::max(farthest,
                         (std::get<GeneralizedCylinder>(now).radii - cylinder->radii).cwiseAbs().maxCoeff());
   return farthest;
+}
+
+/// Returns up, the z axis, where the object stands in a stack along a direction; nothing where it lies, and
+/// the direction is up.
+std::optional<Eigen::Vector3d> upright(const Direction& direction) {
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  if (angle_between(direction.vector(), up) > tolerance::max_lean) return std::nullopt;
+  return up;
 }
 
 }  // namespace
@@ -202,6 +213,7 @@ Check RequirementChecks::standing(const CheckedDesign& checked) const {
   StaticStabilityOptions options;
   options.copies = *requirements_.standing_copies;
   options.semantics = requirements_.measure.semantics;
+  options.up = upright(checked.direction);
   const StaticStability stack =
       stackabilization::static_stability(checked.design.shape, checked.direction, options);
   check.value = stack.tipping_degrees;

@@ -16,14 +16,17 @@ namespace stackabilization {
 
 namespace {
 
-/// Convex hull of the support of a copy, in the frame of r: counter-clockwise corners, one or two when it is
-/// a point or a line.
+/// Convex hull of the support of a copy, in a frame that is upright: counter-clockwise corners, one or two
+/// when it is a point or a line.
 using Support = std::vector<Eigen::Vector3d>;
 
 class StaticStabilityTest {
  public:
   StaticStabilityTest(const Shape& shape, const Direction& direction, const StaticStabilityOptions& options)
-      : shape_(shape), direction_(direction), options_(options), frame_(frame_of(direction)) {
+      : shape_(shape),
+        direction_(direction),
+        options_(options),
+        frame_(frame_of(options.up ? Direction(*options.up) : direction)) {
     for (const Eigen::Vector3d& axis : {frame_.u, frame_.v, frame_.w})
       negligible_ = std::hypot(negligible_, range_along(shape, axis).length());
     negligible_ *= tolerance::relative;
@@ -108,7 +111,7 @@ StaticStability StaticStabilityTest::run() const {
   StaticStability result;
   result.centre_of_mass = mass.centre;
   result.of_solid = mass.of_solid;
-  const Eigen::Vector3d centre = frame_.to_local(mass.centre), up = Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d centre = frame_.to_local(mass.centre);
   double least = 0;
   if (options_.copies == 1) {
     least = tilt(ground(), centre);
@@ -118,14 +121,13 @@ StaticStability StaticStabilityTest::run() const {
         stackabilization::separation(tree, tree, direction_, {options_.semantics, std::nullopt});
     if (!separation.blocked)
       throw InputError("copies of the shape pass each other along the direction, so none rests on another");
-    const double step = separation.length;
-    least = tilt(ground(), centre + step * (options_.copies - 1.0) / 2 * up);
+    const Eigen::Vector3d step = separation.length * frame_.to_local(direction_.unit());
+    least = tilt(ground(), centre + (options_.copies - 1.0) / 2 * step);
     const Support support = contacts(tree, separation);
     // Copies 1 ... n-1 have the same support, with fewer copies above them upwards: the extreme tilts are
     // those of the first and the last.
     for (const int copy : {1, options_.copies - 1}) {
-      const double above = step * (1.0 + options_.copies - copy) / 2;
-      const double over_contacts = tilt(support, centre + above * up);
+      const double over_contacts = tilt(support, centre + (1.0 + options_.copies - copy) / 2 * step);
       if (over_contacts < least) {
         least = over_contacts;
         result.weakest_copy = copy;
@@ -144,6 +146,8 @@ StaticStability static_stability(const Shape& shape, const Direction& direction,
   if (options.copies < 1) throw UsageError("a stack needs at least one copy");
   if (!(options.band > 0 && options.band < 1))
     throw UsageError("the band of points that carry must lie between 0 and 1");
+  if (options.up && !(options.up->dot(direction.vector()) > 0))
+    throw UsageError("a stack that stands goes upwards: its direction must not point down or sideways");
   validate(shape);
   return StaticStabilityTest(shape, direction, options).run();
 }

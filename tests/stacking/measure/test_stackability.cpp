@@ -69,6 +69,14 @@ TEST_CASE("a cube along its diagonal has S = -3") {
   CHECK(s(solids::box({1, 1, 1}), {2, 2, 2}) == Approx(-3).epsilon(1e-12));
 }
 
+TEST_CASE("a stack along a leaning direction drifts by the sine of its angle") {
+  const Stackability leaning = stackability(solids::box({1, 1, 1}), Direction(1.5, 0, 2));
+  CHECK(leaning.f_max == Approx(1.25));
+  CHECK(leaning.stack_drift(1) == 0);
+  CHECK(leaning.stack_drift(5) == Approx(4 * 0.75));
+  CHECK(stackability(solids::box({1, 1, 1}), Direction(0, 0, 2)).stack_drift(7) == 0);
+}
+
 TEST_CASE("a cup along its axis in closed form") {
   const solids::FrustumShell cup;
   const double f_max = solids::frustum_shell_f_max(cup);

@@ -41,6 +41,30 @@ TEST_CASE("n cubes topple at atan(1 / n)") {
   }
 }
 
+TEST_CASE("cubes along a leaning direction drift until they topple, with gravity straight down") {
+  const Shape cube = solids::box(Eigen::Vector3d(2, 2, 2));
+  const double lean = 0.1;  // tangent: each copy is 0.2 further to the side
+  for (const int n : {2, 5, 8, 9, 11}) {
+    StaticStabilityOptions options = standing_copies(n);
+    options.up = Eigen::Vector3d(0, 0, 3);
+    const StaticStability result = static_stability(cube, Direction(lean, 0, 1), options);
+    // Over the edge of the ground, and over the edge that the lowest two copies share.
+    const double ground = std::atan2(1 - (n - 1) * lean, n), joint = std::atan2(1 - n * lean, n - 1);
+    INFO(n);
+    CHECK(result.tipping_degrees == Approx(degrees(std::min(ground, joint))));
+    CHECK(result.stands == (n < 10));
+    CHECK(result.weakest_copy == (joint < ground ? 1 : 0));
+    // Seen along the direction nothing drifts: that was the stack on a slope.
+    options.up.reset();
+    CHECK(static_stability(cube, Direction(lean, 0, 1), options).tipping_degrees !=
+          Approx(result.tipping_degrees));
+  }
+  StaticStabilityOptions options;
+  options.up = Eigen::Vector3d(0, 0, 1);
+  CHECK_THROWS_AS(static_stability(cube, Direction(1, 0, 0), options), UsageError);
+  CHECK_THROWS_AS(static_stability(cube, Direction(0, 0, -1), options), UsageError);
+}
+
 TEST_CASE("a blade topples over its ends, whatever rounding makes of its edge") {
   // Wedges on an edge along x from 0 to 1, their centre of mass beyond it at x = 2.
   for (const double bend : {0.0, 1e-16, 1e-13, 1e-10}) {
