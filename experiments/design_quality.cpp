@@ -60,11 +60,10 @@ void ask(const ModelFile& file, const StructuredShape& model, const std::string&
   const double at_rest = stackability(model.shape, upwards, requirements.measure).value;
   requirements.target = std::min(highest_target, at_rest + gain);
   ImprovementTaskOptions how;
-  how.following = Following::smooth;
   how.directions = {upwards.vector()};
   how.effort = settings.effort;
   const ImprovementTask task(model, requirements, how);
-  ImprovementOptions options = smooth_improvement();
+  ImprovementOptions options = improvement_options(task);
   options.effort = settings.effort;
   const double start = now();
   const Improvement found = improve(task, options);

@@ -64,7 +64,8 @@ class Writer {
     write_mesh(mesh, design.shape);
     write_mesh(solution.name + ".3mf", design.shape);
     write(solution.name + std::string(project_suffix), project_text(rebase(report_.task.rest(), design)));
-    solution.written = check_written(read_shape(folder_ / mesh), report_.task, solution);
+    solution.written = confirm(report_.task.checker(), read_shape(folder_ / mesh), solution.direction(),
+                               solution.assessment);
   }
 
   void write_pictures(const SolutionReport& solution) {
@@ -119,10 +120,11 @@ class Writer {
   void draw(const SolutionReport& solution) {
     const StructuredShape& rest = report_.task.rest();
     const Shape& after = solution.candidate.design.shape;
-    const ContactSemantics semantics = report_.options.measure.semantics;
+    ContactOptions options;
+    options.semantics = report_.options.measure.semantics;
     const std::vector<ContactRegion> contacts_before =
-        contacts_along(rest.shape, solution.direction(), semantics);
-    const std::vector<ContactRegion> contacts = contacts_along(after, solution.direction(), semantics);
+        contact_regions(rest.shape, solution.direction(), options).regions;
+    const std::vector<ContactRegion> contacts = contact_regions(after, solution.direction(), options).regions;
     ComparedDesigns designs{{rest.shape, solution.before, contacts_before},
                             {after, solution.assessment.measured, contacts},
                             explanation_lines(solution.explanation, max_notes)};
@@ -194,7 +196,8 @@ void write_solutions(ImproveReport& report, Writer& writer) {
 void hand_over_solutions(ImproveReport& report, Caller& caller) {
   const auto hand_over = [&](SolutionReport& solution) {
     const Design& design = solution.candidate.design;
-    solution.written = check_written(design.shape, report.task, solution);
+    solution.written =
+        confirm(report.task.checker(), design.shape, solution.direction(), solution.assessment);
     caller.written_meshes[solution.name] = design.shape;
     caller.written_texts[solution.name] = project_text(rebase(report.task.rest(), design));
   };

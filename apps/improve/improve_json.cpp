@@ -6,22 +6,11 @@
 #include "apps/common/measurement.h"
 #include "apps/common/structure_report.h"
 #include "apps/improve/improve_report.h"
+#include "stackabilization/improvement/history.h"
 
 namespace stackabilization::apps {
 
 namespace {
-
-const char* verdict_name(WrittenCheck::Verdict verdict) {
-  switch (verdict) {
-    case WrittenCheck::Verdict::agrees:
-      return "agrees";
-    case WrittenCheck::Verdict::skipped:
-      return "skipped";
-    case WrittenCheck::Verdict::disagrees:
-      return "disagrees";
-  }
-  return "";
-}
 
 const char* search_end_name(SearchEnd end) {
   switch (end) {
@@ -53,27 +42,6 @@ const char* change_measure_name(ChangeMeasure measure) {
   return "";
 }
 
-Json edit_json(const Edit& edit, const std::string& reason, const std::vector<std::string>& part_names) {
-  Json document = {{"text", edit_text(edit, part_names)},
-                   {"words", describe(edit, part_names)},
-                   {"reason", reason},
-                   {"handle", handle_text(edit.handle, part_names)}};
-  if (const auto* const move = std::get_if<Move>(&edit.operation)) {
-    document["move"] = to_json(move->by);
-  } else if (const auto* const turn = std::get_if<Rotate>(&edit.operation)) {
-    document["rotate"] = {{"axis", to_json(turn->axis)}, {"radians", turn->radians}};
-  } else if (const auto* const scale = std::get_if<Scale>(&edit.operation)) {
-    document["scale"] = {{"factor", scale->factor},
-                         {"along", scale->along ? to_json(*scale->along) : Json(nullptr)}};
-  } else if (const auto* const taper = std::get_if<Taper>(&edit.operation)) {
-    document["taper"] = {{"factor", taper->factor},
-                         {"axis", to_json(taper->axis)},
-                         {"along", taper->along ? to_json(*taper->along) : Json(nullptr)}};
-  }
-  document["falloff"] = edit.falloff == Falloff::linear ? "linear" : "gaussian";
-  return document;
-}
-
 Json edits_json(const ImproveTask& task, const Candidate& candidate) {
   Json list = Json::array();
   const std::vector<Edit>& edits = candidate.design.edits;
@@ -81,7 +49,11 @@ Json edits_json(const ImproveTask& task, const Candidate& candidate) {
     // Refinement may merge edits; then reasons and edits no longer go together.
     const bool known = candidate.reasons.size() == edits.size();
     const std::vector<std::string>& names = task.rest().shape.part_names;
-    list.push_back(edit_json(edits[i], known ? describe(candidate.reasons[i], names) : "", names));
+    Json document = {{"text", edit_text(edits[i], names)},
+                     {"words", describe(edits[i], names)},
+                     {"reason", known ? describe(candidate.reasons[i], names) : ""}};
+    document.update(Json::parse(edit_json(edits[i], names)));
+    list.push_back(std::move(document));
   }
   return list;
 }
@@ -109,8 +81,10 @@ Json requirements_json(const Assessment& assessment, const Structure& rest) {
 
 Json checks_json(const SolutionReport& solution) {
   Json list = Json::array();
-  for (const WrittenCheck& check : solution.written)
-    list.push_back({{"name", check.name}, {"verdict", verdict_name(check.verdict)}, {"note", check.note}});
+  for (const Confirmation& check : solution.written) {
+    const std::string verdict = check.verdict == Verdict::disagrees ? "disagrees" : to_string(check.verdict);
+    list.push_back({{"name", check.name}, {"verdict", verdict}, {"note", check.note}});
+  }
   return list;
 }
 
@@ -123,9 +97,13 @@ Json residuals_json(const Structure& structure, const std::vector<double>& resid
 
 Json stack_json(const SolutionReport& solution) {
   const StackHeights& stack = solution.stack;
-  Json document = {{"copies", stack.copies},        {"height_before", stack.before},
-                   {"height", stack.after},         {"saving", 1 - stack.after / stack.before},
-                   {"within", to_json(stack.room)}, {"fits", stack.fits()}};
+  Json document = {{"copies", stack.copies},
+                   {"height_before", stack.before},
+                   {"height", stack.after},
+                   {"saving", 1 - stack.after / stack.before},
+                   {"drift", solution.assessment.measured.stack_drift(stack.copies)},
+                   {"within", to_json(stack.room)},
+                   {"fits", stack.fits()}};
   if (solution.twist)
     document["twist"] = {{"degrees", solution.twist->twist_degrees},
                          {"stackability", solution.twist->stack.stackability},

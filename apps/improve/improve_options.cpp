@@ -13,8 +13,6 @@ namespace {
 
 constexpr double max_seconds = 1e9;  ///< some thirty years
 constexpr double max_effort = 1e6;   ///< about a year
-/// A direction that nobody gave may turn by so much at each edit.
-constexpr double free_cone_degrees = 10;
 constexpr int max_solutions = 20;
 /// Target of a front that goes as far as it can, and the effort for each of its targets.
 constexpr double front_target = 0.95, front_effort = 0.3;
@@ -138,16 +136,12 @@ std::optional<double> ImproveCommandOptions::wanted_target() const {
   return target || !front ? target : front_target;
 }
 
-Following following_of(const ImproveCommandOptions& options) {
-  const bool smooth = options.preset == ImprovementPreset::refined &&
-                      options.kind == DeformationKind::controllers && !options.requirements.any_quality &&
-                      !options.bends;
-  return smooth ? Following::smooth : Following::free;
+double effort_of(const ImproveCommandOptions& options) {
+  return options.effort.value_or(options.front ? front_effort : ImprovementOptions().effort);
 }
 
-ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) {
-  ImprovementOptions improvement =
-      following_of(options) == Following::smooth ? smooth_improvement() : ImprovementOptions{};
+ImprovementOptions improvement_options_of(const ImproveCommandOptions& options, const ImprovementTask& task) {
+  ImprovementOptions improvement = improvement_options(task);
   improvement.preset = options.preset;
   BestFirstOptions& search = improvement.search;
   search.alpha = options.alpha.value_or(search.alpha);
@@ -158,11 +152,8 @@ ImprovementOptions improvement_options_of(const ImproveCommandOptions& options) 
   search.edits.contacts.semantics = options.measure.semantics;
   search.solutions = options.wanted();
   search.expansions = options.expansions.value_or(search.expansions);
-  improvement.effort = options.effort.value_or(options.front ? front_effort : improvement.effort);
-  // A direction that is given is kept. So is that of a room, and gap scaling knows no other than its own.
-  const bool is_free = options.directions.empty() && !options.copies &&
-                       !capabilities_of(options.kind).edits_along_one_direction;
-  search.cone_degrees = options.cone_degrees.value_or(is_free ? free_cone_degrees : 0);
+  improvement.effort = effort_of(options);
+  search.cone_degrees = options.cone_degrees.value_or(search.cone_degrees);
   return improvement;
 }
 

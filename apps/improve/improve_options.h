@@ -8,7 +8,7 @@
 
 #include "apps/common/requirement_options.h"
 #include "apps/common/structured_model.h"
-#include "stackabilization/improvement/improve.h"
+#include "stackabilization/improvement/task.h"
 
 namespace stackabilization::apps {
 
@@ -48,9 +48,9 @@ void add_improve_options(CLI::App& command, ImproveCommandOptions& options);
 /// OutputError when it cannot be written.
 void check(const ImproveCommandOptions& options);
 
-/// How the search goes; without directions, deadline and callbacks.
-ImprovementOptions improvement_options_of(const ImproveCommandOptions& options);
-/// How parts follow an edit: smoothly where the quality of designs is looked at, unless parts may bend.
-Following following_of(const ImproveCommandOptions& options);
+/// How the search for the task goes; without directions, deadline and callbacks.
+ImprovementOptions improvement_options_of(const ImproveCommandOptions& options, const ImprovementTask& task);
+/// How much work is done at most.
+double effort_of(const ImproveCommandOptions& options);
 
 }  // namespace stackabilization::apps

@@ -64,8 +64,8 @@ std::string checks(const ImproveReport& report, const SolutionReport& solution) 
   for (const Check& check : solution.assessment.checks)
     if (check.kind != CheckKind::quality)
       text += check_entry(check.passed, check_text(check, report.task.rest().structure));
-  for (const WrittenCheck& check : solution.written) {
-    const bool agrees = check.verdict != WrittenCheck::Verdict::disagrees;
+  for (const Confirmation& check : solution.written) {
+    const bool agrees = check.verdict != Verdict::disagrees;
     text +=
         check_entry(agrees, "written mesh, " + check.name + (agrees ? ": " : " DISAGREES: ") + check.note);
   }

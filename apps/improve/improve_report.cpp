@@ -60,8 +60,8 @@ void add_solution_rows(ColumnTable& table, const SolutionReport& solution) {
 std::string complaints(const ImproveReport& report) {
   std::string text;
   for (const SolutionReport* solution : report.shown()) {
-    for (const WrittenCheck& check : solution->written)
-      if (check.verdict == WrittenCheck::Verdict::disagrees)
+    for (const Confirmation& check : solution->written)
+      if (check.verdict == Verdict::disagrees)
         text += solution->name + ".obj does NOT confirm this: " + check.name + ": " + check.note + "\n";
     if (!report.solutions.empty() && !solution->stack.fits())
       text += solution->name + ": " + saving_text(solution->stack, report.task.rest().shape.unit) +
@@ -177,7 +177,10 @@ std::string improvement_text(const ImproveReport& report) {
   text += "\n" + complaints(report);
   if (report.reached())
     text += "Reached: " + counted(static_cast<long long>(report.solutions.size()), "solution") + ". " +
-            saving_text(report.solutions.front().stack, task.rest().shape.unit) + ".\n";
+            saving_text(report.solutions.front().stack, task.rest().shape.unit) + "." +
+            lean_text(report.solutions.front().assessment.measured, report.solutions.front().stack.copies,
+                      task.rest().shape.unit) +
+            "\n";
   else if (report.solutions.empty())
     text += "Not reached.\n";
   if (const Diagnosis* const diagnosis = report.diagnosis())

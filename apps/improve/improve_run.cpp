@@ -32,9 +32,10 @@ ImprovementTaskOptions task_options(const ImproveCommandOptions& options,
                                     const std::optional<SavedSearch>& saved, const Stopwatch& watch) {
   ImprovementTaskOptions result;
   result.kind = options.kind;
-  result.following = following_of(options);
-  result.directions = options.directions.empty() && saved ? directions_of(*saved) : options.directions;
-  result.effort = improvement_options_of(options).effort;
+  if (options.bends || options.preset == ImprovementPreset::paper) result.following = Following::free;
+  result.directions = options.directions;
+  if (saved) result.chosen = directions_of(*saved);
+  result.effort = effort_of(options);
   if (options.seconds)
     result.cancelled = [&watch, end = directions_end * *options.seconds] { return watch.seconds() > end; };
   return result;
@@ -115,7 +116,7 @@ ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& 
                        const std::function<void(const ImproveRun&, const Candidate&)>& found) {
   const Caller* const caller = options.common.caller;
   ImproveRun run;
-  run.options = improvement_options_of(options);
+  run.options = improvement_options_of(options, *task.task);
   const std::filesystem::path state = state_file(options.folder);
   std::error_code error;
   if (!task.saved && !caller) std::filesystem::remove(state, error);

@@ -6,19 +6,12 @@
 
 #include "apps/improve/improve_run.h"
 #include "apps/report/design_words.h"
-#include "stackabilization/envelope/contacts.h"
+#include "stackabilization/improvement/confirmation.h"
 #include "stackabilization/improvement/explanation.h"
 #include "stackabilization/improvement/shape_change.h"
 #include "stackabilization/stacking/stack_search.h"
 
 namespace stackabilization::apps {
-
-/// One question put to the mesh as it was written, and the answer.
-struct WrittenCheck {
-  enum class Verdict { agrees, skipped, disagrees } verdict = Verdict::agrees;
-  std::string name;
-  std::string note;  ///< what was found, or why it was not asked
-};
 
 /// Everything there is to say about one solution, or about what came nearest.
 struct SolutionReport {
@@ -31,8 +24,8 @@ struct SolutionReport {
   Explanation explanation;
   std::vector<double> residuals;  ///< per relation, fraction of the diagonal
   StackHeights stack;
-  std::optional<TwistResult> twist;  ///< with --twist
-  std::vector<WrittenCheck> written;
+  std::optional<TwistResult> twist;   ///< with --twist
+  std::vector<Confirmation> written;  ///< what the mesh says as written
 
   Direction direction() const { return Direction(candidate.direction); }
   /// Does the written mesh say what the report says?
@@ -44,15 +37,5 @@ struct SolutionReport {
 /// Measures a candidate, which was held against the requirements before, in all respects but `written`.
 SolutionReport solution_report(const ImproveCommandOptions& options, const ImproveTask& task,
                                const Candidate& candidate, const Assessment& assessment);
-
-/// Asks the mesh of a solution, as it is read again from its file: is S what was said, is f_max the same
-/// rational number, is the height kept, and do collision tests find copies free or colliding around f_max as
-/// it says?
-std::vector<WrittenCheck> check_written(const Shape& shape, const ImproveTask& task,
-                                        const SolutionReport& report);
-
-/// Where copies of a shape touch along a direction.
-std::vector<ContactRegion> contacts_along(const Shape& shape, const Direction& direction,
-                                          ContactSemantics semantics);
 
 }  // namespace stackabilization::apps

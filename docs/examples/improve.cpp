@@ -18,6 +18,7 @@ int main(int count, char** arguments) {
   try {
     Requirements wish;
     wish.target = std::strtod(arguments[2], nullptr);
+    wish.quality.emplace();  // no change that a person would mind, see docs/quality.md
     const ImprovementTask task(analyse_structure(read_shape(arguments[1])), wish);
     const Improvement found = improve(task);
     if (found.solutions.empty()) {

@@ -95,6 +95,11 @@ void check_solution(const ImprovableCup& folder, const json& solution) {
   CHECK(!solution["edits"].empty());
   CHECK(!solution["explanation"]["lines"].empty());
   CHECK(solution["good"] == true);
+  const json& along = solution["direction"];
+  const double sine = std::hypot(along[0].get<double>(), along[1].get<double>()) /
+                      std::hypot(along[0].get<double>(), along[1].get<double>(), along[2].get<double>());
+  CHECK(solution["stack"]["drift"].get<double>() ==
+        Approx((solution["stack"]["copies"].get<int>() - 1) * measured.f_max * sine).margin(1e-9));
   CHECK(solution["checks"].size() >= 4);
   for (const json& check : solution["checks"]) CHECK(check["verdict"] == "agrees");
   for (const json& requirement : solution["requirements"]) CHECK(requirement["passed"] == true);

@@ -75,6 +75,10 @@ struct ContactQuery {
 /// double precision, within tolerance::relative of the diagonal. Throws UsageError for a band outside [0, 1].
 Contacts contact_regions(const ContactQuery& query, const ContactOptions& options = {});
 
+/// Computes the same for one use, from the shape and the direction alone; none where nothing is in the way
+/// (Separation::blocked).
+Contacts contact_regions(const Shape& shape, const Direction& direction, const ContactOptions& options = {});
+
 /// How much of a copy lies close to the one below when they touch, seen along r.
 struct CloseFit {
   double close_area = 0;      ///< area of the contact regions together, model units squared

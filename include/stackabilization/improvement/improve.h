@@ -38,9 +38,9 @@ struct ImprovementOptions {
   std::function<void(const Candidate&)> found = {};
 };
 
-/// Returns options for designs with limits of quality (Requirements::quality): smooth edits, and a price of
-/// each edit. They suit a model with Following::smooth.
-ImprovementOptions smooth_improvement();
+/// Returns the options that suit a deformation model: with Following::smooth smooth edits
+/// (EditFamily::smooth) and a price of each edit, otherwise the defaults.
+ImprovementOptions improvement_options(const DeformationModel& space);
 
 /// Result of `improve`: solutions, or the reason why there are none.
 struct Improvement {

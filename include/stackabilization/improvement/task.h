@@ -13,9 +13,13 @@ namespace stackabilization {
 /// Options of ImprovementTask.
 struct ImprovementTaskOptions {
   DeformationKind kind = DeformationKind::controllers;  ///< deformation model
-  Following following = Following::free;                ///< controllers: how parts follow an edit
-  /// Starting directions, the preferred one first. If empty, the task chooses them.
+  /// Controllers: how parts follow an edit. If empty, smoothly with limits of quality, and freely without.
+  std::optional<Following> following;
+  /// Starting directions, the preferred one first, which designs keep. If empty, the task chooses them.
   std::vector<Eigen::Vector3d> directions;
+  /// Directions that the task chose in an earlier run, which it then does not look for again; see
+  /// directions_of. Ignored where directions are given.
+  std::vector<Eigen::Vector3d> chosen;
   /// Work for the choice of directions: a share of an effort (see effort.h), > 0.
   double effort = 1;
   std::function<void(double)> progress = {};  ///< as SearchOptions::progress, while directions are searched
@@ -42,19 +46,29 @@ class ImprovementTask {
   const DeformationModel& space() const { return *space_; }        ///< designs of the shape
   const RequirementChecker& checker() const { return *checker_; }  ///< checks designs of that space
   const std::vector<Eigen::Vector3d>& directions() const { return directions_; }  ///< starting directions
+  /// Returns whether designs may stack along other directions than these: not where directions were given,
+  /// with a length limit, or with a model that edits along one direction.
+  bool directions_are_free() const { return free_; }
   /// Returns whether `cancelled` ended the search for directions; only up is a starting direction then.
   bool cancelled() const { return cancelled_; }
 
  private:
   std::vector<Eigen::Vector3d> directions_;
-  bool cancelled_ = false;
+  bool free_, cancelled_ = false;
   std::unique_ptr<const DeformationModel> space_;
   std::unique_ptr<const RequirementChecker> checker_;
 };
 
+/// Returns the options that suit a task: those of its deformation model (improve.h) and, where directions are
+/// free, a cone of 10 degrees in which they may turn at each edit.
+ImprovementOptions improvement_options(const ImprovementTask& task);
+
+/// Searches for designs that meet the requirements of the task, with the options that suit it.
+Improvement improve(const ImprovementTask& task);
+
 /// Searches for designs that meet the requirements of the task, from its starting directions; those of
 /// `options` are ignored. Otherwise as `improve` of improve.h.
-Improvement improve(const ImprovementTask& task, ImprovementOptions options = {},
+Improvement improve(const ImprovementTask& task, ImprovementOptions options,
                     const std::optional<SavedSearch>& state = std::nullopt);
 
 }  // namespace stackabilization

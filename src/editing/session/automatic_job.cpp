@@ -28,7 +28,7 @@ JobWork EditingSession::Implementation::automatic_work() {
              const Cancelled& cancelled, const Deliver& deliver) {
     std::vector<Candidate> starts;
     for (const double share : effort_shares) {
-      ImprovementOptions how = smooth_improvement();
+      ImprovementOptions how = improvement_options(workspace->space());
       how.effort = share * options.effort;
       how.search.alpha = options.alpha;
       how.search.solutions = 3;

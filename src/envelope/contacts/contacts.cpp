@@ -200,6 +200,12 @@ Contacts contact_regions(const ContactQuery& query, const ContactOptions& option
   return contacts;
 }
 
+Contacts contact_regions(const Shape& shape, const Direction& direction, const ContactOptions& options) {
+  const SeparationTree tree(shape);
+  const Separation found = separation(tree, tree, direction, {options.semantics, std::nullopt});
+  return contact_regions({shape, tree, direction, found}, options);
+}
+
 CloseFit close_fit(const Shape& shape, const Direction& direction, const Contacts& contacts) {
   const Frame frame = frame_of(direction);
   std::vector<ConvexPolygon> close, all;

@@ -26,7 +26,7 @@ constexpr double min_search = 0.05;
 /// Share of the work at which the diagnosis of a closed shape ends.
 constexpr double closed_share = 0.1;
 
-/// Of smooth improvements: few edits that a designer would name are worth some change, 3 % for each edit
+/// With smooth edits: few edits that a designer would name are worth some change, 3 % for each edit
 /// less. Edits that give less than a quarter of the gain may be made up for by the others.
 constexpr double edit_price = 0.03;
 constexpr double drop_threshold = 0.25;
@@ -115,12 +115,8 @@ class ImprovementRun {
   bool late(double share) { return budget_.late(share) || cancelled(); }
   bool cancelled() const { return options_.search.cancelled && options_.search.cancelled(); }
 
-  /// Runs a pursuit along every starting direction.
+  /// Runs a pursuit along every starting direction and, where no edit by itself is worth it, one by overlaps.
   std::vector<Candidate> pursuits(const BestFirstOptions& search) {
-    GapDescentOptions options;
-    options.alpha = search.alpha;
-    options.edits = search.edits;
-    options.cancelled = [this] { return late(pursuit_share); };
     std::vector<Candidate> found;
     double first = 0;
     for (const Eigen::Vector3d& direction : search.directions) {
@@ -128,13 +124,27 @@ class ImprovementRun {
       if (found.empty()) first = start.measured.value;
       start.energy.gain = start.measured.value - first;
       start.energy.value = -(1 - search.alpha) * start.energy.gain;
-      options.evaluations = budget_.designs_until(pursuit_share);
-      GapDescentResult result = descend_gaps(checker_, start, options);
-      budget_.charge(result.evaluations);
-      result_.progress.evaluated += result.evaluations;
+      GapDescentResult result = pursuit(search, start, GapMeasure::equal);
+      const bool stuck = result.stuck;
       found.push_back(std::move(result.candidate));
+      if (!stuck) continue;
+      result = pursuit(search, start, GapMeasure::by_overlap);
+      if (!result.candidate.design.edits.empty()) found.push_back(std::move(result.candidate));
     }
     return found;
+  }
+
+  GapDescentResult pursuit(const BestFirstOptions& search, const Candidate& start, GapMeasure measure) {
+    GapDescentOptions options;
+    options.measure = measure;
+    options.alpha = search.alpha;
+    options.edits = search.edits;
+    options.cancelled = [this] { return late(pursuit_share); };
+    options.evaluations = budget_.designs_until(pursuit_share);
+    GapDescentResult result = descend_gaps(checker_, start, options);
+    budget_.charge(result.evaluations);
+    result_.progress.evaluated += result.evaluations;
+    return result;
   }
 
   /// Runs a search until `share` of the work is used, with the expansions that are left. Work of a saved
@@ -248,8 +258,9 @@ class ImprovementRun {
 
 }  // namespace
 
-ImprovementOptions smooth_improvement() {
+ImprovementOptions improvement_options(const DeformationModel& space) {
   ImprovementOptions options;
+  if (space.following() != Following::smooth) return options;
   options.search.edits.family = EditFamily::smooth;
   options.refinement.edit_price = edit_price;
   options.refinement.drop_threshold = drop_threshold;

@@ -2,14 +2,15 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
 
+#include "core/angles.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/number_text.h"
 #include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/effort.h"
+#include "stackabilization/improvement/tolerances.h"
 #include "stackabilization/stacking/plan.h"
 #include "stackabilization/stacking/search.h"
 #include "stackabilization/stacking/tolerances.h"
@@ -22,15 +23,11 @@ namespace {
 constexpr double directions_share = 0.15;
 /// Another direction than up is worth the work of a search if it raises S by more than this.
 constexpr double clearly_better = 0.1;
-/// With limits of quality the object stands: its copies lean by at most this angle, 30 degrees.
-constexpr double max_lean = std::numbers::pi / 6;
+/// A direction that is free may turn by this angle at each edit, degrees.
+constexpr double free_cone_degrees = 10;
 /// Cosine of one degree. An axis of the shape may differ by this angle from the z axis and still be up: a hat
 /// that stands slightly aslant stacks along its own axis.
 constexpr double nearly_up = 0.99985;
-
-bool is_same_line(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return a.cross(b).norm() <= tolerance::direction_step * a.norm() * b.norm();
-}
 
 /// Returns an axis of symmetry, or the line that two mirror planes share, near the z axis.
 std::optional<Eigen::Vector3d> upright_axis(const Structure& structure) {
@@ -74,30 +71,44 @@ double target_of(const StackLengthLimit& limit, const RestShape& rest, const Dir
 
 ImprovementTask::ImprovementTask(StructuredShape rest, Requirements requirements,
                                  const ImprovementTaskOptions& options)
-    : directions_(options.directions) {
+    : directions_(options.directions.empty() ? options.chosen : options.directions),
+      free_(options.directions.empty() && !requirements.length_limit &&
+            !capabilities_of(options.kind).edits_along_one_direction) {
   validate(requirements, rest);
   auto known = std::make_shared<const RestShape>(rest, requirements.measure);
   if (directions_.empty()) {
     const StackabilitySolver& solver = known->solver_without_play();
     const Stackability up = measure_up(solver, rest.structure);
     directions_ = {up.direction};
-    if (!requirements.length_limit && !capabilities_of(options.kind).edits_along_one_direction) {
+    if (free_) {
       SearchOptions search;
-      if (requirements.quality) search.cone = DirectionCone{up.direction, max_lean};
+      if (requirements.quality) search.cone = DirectionCone{up.direction, tolerance::max_lean};
       search.max_directions = directions_of_effort(directions_share * options.effort, rest.shape);
       search.progress = options.progress;
       search.cancelled = options.cancelled;
       const SearchResult found = best_direction(solver, search);
       cancelled_ = found.cancelled;
       if (!cancelled_ && found.best.value > up.value + clearly_better &&
-          !is_same_line(found.best.direction, up.direction))
+          !detail::on_one_line(found.best.direction, up.direction, tolerance::direction_step))
         directions_.push_back(found.best.direction);
     }
   }
   const Direction first(directions_.front());
   if (requirements.length_limit) requirements.target = target_of(*requirements.length_limit, *known, first);
-  space_ = deformation_model(std::move(rest), {options.kind, first, {}, options.following});
+  const Following following =
+      options.following.value_or(requirements.quality ? Following::smooth : Following::free);
+  space_ = deformation_model(std::move(rest), {options.kind, first, {}, following});
   checker_ = std::make_unique<RequirementChecker>(*space_, std::move(requirements), std::move(known));
+}
+
+ImprovementOptions improvement_options(const ImprovementTask& task) {
+  ImprovementOptions options = improvement_options(task.space());
+  if (task.directions_are_free()) options.search.cone_degrees = free_cone_degrees;
+  return options;
+}
+
+Improvement improve(const ImprovementTask& task) {
+  return improve(task, improvement_options(task));
 }
 
 Improvement improve(const ImprovementTask& task, ImprovementOptions options,

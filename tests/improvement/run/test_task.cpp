@@ -109,6 +109,43 @@ TEST_CASE("a task refuses a length without room, and requirements that are none"
   CHECK_THROWS_AS(ImprovementTask(designs::cup(), frame_requirements(1)), UsageError);
 }
 
+TEST_CASE("limits of quality make a search smooth, and directions that nobody gave may turn") {
+  Requirements wish = frame_requirements(0.9);
+  const ImprovementTask free(designs::cup(), wish);
+  CHECK(free.space().following() == Following::free);
+  CHECK(improvement_options(free).search.edits.family == EditFamily::extended);
+  CHECK(improvement_options(free).search.cone_degrees == 10);
+
+  wish.quality.emplace();
+  const ImprovementTask smooth(designs::cup(), wish);
+  CHECK(smooth.space().following() == Following::smooth);
+  CHECK(improvement_options(smooth).search.edits.family == EditFamily::smooth);
+  CHECK(improvement_options(smooth).refinement.edit_price > 0);
+
+  ImprovementTaskOptions how;
+  how.following = Following::free;
+  how.directions = {{0, 0, 1}};
+  const ImprovementTask obeyed(designs::cup(), wish, how);
+  CHECK(obeyed.space().following() == Following::free);
+  CHECK(improvement_options(obeyed).search.edits.family == EditFamily::extended);
+  CHECK(improvement_options(obeyed).search.cone_degrees == 0);
+
+  wish.quality->relax(QualityMeasure::size);
+  wish.length_limit = StackLengthLimit{3, 20};
+  CHECK(improvement_options(ImprovementTask(designs::cup(), wish)).search.cone_degrees == 0);
+}
+
+TEST_CASE("a task goes on along the directions of an earlier run, which stay free") {
+  ImprovementTaskOptions how;
+  how.chosen = {{0, 0, 1}, {1, 0, 1}};
+  how.progress = [](double) { FAIL("no direction is looked for"); };
+  const ImprovementTask again(letter_l(), oriented_requirements(), how);
+  CHECK(again.directions() == how.chosen);
+  CHECK(improvement_options(again).search.cone_degrees == 10);
+  how.directions = {{0, 1, 1}};
+  CHECK(ImprovementTask(letter_l(), oriented_requirements(), how).directions() == how.directions);
+}
+
 TEST_CASE("improving a task is improving along its directions") {
   ImprovementTaskOptions how;
   how.directions = {{0, 0, 1}};
