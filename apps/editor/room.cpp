@@ -63,6 +63,14 @@ int copies_of(const std::string& query) {
 
 /// The name in a query "name=...", with what was escaped.
 std::string decoded(const std::string& query) {
+/// The path to which a page sends a file that a person has dropped.
+constexpr const char* upload_path = "open";
+
+WebOptions with_upload(WebOptions options) {
+  options.upload = upload_path;
+  return options;
+}
+
   const std::string key = "name=";
   if (query.compare(0, key.size(), key) != 0) throw UsageError("'open' expects the name of a file");
   std::string text;
@@ -98,9 +106,10 @@ class EditingRoom::Implementation {
  public:
   Implementation(Document document, RoomOptions options, WebOptions web)
       : options_(std::move(options)),
-        server_(web, {[this](WebRequest request, auto reply) { answer(std::move(request), reply); },
-                      [this](PageId page) { arrived(page); }, [this](PageId page) { left(page); },
-                      [this](PageId page, std::string text) { received(page, std::move(text)); }}) {
+        server_(with_upload(std::move(web)),
+                {[this](WebRequest request, auto reply) { answer(std::move(request), reply); },
+                 [this](PageId page) { arrived(page); }, [this](PageId page) { left(page); },
+                 [this](PageId page, const std::string& text) { received(page, text); }}) {
     auto session = std::make_unique<EditingSession>(std::move(document), options_.session,
                                                     [this](const Event& event) { tell(event); });
     session_ = session.get();
@@ -134,7 +143,7 @@ class EditingRoom::Implementation {
     post([this, page] { closed(page); });
   }
 
-  void received(PageId page, std::string text) {
+  void received(PageId page, const std::string& text) {
     const auto found = backlogs_.find(page);
     if (found == backlogs_.end() || found->second->floods) return;
     const std::shared_ptr<Backlog> backlog = found->second;
@@ -158,7 +167,7 @@ class EditingRoom::Implementation {
     if (request.path.empty()) request.path = "index.html";
     if (const auto file = page_file(request.path); file && request.method == "GET")
       return reply({200, file->type, std::string(file->bytes), ""});
-    if (request.path == "open" && request.method == "POST")
+    if (request.path == upload_path && request.method == "POST")
       return post([this, request = std::move(request), reply] { reply(dropped(request)); });
     const Export* const wanted = export_of(request.path);
     if (!wanted || request.method != "GET") return reply({404, "text/plain; charset=utf-8", "not found", ""});

@@ -91,8 +91,6 @@ class WebServer::Implementation : public std::enable_shared_from_this<WebServer:
     pages_.clear();
   }
 
-  void stop() { context_.stop(); }
-
   void send(PageId page, Outgoing message);
   void close(PageId page, std::string reason);
 
@@ -210,27 +208,30 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
 
   void read() {
     parser_.emplace();
-    parser_->body_limit(server_.options_.max_body);
+    parser_->body_limit(server_.options_.max_upload);
     stream_.expires_after(request_timeout);
-    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
-      if (error == http::error::body_limit) return self->answer({413, "text/plain", "too large", ""}, false);
-      if (error) return;
-      self->handle();
-    });
+    http::async_read_header(stream_, buffer_, *parser_,
+                            [self = shared_from_this()](error_code error, std::size_t) {
+                              if (error == http::error::body_limit) return self->answer(too_large(), false);
+                              if (!error) self->admit();
+                            });
   }
 
  private:
-  void handle() {
+  static WebReply too_large() { return {413, "text/plain", "too large", ""}; }
+
+  /// Decides by the head of a request whether it is answered at all, and how much more of it is read.
+  void admit() {
     const http::request<http::string_body>& request = parser_->get();
-    const std::string host = text_of(request[http::field::host]),
-                      origin = text_of(request[http::field::origin]);
-    const bool keeps = request.keep_alive();
+    // What is left of a refused request must not be taken for the next one.
+    const bool keeps = request.keep_alive() && parser_->is_done();
+    const std::string host = text_of(request[http::field::host]);
     if (!is_local(host))
       return answer({403, "text/plain", "this server is for this machine only", ""}, false);
     const std::string target = text_of(request.target()), folder = "/" + server_.secret_ + "/";
     if (target.compare(0, folder.size(), folder) != 0)
       return answer({404, "text/plain", "not found", ""}, keeps);
-    const bool same_origin = origin == "http://" + host;
+    const bool same_origin = text_of(request[http::field::origin]) == "http://" + host;
     const bool upgrade = websocket::is_upgrade(request);
     if ((upgrade || request.method() != http::verb::get) && !same_origin)
       return answer({403, "text/plain", "only the page of this server may do this", ""}, false);
@@ -242,14 +243,31 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
     if (request.method() != http::verb::get && request.method() != http::verb::post)
       return answer({405, "text/plain", "expected GET or POST", ""}, keeps);
     const std::size_t question = target.find('?');
-    WebRequest asked;
-    asked.method = text_of(request.method_string());
-    asked.path =
+    asked_ = {};
+    asked_.method = text_of(request.method_string());
+    asked_.path =
         target.substr(folder.size(), question == std::string::npos ? question : question - folder.size());
-    if (question != std::string::npos) asked.query = target.substr(question + 1);
-    asked.body = parser_->get().body();
+    if (question != std::string::npos) asked_.query = target.substr(question + 1);
+    read_body();
+  }
+
+  void read_body() {
+    const WebOptions& options = server_.options_;
+    const bool uploads = asked_.method == "POST" && asked_.path == options.upload;
+    const std::size_t limit = uploads ? options.max_upload : options.max_body;
+    if (parser_->content_length().value_or(0) > limit) return answer(too_large(), false);
+    parser_->body_limit(limit);
+    http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](error_code error, std::size_t) {
+      if (error == http::error::body_limit) return self->answer(too_large(), false);
+      if (!error) self->handle();
+    });
+  }
+
+  void handle() {
+    const bool keeps = parser_->get().keep_alive();
+    asked_.body = std::move(parser_->get().body());
     stream_.expires_never();
-    server_.handlers_.request(std::move(asked), [self = shared_from_this(), keeps](WebReply reply) {
+    server_.handlers_.request(std::move(asked_), [self = shared_from_this(), keeps](WebReply reply) {
       asio::post(self->server_.context_,
                  [self, keeps, reply = std::move(reply)] { self->answer(reply, keeps); });
     });
@@ -292,6 +310,7 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
   beast::tcp_stream stream_;
   beast::flat_buffer buffer_;
   std::optional<http::request_parser<http::string_body>> parser_;
+  WebRequest asked_;
   http::response<http::string_body> response_;
 };
 
@@ -325,10 +344,6 @@ std::string WebServer::address() const {
 
 void WebServer::run() {
   implementation_->run();
-}
-
-void WebServer::stop() {
-  implementation_->stop();
 }
 
 void WebServer::send_text(PageId page, std::string text, std::uint32_t replaces) {

@@ -40,13 +40,16 @@ struct WebOptions {
   unsigned short port = 0;                           ///< 0: any that is free
   bool keep_open = false;                            ///< go on when the last page has left
   double grace_seconds = 5;                          ///< time in which a page that left may come back
-  std::size_t max_body = std::size_t{256} << 20;     ///< of a POST, bytes
+  std::string upload;                                ///< path to which a page may POST a file
+  std::size_t max_upload = std::size_t{256} << 20;   ///< of that file, bytes
+  std::size_t max_body = std::size_t{64} << 10;      ///< of any other request, bytes
   std::size_t max_message = std::size_t{4} << 20;    ///< of a page, bytes
   std::size_t max_waiting = std::size_t{512} << 20;  ///< that a slow page has not taken yet, bytes
 };
 
 /// Every answer is for who knows the secret folder, comes from a page of this server (Host and Origin) and is
-/// not meant for another site. Handlers are called from the thread of `run`.
+/// not meant for another site; the body of a request is read only after that is known. Handlers are called
+/// from the thread of `run`.
 class WebServer {
  public:
   /// Listens. Throws OutputError when the port cannot be had.
@@ -57,9 +60,8 @@ class WebServer {
 
   /// Address of the page, with the secret.
   std::string address() const;
-  /// Serves until `stop`, or until the last page has left.
+  /// Serves until a signal, or until the last page has left.
   void run();
-  void stop();  ///< from any thread, or a signal
 
   /// Sends to a page; nothing happens if it has left. From any thread. `replaces`: a message of the same
   /// number that still waits for this page is left out; 0: none is.

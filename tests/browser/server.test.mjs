@@ -4,7 +4,7 @@ import fs from 'node:fs';
 import http from 'node:http';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
-import { Editor, Folder } from './editor.mjs';
+import { Editor, Folder, seconds } from './editor.mjs';
 
 let folder, editor, address;
 before(async () => {
@@ -80,6 +80,31 @@ test('another site gets no socket', async () => {
   for (const headers of [{}, { Origin: 'http://evil.example' }, { Origin: 'null' }, { Origin: 'http://127.0.0.1:1' }])
     assert.equal((await ask(path, upgrade(headers))).status, 403, JSON.stringify(headers));
   assert.equal((await ask(address.pathname, { method: 'POST', body: 'x' })).status, 403);
+});
+
+/** Sends the head of a POST whose body never comes. @returns {Promise<number>} the status */
+const headOnly = (path, headers, length = 200 << 20) =>
+  new Promise((resolve, reject) => {
+    const request = http.request({ host: '127.0.0.1', port: address.port, path, method: 'POST', headers: { 'Content-Length': length, ...headers } }, (reply) => {
+      reply.resume();
+      resolve(reply.statusCode);
+      request.destroy();
+    });
+    request.on('error', reject);
+    request.flushHeaders();
+  });
+
+test('a large body is read only of a file that the page of this server sends', { timeout: seconds(20) }, async () => {
+  const open = address.pathname + 'open?name=x.obj', Origin = address.origin;
+  assert.equal(await headOnly('/open?name=x.obj', { Origin }), 404, 'no secret');
+  assert.equal(await headOnly(open, { Origin: 'http://evil.example' }), 403, 'another site');
+  assert.equal(await headOnly(open, { Origin, Host: 'evil.example' }), 403, 'another host');
+  assert.equal(await headOnly(address.pathname + 'export/obj', { Origin }), 413, 'no path for files');
+  assert.equal(await headOnly(open, { Origin }, 300 << 20), 413, 'a file that is too large');
+  assert.equal((await ask(address.pathname, { method: 'POST', headers: { Origin, 'Transfer-Encoding': 'chunked' }, body: 'x'.repeat(1 << 20) }).catch(() => ({ status: 413 }))).status, 413, 'of unknown length');
+  const reply = await ask(open, { method: 'POST', headers: { Origin }, body: '# '.padEnd(1 << 20, 'x') });
+  assert.equal(reply.status, 422, 'it is read, and no mesh');
+  assert.match(reply.body, /x\.obj/);
 });
 
 test('commands that are none are answered with a sentence, and the session stays', async () => {
