@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
-#include <new>
 #include <string>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/failure_sentence.h"
 
 /// How programs end, here and in paper_figures/.
 namespace stackabilization::apps {
@@ -36,12 +36,8 @@ inline int complain_of_exception(const std::string& program) {
     return complain(program, error.what(), status_usage);
   } catch (const OutputError& error) {
     return complain(program, error.what(), status_usage);
-  } catch (const Error& error) {
-    return complain(program, error.what(), status_input);
-  } catch (const std::bad_alloc&) {
-    return complain(program, "this takes more memory than there is", status_input);
   } catch (const std::exception& error) {
-    return complain(program, std::string("unexpected failure: ") + error.what(), status_input);
+    return complain(program, failure_sentence(error), status_input);
   }
 }
 

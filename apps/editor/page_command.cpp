@@ -2,10 +2,10 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <map>
 
 #include "apps/common/edit_grammar.h"
-#include "apps/common/json.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization::apps {
@@ -15,6 +15,22 @@ namespace {
 using editing::AcceptRemedy, editing::ApplySuggestion, editing::Drag, editing::EndDrag, editing::FindDesigns,
     editing::FindRange, editing::KeepParts, editing::Redo, editing::RollBack, editing::SetDirection,
     editing::SetLimit, editing::SetTarget, editing::StopFinding, editing::TakeDesign, editing::Undo;
+
+[[noreturn]] void refuse_entry(const std::string& key, const std::string& what) {
+  throw UsageError("'" + key + "' of the command expects " + what);
+}
+
+const Json& entry_of(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  if (found == json.end()) throw UsageError(std::string("the command expects '") + key + "'");
+  return *found;
+}
+
+/// Is it a number counted from 0 that an int holds?
+bool is_row(const Json& value) {
+  return value.is_number_integer() && value.get<std::int64_t>() >= 0 &&
+         value.get<std::int64_t>() <= std::numeric_limits<int>::max();
+}
 
 /// A JSON object of a page, with the shape that its commands are about.
 class PageCommand {
@@ -62,37 +78,24 @@ class PageCommand {
   }
 
  private:
-  const Json& entry(const char* key) const {
-    const auto found = json_.find(key);
-    if (found == json_.end()) throw UsageError(std::string("the command expects '") + key + "'");
-    return *found;
-  }
-  [[noreturn]] static void fail(const std::string& key, const std::string& what) {
-    throw UsageError("'" + key + "' of the command expects " + what);
-  }
+  const Json& entry(const char* key) const { return entry_of(json_, key); }
   static double number(const Json& value) {
     if (!value.is_number()) throw UsageError("the command expects a number, found " + value.dump());
     return value.get<double>();
   }
-  int whole(const char* key) const {
-    const Json& value = entry(key);
-    constexpr std::int64_t most = 1'000'000;
-    if (!value.is_number_integer() || value.get<std::int64_t>() < 0 || value.get<std::int64_t>() > most)
-      fail(key, "a number counted from 0");
-    return value.get<int>();
-  }
+  int whole(const char* key) const { return command_number(json_, key); }
   bool truth(const char* key) const {
-    if (!entry(key).is_boolean()) fail(key, "true or false");
+    if (!entry(key).is_boolean()) refuse_entry(key, "true or false");
     return entry(key).get<bool>();
   }
   std::string text(const char* key) const {
-    if (!entry(key).is_string()) fail(key, "a text");
+    if (!entry(key).is_string()) refuse_entry(key, "a text");
     return entry(key).get<std::string>();
   }
   Edit edit() const { return parse_edit(text("edit"), rest_.shape.part_names, rest_.structure.diagonal); }
   Eigen::Vector3d direction() const {
     const Json& value = entry("direction");
-    if (!value.is_array() || value.size() != 3) fail("direction", "three numbers");
+    if (!value.is_array() || value.size() != 3) refuse_entry("direction", "three numbers");
     return {number(value[0]), number(value[1]), number(value[2])};
   }
   editing::Command limit() const {
@@ -106,7 +109,7 @@ class PageCommand {
     if (!value.is_array()) throw UsageError("the command expects a list of numbers counted from 0");
     std::vector<std::int32_t> result;
     for (const Json& one : value) {
-      if (!one.is_number_integer()) throw UsageError("the command expects numbers counted from 0");
+      if (!is_row(one)) throw UsageError("the command expects numbers counted from 0, found " + one.dump());
       result.push_back(one.get<std::int32_t>());
     }
     return result;
@@ -114,23 +117,23 @@ class PageCommand {
   std::vector<int> rows(const char* key) const { return numbers(entry(key)); }
   std::array<int, 2> two_parts() const {
     const std::vector<int> parts = rows("parts");
-    if (parts.size() != 2) fail("parts", "two parts");
+    if (parts.size() != 2) refuse_entry("parts", "two parts");
     return {parts[0], parts[1]};
   }
   editing::Command kind() const {
     const std::string name = text("kind");
-    if (name != "cuboid" && name != "cylinder") fail("kind", "cuboid or cylinder");
+    if (name != "cuboid" && name != "cylinder") refuse_entry("kind", "cuboid or cylinder");
     return editing::SetKind{whole("part"),
                             name == "cuboid" ? PrimitiveKind::cuboid : PrimitiveKind::cylinder};
   }
   editing::Command segment() const {
     editing::Segment command;
     const Json& strokes = entry("strokes");
-    if (!strokes.is_array()) fail("strokes", "a list");
+    if (!strokes.is_array()) refuse_entry("strokes", "a list");
     for (const Json& stroke : strokes) {
       if (!stroke.is_object() || !stroke.contains("part") || !stroke["part"].is_string() ||
           !stroke.contains("triangles"))
-        fail("strokes", "parts and triangles");
+        refuse_entry("strokes", "parts and triangles");
       command.strokes.push_back({stroke["part"].get<std::string>(), numbers(stroke["triangles"])});
     }
     return command;
@@ -142,8 +145,18 @@ class PageCommand {
 
 }  // namespace
 
-editing::Command page_command(const std::string& text, const StructuredShape& rest) {
-  const Json json = Json::parse(text, nullptr, false);
+std::string command_word(const Json& json) {
+  const auto found = json.is_object() ? json.find("do") : json.end();
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+int command_number(const Json& json, const char* key) {
+  const Json& value = entry_of(json, key);
+  if (!is_row(value)) refuse_entry(key, "a number counted from 0");
+  return value.get<int>();
+}
+
+editing::Command page_command(const Json& json, const StructuredShape& rest) {
   if (!json.is_object()) throw UsageError("a command is a JSON object");
   return PageCommand(json, rest).command();
 }

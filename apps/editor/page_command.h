@@ -1,7 +1,6 @@
 #pragma once
 
-#include <string>
-
+#include "apps/common/json.h"
 #include "stackabilization/editing/session.h"
 
 namespace stackabilization::apps {
@@ -19,9 +18,14 @@ namespace stackabilization::apps {
 ///     {"do": "find"}, {"do": "stop"}, {"do": "take", "number": 0}, {"do": "accept", "number": 0}
 ///     {"do": "accept-advice", "number": 0}              {"do": "take-edit", "node": 2, "edit": 0}
 ///     {"do": "remove-parts", "parts": [3]}              {"do": "join", "parts": [0, 3]}
-///     {"do": "map"}
+///     {"do": "make-symmetric", "parts": [0, 3]}         {"do": "map"}
 ///
 /// Edits are those of edit_grammar.h. Throws UsageError, in words for people, for anything else.
-editing::Command page_command(const std::string& text, const StructuredShape& rest);
+editing::Command page_command(const Json& json, const StructuredShape& rest);
+
+/// Returns what a page asks for, "apply" above; empty for a text that is no command.
+std::string command_word(const Json& json);
+/// Returns a number of a command that counts from 0. Throws UsageError as `page_command`.
+int command_number(const Json& json, const char* key);
 
 }  // namespace stackabilization::apps

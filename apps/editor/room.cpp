@@ -15,6 +15,7 @@
 #include "apps/editor/session_page.h"
 #include "apps/editor/state_json.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/failure_sentence.h"
 #include "stackabilization/editing/command_loop.h"
 #include "stackabilization/io/write.h"
 
@@ -32,6 +33,7 @@ enum Replaces : std::uint32_t { keeps_all = 0, shown_frame, design_text, review_
 /// Commands of one page that may wait; a page that sends more is flooding.
 constexpr int max_waiting_commands = 1000;
 
+constexpr const char* plain_type = "text/plain; charset=utf-8";
 constexpr const char* binary_type = "application/octet-stream";
 constexpr const char* page_type = "text/html; charset=utf-8";
 
@@ -61,8 +63,6 @@ int copies_of(const std::string& query) {
   return copies;
 }
 
-/// The name in a query "name=...", with what was escaped.
-std::string decoded(const std::string& query) {
 /// The path to which a page sends a file that a person has dropped.
 constexpr const char* upload_path = "open";
 
@@ -71,6 +71,8 @@ WebOptions with_upload(WebOptions options) {
   return options;
 }
 
+/// The name in a query "name=...", with what was escaped.
+std::string decoded(const std::string& query) {
   const std::string key = "name=";
   if (query.compare(0, key.size(), key) != 0) throw UsageError("'open' expects the name of a file");
   std::string text;
@@ -128,7 +130,17 @@ class EditingRoom::Implementation {
  private:
   template <class Function>
   void post(Function function) {
-    loop_->post([function = std::move(function)](EditingSession&) { function(); });
+    loop_->post([this, function = std::move(function)](EditingSession&) { attempt(pages_, function); });
+  }
+
+  /// The one door for failures: does something, and tells pages what went wrong. The program goes on.
+  template <class Function>
+  void attempt(const std::vector<PageId>& pages, const Function& function) {
+    try {
+      function();
+    } catch (const std::exception& failure) {
+      for (const PageId page : pages) send(page, {{"type", "error"}, {"words", failure_sentence(failure)}});
+    }
   }
 
   // From here on: the thread of the server.
@@ -152,15 +164,17 @@ class EditingRoom::Implementation {
       return server_.close(page, "too many commands");
     }
     ++backlog->waiting;
-    const bool drag = text.find("\"drag\"") != std::string::npos;
     const auto counted = std::shared_ptr<void>(nullptr, [backlog](void*) { --backlog->waiting; });
-    const auto task = [this, page, text = std::move(text), backlog, counted](EditingSession&) {
-      if (!backlog->floods) obey(page, text);
-    };
-    if (drag)
-      loop_->post_drag(task);
-    else
-      loop_->post(task);
+    attempt({page}, [&] {
+      const auto json = std::make_shared<const Json>(Json::parse(text, nullptr, false));
+      const auto task = [this, page, json, backlog, counted](EditingSession&) {
+        if (!backlog->floods) attempt({page}, [&] { obey(page, *json); });
+      };
+      if (command_word(*json) == "drag")
+        loop_->post_drag(task, page);
+      else
+        loop_->post(task);
+    });
   }
 
   void answer(WebRequest request, const std::function<void(WebReply)>& reply) {
@@ -170,7 +184,7 @@ class EditingRoom::Implementation {
     if (request.path == upload_path && request.method == "POST")
       return post([this, request = std::move(request), reply] { reply(dropped(request)); });
     const Export* const wanted = export_of(request.path);
-    if (!wanted || request.method != "GET") return reply({404, "text/plain; charset=utf-8", "not found", ""});
+    if (!wanted || request.method != "GET") return reply({404, plain_type, "not found", ""});
     post([this, wanted, query = std::move(request.query), reply] { reply(exported(*wanted, query)); });
   }
 
@@ -186,15 +200,14 @@ class EditingRoom::Implementation {
     try {
       return {200, wanted.type, export_bytes(wanted, query), options_.stem + "." + wanted.ending};
     } catch (const UsageError& error) {
-      return {400, "text/plain; charset=utf-8", error.what(), ""};
-    } catch (const Error& error) {
-      return {500, "text/plain; charset=utf-8", error.what(), ""};
+      return {400, plain_type, error.what(), ""};
+    } catch (const std::exception& failure) {
+      return {500, plain_type, failure_sentence(failure), ""};
     }
   }
 
   /// Goes on with the file that a person has dropped.
   WebReply dropped(const WebRequest& request) {
-    constexpr const char* plain = "text/plain; charset=utf-8";
     try {
       if (study_) throw UsageError("a study has its own models");
       if (!options_.open) throw UsageError("files cannot be opened here");
@@ -203,9 +216,9 @@ class EditingRoom::Implementation {
       options_.stem = model.stem;
       options_.resumed = false;
       session_->open(std::move(model.document), model.autosave);
-      return {200, plain, "opened", ""};
-    } catch (const Error& error) {
-      return {422, plain, error.what(), ""};
+      return {200, plain_type, "opened", ""};
+    } catch (const std::exception& failure) {
+      return {422, plain_type, failure_sentence(failure), ""};
     }
   }
 
@@ -229,42 +242,48 @@ class EditingRoom::Implementation {
     tell_writers();
   }
 
-  void obey(PageId page, const std::string& text) {
+  void obey(PageId page, const Json& json) {
     if (std::find(pages_.begin(), pages_.end(), page) == pages_.end()) return;
-    try {
-      const Json json = Json::parse(text, nullptr, false);
-      const std::string word = json.is_object() ? json.value("do", Json()).dump() : "";
-      if (word == "\"write\"") {
-        if (session_->dragging()) session_->execute(EndDrag{false});
-        writer_ = page;
-        tell_writers();
-      } else if (word == "\"picture\"") {
-        const Json node = json.value("node", Json());
-        if (!node.is_number_integer()) throw UsageError("'node' of the command expects a number");
-        send_frame(page, vertex_frame(FrameKind::node, node.get<std::uint32_t>(), 0,
-                                      session_->design_of(node.get<int>())->shape.vertices));
-      } else if (writer_ != page) {
-        throw UsageError("another page is editing; this one looks on");
-      } else if (word == "\"study\"") {
-        if (!study_) throw UsageError("this is no study");
-        study_->step(json, *session_);
-        for (const PageId one : pages_) send(one, study_->state());
-      } else {
-        const editing::Command command = page_command(text, session_->space().rest());
-        if (study_) study_->check(command);
-        session_->execute(command);
-      }
-    } catch (const Error& error) {
-      send(page, {{"type", "error"}, {"words", error.what()}});
-    } catch (const nlohmann::json::exception&) {
-      send(page, {{"type", "error"}, {"words", "a command is a JSON object"}});
+    const std::string word = command_word(json);
+    if (word == "write") {
+      if (session_->dragging()) session_->execute(EndDrag{false});
+      writer_ = page;
+      tell_writers();
+    } else if (word == "picture") {
+      send_picture(page, command_number(json, "node"));
+    } else if (writer_ != page) {
+      throw UsageError("another page is editing; this one looks on");
+    } else if (word == "study") {
+      step_study(json);
+    } else {
+      const editing::Command command = page_command(json, session_->space().rest());
+      if (study_) study_->check(command);
+      session_->execute(command);
     }
   }
 
+  /// Tells a page how a node looks.
+  void send_picture(PageId page, int node) {
+    const std::shared_ptr<const Design> design = session_->design_of(node);
+    send_frame(page,
+               vertex_frame(FrameKind::node, static_cast<std::uint32_t>(node), 0, design->shape.vertices));
+  }
+
+  void step_study(const Json& json) {
+    if (!study_) throw UsageError("this is no study");
+    study_->step(json, *session_);
+    for (const PageId one : pages_) send(one, study_->state());
+  }
+
   void tell(const Event& event) {
+    attempt(pages_, [&] { report(event); });
+  }
+
+  void report(const Event& event) {
     if (const auto* changed = std::get_if<Changed>(&event)) {
-      if (changed->what == Change::tree && study_) note_study();
-      return show(changed->what, pages_);
+      show(changed->what, pages_);
+      if (changed->what == Change::tree && study_) study_->note(*session_);
+      return;
     }
     Json json;
     std::uint32_t replaces = keeps_all;
@@ -324,14 +343,6 @@ class EditingRoom::Implementation {
           frames(pages, vertex_frame(FrameKind::found, number++, stamp_, design.design.shape.vertices));
         return all(found_json(*session_));
       }
-    }
-  }
-
-  void note_study() {
-    try {
-      study_->note(*session_);
-    } catch (const Error& error) {
-      tell(editing::Failed{error.what()});
     }
   }
 

@@ -31,7 +31,8 @@ struct RoomOptions {
 };
 
 /// An editing session, the pages that look at it, and one page that edits: the first one, and when it leaves
-/// the next one, or whichever asks for it. Everything happens on the thread of the session.
+/// the next one, or whichever asks for it. Everything happens on the thread of the session. Whatever fails is
+/// told to the pages; nothing but a signal or the last page ends it.
 class EditingRoom {
  public:
   /// Throws as EditingSession.

@@ -113,7 +113,7 @@ test('commands that are none are answered with a sentence, and the session stays
   for (const text of ['', '{', '[]', '7', '{"do": 3}', '{"do": "fly"}', '{"do": "apply"}', '{"do": "apply", "number": -1}',
     '{"do": "apply", "number": 1e9}', '{"do": "drag", "edit": "nothing"}', '{"do": "drag", "edit": "body move 0 0 1e300"}',
     '{"do": "target", "value": "much"}', '{"do": "direction", "direction": [0, 0, 0]}', '{"do": "limit", "measure": "beauty", "value": 1}',
-    '{"do": "keep", "parts": [77]}', '{"do": "picture", "node": 4000000000}', '{"do": "picture", "node": "\ud800"}']) {
+    '{"do": "keep", "parts": [77]}', '{"do": "keep", "parts": [4294967296]}', '{"do": "picture", "node": 4294967296}', '{"do": "picture", "node": 4000000000}', '{"do": "picture", "node": "\ud800"}']) {
     page.send(text);
     const answer = await page.next((message) => message.type === 'error');
     assert.ok(answer.words.length > 5, text);
@@ -143,6 +143,26 @@ test('a page that vanishes in the middle of a drag leaves the design as it was',
   assert.ok(design.change < 1e-12);
   assert.equal(design.dragging, false);
   again.close();
+});
+
+test('only drags of one page replace each other, and no other command is one of them', async () => {
+  const page = await socket(), reader = await socket();
+  await reader.next((message) => message.type === 'tree');
+  page.send('{"do": "write"}');
+  for (let k = 0; k < 20; ++k) {
+    page.send('{"do": "drag", "edit": "body scale 1.02 along 1 0 0"}');
+    reader.send('{"do": "drag", "edit": "body scale 1.05 along 1 0 0"}');
+  }
+  for (let k = 0; k < 30; ++k) page.send('{"do": "keep", "parts": [0], "why": "drag"}');
+  page.send('{"do": "target", "value": 0.66}');
+  await page.next((message) => message.type === 'wishes' && message.target === 0.66);
+  const told = page.messages.filter((message) => message.type === 'wishes' && message.kept.length);
+  assert.ok(told.length >= 30, `${told.length} of 30 commands were obeyed`);
+  assert.ok(page.messages.some((message) => message.type === 'design' && message.dragging), 'the drags of the page were not all replaced');
+  page.send('{"do": "keep", "parts": []}');
+  await page.next((message) => message.type === 'wishes' && !message.kept.length);
+  page.close();
+  reader.close();
 });
 
 test('a flood of commands ends the page, not the program, and others need not wait for it', async () => {

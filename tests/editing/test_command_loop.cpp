@@ -34,13 +34,27 @@ TEST_CASE("of drags that wait only the last one is made") {
   std::promise<void> posted, done;
   CommandLoop loop(table_session());
   loop.post([&](EditingSession&) { posted.get_future().wait(); });
-  for (int k = 0; k < 100; ++k) loop.post_drag([&made, k](EditingSession&) { made.push_back(k); });
+  for (int k = 0; k < 100; ++k) loop.post_drag([&made, k](EditingSession&) { made.push_back(k); }, 7);
   loop.post([](EditingSession&) {});
-  for (int k = 100; k < 200; ++k) loop.post_drag([&made, k](EditingSession&) { made.push_back(k); });
+  for (int k = 100; k < 200; ++k) loop.post_drag([&made, k](EditingSession&) { made.push_back(k); }, 7);
   loop.post([&](EditingSession&) { done.set_value(); });
   posted.set_value();
   done.get_future().wait();
   CHECK(made == std::vector<int>{99, 199});
+}
+
+TEST_CASE("a drag takes the place of none from another source") {
+  std::vector<int> made;
+  std::promise<void> posted, done;
+  CommandLoop loop(table_session());
+  loop.post([&](EditingSession&) { posted.get_future().wait(); });
+  for (const int source : {1, 1, 2, 1, 2, 2})
+    loop.post_drag([&made, source](EditingSession&) { made.push_back(source); },
+                   static_cast<std::uint64_t>(source));
+  loop.post([&](EditingSession&) { done.set_value(); });
+  posted.set_value();
+  done.get_future().wait();
+  CHECK(made == std::vector<int>{1, 2, 1, 2});
 }
 
 TEST_CASE("suggestions come without being asked for, on the thread of the session") {

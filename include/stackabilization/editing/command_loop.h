@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 
@@ -23,9 +24,9 @@ class CommandLoop {
 
   /// Appends a task. May be called from any thread.
   void post(Task task);
-  /// Appends a drag. Where a drag waits as the last task already, it is replaced: a drag that is slower than
-  /// the mouse leaves out steps.
-  void post_drag(Task task);
+  /// Appends a drag. Where a drag of the same source waits as the last task already, it is replaced: a drag
+  /// that is slower than the mouse leaves out steps.
+  void post_drag(Task task, std::uint64_t source);
 
  private:
   class Implementation;

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -29,12 +30,13 @@ class CommandLoop::Implementation {
     for (std::thread& worker : workers_) worker.join();
   }
 
-  void post(Task task, bool drag) {
+  /// `dragger`: the source of a drag.
+  void post(Task task, std::optional<std::uint64_t> dragger = {}) {
     {
       const std::lock_guard lock(mutex_);
       if (ended_) return;
-      if (drag && !tasks_.empty() && tasks_.back().drag) tasks_.pop_back();
-      tasks_.push_back({std::move(task), drag});
+      if (dragger && !tasks_.empty() && tasks_.back().dragger == dragger) tasks_.pop_back();
+      tasks_.push_back({std::move(task), dragger});
     }
     changed_.notify_all();
   }
@@ -42,7 +44,7 @@ class CommandLoop::Implementation {
  private:
   struct Waiting {
     Task task;
-    bool drag = false;
+    std::optional<std::uint64_t> dragger;
   };
 
   /// The thread of the session.
@@ -74,7 +76,7 @@ class CommandLoop::Implementation {
       next.reset();
       lock.unlock();
       job([this](EditingSession::Result result) {
-        post([result = std::move(result)](EditingSession&) { result(); }, false);
+        post([result = std::move(result)](EditingSession&) { result(); });
       });
       lock.lock();
     }
@@ -96,11 +98,11 @@ CommandLoop::CommandLoop(std::unique_ptr<EditingSession> session)
 CommandLoop::~CommandLoop() = default;
 
 void CommandLoop::post(Task task) {
-  implementation_->post(std::move(task), false);
+  implementation_->post(std::move(task));
 }
 
-void CommandLoop::post_drag(Task task) {
-  implementation_->post(std::move(task), true);
+void CommandLoop::post_drag(Task task, std::uint64_t source) {
+  implementation_->post(std::move(task), source);
 }
 
 }  // namespace stackabilization::editing

@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "stackabilization/core/failure_sentence.h"
+
 namespace stackabilization::editing {
 
 EditingSession::Job Lanes::start(Lane lane, JobWork work) {
@@ -13,7 +15,7 @@ EditingSession::Job Lanes::start(Lane lane, JobWork work) {
     try {
       work(cancelled, deliver);
     } catch (const std::exception& error) {
-      deliver(unless(cancelled, [this, sentence = std::string(error.what())] { failed_(sentence); }));
+      deliver(unless(cancelled, [this, sentence = failure_sentence(error)] { failed_(sentence); }));
     }
     deliver([this, lane] { state_of(lane).running = false; });
   };

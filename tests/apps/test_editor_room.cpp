@@ -1,0 +1,101 @@
+// The editor behind its page: what it makes of commands, of failures, and of files that it cannot have.
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/write.hpp>
+#include <csignal>
+#include <functional>
+#include <new>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+
+#include "apps/editor/page_command.h"
+#include "apps/editor/room.h"
+#include "stackabilization/core/errors.h"
+#include "support/catch.h"
+#include "support/messages.h"
+#include "support/structures.h"
+
+using namespace stackabilization;
+using namespace stackabilization::apps;
+
+namespace {
+
+editing::Document table_document() {
+  return editing::new_document(structures::table(1));
+}
+
+std::string refusal_of(const std::string& command) {
+  const StructuredShape table = structures::table(1);
+  return message_of<UsageError>([&] { page_command(Json::parse(command), table); });
+}
+
+/// A room that serves, whose next file fails to open as `failure` says.
+class Served {
+ public:
+  explicit Served(std::function<void()> failure) {
+    RoomOptions options;
+    options.open = [failure = std::move(failure)](const std::string&, const std::string&) -> DroppedModel {
+      failure();
+      return {};
+    };
+    WebOptions web;
+    web.keep_open = true;
+    room_.emplace(table_document(), std::move(options), web);
+    thread_ = std::thread([this] { room_->run(); });
+  }
+  ~Served() {
+    std::raise(SIGTERM);  // as a person ends it
+    thread_.join();
+  }
+  Served(const Served&) = delete;
+  Served& operator=(const Served&) = delete;
+
+  /// The answer to one request, with its head.
+  std::string answer(const std::string& method, const std::string& path, const std::string& body) const {
+    const std::string address = room_->address(), host = address.substr(7, address.find('/', 7) - 7),
+                      folder = address.substr(7 + host.size());
+    boost::asio::io_context context;
+    boost::asio::ip::tcp::socket socket(context);
+    const auto port = static_cast<unsigned short>(std::stoi(host.substr(host.find(':') + 1)));
+    socket.connect({boost::asio::ip::address_v4::loopback(), port});
+    boost::asio::write(socket, boost::asio::buffer(method + " " + folder + path +
+                                                   " HTTP/1.1\r\nHost: " + host + "\r\nOrigin: http://" +
+                                                   host + "\r\nConnection: close\r\nContent-Length: " +
+                                                   std::to_string(body.size()) + "\r\n\r\n" + body));
+    std::string text;
+    boost::system::error_code end;
+    boost::asio::read(socket, boost::asio::dynamic_buffer(text), end);
+    return text;
+  }
+
+ private:
+  std::optional<EditingRoom> room_;
+  std::thread thread_;
+};
+
+}  // namespace
+
+TEST_CASE("rows that no int holds are refused, not cut off") {
+  for (const char* row : {"4294967296", "2147483648", "-1", "18446744073709551615", "1.5", "\"0\""}) {
+    INFO(row);
+    const std::string list = std::string("[0, ") + row + "]}";
+    CHECK(mentions(refusal_of("{\"do\": \"keep\", \"parts\": " + list), "counted from 0"));
+    CHECK(mentions(refusal_of("{\"do\": \"join\", \"parts\": " + list), "counted from 0"));
+    CHECK(
+        mentions(refusal_of(std::string("{\"do\": \"apply\", \"number\": ") + row + "}"), "counted from 0"));
+  }
+  const editing::Command keep =
+      page_command(Json::parse(R"({"do": "keep", "parts": [2147483647]})"), structures::table(1));
+  CHECK(std::get<editing::KeepParts>(keep).parts == std::vector<int>{2147483647});
+}
+
+TEST_CASE("whatever fails is told in words for people, and the program goes on") {
+  const auto [failure, words] = GENERATE(table<std::function<void()>, std::string>(
+      {{[] { throw std::bad_alloc(); }, "this takes more memory than there is"},
+       {[] { throw std::length_error("vector"); }, "unexpected failure: vector"},
+       {[] { throw InputError("no mesh"); }, "no mesh"}}));
+  const Served served(failure);
+  CHECK(mentions(served.answer("POST", "open?name=a.obj", "v 0 0 0"), words));
+  CHECK(mentions(served.answer("GET", "export/obj", ""), "HTTP/1.1 200"));
+}
