@@ -230,6 +230,7 @@ int run_edit_command(const CLI::App& command, const EditCommandOptions& options)
   const Stopwatch watch;
   const std::filesystem::path autosave = session_file(options);
   CommandFiles files{{{"--study", options.study}, {"--session", options.session}},
+  room_options.session.suggests = false;
                      analysis_inputs(options.analysis)};
   if (!autosave.empty()) files.outputs.back().path = autosave.string();
   check_outputs(options.common, files);

@@ -212,10 +212,13 @@ class EditingRoom::Implementation {
       if (study_) throw UsageError("a study has its own models");
       if (!options_.open) throw UsageError("files cannot be opened here");
       DroppedModel model = options_.open(decoded(request.query), request.body);
+      editing::SessionOptions session = options_.session;
+      session.autosave = model.autosave;
       options_.name = model.name;
       options_.stem = model.stem;
       options_.resumed = false;
-      session_->open(std::move(model.document), model.autosave);
+      session_->open(std::move(model.document), session);
+      options_.session = session;
       return {200, plain_type, "opened", ""};
     } catch (const std::exception& failure) {
       return {422, plain_type, failure_sentence(failure), ""};
@@ -254,7 +257,7 @@ class EditingRoom::Implementation {
     } else if (writer_ != page) {
       throw UsageError("another page is editing; this one looks on");
     } else if (word == "study") {
-      step_study(json);
+      step_study(page, json);
     } else {
       const editing::Command command = page_command(json, session_->space().rest());
       if (study_) study_->check(command);
@@ -269,10 +272,12 @@ class EditingRoom::Implementation {
                vertex_frame(FrameKind::node, static_cast<std::uint32_t>(node), 0, design->shape.vertices));
   }
 
-  void step_study(const Json& json) {
+  void step_study(PageId page, const Json& json) {
     if (!study_) throw UsageError("this is no study");
-    study_->step(json, *session_);
-    for (const PageId one : pages_) send(one, study_->state());
+    const Json before = study_->state();
+    attempt({page}, [&] { study_->step(json, *session_); });
+    if (const Json now = study_->state(); now != before)
+      for (const PageId one : pages_) send(one, now);
   }
 
   void tell(const Event& event) {

@@ -63,9 +63,9 @@ void StudyDesk::step(const Json& command, EditingSession& session) {
   if (!answers.is_array() || answers.size() != row.answers.size())
     throw UsageError("'answers' of the command expects three numbers");
   for (std::size_t k = 0; k < row.answers.size(); ++k) {
-    if (!answers[k].is_number_integer() || answers[k].get<int>() < 1 || answers[k].get<int>() > 5)
-      throw UsageError("an answer is a number from 1 to 5");
-    row.answers[k] = answers[k].get<int>();
+    const auto answer = answers[k].is_number_integer() ? answers[k].get<std::int64_t>() : 0;
+    if (answer < 1 || answer > 5) throw UsageError("an answer is a number from 1 to 5");
+    row.answers[k] = static_cast<int>(answer);
   }
   append(study_row(row, limits_));
   if (++turn_ == static_cast<int>(turns_.size())) {
@@ -77,12 +77,14 @@ void StudyDesk::step(const Json& command, EditingSession& session) {
 
 void StudyDesk::begin_task(EditingSession& session) {
   phase_ = Phase::consent;  // while the task is opened, nothing is written down
-  session.open(options_.open(task()), {});
+  editing::SessionOptions options;
+  options.suggests = turn().condition == editing::StudyCondition::suggestive;
+  session.open(options_.open(task()), options);
   limits_ = session.checker().requirements().quality.value_or(QualityLimits());
   begin_ = std::chrono::steady_clock::now();
-  phase_ = Phase::task;
   nodes_ = static_cast<int>(session.document().project.history.nodes.size());
   append(study_row(entry(session, "begin"), limits_));
+  phase_ = Phase::task;  // now that it is written down; where it cannot be, a person may agree again
 }
 
 void StudyDesk::note(const EditingSession& session) {

@@ -12,7 +12,9 @@
 #include "apps/editor/page_command.h"
 #include "apps/editor/room.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/io/read_file.h"
 #include "support/catch.h"
+#include "support/meshes.h"
 #include "support/messages.h"
 #include "support/structures.h"
 
@@ -74,6 +76,15 @@ class Served {
   std::thread thread_;
 };
 
+/// A study of one task, of which nothing can be written down until there is a folder for it.
+StudyOptions study_in(const std::filesystem::path& folder) {
+  StudyOptions study;
+  study.plan.tasks = {{.name = "table", .model = "table.obj", .target = 0.3, .without = {}}};
+  study.results = folder / "results.csv";
+  study.open = [](const editing::StudyPlanTask&) { return table_document(); };
+  return study;
+}
+
 }  // namespace
 
 TEST_CASE("rows that no int holds are refused, not cut off") {
@@ -98,4 +109,51 @@ TEST_CASE("whatever fails is told in words for people, and the program goes on")
   const Served served(failure);
   CHECK(mentions(served.answer("POST", "open?name=a.obj", "v 0 0 0"), words));
   CHECK(mentions(served.answer("GET", "export/obj", ""), "HTTP/1.1 200"));
+}
+
+TEST_CASE("a task that cannot be written down has not begun, and can be begun again") {
+  const test::ScratchFolder scratch("editor_study");
+  const std::filesystem::path folder = scratch.path() / "results";
+  StudyDesk desk(study_in(folder));
+  editing::EditingSession session(table_document(), {}, nullptr);
+  const Json agree = {{"do", "study"}, {"step", "agree"}};
+  CHECK_THROWS_AS(desk.step(agree, session), OutputError);
+  CHECK(desk.state()["phase"] == "consent");
+  std::filesystem::create_directory(folder);
+  std::filesystem::create_directory(folder / "results.csv");  // is there, and no file
+  CHECK_THROWS_AS(desk.step(agree, session), OutputError);
+  CHECK(desk.state()["phase"] == "consent");
+  std::filesystem::remove(folder / "results.csv");
+  desk.step(agree, session);
+  CHECK(desk.state()["phase"] == "task");
+  CHECK(mentions(read_file(folder / "results.csv"), "begin"));
+}
+
+TEST_CASE("suggestions are looked for only where a task is done with them") {
+  const test::ScratchFolder scratch("editor_conditions");
+  StudyOptions study = study_in(scratch.path());
+  study.participant = GENERATE(1, 2, 3);
+  const editing::StudyCondition condition = editing::study_turns(study.participant, 1).front().condition;
+  StudyDesk desk(std::move(study));
+  editing::EditingSession session(table_document(), {}, nullptr);
+  desk.step({{"do", "study"}, {"step", "agree"}}, session);
+  while (const auto job = session.next_job(editing::Lane::advice))
+    (*job)([](const editing::EditingSession::Result& result) { result(); });
+  CHECK(session.review());
+  CHECK(session.suggestions().empty() == (condition != editing::StudyCondition::suggestive));
+}
+
+TEST_CASE("an answer is a number from 1 to 5, to the last digit") {
+  const test::ScratchFolder scratch("editor_answers");
+  StudyDesk desk(study_in(scratch.path()));
+  editing::EditingSession session(table_document(), {}, nullptr);
+  desk.step({{"do", "study"}, {"step", "agree"}}, session);
+  desk.step({{"do", "study"}, {"step", "give up"}}, session);
+  for (const char* answer : {"4294967297", "0", "6", "1.0"}) {
+    const Json answers = Json::parse(std::string("[1, 2, ") + answer + "]");
+    CHECK_THROWS_AS(desk.step({{"do", "study"}, {"step", "answers"}, {"answers", answers}}, session),
+                    UsageError);
+  }
+  desk.step({{"do", "study"}, {"step", "answers"}, {"answers", {1, 2, 5}}}, session);
+  CHECK(desk.state()["phase"] == "done");
 }

@@ -29,6 +29,14 @@ async function answer(page, values) {
   await page.click('#study-dialog button.primary');
 }
 
+/** Clicks the middle of the object, and says whether that picked a part. */
+async function clicked(page) {
+  await page.waitForFunction(() => window.editor.state.design && window.editor.viewer.framesDrawn > 1);
+  const at = await page.evaluate(() => window.editor.viewer.screenOf(window.editor.viewer.main.centre));
+  await page.mouse.click(at.x, at.y);
+  return page.evaluate(() => Boolean(window.editor.gizmo.handle));
+}
+
 test('a participant does three tasks, each in its condition', { timeout: seconds(300) }, async () => {
   const plan = { model: path.join(folder.path, 'plan.json') };
   const editor = await Editor.start(plan, ['--study', results()]);
@@ -42,6 +50,15 @@ test('a participant does three tasks, each in its condition', { timeout: seconds
   assert.equal(await page.getAttribute('body', 'data-study'), 'manual');
   assert.equal(await page.isVisible('#tab-suggestions'), false);
   await keepPicture(page, 'study_manual');
+  assert.equal(await page.isDisabled('#direction'), true);
+  assert.equal(await page.isDisabled('#target'), true);
+  await page.focus('#tab-parts');
+  await page.keyboard.press('ArrowRight');
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'tab-parts', 'no panel but this one');
+  await page.locator('body').press('k');
+  assert.equal(await page.evaluate(() => window.editor.strokes.active), false);
+  assert.equal(await clicked(page), true);
+  await page.keyboard.press('Escape');
   await page.evaluate(() => window.editor.send({ do: 'find' }));
   await page.waitForFunction(() => /manual/.test(document.getElementById('hint').textContent));
   await page.evaluate(() => {
@@ -67,6 +84,9 @@ test('a participant does three tasks, each in its condition', { timeout: seconds
   await answer(page, [4, 5, 5]);
 
   await page.waitForFunction(() => document.body.dataset.study === 'automatic');
+  assert.equal(await clicked(page), false, 'there are no handles');
+  assert.equal(await page.isVisible('#panel-automatic'), true);
+  await keepPicture(page, 'study_automatic');
   await page.click('#study button:has-text("Give up")');
   await answer(page, [3, 3, 3]);
   await page.waitForFunction(() => /Thank you/.test(document.getElementById('study-dialog').textContent));
@@ -96,6 +116,25 @@ test('the next participant has the next number, and other conditions first', { t
   await page.close();
   const rows = rowsOf(fs.readFileSync(results(), 'utf8'));
   assert.deepEqual([rows.at(-1).participant, rows.at(-1).event], ['2', 'begin'], 'a killed program loses nothing that was written');
+});
+
+test('a task that cannot be written down does not begin, and can be begun again', { timeout: seconds(300) }, async () => {
+  const file = path.join(folder.path, 'later.csv');
+  const editor = await Editor.start({ model: path.join(folder.path, 'plan.json') }, ['--study', file]);
+  try {
+    const page = await openPage(browser, editor);
+    fs.mkdirSync(file); // is there, and no file
+    await page.click('#study-dialog button.primary');
+    await page.waitForFunction(() => /cannot be written/.test(document.getElementById('study-dialog').textContent));
+    await keepPicture(page, 'study_failed');
+    fs.rmdirSync(file);
+    await page.click('#study-dialog button.primary');
+    await page.waitForFunction(() => document.body.dataset.study === 'manual');
+    assert.match(fs.readFileSync(file, 'utf8'), /begin/);
+    await page.close();
+  } finally {
+    await editor.kill();
+  }
 });
 
 test('plans and results that are none are refused before a page opens', { timeout: seconds(120) }, async () => {

@@ -70,6 +70,20 @@ TEST_CASE("suggestions on a plateau help: S rises, or the summed gap excess fall
   }
 }
 
+TEST_CASE(
+    "suggestions are not looked for where they are not wanted, and the design is reviewed all the same") {
+  SessionOptions options;
+  options.suggests = false;
+  Observed observed(sessions::table_document(), options);
+  observed.work();
+  CHECK(observed.session.review());
+  CHECK(observed.session.suggestions().empty());
+  CHECK(observed.all<Progress>().empty());
+  observed.session.open(sessions::table_document(), {});
+  observed.work();
+  CHECK(!observed.session.suggestions().empty());
+}
+
 TEST_CASE("undo, redo, going back and branching") {
   Observed observed(sessions::table_document());
   EditingSession& session = observed.session;

@@ -254,7 +254,8 @@ TEST_CASE("another document takes the place of the first one, with a file of its
   const std::string first = read_file(folder / "first.json");
   Document other = new_document(structures::box_alone({1, 1, 1}));
   other.requirements.target = 0.3;
-  session.open(other, folder / "second.json");
+  options.autosave = folder / "second.json";
+  session.open(other, options);
   CHECK(session.space().rest().shape.part_names == other.project.rest.shape.part_names);
   CHECK(session.document().requirements.target == 0.3);
   CHECK(!session.can_undo());
@@ -262,6 +263,7 @@ TEST_CASE("another document takes the place of the first one, with a file of its
   CHECK(read_file(folder / "first.json") == first);
   CHECK(read_file(folder / "second.json") == document_text(session.document()));
   other.visited.clear();
-  CHECK_THROWS_AS(session.open(other, folder / "third.json"), UsageError);
+  options.autosave = folder / "third.json";
+  CHECK_THROWS_AS(session.open(other, options), UsageError);
   CHECK(read_file(folder / "second.json") == document_text(session.document()));
 }

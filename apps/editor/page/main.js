@@ -120,7 +120,7 @@ canvas.addEventListener('pointerdown', (event) => (pressed = { x: event.clientX,
 canvas.addEventListener('click', (event) => {
   const dragged = gizmo.dragged;
   gizmo.dragged = false;
-  if (dragged || gizmo.active || strokes.active || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 4) return;
+  if (dragged || gizmo.active || strokes.active || !study.byHand || Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) > 4) return;
   const hit = picker.pick(event.clientX, event.clientY);
   parts.pick(hit ? hit.part : -1, hit?.point ?? null);
   if (hit) openTab('parts');
@@ -271,6 +271,7 @@ function receiveFrame(frame) {
       break;
     case frameKind.found:
       automatic.setVertices(frame.number, verticesOf(frame));
+      study.fail(message.words);
       break;
     case frameKind.contacts:
       contactCorners = new Float32Array(frame.buffer, 16, 9 * frame.count);
@@ -349,7 +350,7 @@ comparing.textContent = 'Compare';
 comparing.title = 'Compare two designs side by side (X)';
 comparing.setAttribute('aria-pressed', 'false');
 toggles.x = () => compare.show(!compare.open);
-toggles.v = () => { if (!document.body.dataset.study) directions.show(!directions.open); };
+toggles.v = () => { if (study.free) directions.show(!directions.open); };
 comparing.addEventListener('click', toggles.x);
 compare.changed = (/** @type {boolean} */ open) => comparing.setAttribute('aria-pressed', String(open));
 element('cameras').append(comparing);
@@ -371,7 +372,7 @@ element('help').addEventListener('click', () => keysDialog.showModal());
 bindTabs(element('tabs'));
 bindKeys({
   plain: { ...toggles, d: toggleTheme, '?': () => keysDialog.showModal(),
-    k: () => { openTab('parts'); strokes.set(!strokes.active); },
+    k: () => { if (study.free) { openTab('parts'); strokes.set(!strokes.active); } },
     m: () => parts.choose('move'), t: () => parts.choose('rotate'), s: () => parts.choose('scale'),
     Escape: () => { endPreview(); if (strokes.active) strokes.set(false); else if (!gizmo.cancel()) parts.pick(-1, null); } },
   control: { z: undo, y: redo },

@@ -19,12 +19,13 @@ export function diagnosisLines(diagnosis, offers, accept) {
     lines.push(create('h3', '', 'What blocks'), list);
   }
   if (!offers.length) return lines;
-  lines.push(create('h3', '', 'What would help'));
+  const help = create('div', 'offers');
+  help.append(create('h3', '', 'What would help'));
   offers.forEach((offer, number) => {
     const button = create('button', 'offer', offer.words);
     button.append(create('b', '', `S ${format.stackability(offer.stackability)}`));
     button.addEventListener('click', () => accept(number));
-    lines.push(button);
+    help.append(button);
   });
-  return lines;
+  return [...lines, help];
 }

@@ -18,11 +18,23 @@ export class Study {
     this.bar = element('study');
     this.dialog = /** @type {HTMLDialogElement} */ (element('study-dialog'));
     this.dialog.addEventListener('cancel', (event) => event.preventDefault());
+    this.failure = create('p', 'bad');
+    this.failure.setAttribute('role', 'alert');
   }
+
+  /** Whether there is no study, which leaves everything to a person. */
+  get free() { return !document.body.dataset.study; }
+
+  /** Whether parts may be edited by hand. */
+  get byHand() { return !['automatic', 'pause'].includes(document.body.dataset.study ?? ''); }
+
+  /** Says in the dialog what failed: it covers all else. @param {string} words */
+  fail(words) { this.failure.textContent = words; }
 
   /** @param {any} message */
   set(message) {
     document.body.dataset.study = message.phase === 'task' ? message.condition : 'pause';
+    for (const id of ['direction', 'target']) /** @type {HTMLButtonElement | HTMLInputElement} */ (element(id)).disabled = true;
     this.bar.hidden = message.phase !== 'task';
     if (this.dialog.open) this.dialog.close();
     if (message.phase === 'task') this.#task(message);
@@ -56,7 +68,8 @@ export class Study {
       this.send(message.phase === 'consent' ? { do: 'study', step: 'agree' }
         : { do: 'study', step: 'answers', answers: [0, 1, 2].map((k) => Number(answers.get('question-' + k))) });
     });
-    this.dialog.replaceChildren(title, form);
+    this.fail('');
+    this.dialog.replaceChildren(title, form, this.failure);
     this.dialog.showModal();
   }
 

@@ -21,7 +21,9 @@ export function bindTabs(list) {
       const step = { ArrowRight: 1, ArrowLeft: tabs.length - 1 }[event.key];
       if (!step) return;
       event.preventDefault();
-      const next = tabs[(k + step) % tabs.length];
+      // Those that a study hides are left out.
+      const next = [...tabs.keys()].map((n) => tabs[(k + step * (n + 1)) % tabs.length]).find((one) => one.checkVisibility());
+      if (!next) return;
       choose(next);
       next.focus();
     });

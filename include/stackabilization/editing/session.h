@@ -77,6 +77,7 @@ struct FoundDesigns {
 /// Options of an EditingSession.
 struct SessionOptions {
   double alpha = 0.2;              ///< weight of D in Eq. 5
+  bool suggests = true;            ///< whether suggestions are looked for
   int max_suggestions = 12;        ///< suggestions that are offered, >= 1
   std::filesystem::path autosave;  ///< file written after each change; empty: none
   double effort = 1;               ///< effort of the automatic search, see improve.h
@@ -119,9 +120,9 @@ class EditingSession {
   /// handle that the shape does not have, and values out of range.
   void execute(const Command& command);
 
-  /// Goes on with another document, whose changes are saved in `autosave`; nothing of the last one can be
-  /// undone. Throws as the constructor, and leaves the session as it is.
-  void open(Document document, std::filesystem::path autosave);
+  /// Goes on with another document and other options; nothing of the last one can be undone. Throws as the
+  /// constructor, and leaves the session as it is.
+  void open(Document document, SessionOptions options);
 
   /// Returns the next job of a lane, if there is one to do and none is running there. The caller has to run
   /// it.

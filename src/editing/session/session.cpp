@@ -16,8 +16,8 @@ void EditingSession::execute(const Command& command) {
   implementation_->execute(command);
 }
 
-void EditingSession::open(Document document, std::filesystem::path autosave) {
-  implementation_->open(std::move(document), std::move(autosave));
+void EditingSession::open(Document document, SessionOptions options) {
+  implementation_->open(std::move(document), std::move(options));
 }
 
 std::optional<EditingSession::Job> EditingSession::next_job(Lane lane) {

@@ -13,7 +13,8 @@ void expect_row(int row, std::size_t size, const std::string& what) {
                      " counted from 0");
 }
 
-void expect_nodes(const Document& document) {
+void expect_usable(const Document& document, const SessionOptions& options) {
+  if (options.max_suggestions < 1) throw UsageError("at least one suggestion has to be offered");
   if (document.project.history.nodes.empty() || document.visited.empty())
     throw UsageError("a document has at least the node at rest");
 }
@@ -27,8 +28,7 @@ EditingSession::Implementation::Implementation(Document document, SessionOptions
       options_(std::move(options)),
       listener_(std::move(listener)),
       lanes_([this](const std::string& sentence) { emit(Failed{sentence}); }) {
-  if (options_.max_suggestions < 1) throw UsageError("at least one suggestion has to be offered");
-  expect_nodes(document_);
+  expect_usable(document_, options_);
   workspace_ = std::make_shared<const Workspace>(document_.project, document_.requirements);
   load_node();
 }
@@ -44,7 +44,7 @@ std::optional<EditingSession::Job> EditingSession::Implementation::next_job(Lane
     work = range_work();
   else if (!drag_ && !advice_.review)
     work = review_work();
-  else if (!drag_ && !advice_.complete)
+  else if (!drag_ && !advice_.complete && options_.suggests)
     work = suggestion_work();
   if (!work) return std::nullopt;
   return lanes_.start(lane, std::move(work));

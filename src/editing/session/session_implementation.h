@@ -40,7 +40,7 @@ class EditingSession::Implementation {
     std::visit([this](const auto& one) { run(one); }, command);
   }
   std::optional<Job> next_job(Lane lane);
-  void open(Document document, std::filesystem::path autosave);
+  void open(Document document, SessionOptions options);
 
   Document document_;
   SessionOptions options_;

@@ -25,11 +25,11 @@ void add_relations(const std::vector<Relation>& added, Structure& structure) {
 
 }  // namespace
 
-void EditingSession::Implementation::open(Document document, std::filesystem::path autosave) {
-  expect_nodes(document);
+void EditingSession::Implementation::open(Document document, SessionOptions options) {
+  expect_usable(document, options);
   auto workspace = std::make_shared<const Workspace>(document.project, document.requirements);
   earlier_.clear();
-  options_.autosave = std::move(autosave);
+  options_ = std::move(options);
   load(std::move(document), std::move(workspace));
 }
 
