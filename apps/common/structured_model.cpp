@@ -190,14 +190,19 @@ bool is_project(const std::string& path) {
   return extension == ".json" || extension == ".JSON";
 }
 
+std::optional<std::string> given_mesh_option(const CLI::App& command) {
+  for (const char* option : mesh_options)
+    if (command.count(option) > 0) return option;
+  return std::nullopt;
+}
+
 StructuredModel load_structured(const CLI::App& command, const CommonOptions& common,
                                 const AnalysisArguments& arguments, const std::optional<PartBounds>& bounds) {
   const std::optional<Project> in_memory = project_of_caller(common);
   if (!in_memory && !is_project(common.model)) return analysed(common, arguments, bounds);
-  for (const char* option : mesh_options)
-    if (command.count(option) > 0)
-      throw UsageError(std::string(option) +
-                       " does not go with a project file, which holds shape and structure: " + common.model);
+  if (const auto option = given_mesh_option(command))
+    throw UsageError(*option +
+                     " does not go with a project file, which holds shape and structure: " + common.model);
   StructuredModel result;
   Project project = in_memory ? *in_memory : read_project_with_history(common.model);
   result.structured = std::move(project.rest);

@@ -60,6 +60,9 @@ StructuredModel load_structured(const CLI::App& command, const CommonOptions& co
                                 const AnalysisArguments& arguments,
                                 const std::optional<PartBounds>& bounds = {});
 
+/// Returns the first option given that says how a mesh is read or analysed; nothing where none is.
+std::optional<std::string> given_mesh_option(const CLI::App& command);
+
 /// Rows of parts with these names, ascending, each once. Throws UsageError naming the option and the part.
 std::vector<int> parts_named(const std::string& option, const std::vector<std::string>& names,
                              const Shape& shape);

@@ -12,6 +12,7 @@
 #include "apps/common/structured_model.h"
 #include "apps/common/values.h"
 #include "apps/editor/room.h"
+#include "stackabilization/core/direction_text.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/fingerprint.h"
 #include "stackabilization/core/part_names.h"
@@ -84,6 +85,21 @@ std::optional<editing::Document> saved_document(const SessionPlace& place,
   return document;
 }
 
+/// Says what a session that goes on makes of options that only a new one can obey. Throws UsageError for
+/// another direction.
+void check_options_of_saved(const CLI::App& command, const EditCommandOptions& options,
+                            const editing::Document& saved) {
+  const std::string goes_on = "the session of " + session_file(options).string() + " goes on";
+  const History& history = saved.project.history;
+  const Eigen::Vector3d& direction = history.nodes[static_cast<std::size_t>(history.current)].direction;
+  if (options.direction && !options.direction->normalized().isApprox(direction.normalized()))
+    throw UsageError(goes_on + " stacked " + direction_text(direction) +
+                     ", not as --direction says: --fresh begins anew, --session names another file");
+  if (const auto option = given_mesh_option(command); option && !options.common.quiet)
+    std::cerr << "stackabilize: " << goes_on << " with the shape and the structure that it holds, without "
+              << *option << "; --fresh begins anew\n";
+}
+
 editing::Document fresh_document(const CLI::App& command, const EditCommandOptions& options) {
   StructuredModel input = load_structured(command, options.common, options.analysis, bounds_of_designs);
   editing::Document document = named(input.model, [&] {
@@ -111,7 +127,7 @@ AnalysisOptions options_of_designs() {
 
 /// Makes a document of a mesh file that was dropped onto the page, and writes the file beside MODEL, so that
 /// `edit` opens it again. A session that was saved for it goes on.
-DroppedModel dropped_model(const EditCommandOptions& options, const std::string& name,
+DroppedModel dropped_model(const EditCommandOptions& options, SessionLocks& locks, const std::string& name,
                            const std::string& bytes) {
   if (name.empty() || name.size() > 200 || name.front() == '.' ||
       name.find_first_of(std::string("/\\\0", 3)) != std::string::npos)
@@ -123,7 +139,8 @@ DroppedModel dropped_model(const EditCommandOptions& options, const std::string&
   std::error_code error;
   const bool exists = std::filesystem::exists(file, error);
   if (exists && read_file(file) != bytes) throw UsageError(file.string() + " exists and is another file");
-  DroppedModel dropped{{}, name, stem_of(name), session_file_of(file.string())};
+  DroppedModel dropped{{}, name, stem_of(name), session_file_of(file.string()), nullptr};
+  dropped.lock = locks.take(dropped.autosave);
   const std::string source = source_of_bytes(bytes);
   if (auto saved =
           saved_document({dropped.autosave, name, source, "move one of them away"}, options.measure)) {
@@ -213,6 +230,7 @@ int run_study(const EditCommandOptions& options) {
   const ThreadLimit limit(options.common);
   RoomOptions room_options;
   room_options.study = study_options(options);
+  room_options.session.suggests = false;
   // Models that cannot be read are refused now, not in the middle of a study.
   std::optional<editing::Document> first;
   for (const editing::StudyPlanTask& task : room_options.study->plan.tasks) {
@@ -230,18 +248,20 @@ int run_edit_command(const CLI::App& command, const EditCommandOptions& options)
   const Stopwatch watch;
   const std::filesystem::path autosave = session_file(options);
   CommandFiles files{{{"--study", options.study}, {"--session", options.session}},
-  room_options.session.suggests = false;
                      analysis_inputs(options.analysis)};
   if (!autosave.empty()) files.outputs.back().path = autosave.string();
   check_outputs(options.common, files);
   if (options.study) return run_study(options);
   const ThreadLimit limit(options.common);
+  SessionLocks locks;
+  RoomOptions room_options;
+  room_options.lock = locks.take(autosave);
   std::optional<editing::Document> document;
   if (!options.fresh)
     document = saved_document({autosave, options.common.model, source_of(options),
                                "--fresh begins anew, --session names another file"},
                               options.measure);
-  RoomOptions room_options;
+  if (document) check_options_of_saved(command, options, *document);
   room_options.resumed = document.has_value();
   if (!document) document = fresh_document(command, options);
   if (options.target) document->requirements.target = *options.target;
@@ -252,8 +272,8 @@ int run_edit_command(const CLI::App& command, const EditCommandOptions& options)
   room_options.session.autosave = autosave;
   room_options.name = title_of(model);
   room_options.stem = stem_of(room_options.name);
-  room_options.open = [&options](const std::string& name, const std::string& bytes) {
-    return dropped_model(options, name, bytes);
+  room_options.open = [&options, &locks](const std::string& name, const std::string& bytes) {
+    return dropped_model(options, locks, name, bytes);
   };
   EditingRoom room(std::move(*document), std::move(room_options), web_options(options));
   const editing::Document last = serve(options, room);

@@ -219,6 +219,7 @@ class EditingRoom::Implementation {
       options_.resumed = false;
       session_->open(std::move(model.document), session);
       options_.session = session;
+      options_.lock = std::move(model.lock);
       return {200, plain_type, "opened", ""};
     } catch (const std::exception& failure) {
       return {422, plain_type, failure_sentence(failure), ""};

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/editor/server.h"
+#include "apps/editor/session_locks.h"
 #include "apps/editor/study_desk.h"
 #include "stackabilization/editing/session.h"
 
@@ -17,6 +18,7 @@ struct DroppedModel {
   editing::Document document;
   std::string name, stem;          ///< see RoomOptions
   std::filesystem::path autosave;  ///< of its session
+  SessionLock lock;                ///< of that file
 };
 
 struct RoomOptions {
@@ -24,6 +26,7 @@ struct RoomOptions {
   std::string stem;      ///< of files that are exported, without folder and ending
   bool resumed = false;  ///< whether the session goes on with what was saved
   editing::SessionOptions session;
+  SessionLock lock;  ///< of the file in which the session is saved
   /// Makes a document of a file that a person drops onto the page: its name, and its bytes. The shape is
   /// written beside the model under that name. Throws Error.
   std::function<DroppedModel(const std::string& name, const std::string& bytes)> open;

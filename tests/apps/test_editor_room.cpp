@@ -3,6 +3,7 @@
 #include <boost/asio/read.hpp>
 #include <boost/asio/write.hpp>
 #include <csignal>
+#include <fstream>
 #include <functional>
 #include <new>
 #include <optional>
@@ -156,4 +157,30 @@ TEST_CASE("an answer is a number from 1 to 5, to the last digit") {
   }
   desk.step({{"do", "study"}, {"step", "answers"}, {"answers", {1, 2, 5}}}, session);
   CHECK(desk.state()["phase"] == "done");
+}
+
+TEST_CASE("a session file is had by one program, until it lets go or is killed") {
+  const test::ScratchFolder scratch("editor_locks");
+  const std::filesystem::path file = scratch.path() / "chair.obj.session.json";
+  // A lock belongs to who has opened the file: two of these are as two programs.
+  SessionLocks one, other;
+  SessionLock first = one.take(file);
+  const SessionLock again = one.take(scratch.path() / "." / "chair.obj.session.json");
+  CHECK(again == first);
+  CHECK(mentions(message_of<UsageError>([&] { other.take(file); }), "another program edits"));
+  CHECK(other.take(scratch.path() / "cup.obj.session.json"));
+  first.reset();
+  CHECK_THROWS_AS(other.take(file), UsageError);
+}
+
+TEST_CASE("a session that was let go is free, also where a killed program left its lock behind") {
+  const test::ScratchFolder scratch("editor_free_locks");
+  const std::filesystem::path file = scratch.path() / "chair.obj.session.json";
+  SessionLocks one, other;
+  one.take(file).reset();
+  CHECK(std::filesystem::is_empty(scratch.path()));
+  std::ofstream(file.string() + ".lock") << "";
+  CHECK(other.take(file));
+  CHECK(!one.take({}));
+  CHECK(one.take(scratch.path() / "nowhere" / "chair.obj.session.json"));  // nothing can be saved there
 }

@@ -183,6 +183,41 @@ editing('one page edits, the other looks on until it takes over', 'small_cup.obj
   await other.close();
 });
 
+test('two programs do not save one session, and one that was killed makes way', { timeout: seconds(300) }, async () => {
+  const folder = new Folder('small_cup.obj');
+  const first = await Editor.start(folder);
+  try {
+    await assert.rejects(Editor.start(folder), /another program edits .*small_cup\.obj\.session\.json/);
+    await (await Editor.start(folder, ['--session', path.join(folder.path, 'other.json')])).kill('SIGTERM');
+    await first.kill();
+    await (await Editor.start(folder)).kill('SIGTERM');
+    assert.deepEqual(Object.keys(folder.contents()), ['small_cup.obj']);
+  } finally {
+    await first.kill();
+    folder.remove();
+  }
+});
+
+test('a session that goes on says which options it cannot obey', { timeout: seconds(300) }, async () => {
+  const folder = new Folder('small_cup.obj');
+  let editor = await Editor.start(folder, ['--direction', '0', '0', '2', '--unit', 'm']);
+  try {
+    assert.equal(editor.errors.includes('goes on'), false, 'a new session obeys');
+    const page = await openPage(browser, editor);
+    await page.fill('#target', '0.87');
+    await page.press('#target', 'Enter');
+    await page.waitForFunction(() => window.editor.state.wishes.target === 0.87);
+    await editor.kill();
+    await page.close();
+    await assert.rejects(Editor.start(folder, ['--direction', '1', '0', '0']), /goes on stacked along z, not as --direction says: --fresh begins anew/);
+    editor = await Editor.start(folder, ['--direction', '0', '0', '2', '--unit', 'm']);
+    assert.match(editor.errors, /goes on with the shape and the structure that it holds, without --unit; --fresh begins anew/);
+  } finally {
+    await editor.kill();
+    folder.remove();
+  }
+});
+
 /** Middle of the handle of an axis in the window, a little away from the centre. */
 const gripOf = (page, name) =>
   page.evaluate((name) => {
