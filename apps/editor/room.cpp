@@ -266,9 +266,10 @@ class EditingRoom::Implementation {
     }
   }
 
-  /// Tells a page how a node looks.
+  /// Tells a page how a node looks, and how far apart its copies are.
   void send_picture(PageId page, int node) {
     const std::shared_ptr<const Design> design = session_->design_of(node);
+    send(page, {{"type", "node"}, {"node", node}, {"f_max", session_->f_max_of(node)}});
     send_frame(page,
                vertex_frame(FrameKind::node, static_cast<std::uint32_t>(node), 0, design->shape.vertices));
   }

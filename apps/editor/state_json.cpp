@@ -310,8 +310,8 @@ Json found_json(const EditingSession& session) {
     list.push_back({{"words", explanation_lines(found.explanations[k])},
                     {"stackability", found.designs[k].measured.value},
                     {"f_max", found.designs[k].measured.f_max},
-                    {"change", found.changes[k].root_mean_square},
-                    {"energy", found.designs[k].energy.value}});
+                    {"direction", to_json(found.designs[k].direction)},
+                    {"change", found.changes[k].root_mean_square}});
   return {{"type", "found"},
           {"target", found.target},
           {"running", found.running},

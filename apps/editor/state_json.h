@@ -30,7 +30,8 @@ Json suggestions_json(const editing::EditingSession& session);
 Json range_json(const editing::EditingSession& session);
 /// {type: "map", ready, samples: [[x, y, z, S]], best: {direction, words, stackability}}
 Json map_json(const editing::EditingSession& session);
-/// {type: "found", target, running, list: [{words, stackability, change, energy}], diagnosis, offers}
+/// {type: "found", target, running, list: [{words, stackability, f_max, direction, change}], diagnosis,
+/// offers}
 Json found_json(const editing::EditingSession& session);
 
 /// What stands against an edit, as the page says it.

@@ -336,6 +336,30 @@ editing('a limit is relaxed under Quality', 'small_cup.obj', async (page) => {
   assert.match(await page.textContent('#nearest'), /none|%/);
 });
 
+editing('a design with another direction is looked at along that direction', 'small_cup.obj', async (page) => {
+  await page.evaluate(() => window.editor.send({ do: 'direction', direction: [0, 3, 4] }));
+  await page.waitForFunction(() => window.editor.state.tree.current === 1);
+  const rest = await page.evaluate(() => window.editor.state.design.rest), measured = await page.evaluate(() => window.editor.state.design.measured);
+  const seen = () => page.evaluate(() => [...window.editor.viewer.main.direction.toArray(), window.editor.viewer.main.step]);
+  const settled = (step) => page.waitForFunction((step) => Math.abs(window.editor.viewer.main.step - step) < 1e-12, step);
+  await settled(measured.f_max);
+  await page.click('#cameras button:has-text("Compare")');
+  await page.selectOption('#compare select', '0');
+  await page.waitForFunction(() => window.editor.viewer.stages[1].step > 0);
+  const upright = await page.evaluate(() => window.editor.viewer.stages[1].step);
+  assert.notEqual(upright, rest.f_max, 'at rest along z, not along the new direction');
+  await page.keyboard.press('x');
+  await page.locator('.node').first().hover();
+  await settled(upright);
+  assert.deepEqual((await seen()).slice(0, 3), [0, 0, 1]);
+  await page.mouse.move(400, 400);
+  await settled(measured.f_max);
+  assert.deepEqual((await seen()).slice(0, 3).map((x) => Math.round(1e9 * x) / 1e9), [0, 0.6, 0.8]);
+  await page.evaluate(() => window.editor.send({ do: 'roll-back', node: 0 }));
+  await page.waitForFunction(() => window.editor.state.tree.current === 0);
+  assert.ok(Math.abs((await page.evaluate(() => window.editor.state.design.measured.f_max)) - upright) < 1e-9, 'its own step was shown');
+});
+
 /** What axe-core finds serious or critical. */
 const violations = (page) =>
   page.evaluate(async () => {

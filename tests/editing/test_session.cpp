@@ -2,6 +2,7 @@
 
 #include "sessions.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/envelope/separation.h"
 #include "stackabilization/io/read_file.h"
 #include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
@@ -82,6 +83,22 @@ TEST_CASE(
   observed.session.open(sessions::table_document(), {});
   observed.work();
   CHECK(!observed.session.suggestions().empty());
+}
+
+TEST_CASE("the translation of a node is measured on its design along its direction") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  observed.work();
+  session.execute(ApplySuggestion{0});
+  session.execute(SetDirection{{0.4, 0, 1}});
+  const History& history = session.document().project.history;
+  REQUIRE(history.nodes.size() == 3);
+  for (int node = 0; node < 3; ++node) {
+    const Direction direction(history.nodes[static_cast<std::size_t>(node)].direction);
+    const Shape& shape = session.design_of(node)->shape;
+    CHECK(session.f_max_of(node) == Approx(minimal_stacking_translation(shape, direction).length));
+  }
+  CHECK_THROWS_AS(session.f_max_of(3), UsageError);
 }
 
 TEST_CASE("undo, redo, going back and branching") {

@@ -79,7 +79,7 @@ export class Automatic {
     card.append(picture, facts);
     card.setAttribute('aria-label', `S ${format.stackability(design.stackability)}, change ${format.percent(design.change)}, ${design.words.join(', ')}`);
     const vertices = this.vertices[k];
-    if (vertices) this.viewer.thumbnail(picture, vertices, { step: design.f_max, against: this.viewer.main.surface?.mesh.vertices ?? null });
+    if (vertices) this.viewer.thumbnail(picture, vertices, { step: design.f_max, direction: design.direction, against: this.viewer.main.surface?.mesh.vertices ?? null });
     card.onclick = () => { this.actions.leave(); this.actions.send({ do: 'take', number: k }); };
     const offer = { ...design, vertices };
     card.onmousemove = card.onfocus = () => vertices && this.actions.preview(offer);

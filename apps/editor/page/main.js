@@ -26,19 +26,20 @@ const viewer = new Viewer(canvas), picker = new Picker(viewer);
 const state = { model: null, design: null, review: null, tree: null, wishes: null, suggestions: { list: [] }, found: { list: [] }, writes: false };
 /** @type {Float32Array | null} */
 let shown = null;
-/** What is shown instead while the mouse is over it. @type {{vertices: Float32Array, step: number} | null} */
+/** What is shown instead while the mouse is over it. @type {Float32Array | null} */
 let preview = null;
 
 const connection = new Connection({ message: receive, frame: receiveFrame, open: opened });
 const send = (/** @type {object} */ command) => connection.send(command);
 
-/** @param {Float32Array} vertices @param {number} step @param {number} value  S */
-function startPreview(vertices, step, value) {
-  if (preview?.vertices === vertices) return;
-  preview = { vertices, step };
+/** @param {{vertices: Float32Array, f_max: number, stackability: number, direction?: number[]}} design  along the current direction where it has none */
+function startPreview({ vertices, f_max: step, stackability, direction }) {
+  if (preview === vertices) return;
+  preview = vertices;
   viewer.main.setBefore(shown);
   viewer.main.show(vertices, step, true);
-  measures.preview(value, step);
+  viewer.main.setDirection(direction ?? state.design.direction);
+  measures.preview(stackability, step);
 }
 
 function endPreview() {
@@ -46,12 +47,13 @@ function endPreview() {
   preview = null;
   viewer.main.setBefore(null);
   viewer.main.show(shown, state.design?.measured.f_max ?? 0, true);
+  if (state.design) viewer.main.setDirection(state.design.direction);
   measures.preview(null, null);
 }
 
 const measures = new Measures(send);
 const gallery = new Gallery(viewer, {
-  preview: (offer) => startPreview(offer.vertices, offer.f_max, offer.stackability),
+  preview: startPreview,
   leave: endPreview,
   apply: (number) => { endPreview(); send({ do: 'apply', number }); },
   accept: (number) => { endPreview(); send({ do: 'accept-advice', number }); },
@@ -59,14 +61,14 @@ const gallery = new Gallery(viewer, {
 const tree = new Tree(viewer, {
   go: (node) => { endPreview(); send({ do: 'roll-back', node }); },
   picture: (node) => send({ do: 'picture', node }),
-  preview: (node) => startPreview(node.vertices, node.step, node.stackability),
+  preview: startPreview,
   leave: endPreview,
 });
 
 const automatic = new Automatic(viewer, {
   send,
   leave: endPreview,
-  preview: (offer) => startPreview(offer.vertices, offer.f_max, offer.stackability),
+  preview: startPreview,
 });
 const quality = new Quality(send);
 const compare = new Compare(viewer, tree, send);
@@ -207,7 +209,7 @@ function receive(message) {
       break;
     case 'tree':
       state.tree = message;
-      tree.set(message, state.design);
+      tree.set(message);
       compare.follow();
       /** @type {HTMLButtonElement} */ (element('undo')).disabled = !message.can_undo;
       /** @type {HTMLButtonElement} */ (element('redo')).disabled = !message.can_redo;
@@ -231,6 +233,9 @@ function receive(message) {
       break;
     case 'study':
       study.set(message);
+    case 'node':
+      tree.setStep(message.node, message.f_max);
+      break;
       break;
     case 'found':
       state.found = message;

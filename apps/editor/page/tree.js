@@ -8,7 +8,7 @@ export class Tree {
   /**
    * @param {import('./viewer/viewer.js').Viewer} viewer
    * @param {{go: (node: number) => void, picture: (node: number) => void, leave: () => void,
-   *   preview: (node: {vertices: Float32Array, step: number, stackability: number}) => void}} actions
+   *   preview: (node: {vertices: Float32Array, f_max: number, stackability: number, direction: number[]}) => void}} actions
    */
   constructor(viewer, actions) {
     this.viewer = viewer;
@@ -16,6 +16,8 @@ export class Tree {
     this.list = element('tree');
     /** @type {Map<number, Float32Array>} */
     this.vertices = new Map();
+    /** f_max of nodes. @type {Map<number, number>} */
+    this.steps = new Map();
     /** @type {Map<number, HTMLButtonElement>} */
     this.nodes = new Map();
     this.message = /** @type {any} */ (null);
@@ -34,16 +36,16 @@ export class Tree {
   clear() {
     this.nodes.clear();
     this.vertices.clear();
+    this.steps.clear();
   }
 
-  /** @param {any} message @param {any} design */
-  set(message, design) {
+  /** Comes before the vertices of the node. @param {number} node @param {number} f_max */
+  setStep(node, f_max) { this.steps.set(node, f_max); }
+
+  /** @param {any} message */
+  set(message) {
     this.message = message;
-    this.loss = design ? design.measured.loss_per_length : 1;
-    if (message.nodes.length < this.nodes.size) {
-      this.nodes.clear();
-      this.vertices.clear();
-    }
+    if (message.nodes.length < this.nodes.size) this.clear();
     const places = layout(message.nodes);
     const path = new Set();
     for (let node = message.current; node >= 0; node = message.nodes[node].parent) path.add(node);
@@ -81,7 +83,7 @@ export class Tree {
     button.addEventListener('click', () => this.actions.go(k));
     const look = () => {
       const vertices = this.vertices.get(k);
-      if (vertices && k !== this.message.current) this.actions.preview({ vertices, step: this.stepOf(k), stackability: node.stackability });
+      if (vertices && k !== this.message.current) this.actions.preview({ vertices, f_max: this.stepOf(k), stackability: node.stackability, direction: node.direction });
     };
     button.addEventListener('mouseenter', look);
     button.addEventListener('mouseleave', () => this.actions.leave());
@@ -90,15 +92,13 @@ export class Tree {
     return button;
   }
 
-  /** f_max of a node, from its S. @param {number} k */
-  stepOf(k) {
-    return (1 - this.message.nodes[k].stackability) / (this.loss || 1);
-  }
+  /** f_max of a node of which the vertices are known. @param {number} k */
+  stepOf(k) { return this.steps.get(k) ?? 0; }
 
   /** @param {number} k */
   #paint(k) {
     const vertices = this.vertices.get(k), picture = this.nodes.get(k)?.querySelector('canvas');
-    if (vertices && picture) this.viewer.thumbnail(picture, vertices, { step: this.stepOf(k), against: this.viewer.main.surface?.mesh.vertices ?? null });
+    if (vertices && picture) this.viewer.thumbnail(picture, vertices, { step: this.stepOf(k), direction: this.message.nodes[k].direction, against: this.viewer.main.surface?.mesh.vertices ?? null });
   }
 
   /** Paints all pictures again. */

@@ -153,6 +153,8 @@ class EditingSession {
   /// Returns the design of a node. Throws UsageError when there is no such node.
   std::shared_ptr<const Design> design_of(int node) const;
   /// Returns the limits and requirements of the designs.
+  /// Returns f_max of a node along its direction, model units. Throws UsageError when there is no such node.
+  double f_max_of(int node) const;
   const RequirementChecker& checker() const;
 
  private:

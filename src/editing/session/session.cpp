@@ -111,3 +111,9 @@ std::shared_ptr<const Design> EditingSession::design_of(int node) const {
 }
 
 }  // namespace stackabilization::editing
+double EditingSession::f_max_of(int node) const {
+  const std::shared_ptr<const Design> design = design_of(node);
+  const HistoryNode& at = document().project.history.nodes[static_cast<std::size_t>(node)];
+  return checker().measure(design->shape, Direction(at.direction)).f_max;
+}
+

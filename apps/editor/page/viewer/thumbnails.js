@@ -53,7 +53,7 @@ export class ThumbnailPainter {
   /**
    * @param {HTMLCanvasElement} canvas
    * @param {Float32Array} vertices
-   * @param {{step: number, against: Float32Array | null}} look
+   * @param {import('./viewer.js').SmallLook} look
    */
   paint(canvas, vertices, look) {
     this.#prepare();
@@ -65,10 +65,11 @@ export class ThumbnailPainter {
     this.surface.set(vertices);
     this.ghost.material.color.setHex(palette.ghost);
     this.edges.material.color.setHex(palette.edge);
-    this.ghost.position.copy(viewer.main.direction).multiplyScalar(look.step);
+    const direction = look.direction ? new THREE.Vector3().fromArray(look.direction).normalize() : viewer.main.direction;
+    this.ghost.position.copy(direction).multiplyScalar(look.step);
     const width = canvas.width, height = canvas.height, scale = 2;
     this.camera.aspect = width / height;
-    const radius = viewer.main.radius + look.step / 2, centre = viewer.main.centre.clone().addScaledVector(viewer.main.direction, look.step / 2);
+    const radius = viewer.main.radius + look.step / 2, centre = viewer.main.centre.clone().addScaledVector(direction, look.step / 2);
     const distance = (0.98 * radius) / Math.sin((this.camera.fov * Math.PI) / 360);
     const eye = viewer.camera.position.clone().sub(viewer.controls.target).normalize();
     this.camera.position.copy(centre).addScaledVector(eye, distance);

@@ -8,6 +8,14 @@ import { ThumbnailPainter } from './thumbnails.js';
 /** Where the eye is at first, seen from the object. */
 const firstView = [1.6, -2.4, 1.15];
 
+/**
+ * How a design is drawn small.
+ * @typedef {object} SmallLook
+ * @property {number} step  distance of the copy above it
+ * @property {number[]} [direction]  in which that is; that of the view where it is left out
+ * @property {Float32Array | null} against  parts that differ from this design are green
+ */
+
 export class Viewer {
   /** @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
@@ -179,7 +187,7 @@ export class Viewer {
    * Draws a design small, as it is seen now, with one copy above it.
    * @param {HTMLCanvasElement} canvas
    * @param {Float32Array} vertices
-   * @param {{step: number, against: Float32Array | null}} look  parts that differ from `against` are green
+   * @param {SmallLook} look
    */
   thumbnail(canvas, vertices, look) {
     if (!this.main.surface) return;
