@@ -222,7 +222,8 @@ Json tree_json(const EditingSession& session) {
           {"current", history.current},
           {"nodes", nodes},
           {"can_undo", session.can_undo()},
-          {"can_redo", session.can_redo()}};
+          {"can_redo", session.can_redo()},
+          {"saved", session.saved()}};
 }
 
 Json wishes_json(const EditingSession& session) {

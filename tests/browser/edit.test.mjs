@@ -175,8 +175,11 @@ editing('one page edits, the other looks on until it takes over', 'small_cup.obj
   assert.equal(await page.evaluate(() => window.editor.state.tree.nodes.length), 1);
   await page.locator('.card').first().click();
   await other.waitForFunction(() => window.editor.state.tree.current === 1);
-  await other.evaluate(() => window.editor.send({ do: 'write' }));
+  assert.equal(await page.isVisible('#write'), false);
+  await keepPicture(other, 'looks_on');
+  await other.click('#write');
   await other.waitForFunction(() => window.editor.state.writes);
+  await page.waitForSelector('#write:not([hidden])');
   await other.click('#undo');
   await page.waitForFunction(() => window.editor.state.tree.current === 0);
   assert.deepEqual(other.failures, []);
@@ -212,6 +215,37 @@ test('a session that goes on says which options it cannot obey', { timeout: seco
     await assert.rejects(Editor.start(folder, ['--direction', '1', '0', '0']), /goes on stacked along z, not as --direction says: --fresh begins anew/);
     editor = await Editor.start(folder, ['--direction', '0', '0', '2', '--unit', 'm']);
     assert.match(editor.errors, /goes on with the shape and the structure that it holds, without --unit; --fresh begins anew/);
+  } finally {
+    await editor.kill();
+    folder.remove();
+  }
+});
+
+test('a page that lost the program says what is saved, and tries again when it is told to', { timeout: seconds(300) }, async () => {
+  const folder = new Folder('small_cup.obj');
+  const editor = await Editor.start(folder, ['--keep-open']);
+  try {
+    const page = await openPage(browser, editor);
+    const lose = () => page.evaluate(() => {
+      window.editor.connection.tries = 100;
+      window.editor.connection.socket.close();
+    });
+    await lose();
+    await page.waitForSelector('#again:not([hidden])');
+    assert.match(await page.textContent('#veil-text'), /What you did is saved/);
+    await keepPicture(page, 'lost');
+    await page.click('#again');
+    await page.waitForSelector('#veil', { state: 'hidden' });
+
+    // Nothing is said to be saved where the file cannot be written.
+    fs.mkdirSync(folder.session);
+    await page.fill('#target', '0.87');
+    await page.press('#target', 'Enter');
+    await page.waitForFunction(() => window.editor.state.tree.saved === false);
+    await lose();
+    await page.waitForSelector('#again:not([hidden])');
+    assert.doesNotMatch(await page.textContent('#veil-text'), /saved/);
+    await page.close();
   } finally {
     await editor.kill();
     folder.remove();

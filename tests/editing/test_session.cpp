@@ -6,6 +6,7 @@
 #include "stackabilization/io/read_file.h"
 #include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
+#include "support/meshes.h"
 #include "support/messages.h"
 #include "support/solids.h"
 
@@ -274,6 +275,23 @@ TEST_CASE("a file that cannot be written is said, and nothing else is lost") {
   observed.session.execute(SetDirection{{0, 0.1, 1}});
   REQUIRE(!observed.all<Failed>().empty());
   CHECK(observed.session.document().project.history.nodes.size() == 2);
+  CHECK(!observed.session.saved());
+}
+
+TEST_CASE("changes are saved where there is a file for them, and it can be written") {
+  CHECK(!Observed(sessions::table_document()).session.saved());
+  const test::ScratchFolder scratch("editing_saved");
+  const std::filesystem::path folder = scratch.path() / "session";
+  SessionOptions options;
+  options.autosave = folder / "session.json";
+  Observed observed(sessions::table_document(), options);
+  EditingSession& session = observed.session;
+  CHECK(session.saved());  // there is no change yet
+  session.execute(SetTarget{0.5});
+  CHECK(!session.saved());
+  std::filesystem::create_directory(folder);
+  session.execute(SetTarget{0.6});
+  CHECK(session.saved());
 }
 
 TEST_CASE("strokes cut a part in two, and Undo joins it again") {

@@ -14,6 +14,9 @@ export const frameKind = { mesh: 1, shown: 2, suggestion: 3, node: 4, found: 5, 
 
 const headBytes = 16;
 
+/** Tries to reach the program in a row, further and further apart: three quarters of a minute. */
+const maxTries = 20;
+
 /** Reads the head of a frame. @param {ArrayBuffer} buffer @returns {Frame} */
 export function frameOf(buffer) {
   const head = new DataView(buffer);
@@ -43,6 +46,7 @@ export class Connection {
    * @param {(message: any) => void} handlers.message
    * @param {(frame: Frame) => void} handlers.frame
    * @param {(open: boolean) => void} handlers.open
+   * @param {() => void} handlers.gaveUp  nobody answers, and it is not tried again
    */
   constructor(handlers) {
     this.handlers = handlers;
@@ -67,9 +71,17 @@ export class Connection {
     };
     socket.onclose = () => {
       this.handlers.open(false);
-      if (++this.tries < 20) setTimeout(() => this.#connect(), 250 * this.tries);
+      if (++this.tries < maxTries) setTimeout(() => this.#connect(), 250 * this.tries);
+      else this.handlers.gaveUp();
     };
     this.socket = socket;
+  }
+
+  /** Tries again, after it gave up. */
+  retry() {
+    this.tries = 0;
+    this.handlers.open(false);
+    this.#connect();
   }
 
   /** @param {object} command */

@@ -29,7 +29,8 @@ let shown = null;
 /** What is shown instead while the mouse is over it. @type {Float32Array | null} */
 let preview = null;
 
-const connection = new Connection({ message: receive, frame: receiveFrame, open: opened });
+const connection = new Connection({ message: receive, frame: receiveFrame, open: opened, gaveUp });
+element('again').addEventListener('click', () => connection.retry());
 const send = (/** @type {object} */ command) => connection.send(command);
 
 /** @param {{vertices: Float32Array, f_max: number, stackability: number, direction?: number[]}} design  along the current direction where it has none */
@@ -128,10 +129,22 @@ canvas.addEventListener('click', (event) => {
   if (hit) openTab('parts');
 });
 
+/** Says that the program is away. @param {string} words  what comes of it */
+function sayAway(words) {
+  const saved = state.tree?.saved ? ' What you did is saved.' : '';
+  element('veil-text').textContent = `The program has ended, or cannot be reached.${saved} ${words}`;
+}
+
 /** @param {boolean} open */
 function opened(open) {
   element('veil').hidden = open;
-  element('veil-text').textContent = 'The program has ended, or cannot be reached. What you did is saved.';
+  element('again').hidden = true;
+  if (!open) sayAway('Trying to reach it …');
+}
+
+function gaveUp() {
+  element('again').hidden = false;
+  sayAway('');
 }
 
 /** A sentence under the object. @param {string} text @param {boolean} [bad] */
@@ -181,7 +194,8 @@ function receive(message) {
       break;
     case 'role':
       state.writes = message.writes;
-      element('role').textContent = message.writes ? '' : 'Another page is editing; this one looks on.';
+      element('role-words').textContent = message.writes ? '' : 'Another page is editing; this one looks on.';
+      element('write').hidden = message.writes;
       document.body.classList.toggle('reader', !message.writes);
       break;
     case 'design': {
@@ -394,4 +408,4 @@ canvas.addEventListener('keydown', (event) => {
 });
 
 // For tests: what the page holds and shows.
-Object.assign(window, { editor: { viewer, picker, directions, compare, state, send, gizmo, parts, strokes } });
+Object.assign(window, { editor: { viewer, connection, picker, directions, compare, state, send, gizmo, parts, strokes } });

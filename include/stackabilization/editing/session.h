@@ -131,6 +131,7 @@ class EditingSession {
   void cancel();
 
   const Document& document() const;       ///< everything that is saved
+  bool saved() const;                     ///< whether every change is in the file `autosave`
   const DeformationModel& space() const;  ///< designs of the shape
   const Direction& direction() const;     ///< r of the current node
   const Stackability& at_rest() const;    ///< S of the shape at rest along `direction`
@@ -152,9 +153,9 @@ class EditingSession {
   const std::optional<DirectionMap>& map() const;   ///< of the last MapDirections for the current design
   /// Returns the design of a node. Throws UsageError when there is no such node.
   std::shared_ptr<const Design> design_of(int node) const;
-  /// Returns the limits and requirements of the designs.
   /// Returns f_max of a node along its direction, model units. Throws UsageError when there is no such node.
   double f_max_of(int node) const;
+  /// Returns the limits and requirements of the designs.
   const RequirementChecker& checker() const;
 
  private:

@@ -32,6 +32,10 @@ const Document& EditingSession::document() const {
   return implementation_->document_;
 }
 
+bool EditingSession::saved() const {
+  return !implementation_->options_.autosave.empty() && !implementation_->unsaved_;
+}
+
 const DeformationModel& EditingSession::space() const {
   return implementation_->workspace_->space();
 }
@@ -110,10 +114,10 @@ std::shared_ptr<const Design> EditingSession::design_of(int node) const {
   return implementation_->designs_.of(implementation_->workspace_->space(), history, node);
 }
 
-}  // namespace stackabilization::editing
 double EditingSession::f_max_of(int node) const {
   const std::shared_ptr<const Design> design = design_of(node);
   const HistoryNode& at = document().project.history.nodes[static_cast<std::size_t>(node)];
   return checker().measure(design->shape, Direction(at.direction)).f_max;
 }
 
+}  // namespace stackabilization::editing

@@ -77,10 +77,12 @@ void EditingSession::Implementation::announce_node() {
   emit(Changed{Change::tree});
 }
 
-void EditingSession::Implementation::save() const {
+void EditingSession::Implementation::save() {
   if (options_.autosave.empty()) return;
+  unsaved_ = true;
   try {
     write_file_atomically(options_.autosave, document_text(document_));
+    unsaved_ = false;
   } catch (const Error& error) {
     emit(Failed{error.what()});
   }

@@ -54,6 +54,7 @@ class EditingSession::Implementation {
   std::optional<DragState> drag_;
   Advice advice_;
   FoundDesigns found_;
+  bool unsaved_ = false;  ///< whether the last change could not be written
   Lanes lanes_;
 
  private:
@@ -72,7 +73,7 @@ class EditingSession::Implementation {
   void forget_advice();
   /// Saves the document, and says that the current node changed.
   void announce_node();
-  void save() const;
+  void save();
   /// Makes a node current, as a step that Undo reverts.
   void visit(int node);
   void go_to_place(std::size_t place);
