@@ -370,6 +370,19 @@ editing('a limit is relaxed under Quality', 'small_cup.obj', async (page) => {
   assert.match(await page.textContent('#nearest'), /none|%/);
 });
 
+editing('pictures of designs follow the theme', 'small_cup.obj', async (page) => {
+  await page.fill('#target', '0.8');
+  await page.press('#target', 'Enter');
+  await page.click('#tab-automatic');
+  await page.click('#find');
+  await page.waitForFunction(() => window.editor.state.found.list.length > 0 && !window.editor.state.found.running);
+  const corner = () => page.evaluate(() => Array.from(document.querySelector('#panel-automatic .card canvas').getContext('2d').getImageData(1, 1, 1, 1).data.slice(0, 3)));
+  const light = await corner();
+  await page.click('#theme');
+  const dark = await corner();
+  assert.ok(Math.max(...dark) < 64 && Math.min(...light) > 192, `${light} becomes ${dark}`);
+});
+
 editing('a design with another direction is looked at along that direction', 'small_cup.obj', async (page) => {
   await page.evaluate(() => window.editor.send({ do: 'direction', direction: [0, 3, 4] }));
   await page.waitForFunction(() => window.editor.state.tree.current === 1);

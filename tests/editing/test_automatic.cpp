@@ -67,6 +67,42 @@ TEST_CASE("designs that the automatic search finds reach the target, and one is 
   CHECK_THROWS_AS(session.execute(TakeDesign{99}), UsageError);
 }
 
+TEST_CASE("designs arrive while the search goes on, least change first") {
+  const StructuredShape table =
+      analyse_structure(read_shape(STACKABILIZATION_SOURCE_DIR "/data/models/table.obj"));
+  SessionOptions options;
+  options.effort = 0.2;
+  Observed observed(new_document(table), options);
+  EditingSession& session = observed.session;
+  session.execute(FindDesigns{});
+  const auto job = session.next_job(Lane::automatic);
+  REQUIRE(job);
+  const double first_search = 0.1;  // share of the first of two searches
+  double done = 0, done_at_first_design = -1;
+  bool same_search_goes_on = false;
+  (*job)([&](const EditingSession::Result& result) {
+    observed.events.clear();
+    result();
+    for (const Progress& progress : observed.all<Progress>()) done = progress.fraction;
+    const FoundDesigns& found = session.found();
+    if (done_at_first_design < 0 && !found.designs.empty()) done_at_first_design = done;
+    const double since = done_at_first_design;
+    if (since >= 0 && done > since && done < 1 && (since > first_search || done <= first_search))
+      same_search_goes_on = true;
+    REQUIRE(found.explanations.size() == found.designs.size());
+    double before = 0;
+    for (std::size_t k = 0; k < found.designs.size(); ++k) {
+      const Candidate& one = found.designs[k];
+      CHECK(session.checker().check(one.design, Direction(one.direction)).passed());
+      const double size = size_of(ChangeMeasure::both, one, session.space().rest().shape);
+      CHECK(size >= before);
+      before = size;
+    }
+  });
+  CHECK(same_search_goes_on);
+  CHECK(!session.found().running);
+}
+
 TEST_CASE("a target out of reach is diagnosed, and an offer is accepted") {
   SearchInVain in_vain(sessions::table_document(), 0.97);
   EditingSession& session = in_vain.session;

@@ -15,6 +15,8 @@ export class Automatic {
     this.message = /** @type {any} */ ({ list: [], offers: [], running: false, diagnosis: null });
     /** @type {Float32Array[]} */
     this.vertices = [];
+    /** Cards by what they show: those that stay are not painted again. @type {Map<string, {card: HTMLButtonElement, picture: HTMLCanvasElement, offer: any}>} */
+    this.cards = new Map();
     this.wishes = /** @type {any} */ (null);
     this.button = create('button', 'primary', 'Find designs');
     this.button.id = 'find';
@@ -64,27 +66,47 @@ export class Automatic {
       : message.running ? `Looking for designs of S ${format.stackability(message.target)} …`
         : message.diagnosis ? `No design of S ${format.stackability(message.target)} within the limits; the best one has ${format.stackability(message.diagnosis.reached)}.`
           : `Looks for the least change that reaches S ${target}, with all limits kept.`;
-    this.list.replaceChildren(...message.list.map((/** @type {any} */ design, /** @type {number} */ k) => this.#card(design, k)));
+    this.#list();
     this.#diagnose();
   }
 
-  /** @param {any} design @param {number} k */
-  #card(design, k) {
+  /** Puts the cards in order. Designs come while somebody looks at those that are there. */
+  #list() {
+    const focused = [...this.cards.values()].find(({ card }) => card === document.activeElement)?.card, cards = new Map();
+    this.message.list.forEach((/** @type {any} */ design, /** @type {number} */ k) => {
+      const key = JSON.stringify(design), shown = this.cards.get(key) ?? this.#card({ ...design, vertices: this.vertices[k] });
+      shown.card.onclick = () => { this.actions.leave(); this.actions.send({ do: 'take', number: k }); };
+      cards.set(key, shown);
+    });
+    this.cards = cards;
+    this.list.replaceChildren(...[...this.cards.values()].map(({ card }) => card));
+    if (focused?.isConnected) focused.focus();
+  }
+
+  /** @param {any} offer  a design with its vertices */
+  #card(offer) {
     const card = create('button', 'card'), picture = create('canvas', 'picture'), facts = create('span', 'facts'), gain = create('span', 'gain');
     picture.width = 160;
     picture.height = 120;
     picture.setAttribute('aria-hidden', 'true');
-    gain.append(`S ${format.stackability(design.stackability)}`, create('span', 'cost', format.percent(design.change)));
-    facts.append(gain, ...design.words.slice(0, 3).map((/** @type {string} */ words) => create('span', 'what', words)));
+    gain.append(`S ${format.stackability(offer.stackability)}`, create('span', 'cost', format.percent(offer.change)));
+    facts.append(gain, ...offer.words.slice(0, 3).map((/** @type {string} */ words) => create('span', 'what', words)));
     card.append(picture, facts);
-    card.setAttribute('aria-label', `S ${format.stackability(design.stackability)}, change ${format.percent(design.change)}, ${design.words.join(', ')}`);
-    const vertices = this.vertices[k];
-    if (vertices) this.viewer.thumbnail(picture, vertices, { step: design.f_max, direction: design.direction, against: this.viewer.main.surface?.mesh.vertices ?? null });
-    card.onclick = () => { this.actions.leave(); this.actions.send({ do: 'take', number: k }); };
-    const offer = { ...design, vertices };
-    card.onmousemove = card.onfocus = () => vertices && this.actions.preview(offer);
+    card.setAttribute('aria-label', `S ${format.stackability(offer.stackability)}, change ${format.percent(offer.change)}, ${offer.words.join(', ')}`);
+    card.onmousemove = card.onfocus = () => offer.vertices && this.actions.preview(offer);
     card.onmouseleave = card.onblur = () => this.actions.leave();
-    return card;
+    this.#paint(picture, offer);
+    return { card, picture, offer };
+  }
+
+  /** @param {HTMLCanvasElement} picture @param {any} offer */
+  #paint(picture, { vertices, f_max: step, direction }) {
+    if (vertices) this.viewer.thumbnail(picture, vertices, { step, direction, against: this.viewer.main.surface?.mesh.vertices ?? null });
+  }
+
+  /** Paints all pictures again, after the view has other colours. */
+  paint() {
+    for (const { picture, offer } of this.cards.values()) this.#paint(picture, offer);
   }
 
   #diagnose() {

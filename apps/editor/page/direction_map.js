@@ -84,6 +84,9 @@ export class DirectionMap {
     this.canvas.focus();
   }
 
+  /** Paints the map again, after the page has other colours. */
+  paint() { this.#draw(); }
+
   /** Another design: its map is another one. @param {number[]} direction */
   setDirection(direction) {
     this.current = upward(direction);

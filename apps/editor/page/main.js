@@ -385,7 +385,9 @@ function setTheme() {
 const toggleTheme = () => { dark = !dark; setTheme(); };
 element('theme').addEventListener('click', toggleTheme);
 setTheme();
+  automatic.paint();
 
+  directions.paint();
 const keysDialog = /** @type {HTMLDialogElement} */ (element('keys'));
 element('help').addEventListener('click', () => keysDialog.showModal());
 bindTabs(element('tabs'));

@@ -123,8 +123,7 @@ class EditingSession::Implementation {
   JobWork map_work();
   void deliver_suggestions(std::vector<OfferedEdit> offered, const Cancelled& cancelled,
                            const Deliver& deliver);
-  void deliver_found(const Workspace& workspace, const Improvement& improvement, const Cancelled& cancelled,
-                     const Deliver& deliver);
+  void deliver_found(const FoundDesigns& designs, const Cancelled& cancelled, const Deliver& deliver);
 
   std::optional<Edit> wanted_range_;
   bool range_runs_ = false;  ///< whether the job of the lane of advice is a range
@@ -134,8 +133,8 @@ class EditingSession::Implementation {
 /// Throws UsageError naming `what` if there is no such row.
 void expect_row(int row, std::size_t size, const std::string& what);
 
-/// Throws UsageError for a document without a node at rest.
-void expect_nodes(const Document& document);
+/// Throws UsageError for a document without a node at rest, and for options out of range.
+void expect_usable(const Document& document, const SessionOptions& options);
 
 /// Returns the name of a node: what changed most, or `otherwise` where nothing is seen.
 std::string node_name(const Explanation& change, const std::string& otherwise);
