@@ -407,6 +407,43 @@ editing('a design with another direction is looked at along that direction', 'sm
   assert.ok(Math.abs((await page.evaluate(() => window.editor.state.design.measured.f_max)) - upright) < 1e-9, 'its own step was shown');
 });
 
+editing('the graphics card keeps nothing that is not shown', 'table.obj', async (page) => {
+  await pick(page, 'leg');
+  await page.waitForFunction(() => window.editor.state.review.ready);
+  for (const key of ['j', 'y', 'b']) await page.keyboard.press(key);
+  const name = await page.evaluate(() => window.editor.gizmo.handle.axesOf('move')[1].name);
+  const round = async () => {
+    const grip = await gripOf(page, name);
+    await page.mouse.move(grip.x, grip.y);
+    await page.mouse.down();
+    await page.waitForFunction(() => window.editor.state.range);
+    for (const share of [0.1, 0.2, 0.1]) {
+      await page.mouse.move(grip.x + share * grip.dx, grip.y + share * grip.dy);
+      await frameDrawn(page);
+    }
+    await page.waitForFunction(() => window.editor.state.design.dragging);
+    await page.keyboard.press('Escape');
+    await page.waitForFunction(() => !window.editor.state.design.dragging);
+    await page.mouse.up();
+    await page.evaluate(() => {
+      const { viewer, state } = window.editor;
+      viewer.main.setStrokes([new Set([0, 1]), new Set([2, 3])]);
+      viewer.main.setRelations(state.model.joints.flatMap((joint) => joint.points), state.model.symmetries);
+    });
+    await frameDrawn(page);
+    await page.keyboard.press('x');
+    await frameDrawn(page);
+    await page.keyboard.press('x');
+    await page.evaluate(() => window.editor.viewer.main.setStrokes([]));
+    await page.mouse.move(400, 700);
+    await frameDrawn(page);
+    return page.evaluate(() => window.editor.viewer.renderer.info.memory.geometries);
+  };
+  const before = await round();
+  assert.ok(before > 5);
+  assert.deepEqual([await round(), await round()], [before, before]);
+});
+
 /** What axe-core finds serious or critical. */
 const violations = (page) =>
   page.evaluate(async () => {

@@ -1,6 +1,7 @@
 // Handles of a part that is picked: arrows, rings and cubes, with the freedoms that edits of the program have.
 import * as THREE from 'three';
 import { exact } from './format.js';
+import { empty, release } from './viewer/release.js';
 
 /** @typedef {import('./viewer/primitive_lines.js').Primitive} Primitive */
 /** @typedef {'part' | 'face' | 'corner' | 'end'} Element */
@@ -205,7 +206,7 @@ export class Gizmo {
 
   /** Builds what is drawn. */
   rebuild() {
-    this.group.clear();
+    empty(this.group);
     const { handle, tool, viewer } = this;
     viewer.draw();
     if (!handle?.centre) return;
@@ -251,8 +252,11 @@ export class Gizmo {
   /** The part of the axis on which all limits hold, and its ends. */
   #drawRange() {
     const { handle, active, range, tool, viewer } = this;
-    if (this.bar) viewer.main.scene.remove(this.bar);
-    this.bar = undefined;
+    if (this.bar) {
+      viewer.main.scene.remove(this.bar);
+      release(this.bar);
+      this.bar = undefined;
+    }
     const direction = active?.axis.direction;
     if (!handle?.centre || !direction || !range || tool === 'rotate') return;
     const { centre } = handle;

@@ -178,9 +178,4 @@ export class MeshSurface {
     }
     this.geometry.attributes.color.needsUpdate = true;
   }
-
-  dispose() {
-    this.geometry.dispose();
-    this.edgeGeometry.dispose();
-  }
 }

@@ -3,6 +3,7 @@ import * as THREE from 'three';
 import { MeshSurface } from './mesh_surface.js';
 import { palettes, partColours, strokeColour } from './palettes.js';
 import { primitiveLines } from './primitive_lines.js';
+import { empty, release } from './release.js';
 
 /** Everything that is drawn of a mesh. @param {MeshSurface} surface */
 function makeObjects(surface) {
@@ -63,9 +64,7 @@ export class Stage {
 
   /** @param {import('./mesh_surface.js').MeshData} data */
   setMesh(data) {
-    cancelAnimationFrame(this.motion);
-    if (this.objects) this.scene.remove(this.objects.root);
-    this.surface?.dispose();
+    this.release();
     this.surface = new MeshSurface(data);
     const sphere = new THREE.Sphere().setFromPoints(
       Array.from({ length: data.vertices.length / 3 }, (_, v) => new THREE.Vector3().fromArray(data.vertices, 3 * v)));
@@ -74,6 +73,15 @@ export class Stage {
     this.objects = makeObjects(this.surface);
     this.scene.add(this.objects.root);
     this.recolour();
+  }
+
+  /** Lets go of all that is drawn of a mesh. */
+  release() {
+    cancelAnimationFrame(this.motion);
+    if (!this.objects) return;
+    this.scene.remove(this.objects.root);
+    release(this.objects.root);
+    this.objects = this.surface = null;
   }
 
   /** @param {import('./palettes.js').Palette} palette */
@@ -234,7 +242,7 @@ export class Stage {
     if (!objects) return;
     objects.joints.geometry.dispose();
     objects.joints.geometry = pointsOf(points.flat());
-    objects.symmetry.clear();
+    empty(objects.symmetry);
     for (const symmetry of symmetries) objects.symmetry.add(symmetry.kind === 'reflection' ? this.#plane(symmetry) : this.#axis(symmetry));
     this.draw();
   }
@@ -262,7 +270,7 @@ export class Stage {
   setStrokes(strokes) {
     const { objects, surface } = this;
     if (!objects || !surface) return;
-    objects.strokes.clear();
+    empty(objects.strokes);
     strokes.forEach((triangles, k) => {
       const corners = [];
       for (const triangle of triangles)

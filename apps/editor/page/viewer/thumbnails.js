@@ -1,6 +1,7 @@
 // Small pictures of designs, with a renderer of their own: reading back from that of the view would wait for it.
 import * as THREE from 'three';
 import { MeshSurface } from './mesh_surface.js';
+import { release } from './release.js';
 
 /**
  * Parts of which a vertex moved by more than `least`.
@@ -40,8 +41,8 @@ export class ThumbnailPainter {
   #prepare() {
     const { surface } = this.viewer.main;
     if (!surface || this.surface?.mesh === surface.mesh) return;
-    this.surface?.dispose();
     this.scene.remove(this.group);
+    release(this.group);
     this.surface = new MeshSurface(surface.mesh);
     const body = new THREE.Mesh(this.surface.geometry, new THREE.MeshLambertMaterial({ vertexColors: true, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
     this.edges = new THREE.LineSegments(this.surface.edgeGeometry, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.45 }));

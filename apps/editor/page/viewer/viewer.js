@@ -64,7 +64,7 @@ export class Viewer {
 
   /** Removes the stage on the right; the first one stays. */
   removeStage() {
-    if (this.stages.length > 1) this.stages.pop()?.surface?.dispose();
+    if (this.stages.length > 1) this.stages.pop()?.release();
     this.resize();
   }
 
