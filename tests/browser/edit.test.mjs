@@ -344,6 +344,35 @@ editing('an amount is typed instead of dragged', 'table.obj', async (page) => {
   assert.match(await page.evaluate(() => window.editor.state.tree.nodes[1].edits[0]), /scale 0\.95/);
 });
 
+editing('an amount goes along the axis that its part has now', 'table.obj', async (page) => {
+  await pick(page, 'leg');
+  const axisOf = (name) => page.evaluate((name) => window.editor.gizmo.handle.axesOf('move').find((axis) => axis.name === name).direction.toArray(), name);
+  const before = await axisOf('across, second');
+  await page.click('.segments button:has-text("Turn")');
+  await page.selectOption('.amounts select', { label: 'across, first' });
+  await page.fill('.amounts input', '4');
+  await page.click('.amounts button');
+  await page.waitForFunction(() => window.editor.state.tree.nodes.length === 2);
+  await page.click('.segments button:has-text("Move")');
+  await page.selectOption('.amounts select', { label: 'across, second' });
+  await page.fill('.amounts input', '0.01');
+  // Undo turns the axes back while the form stays.
+  await page.click('#undo');
+  await page.waitForFunction(() => window.editor.state.tree.current === 0 && !window.editor.state.design.dragging);
+  await page.click('#redo');
+  await page.waitForFunction(() => window.editor.state.tree.current === 1);
+  const now = await axisOf('across, second');
+  assert.ok(now.reduce((sum, x, k) => sum + x * before[k], 0) < 1 - 1e-8, 'the leg has turned, as far as its limits allow');
+  await page.click('#undo');
+  await page.waitForFunction(() => window.editor.state.tree.current === 0);
+  assert.equal(await page.inputValue('.amounts input'), '0.01', 'what was typed stays');
+  await page.click('.amounts button');
+  await page.waitForFunction(() => window.editor.state.tree.nodes.length === 3);
+  const moved = (await page.evaluate(() => window.editor.state.tree.nodes[2].edits[0])).match(/move (\S+) (\S+) (\S+)/).slice(1).map(Number);
+  const length = Math.hypot(...moved);
+  assert.ok(length > 0 && moved.reduce((sum, x, k) => sum + (x * before[k]) / length, 0) > 1 - 1e-12, `${moved} is along ${before}`);
+});
+
 editing('a target is set, designs are found, and one is taken on', 'small_cup.obj', async (page) => {
   await page.fill('#target', '0.8');
   await page.press('#target', 'Enter');
@@ -485,6 +514,55 @@ editing('everything of a step is done with keys alone', 'small_cup.obj', async (
   await page.focus('#view');
   await page.keyboard.press('ArrowLeft');
   assert.notDeepEqual(await page.evaluate(() => window.editor.viewer.camera.position.toArray()), before);
+  const distance = () => page.evaluate(() => window.editor.viewer.camera.position.distanceTo(window.editor.viewer.controls.target));
+  const far = await distance();
+  await page.keyboard.press('+');
+  assert.ok((await distance()) < far);
+  await page.keyboard.press('-');
+  assert.ok(Math.abs((await distance()) / far - 1) < 1e-9);
+});
+
+editing('what has the focus keeps it, and what is typed stays', 'small_cup.obj', async (page) => {
+  const focused = () => page.evaluate(() => document.activeElement.getAttribute('aria-label') ?? document.activeElement.textContent);
+  await page.evaluate(() => {
+    window.editor.send({ do: 'drag', edit: 'body scale 1.02 along 1 0 0' });
+    window.editor.send({ do: 'end-drag', keep: true });
+  });
+  await page.waitForFunction(() => window.editor.state.tree.current === 1);
+
+  // A design of the tree shows what is behind it, and stays in focus when it becomes the current one.
+  await page.waitForFunction(() => document.querySelectorAll('.node').length === 2);
+  await page.focus('.node[aria-current]');
+  await page.keyboard.press('ArrowLeft');
+  await page.waitForFunction(() => {
+    const { viewer } = window.editor;
+    return viewer.main.surface.vertices[0] < viewer.design[0] - 1e-6;
+  });
+  const node = await focused();
+  await page.keyboard.press('Enter');
+  await page.waitForFunction(() => window.editor.state.tree.current === 0);
+  assert.equal(await focused(), node);
+
+  // Chips, and messages that come while somebody types.
+  await pick(page, 'body');
+  await page.focus('.segments button:has-text("Scale")');
+  await page.keyboard.press('Enter');
+  assert.equal(await focused(), 'Scale');
+  await page.fill('.amounts input', '0.95');
+  await page.evaluate(() => window.editor.send({ do: 'keep', parts: [0] }));
+  await page.waitForFunction(() => window.editor.state.wishes.kept.length === 1);
+  assert.match(await focused(), /Amount/);
+  assert.equal(await page.inputValue('.amounts input'), '0.95');
+
+  // In a text field undo is that of the text.
+  await page.keyboard.press('End');
+  await page.keyboard.type('7');
+  await page.keyboard.press('Control+z');
+  assert.notEqual(await page.inputValue('.amounts input'), '0.957');
+  await page.evaluate(() => window.editor.send({ do: 'keep', parts: [] }));
+  await page.waitForFunction(() => window.editor.state.wishes.kept.length === 0);
+  assert.equal(await page.evaluate(() => window.editor.state.tree.current), 0, 'no design was left');
+  await page.keyboard.press('Escape');
 });
 
 editing('strokes cut a part in two; undo joins it again', 'mug_with_handle.obj', async (page) => {

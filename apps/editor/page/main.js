@@ -38,8 +38,8 @@ function startPreview({ vertices, f_max: step, stackability, direction }) {
   if (preview === vertices) return;
   preview = vertices;
   viewer.main.setBefore(shown);
-  viewer.main.show(vertices, step, true);
   viewer.main.setDirection(direction ?? state.design.direction);
+  viewer.main.show(vertices, step, true);
   measures.preview(stackability, step);
 }
 
@@ -47,8 +47,8 @@ function endPreview() {
   if (!preview || !shown) return;
   preview = null;
   viewer.main.setBefore(null);
-  viewer.main.show(shown, state.design?.measured.f_max ?? 0, true);
   if (state.design) viewer.main.setDirection(state.design.direction);
+  viewer.main.show(shown, state.design?.measured.f_max ?? 0, true);
   measures.preview(null, null);
 }
 
@@ -147,6 +147,11 @@ function gaveUp() {
   sayAway('');
 }
 
+element('write').addEventListener('click', () => {
+  send({ do: 'write' });
+  canvas.focus();
+});
+
 /** A sentence under the object. @param {string} text @param {boolean} [bad] */
 function hint(text, bad = false) {
   const line = element('hint');
@@ -228,6 +233,9 @@ function receive(message) {
       /** @type {HTMLButtonElement} */ (element('undo')).disabled = !message.can_undo;
       /** @type {HTMLButtonElement} */ (element('redo')).disabled = !message.can_redo;
       break;
+    case 'node':
+      tree.setStep(message.node, message.f_max);
+      break;
     case 'wishes':
       state.wishes = message;
       measures.setWishes(message);
@@ -247,9 +255,6 @@ function receive(message) {
       break;
     case 'study':
       study.set(message);
-    case 'node':
-      tree.setStep(message.node, message.f_max);
-      break;
       break;
     case 'found':
       state.found = message;
@@ -266,6 +271,7 @@ function receive(message) {
       break;
     case 'error':
       hint(message.words, true);
+      study.fail(message.words);
       break;
   }
 }
@@ -290,7 +296,6 @@ function receiveFrame(frame) {
       break;
     case frameKind.found:
       automatic.setVertices(frame.number, verticesOf(frame));
-      study.fail(message.words);
       break;
     case frameKind.contacts:
       contactCorners = new Float32Array(frame.buffer, 16, 9 * frame.count);
@@ -380,14 +385,14 @@ function setTheme() {
   element('theme').textContent = dark ? 'Light' : 'Dark';
   viewer.setTheme(dark);
   gallery.paint();
+  automatic.paint();
   tree.paint();
+  directions.paint();
 }
 const toggleTheme = () => { dark = !dark; setTheme(); };
 element('theme').addEventListener('click', toggleTheme);
 setTheme();
-  automatic.paint();
 
-  directions.paint();
 const keysDialog = /** @type {HTMLDialogElement} */ (element('keys'));
 element('help').addEventListener('click', () => keysDialog.showModal());
 bindTabs(element('tabs'));
@@ -400,14 +405,7 @@ bindKeys({
   controlShift: { z: redo },
   list: element('keys-list'),
   words: [...layers.map(([, words, key]) => [key, 'Show or hide: ' + words]), ...cameras.map(([words, key]) => [key, 'View: ' + words]),
-    ['x', 'Compare two designs'], ['v', 'Choose a direction'], ['Ctrl Z', 'Undo'], ['Ctrl Shift Z', 'Redo'], ['k', 'Paint parts'], ['m', 'Handle: move'], ['t', 'Handle: turn'], ['s', 'Handle: scale'], ['Escape', 'Give up a drag, or let go of the part'], ['d', 'Light or dark'], ['Arrows', 'In the view: turn; in a list: move'], ['Enter', 'Apply or go there'], ['?', 'This list']],
+    ['x', 'Compare two designs'], ['v', 'Choose a direction'], ['Ctrl Z', 'Undo'], ['Ctrl Shift Z', 'Redo'], ['k', 'Paint parts'], ['m', 'Handle: move'], ['t', 'Handle: turn'], ['s', 'Handle: scale'], ['Escape', 'Give up a drag, or let go of the part'], ['d', 'Light or dark'], ['Arrows', 'In the view: turn; in a list: move'], ['+ -', 'In the view: nearer, farther'], ['Enter', 'Apply or go there'], ['?', 'This list']],
 });
-canvas.addEventListener('keydown', (event) => {
-  const turns = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] });
-  if (!turns[event.key]) return;
-  event.preventDefault();
-  viewer.turn(...turns[event.key]);
-});
-
 // For tests: what the page holds and shows.
 Object.assign(window, { editor: { viewer, connection, picker, directions, compare, state, send, gizmo, parts, strokes } });

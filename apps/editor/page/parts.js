@@ -26,6 +26,12 @@ export class Parts {
     this.near = /** @type {any} */ (null);
     this.list = create('ul', 'parts');
     this.form = create('div');
+    this.how = create('b');
+    this.axis = create('select');
+    this.amount = create('input');
+    this.amounts = this.#makeAmounts();
+    this.keepBox = create('input');
+    this.keepBox.type = 'checkbox';
     this.panel.append(create('p', 'note', 'Click a part in the view, or here, and drag its handles. Whatever is joined or symmetric to it follows.'), this.form, this.list);
     walkWithArrows(this.list);
   }
@@ -55,11 +61,12 @@ export class Parts {
   /** @param {number[]} kept */
   setKept(kept) {
     this.kept = kept;
-    this.#show();
+    this.#mark();
   }
 
   /** @param {number} part  -1: none  @param {any} near  the point that was clicked */
   pick(part, near) {
+    if (part !== this.part) this.amount.value = '';
     this.part = part;
     const primitive = this.primitives[part];
     if (near) this.near = near;
@@ -76,19 +83,25 @@ export class Parts {
     this.#show();
   }
 
-  #show() {
-    const primitive = this.primitives[this.part];
+  /** Marks the part that is picked, and those that are kept. */
+  #mark() {
     [...this.list.querySelectorAll('button')].forEach((button, row) => {
       button.setAttribute('aria-pressed', String(row === this.part));
       button.classList.toggle('kept', this.kept.includes(row));
     });
+    this.keepBox.checked = this.kept.includes(this.part);
+  }
+
+  #show() {
+    const primitive = this.primitives[this.part];
+    this.#mark();
     if (!primitive) {
       this.gizmo.set(null, this.tool);
       this.bar.replaceChildren();
       this.form.replaceChildren();
       return this.changed();
     }
-    const part = this.model.parts[this.part];
+    const part = this.model.parts[this.part], focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset.choice : undefined;
     this.gizmo.set(new PickedHandle(this.part, part.text, primitive, this.element, this.near), this.tool);
     this.bar.replaceChildren(create('b', '', part.name),
       this.#chips('What is dragged', PickedHandle.elementsOf(primitive), elementWords, this.element, (one) => {
@@ -96,7 +109,10 @@ export class Parts {
         if (!toolsOf[one].includes(this.tool)) this.tool = 'move';
       }),
       this.#chips('How', toolsOf[this.element], toolWords, this.tool, (one) => (this.tool = one)));
-    this.form.replaceChildren(this.#amounts(), this.#keep(), this.#kind(), this.#joints(), this.#symmetries(), this.#more());
+    this.#showAmounts();
+    this.form.replaceChildren(this.amounts, this.#keep(), this.#kind(), this.#joints(), this.#symmetries(), this.#more());
+    // The chips are made anew.
+    for (const chip of document.querySelectorAll('[data-choice]')) if (chip instanceof HTMLElement && chip.dataset.choice === focused) chip.focus();
     this.changed();
   }
 
@@ -115,34 +131,42 @@ export class Parts {
     for (const name of names) {
       const button = create('button', '', words[name]);
       button.setAttribute('aria-pressed', String(name === current));
+      button.dataset.choice = `${label}: ${name}`;
       button.addEventListener('click', () => { choose(name); this.#show(); });
       group.append(button);
     }
     return group;
   }
 
-  /** A form with what a drag does, for exact amounts and for those who use no mouse. */
-  #amounts() {
-    const { gizmo, tool } = this, form = create('form', 'amounts'), handle = gizmo.handle;
-    const axis = create('select'), amount = create('input'), apply = create('button', 'primary', 'Apply');
-    const axes = handle?.axesOf(tool) ?? [];
-    axes.forEach((one, k) => axis.append(new Option(one.name, String(k))));
-    axis.setAttribute('aria-label', 'Direction');
-    amount.type = 'number';
-    amount.step = 'any';
-    amount.required = true;
-    const unit = tool === 'move' ? this.model.unit ?? 'units' : tool === 'rotate' ? 'degrees' : 'times';
-    amount.placeholder = unit;
-    amount.setAttribute('aria-label', `Amount, ${unit}`);
-    form.append(create('b', '', toolWords[tool]), axis, amount, apply);
+  /** A form with what a drag does, for exact amounts and for those who use no mouse. It stays: somebody may be typing. */
+  #makeAmounts() {
+    const form = create('form', 'amounts');
+    this.axis.setAttribute('aria-label', 'Direction');
+    this.amount.type = 'number';
+    this.amount.step = 'any';
+    this.amount.required = true;
+    form.append(this.how, this.axis, this.amount, create('button', 'primary', 'Apply'));
     form.addEventListener('submit', (event) => {
       event.preventDefault();
-      const value = Number(amount.value) * (tool === 'rotate' ? Math.PI / 180 : 1);
+      const { handle, tool } = this.gizmo, value = Number(this.amount.value) * (tool === 'rotate' ? Math.PI / 180 : 1);
       if (!handle || !Number.isFinite(value) || (tool === 'scale' && value <= 0)) return;
-      this.send({ do: 'drag', edit: handle.edit(tool, axes[Number(axis.value)], value) });
+      // The axes turn with the part.
+      this.send({ do: 'drag', edit: handle.edit(tool, handle.axesOf(tool)[Number(this.axis.value)], value) });
       this.send({ do: 'end-drag', keep: true });
     });
     return form;
+  }
+
+  /** Offers the amounts of the handle that is picked. What was typed stays where it means the same. */
+  #showAmounts() {
+    const { tool } = this, chosen = this.axis.value, axes = this.gizmo.handle?.axesOf(tool) ?? [];
+    const unit = tool === 'move' ? this.model.unit ?? 'units' : tool === 'rotate' ? 'degrees' : 'times';
+    this.axis.replaceChildren(...axes.map((one, k) => new Option(one.name, String(k))));
+    if (Number(chosen) < axes.length) this.axis.value = chosen;
+    if (this.how.textContent !== toolWords[tool]) this.amount.value = '';
+    this.how.textContent = toolWords[tool];
+    this.amount.placeholder = unit;
+    this.amount.setAttribute('aria-label', `Amount, ${unit}`);
   }
 
   /** What the part is for the program: a box, or circles along a curve. */
@@ -212,11 +236,9 @@ export class Parts {
   }
 
   #keep() {
-    const label = create('label', 'check'), box = create('input'), part = this.part;
-    box.type = 'checkbox';
-    box.checked = this.kept.includes(part);
-    box.addEventListener('change', () =>
-      this.send({ do: 'keep', parts: box.checked ? [...this.kept, part].sort((a, b) => a - b) : this.kept.filter((row) => row !== part) }));
+    const label = create('label', 'check'), { keepBox: box, part } = this;
+    box.onchange = () =>
+      this.send({ do: 'keep', parts: box.checked ? [...this.kept, part].sort((a, b) => a - b) : this.kept.filter((row) => row !== part) });
     label.append(box, ' Keep this part as it is');
     return label;
   }

@@ -61,8 +61,16 @@ export class Tree {
     this.#connect(message.nodes, places, path);
     const rows = 1 + Math.max(...places.map((place) => place.row));
     this.list.style.height = `${10 + height * Math.min(rows, 2)}px`;
-    this.list.replaceChildren(this.lines, ...this.nodes.values());
+    this.#place();
     this.nodes.get(message.current)?.scrollIntoView({ block: 'nearest', inline: 'nearest' });
+  }
+
+  /** Puts nodes into the list. Those that are there stay where they are: one of them may have the focus. */
+  #place() {
+    const buttons = new Set(/** @type {Iterable<Element>} */ (this.nodes.values())), had = this.list.contains(document.activeElement);
+    for (const child of [...this.list.children]) if (child !== this.lines && !buttons.has(child)) child.remove();
+    for (const part of [this.lines, ...buttons]) if (part.parentElement !== this.list) this.list.append(part);
+    if (had && !this.list.contains(document.activeElement)) this.nodes.get(this.message.current)?.focus();
   }
 
   /** @param {number} k @param {any} node */
@@ -85,8 +93,8 @@ export class Tree {
       const vertices = this.vertices.get(k);
       if (vertices && k !== this.message.current) this.actions.preview({ vertices, f_max: this.stepOf(k), stackability: node.stackability, direction: node.direction });
     };
-    button.addEventListener('mouseenter', look);
-    button.addEventListener('mouseleave', () => this.actions.leave());
+    for (const begin of ['mouseenter', 'focus']) button.addEventListener(begin, look);
+    for (const end of ['mouseleave', 'blur']) button.addEventListener(end, () => this.actions.leave());
     this.nodes.set(k, button);
     this.actions.picture(k);
     return button;

@@ -41,7 +41,7 @@ export function showDesigns(box, buffer) {
   const { designs, mesh } = designsOf(buffer), [given, ...solutions] = designs;
   const panes = create('div', { className: 'panes' }), labels = create('div', { className: 'labels' }), tools = create('div', { className: 'tools' });
   const canvas = create('canvas', { tabIndex: 0 });
-  canvas.setAttribute('aria-label', 'The object as given and its solutions, each with copies above it. Drag to turn, arrow keys turn it.');
+  canvas.setAttribute('aria-label', 'The object as given and its solutions, each with copies above it. Drag to turn, arrow keys turn it, + and - zoom.');
   panes.append(canvas, labels);
   box.append(panes, tools);
   const viewer = new Viewer(canvas);
@@ -89,12 +89,6 @@ export function showDesigns(box, buffer) {
   viewer.controls.enableZoom = false;
   canvas.addEventListener('pointerdown', () => (viewer.controls.enableZoom = true));
   canvas.addEventListener('pointerleave', () => (viewer.controls.enableZoom = false));
-  canvas.addEventListener('keydown', (/** @type {KeyboardEvent} */ event) => {
-    const turns = /** @type {Record<string, [number, number]>} */ ({ ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] });
-    if (!turns[event.key]) return;
-    event.preventDefault();
-    viewer.turn(...turns[event.key]);
-  });
   place();
   viewer.resize();
   fit();

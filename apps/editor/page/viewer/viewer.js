@@ -16,6 +16,11 @@ const firstView = [1.6, -2.4, 1.15];
  * @property {Float32Array | null} against  parts that differ from this design are green
  */
 
+/** Keys that turn the eye: sideways and upwards, in radians. @type {Record<string, [number, number]>} */
+const turnKeys = { ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
+/** Keys that bring the eye nearer or farther; "=" is "+" without Shift on many keyboards. @type {Record<string, number>} */
+const zoomKeys = { '+': 1 / 1.2, '=': 1 / 1.2, '-': 1.2 };
+
 export class Viewer {
   /** @param {HTMLCanvasElement} canvas */
   constructor(canvas) {
@@ -39,6 +44,7 @@ export class Viewer {
     this.painter = /** @type {ThumbnailPainter | null} */ (null);
     new ResizeObserver(() => this.resize()).observe(canvas);
     canvas.addEventListener('webglcontextrestored', () => this.draw());
+    canvas.addEventListener('keydown', (event) => this.#key(event));
   }
 
   /** The design that is edited: the one on the left. */
@@ -118,6 +124,23 @@ export class Viewer {
     this.camera.near = distance / 200;
     this.camera.far = distance * 20;
     this.camera.updateProjectionMatrix();
+    this.controls.update();
+    this.draw();
+  }
+
+  /** @param {KeyboardEvent} event */
+  #key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (turnKeys[event.key]) this.turn(...turnKeys[event.key]);
+    else if (zoomKeys[event.key]) this.zoom(zoomKeys[event.key]);
+    else return;
+    event.preventDefault();
+  }
+
+  /** Brings the eye nearer or farther. @param {number} factor  of its distance */
+  zoom(factor) {
+    const { position } = this.camera, { target } = this.controls;
+    position.sub(target).multiplyScalar(factor).add(target);
     this.controls.update();
     this.draw();
   }
