@@ -361,8 +361,7 @@ class EditingRoom::Implementation {
   }
 
   void tell_writers() {
-    for (const PageId page : pages_)
-      send(page, {{"type", "role"}, {"writes", writer_ == page}, {"pages", pages_.size()}});
+    for (const PageId page : pages_) send(page, {{"type", "role"}, {"writes", writer_ == page}});
   }
 
   void send(PageId page, const Json& json, std::uint32_t replaces = keeps_all) {

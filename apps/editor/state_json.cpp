@@ -40,10 +40,7 @@ Json primitive_json(const Primitive& primitive) {
 }
 
 Json measured_json(const Stackability& measured) {
-  return {{"stackability", measured.value},
-          {"f_max", measured.f_max},
-          {"height", measured.extent},
-          {"loss_per_length", measured.loss_per_length()}};
+  return {{"stackability", measured.value}, {"f_max", measured.f_max}, {"height", measured.extent}};
 }
 
 /// What a check found, and its limit: "size 0.79 of rest, at least 0.8 ('leg')".
@@ -166,7 +163,6 @@ Json model_json(const EditingSession& session, const std::string& name) {
           {"name", name},
           {"unit", to_json(rest.shape.unit)},
           {"diagonal", rest.structure.diagonal},
-          {"triangles", rest.shape.triangle_count()},
           {"parts", parts},
           {"joints", joints},
           {"pairs", pairs},
@@ -178,7 +174,6 @@ Json design_json(const EditingSession& session) {
   const editing::MeasuredDesign& shown = session.shown();
   const Structure& rest = session.space().rest().structure;
   Json json = {{"type", "design"},
-               {"node", session.document().project.history.current},
                {"dragging", session.dragging()},
                {"direction", to_json(session.direction().vector())},
                {"direction_words", direction_text(session.direction().vector())},
@@ -215,7 +210,6 @@ Json tree_json(const EditingSession& session) {
     nodes.push_back({{"parent", node.parent},
                      {"name", node.name},
                      {"stackability", node.stackability},
-                     {"energy", node.energy},
                      {"direction", to_json(node.direction)},
                      {"edits", edit_texts(node.edits, names_of(session))}});
   return {{"type", "tree"},
@@ -235,11 +229,7 @@ Json wishes_json(const EditingSession& session) {
       limits[name_of(measure)] =
           wishes.quality->is_limited(measure) ? Json((*wishes.quality)[measure]) : Json(nullptr);
     }
-  return {{"type", "wishes"},
-          {"target", wishes.target},
-          {"keep_height", wishes.keep_height},
-          {"kept", wishes.kept_parts},
-          {"limits", limits}};
+  return {{"type", "wishes"}, {"target", wishes.target}, {"kept", wishes.kept_parts}, {"limits", limits}};
 }
 
 Json suggestions_json(const EditingSession& session) {
@@ -247,15 +237,11 @@ Json suggestions_json(const EditingSession& session) {
   Json list = Json::array(), refused = Json::array();
   for (const editing::OfferedEdit& offered : session.suggestions()) {
     list.push_back({{"words", first_line(offered.explanation)},
-                    {"reason", describe(offered.suggestion.edit.reason, names_of(session))},
                     {"edit", edit_text(offered.suggestion.edit.edit, names_of(session))},
-                    {"part", offered.suggestion.edit.edit.handle.part},
                     {"gain", offered.gain},
                     {"stackability", offered.suggestion.measured.value},
                     {"f_max", offered.suggestion.measured.f_max},
-                    {"energy", offered.suggestion.energy.value},
                     {"change", offered.change.root_mean_square},
-                    {"excess", offered.suggestion.excess},
                     {"reaches", offered.suggestion.reaches_target}});
   }
   for (const ObstacleCount& count : session.refused()) refused.push_back(describe(count, rest));

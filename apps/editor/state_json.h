@@ -9,22 +9,23 @@
 /// What a page is told of a session: texts in JSON, and frames of little-endian numbers for what is large.
 namespace stackabilization::apps {
 
-/// {type: "model", name, unit, diagonal, height, parts: [{name, kind}], joints: [{relation, parts, points}],
-///  symmetries: [{kind, point, axis}], measures: [{name, unit, limit, lower}]}
+/// {type: "model", name, unit, diagonal, parts: [{name, text, kind}], joints: [{relation, parts, points}],
+/// pairs: [{relation, parts, kind}], symmetries: [{kind, point, axis}], measures: [{name, unit, limit,
+/// lower}]}
 Json model_json(const editing::EditingSession& session, const std::string& name);
 
-/// {type: "design", node, dragging, direction, measured, rest, energy, change, reaches, checks, and
-/// dragged (an edit) or primitives}:
-/// what follows every step of a drag.
+/// {type: "design", dragging, direction, direction_words, measured, rest, energy, change, reaches, checks,
+/// and dragged (an edit) or primitives}: what follows every step of a drag.
 Json design_json(const editing::EditingSession& session);
 /// {type: "review", ready, words, checks, contacts}
 Json review_json(const editing::EditingSession& session);
-/// {type: "tree", current, nodes: [{parent, name, stackability, energy, direction}], can_undo, can_redo}
+/// {type: "tree", current, nodes: [{parent, name, stackability, direction, edits}], can_undo, can_redo,
+/// saved}
 Json tree_json(const editing::EditingSession& session);
-/// {type: "wishes", target, keep_height, kept, limits}
+/// {type: "wishes", target, kept, limits}
 Json wishes_json(const editing::EditingSession& session);
-/// {type: "suggestions", complete, list: [{words, reason, edit, part, gain, stackability, energy, change,
-/// reaches}], refused, diagnosis, offers}
+/// {type: "suggestions", complete, list: [{words, edit, gain, stackability, f_max, change, reaches}],
+/// refused, diagnosis, offers}
 Json suggestions_json(const editing::EditingSession& session);
 /// {type: "range", edit, samples, low, high, below, above}; edit is null where there is none
 Json range_json(const editing::EditingSession& session);

@@ -3,7 +3,7 @@ import { create, element, walkWithArrows } from './dom.js';
 import { diagnosisLines } from './offers.js';
 import * as format from './format.js';
 
-/** @typedef {{words: string, reason: string, edit: string, part: number, gain: number, stackability: number, f_max: number, energy: number, change: number, reaches: boolean, vertices: Float32Array}} Offer */
+/** @typedef {{words: string, edit: string, gain: number, stackability: number, f_max: number, change: number, reaches: boolean, vertices: Float32Array}} Offer */
 
 export class Gallery {
   /**
