@@ -1,9 +1,11 @@
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
 
 #include "envelope/height_bounds/height_bounds.h"
 #include "mesh/welded_mesh.h"
+#include "stackabilization/core/rational.h"
 #include "stackabilization/envelope/height_field.h"
 #include "support/catch.h"
 #include "support/solids.h"
@@ -21,9 +23,20 @@ struct Bounded {
   EdgeTable edges;
   HeightBounds bounds;
 
-  explicit Bounded(const Shape& shape)
-      : mesh(weld(shape)), edges(mesh.triangles), bounds({mesh.points, &mesh.triangles, &edges, 1e-15}) {}
+  explicit Bounded(const Shape& shape, double error = 1e-15)
+      : mesh(weld(shape)), edges(mesh.triangles), bounds({mesh.points, &mesh.triangles, &edges, error}) {}
 };
+
+/// The height of the plane through three points over (x, y), exact.
+Rational plane_height(const std::array<Eigen::Vector3d, 3>& corners, double x, double y) {
+  const auto difference = [](double a, double b) { return Rational(a) - Rational(b); };
+  const Eigen::Vector3d& p = corners[0];
+  const Rational ax = difference(corners[1].x(), p.x()), ay = difference(corners[1].y(), p.y()),
+                 ah = difference(corners[1].z(), p.z()), bx = difference(corners[2].x(), p.x()),
+                 by = difference(corners[2].y(), p.y()), bh = difference(corners[2].z(), p.z());
+  const Rational dx = difference(x, p.x()), dy = difference(y, p.y()), area = ax * by - ay * bx;
+  return Rational(p.z()) + ((dx * by - dy * bx) * ah + (ax * dy - ay * dx) * bh) / area;
+}
 
 }  // namespace
 
@@ -49,6 +62,41 @@ TEST_CASE("along the slope of a surface the bounds do not depend on the size of 
   const HeightBound level = ridge.bounds.over({0.25, 0.75, 0.5, 1.5});
   CHECK(level.low == Approx(0.25).margin(1e-12));
   CHECK(level.high == Approx(0.75).margin(1e-12));
+}
+
+TEST_CASE("bounds over a point hold the exact height of a triangle there") {
+  std::mt19937 random(17);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  Triangles rows(1, 3);
+  rows << 0, 1, 2;
+  int covered = 0;
+  for (int k = 0; k < 3000; ++k) {
+    std::array<Eigen::Vector3d, 3> corners;
+    Points points(3, 3);
+    for (int c = 0; c < 3; ++c) {
+      // Every other triangle is high up, where heights have fewer digits than differences of heights.
+      const double x = unit(random), y = unit(random), z = unit(random) + (k % 2 == 0 ? 0 : 1000);
+      corners[static_cast<std::size_t>(c)] = {x, y, z};
+      points.row(c) << x, y, z;
+    }
+    // Coordinates as they are: what is left are the roundings of the bounds themselves.
+    Bounded bounded(make_shape(points, rows), 0);
+    const Eigen::Vector3d middle = (corners[0] + corners[1] + corners[2]) / 3;
+    const HeightBound bound = bounded.bounds.over({middle.x(), middle.x(), middle.y(), middle.y()});
+    if (bound.low == -nothing) continue;
+    ++covered;
+    const Rational exact = plane_height(corners, middle.x(), middle.y());
+    REQUIRE(Rational(bound.low) <= exact);
+    REQUIRE(Rational(bound.high) >= exact);
+    // Along the slope of the triangle, where no term has room for the rounding of another one.
+    const Eigen::Vector2d slope = bounded.bounds.slope_at(middle.x(), middle.y());
+    const HeightBound along = bounded.bounds.over({middle.x(), middle.x(), middle.y(), middle.y()}, slope);
+    const Rational rest =
+        exact - Rational(slope.x()) * Rational(middle.x()) - Rational(slope.y()) * Rational(middle.y());
+    REQUIRE(Rational(along.low) <= rest);
+    REQUIRE(Rational(along.high) >= rest);
+  }
+  CHECK(covered > 2500);
 }
 
 TEST_CASE("a hole is seen, however small it is") {

@@ -127,6 +127,27 @@ TEST_CASE("a triangle that is seen edge on within a cone shows nothing in solid 
   CHECK(SeparationOverCone(tree, around(0.02), ContactSemantics::solid).at_least(2.9, all_pairs));
 }
 
+TEST_CASE("the bound of a cone of one direction is not above the exact separation by a rounding") {
+  // Level faces are apart by a difference of two doubles, over the length of r: nothing else is rounded. A
+  // step of the last bit is worth least just below a power of two, so one of the two roundings is largest
+  // where the allowance for the other one is smallest.
+  solids::Random random(31);
+  int tight = 0;
+  for (int k = 0; k < 6000; ++k) {
+    const bool long_ones = k % 2 == 0;
+    const double low = -random.uniform(0, 0.05),
+                 high = long_ones ? random.uniform(1.9, 1.94) : random.uniform(1, 1.05);
+    const double length = (high - low) / (long_ones ? random.uniform(1, 1.05) : random.uniform(1.9, 1.99));
+    const SeparationTree tree(solids::box({0, 0, low}, {1, 1, high}));
+    SeparationOverCone over(tree, {Direction(0, 0, length)}, ContactSemantics::solid);
+    const Rational exact = (Rational(high) - Rational(low)) / Rational(length);
+    const auto bound = over.at_least(exact.to_double() * (1 - 1e-15), all_pairs);
+    REQUIRE((!bound || Rational(*bound) <= exact));
+    tight += bound ? 1 : 0;
+  }
+  CHECK(tight > 3000);
+}
+
 TEST_CASE("no pairs examined show nothing") {
   const SeparationTree tree(solids::box({1, 1, 1}));
   SeparationOverCone over(tree, {Direction(0, 0, 1)}, ContactSemantics::solid);
