@@ -2,6 +2,7 @@
 #include <numbers>
 #include <vector>
 
+#include "stackabilization/core/rational.h"
 #include "stackabilization/mesh/boxes.h"
 #include "stacking/direction/base_bound.h"
 #include "support/catch.h"
@@ -66,6 +67,22 @@ TEST_CASE("the base of a body that is seen along its own axis is bounded to the 
   const HullSupport box(solids::box({1, 2, 5}));
   for (const double angle : {1e-2, 1e-3})
     CHECK(min_base(box, Direction(0, 0, 1), angle) >= 2 - 5 * angle * angle);
+}
+
+TEST_CASE("the bound of a base is not above the area by a rounding") {
+  // Far from the origin, where the coordinates have less room for the sides.
+  point_sets::Random random(8);
+  for (const double away : {0.0, 100.0})
+    for (int k = 0; k < 300; ++k) {
+      const Eigen::Vector3d low = Eigen::Vector3d::Constant(away) + random.vector(1),
+                            high = low + random.vector(0.5) + Eigen::Vector3d::Ones();
+      const HullSupport hull(solids::box(low, high));
+      const Rational area =
+          (Rational(high.x()) - Rational(low.x())) * (Rational(high.y()) - Rational(low.y()));
+      const double bound = min_base(hull, Direction(0, 0, 1), 0);
+      REQUIRE(Rational(bound) <= area);
+      CHECK(bound == Approx(area.to_double()).epsilon(1e-6));
+    }
 }
 
 TEST_CASE("a flat set seen edge on has no base") {
