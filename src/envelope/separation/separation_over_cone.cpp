@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "envelope/separation/exact_pair.h"
 #include "envelope/separation/triangle_pair.h"
 
 namespace stackabilization::detail {
@@ -14,6 +15,24 @@ namespace {
 int side_seen(const ProjectedTriangle& triangle, const Projection& projection) {
   if (triangle.possibly_edge_on()) return 0;
   return (triangle.area > 0) == (projection.shear.sign > 0) ? 1 : -1;
+}
+
+struct SeenPair {
+  const ProjectedTriangle& upper;
+  const ProjectedTriangle& lower;
+};
+
+/// Returns a lower bound of the separation of two triangles along one direction, in units of r; -inf where
+/// they have no common columns. Where the filter cannot tell whether it is the demand, as when an edge of one
+/// is exactly in line with one of the other, it is decided in rational arithmetic.
+double shown_along(const Projection& projection, double scale, const SeenPair& pair, double demand) {
+  const PairBounds bounds = bound_pair(pair.upper, pair.lower, projection, {-infinity, 0});
+  // Twice downwards: for the low part of the height and for the quotient.
+  const double certain = std::nextafter(std::nextafter(bounds.low.high, -infinity) / scale, -infinity);
+  if (certain >= demand || !(std::nextafter(bounds.high.high, infinity) >= demand * scale)) return certain;
+  const auto exact =
+      exact_maximum(*pair.upper.source, *pair.lower.source, projection.shear, projection.semantics);
+  return exact ? std::nextafter(exact->to_double(), -infinity) : -infinity;
 }
 
 double size_seen(const ProjectedNode& node) {
@@ -101,10 +120,7 @@ double SeparationOverCone::shown_by(const TreeTriangle& upper, const TreeTriangl
       return -infinity;
     upper_side = sides[0];
     lower_side = sides[1];
-    const DoubleDouble low = bound_pair(above, beneath, edge.projection, {-infinity, 0}).low;
-    // Twice downwards: for the low part of the height and for the quotient.
-    const double height = std::nextafter(low.high, -infinity);
-    shown = std::min(shown, std::nextafter(height / edge.scale, -infinity));
+    shown = std::min(shown, shown_along(edge.projection, edge.scale, {above, beneath}, demand));
     if (!(shown >= demand)) return -infinity;
   }
   return shown;
