@@ -11,6 +11,9 @@ namespace stackabilization::detail {
 /// Precondition: the triangle has a positive area.
 Eigen::Vector3d barycentric_weights(const Shape& shape, Eigen::Index triangle, const Eigen::Vector3d& point);
 
+/// The same for a triangle with these corners in rows.
+Eigen::Vector3d barycentric_weights(const Eigen::Matrix3d& corners, const Eigen::Vector3d& point);
+
 /// Returns the point with the given weights, model units.
 Eigen::Vector3d point_at(const Shape& shape, Eigen::Index triangle, const Eigen::Vector3d& weights);
 

@@ -12,4 +12,8 @@ inline constexpr double contact_band = 0.0125;
 /// along the file axis next to the direction.
 inline constexpr double enclosure_width = 1e-12;
 
+/// Two planes between touching triangles are one plane when their normals differ by less, fraction of the
+/// length of the normals.
+inline constexpr double same_normal = 1e-7;
+
 }  // namespace stackabilization::tolerance

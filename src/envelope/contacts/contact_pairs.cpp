@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <span>
 #include <utility>
 
 #include "envelope/separation/exact_pair.h"
@@ -14,89 +13,11 @@
 namespace stackabilization::detail {
 namespace {
 
-using NodePair = std::pair<std::int32_t, std::int32_t>;
-
 PairBounds bounds_of(const TreeTriangle& upper, const TreeTriangle& lower, const Projection& projection,
                      const DoubleDouble& cut) {
   return bound_pair(ProjectedTriangle(upper, projection), ProjectedTriangle(lower, projection), projection,
                     cut);
 }
-
-/// Finds the pairs by descending the tree against itself, as long as there are not too many.
-class PairSearch {
- public:
-  PairSearch(const SeparationTree::Data& tree, const Projection& projection, double floor,
-             std::int64_t max_pairs)
-      : tree_(tree),
-        projection_(projection),
-        bound_(tree.magnitude),
-        nodes_(tree.nodes),
-        cut_{std::nextafter(floor, -infinity), 0},
-        max_pairs_(max_pairs) {}
-
-  /// False when there are too many.
-  bool run() {
-    std::vector<NodePair> open{{0, 0}};
-    for (std::int64_t visited = 0; !open.empty(); ++visited) {
-      if (visited > nodes_per_pair * max_pairs_) return false;
-      const auto [a, b] = open.back();
-      open.pop_back();
-      if (bound_(nodes_.get(a, projection_), nodes_.get(b, projection_), cut_) <= cut_) continue;
-      const TreeNode &upper = tree_.nodes[a], &lower = tree_.nodes[b];
-      if (upper.count > 0 && lower.count > 0) {
-        if (!collect(upper, lower)) return false;
-      } else if (lower.count > 0 || (upper.count == 0 && a <= b)) {
-        open.push_back({upper.first, b});
-        open.push_back({upper.first + 1, b});
-      } else {
-        open.push_back({a, lower.first});
-        open.push_back({a, lower.first + 1});
-      }
-    }
-    std::sort(pairs_.begin(), pairs_.end());
-    return true;
-  }
-
-  std::vector<ContactPair> take() { return std::move(pairs_); }
-
- private:
-  bool collect(const TreeNode& upper, const TreeNode& lower) {
-    for (std::int32_t a = upper.first; a < upper.first + upper.count; ++a)
-      for (std::int32_t b = lower.first; b < lower.first + lower.count; ++b)
-        if (!collect(a, b)) return false;
-    return true;
-  }
-
-  /// All pairs of triangles with these points, if they may touch; places in tree order.
-  bool collect(std::int32_t a, std::int32_t b) {
-    if (bounds_of(tree_.triangles[a], tree_.triangles[b], projection_, cut_).high <= cut_) return true;
-    const std::int32_t upper = tree_.triangles[a].index, lower = tree_.triangles[b].index;
-    const std::span<const TriangleCopy> upper_copies = copies_of(upper), lower_copies = copies_of(lower);
-    const std::size_t count = (1 + upper_copies.size()) * (1 + lower_copies.size());
-    if (static_cast<std::int64_t>(pairs_.size() + count) > max_pairs_) return false;
-    // The copies first, then the triangle itself.
-    for (std::size_t one = 0; one <= upper_copies.size(); ++one)
-      for (std::size_t other = 0; other <= lower_copies.size(); ++other)
-        pairs_.push_back({one == upper_copies.size() ? upper : upper_copies[one].copy,
-                          other == lower_copies.size() ? lower : lower_copies[other].copy, a, b});
-    return true;
-  }
-
-  std::span<const TriangleCopy> copies_of(std::int32_t triangle) const {
-    const auto [first, last] =
-        std::equal_range(tree_.copies.begin(), tree_.copies.end(), TriangleCopy{triangle, 0},
-                         [](const TriangleCopy& x, const TriangleCopy& y) { return x.first < y.first; });
-    return {first, last};
-  }
-
-  const SeparationTree::Data& tree_;
-  const Projection& projection_;
-  NodePairBound bound_;
-  ProjectedNodes nodes_;
-  DoubleDouble cut_;  ///< just below the floor
-  std::int64_t max_pairs_;
-  std::vector<ContactPair> pairs_;
-};
 
 enum class Side { upper, lower };
 
@@ -227,8 +148,8 @@ class DeepestPartners {
 
 ContactPairs contact_pairs(const SeparationTree::Data& tree, const Projection& projection, double floor,
                            std::int64_t max_pairs, double resolution) {
-  PairSearch search(tree, projection, floor, max_pairs);
-  if (search.run()) return {search.take(), true};
+  ContactPairs all = touching_pairs(tree, tree, projection, floor, max_pairs);
+  if (all.complete) return all;
   return {DeepestPartners(tree, projection, floor, resolution).run(), false};
 }
 

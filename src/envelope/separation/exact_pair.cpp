@@ -82,11 +82,22 @@ mpz_class orientation(const IntegerTriangle& a, int p, int q, const IntegerTrian
 struct Weights {
   std::array<mpz_class, 3> corner;
   mpz_class denominator;
+
+  friend bool operator==(const Weights& a, const Weights& b) {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (a.corner[i] * b.denominator != b.corner[i] * a.denominator) return false;
+    return true;
+  }
 };
 
 struct Candidate {
   Weights upper, lower;
+
+  friend bool operator==(const Candidate&, const Candidate&) = default;
 };
+
+/// Whether candidates that only equal the best one are kept.
+enum class Ties { dropped, kept };
 
 Weights at_corner(int v) {
   Weights weights{{0, 0, 0}, 1};
@@ -104,8 +115,9 @@ Weights on_edge(int from, int to, const mpz_class& numerator, const mpz_class& d
 
 class ExactPair {
  public:
-  ExactPair(const TreeTriangle& upper, const TreeTriangle& lower, const Shear& shear)
-      : upper_source_(upper), lower_source_(lower), shear_(shear) {
+  ExactPair(const TreeTriangle& upper, const TreeTriangle& lower, const Shear& shear,
+            Ties ties = Ties::dropped)
+      : upper_source_(upper), lower_source_(lower), shear_(shear), keep_ties_(ties == Ties::kept) {
     const IntegerProjection projection({&upper, &lower}, shear);
     point_exponent_ = projection.point_exponent();
     upper_ = projection(upper);
@@ -136,8 +148,15 @@ class ExactPair {
     return Rational(Rational::Number{value});
   }
 
-  ExactPoints points() const {
-    return {point(best_->upper, upper_source_), point(best_->lower, lower_source_)};
+  ExactPoints points() const { return points(*best_); }
+
+  /// Of the best candidate and of all that equal it.
+  std::vector<ExactPoints> all_points() const {
+    std::vector<ExactPoints> all = {points()};
+    for (std::size_t i = 0; i < ties_.size(); ++i)
+      if (ties_[i] != *best_ && std::find(ties_.begin(), ties_.begin() + i, ties_[i]) == ties_.begin() + i)
+        all.push_back(points(ties_[i]));
+    return all;
   }
 
  private:
@@ -178,7 +197,12 @@ class ExactPair {
       numerator = -numerator;
       denominator = -denominator;
     }
-    if (best_ && numerator * best_denominator_ <= best_numerator_ * denominator) return;
+    if (best_) {
+      const int order = cmp(numerator * best_denominator_, best_numerator_ * denominator);
+      if (order == 0 && keep_ties_) ties_.push_back({std::move(upper), std::move(lower)});
+      if (order <= 0) return;
+    }
+    ties_.clear();
     best_numerator_ = std::move(numerator);
     best_denominator_ = std::move(denominator);
     best_ = Candidate{std::move(upper), std::move(lower)};
@@ -241,6 +265,10 @@ class ExactPair {
     return {on_edge(p, q, numerator, denominator)};
   }
 
+  ExactPoints points(const Candidate& candidate) const {
+    return {point(candidate.upper, upper_source_), point(candidate.lower, lower_source_)};
+  }
+
   static Eigen::Vector3d point(const Weights& weights, const TreeTriangle& source) {
     Eigen::Vector3d result;
     for (int axis = 0; axis < 3; ++axis) {
@@ -255,11 +283,13 @@ class ExactPair {
   const TreeTriangle& upper_source_;
   const TreeTriangle& lower_source_;
   const Shear& shear_;
+  bool keep_ties_;
   int point_exponent_ = 0;
   IntegerTriangle upper_, lower_;
   IntegerSides of_upper_edges_, of_lower_edges_;
   mpz_class upper_area_, lower_area_;
   std::optional<Candidate> best_;
+  std::vector<Candidate> ties_;                  ///< others with the same height difference
   mpz_class best_numerator_, best_denominator_;  ///< height difference in scaled integers; denominator > 0
 };
 
@@ -270,6 +300,13 @@ std::optional<Rational> exact_maximum(const TreeTriangle& upper, const TreeTrian
   ExactPair pair(upper, lower, shear);
   if (!pair.maximise(semantics)) return std::nullopt;
   return pair.value();
+}
+
+std::optional<ExactMaximum> exact_maximum_with_points(const TreeTriangle& upper, const TreeTriangle& lower,
+                                                      const Shear& shear, ContactSemantics semantics) {
+  ExactPair pair(upper, lower, shear, Ties::kept);
+  if (!pair.maximise(semantics)) return std::nullopt;
+  return ExactMaximum{pair.value(), pair.all_points()};
 }
 
 bool is_edge_on(const TreeTriangle& triangle, const Shear& shear) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "envelope/separation/separation_tree.h"
 #include "envelope/separation/shear.h"
@@ -20,6 +21,15 @@ struct ExactPoints {
 /// Computes these points. Precondition: `exact_maximum` returns a value.
 ExactPoints exact_points(const TreeTriangle& upper, const TreeTriangle& lower, const Shear& shear,
                          ContactSemantics semantics);
+
+/// The maximum, and all points that attain it at corners of the common columns; rounded as `exact_points`.
+struct ExactMaximum {
+  Rational value;
+  std::vector<ExactPoints> points;  ///< no two are the same pair of points
+};
+/// Computes both; nothing where `exact_maximum` returns nothing.
+std::optional<ExactMaximum> exact_maximum_with_points(const TreeTriangle& upper, const TreeTriangle& lower,
+                                                      const Shear& shear, ContactSemantics semantics);
 
 /// Returns whether the triangle projects to a segment or a point, in rational arithmetic.
 bool is_edge_on(const TreeTriangle& triangle, const Shear& shear);

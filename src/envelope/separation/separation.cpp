@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "envelope/separation/common_frame.h"
 #include "envelope/separation/edge_on_triangles.h"
 #include "envelope/separation/exact_pair.h"
 #include "envelope/separation/node_pair.h"
@@ -247,28 +248,6 @@ class SeparationQuery {
   EdgeOnTriangles upper_edge_on_, lower_edge_on_;
   std::optional<Rational> best_;
   std::int32_t best_upper_ = -1, best_lower_ = -1;  ///< in tree order
-};
-
-/// Two trees in one frame: as they are if their origins agree, else built again in the file's axes.
-class CommonFrame {
- public:
-  CommonFrame(const SeparationTree& below, const SeparationTree& above)
-      : below_(&below.data()), above_(&above.data()) {
-    if (below_->origin == above_->origin) return;
-    rebuilt_ = {below_->in_file_axes(), above_->in_file_axes()};
-    below_ = &rebuilt_[0];
-    above_ = &rebuilt_[1];
-  }
-  CommonFrame(const CommonFrame&) = delete;
-  CommonFrame& operator=(const CommonFrame&) = delete;
-
-  const SeparationTree::Data& below() const { return *below_; }
-  const SeparationTree::Data& above() const { return *above_; }
-
- private:
-  const SeparationTree::Data* below_;
-  const SeparationTree::Data* above_;
-  std::array<SeparationTree::Data, 2> rebuilt_;
 };
 
 }  // namespace
