@@ -46,6 +46,7 @@ CLI::App* add_command(CLI::App& program, const std::string& name, const std::str
 }
 
 void add_common_options(CLI::App& command, CommonOptions& common) {
+  common.command = &command;
   command
       .add_option("MODEL", common.model,
                   "Mesh file (" + std::string(readable_extensions()) + ") or - for stdin")

@@ -24,6 +24,7 @@ struct CommonOptions {
   int threads = 0;                  ///< 0: as many as the machine has
   std::uint64_t seed = 0;    ///< nothing here is random yet; accepted so that scripts can always give one
   Caller* caller = nullptr;  ///< nothing: the terminal
+  const CLI::App* command = nullptr;  ///< what was parsed; nothing: MODEL and its options were never added
 
   bool json_on_stdout() const { return json && *json == "-"; }
 };

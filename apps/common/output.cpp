@@ -6,6 +6,8 @@
 
 #include "apps/common/caller.h"
 #include "apps/common/interrupt.h"
+#include "apps/common/text.h"
+#include "apps/common/values.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/units.h"
 #include "stackabilization/io/companion_files.h"
@@ -131,13 +133,45 @@ void write_mesh_output(const CommonOptions& common, const std::string& path, con
   say_unit(common, path, copies.shapes.front().unit);
 }
 
+namespace {
+
+/// Options with lengths above 0 that were typed without a unit: "--clearance 0.5".
+std::vector<std::string> lengths_without_unit(const CLI::App& command) {
+  std::vector<std::string> lengths;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_type_name() != "LENGTH") continue;
+    for (const std::string& text : option->results()) {
+      const Length length = parse_length({option->get_name(), ""}, text);
+      if (length.unit == Unit::unknown && length.value > 0)
+        lengths.push_back(option->get_name() + " " + text);
+    }
+  }
+  return lengths;
+}
+
+/// The sentence of a report that says in which unit lengths were read that have none.
+std::string unit_sentence(const CommonOptions& common, const Json& document) {
+  if (!common.command) return "";
+  const std::vector<std::string> lengths = lengths_without_unit(*common.command);
+  if (lengths.empty()) return "";
+  std::string unit = "that of each model";
+  if (const auto found = document.find("unit"); found != document.end())
+    unit = found->is_null() ? "that of the model, which is unknown"
+                            : found->get<std::string>() + ", the unit of the model";
+  return "Lengths without a unit are in " + unit + ": " + joined(lengths) + "\n";
+}
+
+}  // namespace
+
 void deliver(const CommonOptions& common, const Json& document, const std::string& text) {
   if (common.caller) {
     common.caller->document = document;
     return;
   }
   if (common.json) write_output(*common.json, json_text(document));
-  if (!common.json_on_stdout()) write_output("-", text);
+  if (common.json_on_stdout()) return;
+  const bool is_report = !common.quiet && !text.empty();
+  write_output("-", is_report ? text + unit_sentence(common, document) : text);
 }
 
 }  // namespace stackabilization::apps

@@ -62,7 +62,8 @@ void write_mesh_output(const CommonOptions& common, const std::string& path, con
 void write_mesh_output(const CommonOptions& common, const std::string& path, const Copies& copies);
 
 /// The last step of every command: the JSON where asked for, then `text` on standard output unless the JSON
-/// is there. A caller gets the JSON alone.
+/// is there. Unless quiet, a sentence follows that says in which unit lengths were read that were typed
+/// without one: `unit` of the document. A caller gets the JSON alone.
 void deliver(const CommonOptions& common, const Json& document, const std::string& text);
 
 }  // namespace stackabilization::apps

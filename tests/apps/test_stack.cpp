@@ -169,6 +169,29 @@ TEST_CASE("clearances lift the copies") {
   CHECK(increment({"--lateral-clearance", "0.05"}) > f_max);
 }
 
+TEST_CASE("a report says in which unit it took the lengths that were typed without one") {
+  const CupFolder folder;
+  const std::string sentence = "Lengths without a unit are in ";
+  const auto report = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"stack", folder.cup_file};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const std::string out = run_program(arguments).out;
+    const std::size_t at = out.find(sentence);
+    return at == std::string::npos ? "" : out.substr(at + sentence.size());
+  };
+  CHECK(report({"--unit", "cm", "--clearance", "0.25", "--within", "9m"}) ==
+        "cm, the unit of the model: --clearance 0.25\n");
+  CHECK(report({"--clearance", "0.25", "--within", "900"}) ==
+        "that of the model, which is unknown: --clearance 0.25, --within 900\n");
+  // Nothing to say of nought, of numbers that are no lengths, and where only numbers are asked for.
+  CHECK(report({"--unit", "cm", "--clearance", "0", "--lateral-clearance", "1mm", "-n", "3"}).empty());
+  CHECK(report({"--unit", "cm", "--clearance", "0.25", "--quiet"}).empty());
+  CHECK(report({"--unit", "cm", "--clearance", "0.25", "--json", "-"}).empty());
+  const std::string items =
+      run_program({"items", folder.cup_file, "--unit", "cm", "--clearance", "0.25"}).out;
+  CHECK(items.ends_with(sentence + "that of each model: --clearance 0.25\n"));
+}
+
 TEST_CASE("a wish that is met ends with 0, one that is not with 1, and both say what it takes") {
   const CupFolder folder;
   const double f_max = solids::frustum_shell_f_max(folder.cup);
