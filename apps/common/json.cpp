@@ -1,5 +1,7 @@
 #include "apps/common/json.h"
 
+#include <utility>
+
 #include "apps/common/design_json.h"
 
 namespace stackabilization::apps {
@@ -26,6 +28,18 @@ Json to_json(const Witness& witness) {
   return {{"triangles", {witness.upper_triangle, witness.lower_triangle}},
           {"point", to_json(witness.upper_point)},
           {"lower_point", to_json(witness.lower_point)}};
+}
+
+Json to_json(const SeparationGradients& gradients) {
+  Json touches = Json::array();
+  for (const SeparationTouch& touch : gradients.touches)
+    touches.push_back({{"triangles", {touch.upper_triangle, touch.lower_triangle}},
+                       {"weights", {to_json(touch.upper_weights), to_json(touch.lower_weights)}},
+                       {"normal", to_json(touch.normal)},
+                       {"direction", to_json(touch.direction)}});
+  return {{"touches", std::move(touches)},
+          {"complete", gradients.complete},
+          {"one_plane_each", gradients.one_plane_each}};
 }
 
 Json to_json(const Findings& findings) {

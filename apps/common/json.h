@@ -9,6 +9,7 @@
 #include "stackabilization/core/rational.h"
 #include "stackabilization/envelope/contacts.h"
 #include "stackabilization/envelope/separation.h"
+#include "stackabilization/envelope/separation_gradient.h"
 #include "stackabilization/io/inspect.h"
 
 /// The library's values as JSON. Keys keep their order; doubles print with as many digits as bring them back
@@ -22,6 +23,7 @@ Json to_json(const Eigen::Matrix3d& matrix);  ///< rows
 Json to_json(const Rational& value);          ///< {"numerator": "...", "denominator": "..."}
 Json to_json(Unit unit);                      ///< "mm", or null
 Json to_json(const Witness& witness);
+Json to_json(const SeparationGradients& gradients);
 Json to_json(const Findings& findings);
 Json to_json(const std::vector<ContactRegion>& regions, const std::vector<std::string>& part_names);
 

@@ -31,6 +31,8 @@ Measurement measure_exactly(const StackabilitySolver& solver, const Direction& d
   measurement.values = exact.stackability;
   measurement.separation = exact.separation;
   if (!exact.separation.blocked) return measurement;
+  measurement.gradients = separation_gradients({solver.tree(), solver.tree(), direction, exact.separation},
+                                               {.semantics = solver.options().semantics});
   ContactOptions options;
   options.semantics = solver.options().semantics;
   measurement.contacts =

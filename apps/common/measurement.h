@@ -39,9 +39,11 @@ struct Measurement {
   StackabilityOptions options;
   Stackability values;
   std::optional<Separation> separation;  ///< exact method only
-  Contacts contacts;                     ///< exact method only
-  std::optional<LayerFit> layer;         ///< exact method only, where asked for
-  std::optional<Sampling> sampling;      ///< sampled methods only
+  /// Of f_max; exact method only, where copies can collide.
+  std::optional<SeparationGradients> gradients;
+  Contacts contacts;                 ///< exact method only
+  std::optional<LayerFit> layer;     ///< exact method only, where asked for
+  std::optional<Sampling> sampling;  ///< sampled methods only
 };
 
 /// Exact f_max with its witness and contact regions, and S.

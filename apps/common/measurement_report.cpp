@@ -170,6 +170,7 @@ void add_measurement(Json& document, const Measurement& measurement, const Model
   const std::optional<Separation>& separation = measurement.separation;
   document["exact"] = separation ? exact_f_max_json(*separation) : Json(nullptr);
   document["witness"] = separation && separation->blocked ? to_json(separation->witness) : Json(nullptr);
+  document["gradient"] = measurement.gradients ? to_json(*measurement.gradients) : Json(nullptr);
   const std::vector<std::string>& names = model.shape.part_names;
   document["contacts"] = separation ? to_json(measurement.contacts.regions, names) : Json(nullptr);
   add_omissions(document, measurement.contacts, names);

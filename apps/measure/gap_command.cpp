@@ -22,10 +22,13 @@ std::optional<double> gap_of(const Separation& separation) {
   return separation.blocked ? std::optional(0 - separation.length) : std::nullopt;
 }
 
-void add_gap(Json& document, const Separation& separation) {
+void add_gap(Json& document, const GradientQuery& query, ContactSemantics semantics) {
+  const Separation& separation = query.separation;
   document["gap"] = to_json(gap_of(separation));
   document["exact"] = separation.blocked ? to_json(Rational() - separation.value) : Json(nullptr);
   document["witness"] = separation.blocked ? to_json(separation.witness) : Json(nullptr);
+  document["gradient"] =
+      separation.blocked ? to_json(separation_gradients(query, {.semantics = semantics})) : Json(nullptr);
 }
 
 std::string gap_text(const Model& below, const Model& above, const Separation& separation,
@@ -63,14 +66,14 @@ int run_gap_command(const CLI::App& command, const GapCommandOptions& options) {
   check_same_unit(below, above, "ABOVE");
   SeparationOptions separating;
   separating.semantics = options.semantics;
-  const Separation found =
-      separation(SeparationTree(below.shape), SeparationTree(above.shape), direction, separating);
+  const SeparationTree tree_below(below.shape), tree_above(above.shape);
+  const Separation found = separation(tree_below, tree_above, direction, separating);
 
   Json document = document_head(command, below);
   document["above"] = above.name;
   document["direction"] = to_json(direction.vector());
   document["semantics"] = name_of(options.semantics);
-  add_gap(document, found);
+  add_gap(document, {tree_below, tree_above, direction, found}, options.semantics);
   add_document_tail(document, options.common, below, watch);
   const std::optional<double> gap = gap_of(found);
   deliver(options.common, document,

@@ -263,6 +263,44 @@ class Gradient(Result):
     direction: Floats = field("(3,) by the direction.", convert=vector)
 
 
+class Touch(Result):
+    """Two points that attain a separation, with a plane between their faces, and the subgradient there."""
+
+    __slots__ = ()
+    _shown = ("triangles", "normal")
+    triangles: tuple[int, int] = field("Rows of the faces that touch: of the mesh below, and of the one above.",
+                                        convert=_names)
+    weights: Floats = field("(2, 3) barycentric weights of the points on these faces.", convert=vector)
+    normal: Floats = field("(3,) of the plane; its product with the direction is the direction's length.",
+                           convert=vector)
+    direction: Floats = field("(3,) derivative by the direction, model units.", convert=vector)
+
+    @property
+    def upper(self) -> Floats:
+        """(3, 3): row i, the derivative by corner i of the face of the mesh below."""
+        return vector(numpy.outer(self.weights[0], self.normal))
+
+    @property
+    def lower(self) -> Floats:
+        """(3, 3): row i, the derivative by corner i of the face of the mesh above."""
+        return vector(-numpy.outer(self.weights[1], self.normal))
+
+
+class Gradients(Result):
+    """All subgradients of a separation at a kink; one where there is none.
+
+    The separation rises by the largest product of a change with one of them where `complete` and
+    `one_plane_each`, and else by no more than that, unless touches are missing.
+    """
+
+    __slots__ = ()
+    _shown = ("touches", "complete")
+    touches: tuple[Touch, ...] = field("One for each pair of faces that attains it, and each corner of where it does.",
+                                       convert=lambda values: tuple(map(Touch, values)))
+    complete: bool = field("Are these all?")
+    one_plane_each: bool = field("Is there one plane only between every two faces?")
+
+
 def separation_of(found: tuple[Any, ...] | None) -> Separation | None:
     """A Separation of what the compiled part returns."""
     if found is None:
@@ -295,6 +333,8 @@ class Measurement(OfModel):
     f_max_exact: fractions.Fraction | None = field("f_max in units of the direction; None where sampled.", "exact",
                                                       fraction)
     witness: Witness | None = field("What causes f_max; None where nothing does, or sampled.", convert=Witness)
+    gradient: Gradients | None = field("How f_max changes with the mesh and the direction; None as the witness.",
+                                       convert=Gradients)
     contacts: tuple[Contact, ...] | None = field("Where a copy rests on the one below; None where sampled.", convert=_contacts)
     layer: Document | None = field("How much lies within a layer of the copy below; None where not asked for.", convert=copied)
     sampling: Document | None = field("What sampling did to f_max; None where exact.", convert=copied)
@@ -455,6 +495,8 @@ class Gap(OfModel):
                                 "be free; None: the two pass each other.")
     exact: fractions.Fraction | None = field("The same in units of the direction.", convert=fraction)
     witness: Witness | None = field("What touches first.", convert=Witness)
+    gradient: Gradients | None = field("How minus the gap changes with both meshes and the direction.",
+                                       convert=Gradients)
 
 
 class Draft(OfModel):

@@ -36,6 +36,20 @@ TEST_CASE("the gap between two shapes is exact, signed, and has a witness") {
   CHECK(run_program({"gap", folder.cube, folder.cube, "--quiet"}).out == "-1\n");
 }
 
+TEST_CASE("the gradient of a gap has all places where the shapes touch") {
+  const CubesFolder folder;
+  const json gradient = run_program({"gap", folder.cube, folder.slab, "--json", "-"}).json()["gradient"];
+  CHECK(gradient["complete"] == true);
+  CHECK(gradient["one_plane_each"] == true);
+  REQUIRE(gradient["touches"].size() >= 4);  // the corners of the square that both have in common
+  for (const json& touch : gradient["touches"]) {
+    CHECK(touch["triangles"].size() == 2);
+    CHECK(touch["weights"].size() == 2);
+    CHECK(touch["normal"] == json({0, 0, 1}));
+    CHECK(touch["direction"] == json({0, 0, 0}));
+  }
+}
+
 TEST_CASE("shapes that pass each other have no gap, unless touching counts") {
   const TemporaryFolder folder;
   const std::string cube = folder.model("cube.obj", solids::box({0, 0, 0}, {1, 1, 1}));
@@ -44,6 +58,7 @@ TEST_CASE("shapes that pass each other have no gap, unless touching counts") {
   CHECK(none.status == 0);
   CHECK(none.json()["gap"].is_null());
   CHECK(none.json()["witness"].is_null());
+  CHECK(none.json()["gradient"].is_null());
   CHECK(run_program({"gap", cube, beside, "--quiet"}).out == "none\n");
   CHECK(run_program({"gap", cube, beside}).out.find("pass each other") != std::string::npos);
   CHECK(run_program({"gap", cube, beside, "--semantics", "closed", "--quiet"}).out == "4\n");

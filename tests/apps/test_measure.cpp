@@ -56,6 +56,8 @@ TEST_CASE("measure finds f_max of a cup in closed form and says where it is atta
   CHECK(witness["triangles"][0].get<int>() < shape.triangle_count());
   CHECK(witness["point"][2].get<double>() - witness["lower_point"][2].get<double>() ==
         Approx(f_max).epsilon(1e-12));
+  REQUIRE(!result["gradient"]["touches"].empty());
+  CHECK(result["gradient"]["touches"][0]["normal"][2].get<double>() == Approx(1));
   REQUIRE(result["contacts"].size() == 1);
   CHECK(result["contacts"][0]["type"] == "ring");
   CHECK(result["contacts"][0]["parts"] == json({"part", "part"}));
@@ -193,6 +195,7 @@ TEST_CASE("measure by samples stays below the exact value and says how far") {
     CHECK(result["method"] == method);
     CHECK(result["exact"].is_null());
     CHECK(result["witness"].is_null());
+    CHECK(result["gradient"].is_null());
     CHECK(result["contacts"].is_null());
     const json sampling = result["sampling"];
     CHECK(sampling["resolution"] == 128);

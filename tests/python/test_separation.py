@@ -81,6 +81,18 @@ def test_a_gradient_is_a_quotient_of_differences(cup):
     assert (gradient * noisy.vertices).sum() == pytest.approx(st.Solver(noisy).separation().length)
 
 
+def test_the_touches_of_a_box_say_what_any_of_its_corners_does():
+    vertices, faces = box((0, 0, 0), (2, 3, 1))
+    gradient = st.measure((vertices, faces)).gradient
+    assert gradient.complete and gradient.one_plane_each
+    moves = numpy.random.default_rng(6).normal(size=vertices.shape)
+    products = [(touch.upper * moves[faces[touch.triangles[0]]]).sum()
+                + (touch.lower * moves[faces[touch.triangles[1]]]).sum() for touch in gradient.touches]
+    moved = st.separation((vertices + 1e-7 * moves, faces), (vertices + 1e-7 * moves, faces)).length
+    assert (moved - 1) / 1e-7 == pytest.approx(max(products), abs=1e-5)
+    assert st.gap((vertices, faces), (vertices + [0, 0, 5], faces)).gradient.touches[0].normal == pytest.approx([0, 0, 1])
+
+
 def test_a_parameter_of_a_cup_descends_to_a_wanted_pitch(cup):
     """The rim of the cup is widened until each further copy adds 15 mm."""
     mesh, wanted, rim = st.load(cup), 0.015, 1.0
