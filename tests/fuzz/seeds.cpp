@@ -1,5 +1,7 @@
 #include "fuzz/seeds.h"
 
+#include <random>
+
 #include "io/formats/zip.h"
 #include "stackabilization/improvement/history.h"
 #include "stackabilization/io/write.h"
@@ -117,6 +119,15 @@ detail::SearchState two_candidates() {
   return state;
 }
 
+/// Bytes of the target bounds: two that say how numbers are read, and random ones.
+std::string triangle_bytes(char numbers, char semantics) {
+  std::string bytes = {numbers, semantics};
+  std::mt19937 random(static_cast<std::uint32_t>(numbers + 3 * semantics));
+  constexpr std::size_t size = 400;
+  while (bytes.size() < size) bytes += static_cast<char>(random() & 0xff);
+  return bytes;
+}
+
 }  // namespace
 
 detail::SearchTask search_task() {
@@ -169,6 +180,9 @@ std::vector<Seed> seeds() {
         "suggest\na.obj\n--keep\na\n--alpha\n0.1", "search\n-\n--format\nstl\n--cone-degrees\n20",
         "validate\na.obj\n--json\n-\n--quiet", "--version"})
     seed("command_line", std::to_string(all.size()), text);
+  for (const char numbers : {0, 1, 2})
+    for (const char semantics : {0, 1})
+      seed("bounds", std::to_string(all.size()), triangle_bytes(numbers, semantics));
   return all;
 }
 

@@ -12,10 +12,12 @@
 #include "envelope/separation/node_pair.h"
 #include "support/catch.h"
 #include "support/solids.h"
+#include "support/tight_node.h"
 #include "support/variants.h"
 
 using namespace stackabilization;
 using namespace stackabilization::detail;
+using namespace stackabilization::tight_node;
 using solids::Random;
 
 namespace {
@@ -24,42 +26,6 @@ using Eigen::Vector3d;
 using Corners = std::array<Vector3d, 3>;
 
 constexpr DoubleDouble anything{-infinity, 0};
-
-Rational dot(const std::array<double, 3>& normal, const Vector3d& point) {
-  return Rational(normal[0]) * Rational(point[0]) + Rational(normal[1]) * Rational(point[1]) +
-         Rational(normal[2]) * Rational(point[2]);
-}
-
-double rounded_down(const Rational& value) {
-  const double nearest = value.to_double();
-  return Rational(nearest) <= value ? nearest : std::nextafter(nearest, -infinity);
-}
-
-double rounded_up(const Rational& value) {
-  const double nearest = value.to_double();
-  return Rational(nearest) >= value ? nearest : std::nextafter(nearest, infinity);
-}
-
-/// The smallest node with this normal of the slab around some points.
-template <class Points>
-TreeNode node_around(const Points& points, const Vector3d& normal) {
-  TreeNode node{};
-  node.low.fill(infinity);
-  node.high.fill(-infinity);
-  node.normal = {normal.x(), normal.y(), normal.z()};
-  node.slab_low = infinity;
-  node.slab_high = -infinity;
-  for (const Vector3d& point : points) {
-    for (int axis = 0; axis < 3; ++axis) {
-      node.low[axis] = std::min(node.low[axis], point[axis]);
-      node.high[axis] = std::max(node.high[axis], point[axis]);
-    }
-    const Rational offset = dot(node.normal, point);
-    node.slab_low = std::min(node.slab_low, rounded_down(offset));
-    node.slab_high = std::max(node.slab_high, rounded_up(offset));
-  }
-  return node;
-}
 
 TreeTriangle triangle_of(const Corners& corners) {
   TreeTriangle triangle{};
