@@ -72,8 +72,8 @@ TEST_CASE("sizes that no object has are questioned below the item table") {
   const auto text = [&](const std::string& unit) {
     return run_program({"items", folder.cup, folder.brick, "--unit", unit}).out;
   };
-  const auto has = [](const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
+  const auto has = [](const std::string& whole, const std::string& part) {
+    return whole.find(part) != std::string::npos;
   };
   CHECK(has(text("mm"), ", an unlikely size: are these numbers "));
   CHECK(has(text("mm"), "\nb,rick.obj: "));

@@ -47,8 +47,11 @@ editing('hovering previews, clicking applies, undo goes back', 'table.obj', asyn
   await page.locator('.card').first().hover();
   await page.waitForFunction((s) => document.getElementById('s').textContent === s, first.stackability.toFixed(2));
   assert.equal(await stackability(page), before, 'a preview is no edit');
+  const outlined = () => page.evaluate(() => window.editor.viewer.main.objects.before.visible);
+  assert.equal(await outlined(), true, 'the current design is outlined beside a preview');
   await page.mouse.move(400, 400);
   await page.waitForFunction((s) => Number(document.getElementById('s').textContent) === s, Number(before.toFixed(2)));
+  assert.equal(await outlined(), false);
   await page.locator('.card').first().click();
   await page.waitForFunction(() => window.editor.state.tree.current === 1);
   assert.ok(Math.abs((await stackability(page)) - first.stackability) < 1e-9);

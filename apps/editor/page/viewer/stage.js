@@ -53,6 +53,8 @@ export class Stage {
     this.copiesBelow = 1;
     /** What is shown. @type {Record<string, boolean>} */
     this.layers = { ghosts: true, contacts: true, before: false, parts: false, primitives: false, joints: false, symmetry: false };
+    /** Whether another design than the one at rest is outlined. */
+    this.outlines = false;
     this.selected = /** @type {Set<number>} */ (new Set());
     this.changed = false;
     this.surface = /** @type {MeshSurface | null} */ (null);
@@ -166,7 +168,7 @@ export class Stage {
     while (objects.ghosts.children.length < wanted.length) objects.ghosts.add(this.#ghost(objects));
     wanted.forEach((copy, k) => objects.ghosts.children[k].position.copy(this.direction).multiplyScalar(copy * this.step));
     objects.contacts.visible = objects.contactDots.visible = layers.contacts && layers.ghosts;
-    objects.before.visible = layers.before;
+    objects.before.visible = layers.before || this.outlines;
     objects.primitives.visible = layers.primitives;
     objects.joints.visible = layers.joints;
     objects.symmetry.visible = layers.symmetry;
@@ -223,7 +225,8 @@ export class Stage {
       position.setXYZ(e, from[3 * edges[e]], from[3 * edges[e] + 1], from[3 * edges[e] + 2]);
     position.needsUpdate = true;
     objects.before.geometry.boundingSphere = null;
-    objects.before.visible = vertices !== null || this.layers.before;
+    this.outlines = vertices !== null;
+    objects.before.visible = this.outlines || this.layers.before;
     this.draw();
   }
 
