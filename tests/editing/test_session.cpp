@@ -171,6 +171,28 @@ TEST_CASE("a limit holds a drag, and is named") {
   CHECK(reached < session.space().rest().shape.vertices.maxCoeff() + 3);
 }
 
+TEST_CASE("what is kept of a drag keeps the limits too that are too slow to follow it") {
+  Observed observed(new_document(structures::rough_stool()));
+  EditingSession& session = observed.session;
+  const Edit through{{HandleKind::part, structures::part_named(session.space().rest(), "leg_1"), 0},
+                     Move{{3.9, 0, 0}}};
+  session.execute(Drag{through});
+  REQUIRE(within_limits(session.shown().assessment));
+  REQUIRE(!within_limits(session.checker().check(*session.shown().design, session.direction())));
+  const double dragged = std::get<Move>(session.drag()->operation).by.x();
+  session.execute(EndDrag{true});
+  CHECK(within_limits(session.checker().check(*session.current().design, session.direction())));
+  const History& history = session.document().project.history;
+  REQUIRE(history.nodes.size() == 2);
+  const double kept = std::get<Move>(history.nodes[1].edits[0].operation).by.x();
+  CHECK(kept > 2);
+  CHECK(kept < dragged);
+  REQUIRE(observed.all<Refused>().size() == 1);
+  const Obstacle obstacle = observed.all<Refused>()[0].obstacle;
+  REQUIRE(std::holds_alternative<Check>(obstacle));
+  CHECK(std::get<Check>(obstacle).measure == QualityMeasure::collision);
+}
+
 TEST_CASE("the range of a handle ends where limits do") {
   Observed observed(sessions::table_document());
   EditingSession& session = observed.session;
@@ -190,13 +212,13 @@ TEST_CASE("the range of a handle ends where limits do") {
         session.space().edited(session.space().at_rest(), scaled(whole, sample.amount), constraints);
     REQUIRE(!made.refusal);
     CHECK(sample.stackability == Approx(stackability(made.design.shape, {0, 0, 1}).value).margin(1e-9));
-    CHECK(within_limits(session.checker().check(made.design, session.direction(), QualityScope::parts)));
+    CHECK(within_limits(session.checker().check(made.design, session.direction())));
   }
   constexpr double resolution = 0.01;
   const DeformationResult beyond =
       session.space().edited(session.space().at_rest(), scaled(whole, range.high + resolution), constraints);
   CHECK((beyond.refusal ||
-         !within_limits(session.checker().check(beyond.design, session.direction(), QualityScope::parts))));
+         !within_limits(session.checker().check(beyond.design, session.direction()))));
 }
 
 TEST_CASE("results that come too late are dropped") {

@@ -22,15 +22,17 @@ struct ApplySuggestion {
 };
 
 /// Shows the current design with one more edit, without a new node. Where a limit does not allow the edit,
-/// the session shows the largest part of it that all limits allow, and emits the obstacle. Each drag starts
-/// from the current design, not from the last drag.
+/// the session shows the largest part of it that all limits allow, and emits the obstacle; of limits of
+/// quality those of QualityScope::parts are looked at. Each drag starts from the current design, not from the
+/// last drag.
 struct Drag {
   Edit edit;  ///< from the current design
 };
 
-/// Ends a drag.
+/// Ends a drag. The largest part of it that all limits allow becomes a new node; where that is not all of it,
+/// the session emits the obstacle.
 struct EndDrag {
-  bool keep = true;  ///< whether the dragged design becomes a new node; otherwise it is forgotten
+  bool keep = true;  ///< false: no node is made, and the drag is forgotten
 };
 
 /// Looks for the part of an axis of a handle on which all limits hold: EditingSession::range.

@@ -21,7 +21,7 @@ namespace stackabilization::editing {
 /// A design with the measures that follow each step of a drag.
 struct MeasuredDesign {
   std::shared_ptr<const Design> design;  ///< never null in a session
-  /// S(M, r), and the checks of all requirements, of quality those of QualityScope::parts.
+  /// S(M, r), and the checks of all requirements, of quality at least those of QualityScope::parts.
   Assessment assessment;
   Energy energy;       ///< E against the shape at rest along the same direction
   ShapeChange change;  ///< from the shape at rest

@@ -40,7 +40,9 @@ void EditingSession::Implementation::run(const ApplySuggestion& command) {
 void EditingSession::Implementation::run(const Drag& command) {
   if (!range_runs_) lanes_.cancel(Lane::advice);
   const double known = drag_ ? known_share(drag_->edit, command.edit) : 0;
-  LargestEdit largest = largest_part(from_current(), command.edit, known);
+  EditedFrom from = from_current();
+  from.scope = QualityScope::parts;
+  LargestEdit largest = largest_part(from, command.edit, known);
   drag_ = DragState{std::move(largest.made), scaled(command.edit, largest.amount)};
   emit(Changed{Change::design});
   if (largest.obstacle) emit(Refused{*largest.obstacle});
@@ -49,13 +51,19 @@ void EditingSession::Implementation::run(const Drag& command) {
 void EditingSession::Implementation::run(const EndDrag& command) {
   const std::optional<DragState> drag = std::exchange(drag_, std::nullopt);
   if (!drag) return;
-  const MeasuredDesign& made = drag->design;
-  const Edit& edit = drag->edit;
-  if (!command.keep || made.design->shape.vertices == current_.design->shape.vertices) {
+  const auto is_current = [&](const MeasuredDesign& design) {
+    return design.design->shape.vertices == current_.design->shape.vertices;
+  };
+  if (!command.keep || is_current(drag->design)) {
     emit(Changed{Change::design});
     return;
   }
-  keep_edit(edit, made);
+  const LargestEdit kept = largest_part(from_current(), drag->edit, 0);
+  if (is_current(kept.made))
+    emit(Changed{Change::design});
+  else
+    keep_edit(scaled(drag->edit, kept.amount), kept.made);
+  if (kept.obstacle) emit(Refused{*kept.obstacle});
 }
 
 void EditingSession::Implementation::keep_edit(const Edit& edit, const MeasuredDesign& made) {

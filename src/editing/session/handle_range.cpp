@@ -55,7 +55,7 @@ TriedEdit try_edit(const EditedFrom& from, const Edit& edit) {
     return tried;
   }
   MeasuredDesign made = from.workspace->measured(std::make_shared<const Design>(std::move(outcome.design)),
-                                                 from.direction, from.at_rest);
+                                                 from.direction, from.at_rest, from.scope);
   tried.obstacle = obstacle_in(made.assessment);
   if (!tried.obstacle) tried.made = std::move(made);
   return tried;
@@ -79,14 +79,14 @@ LargestEdit largest_part(const EditedFrom& from, const Edit& edit, double known)
     }
   }
   result.amount = low;
-  if (!result.made.design) result.made = from.workspace->measured(from.design, from.direction, from.at_rest);
+  if (!result.made.design) result.made = from.workspace->measured(from.design, from.direction, from.at_rest, from.scope);
   return result;
 }
 
 HandleRange handle_range(const EditedFrom& from, const Edit& edit, const std::function<bool()>& cancelled) {
   HandleRange range;
   range.edit = edit;
-  const MeasuredDesign now = from.workspace->measured(from.design, from.direction, from.at_rest);
+  const MeasuredDesign now = from.workspace->measured(from.design, from.direction, from.at_rest, from.scope);
   range.samples.push_back({0, now.assessment.measured.value});
   std::tie(range.low, range.below) = sample_side(from, range, -1, cancelled);
   std::tie(range.high, range.above) = sample_side(from, range, 1, cancelled);

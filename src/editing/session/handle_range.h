@@ -14,11 +14,12 @@ struct EditedFrom {
   Direction direction;
   double at_rest = 0;  ///< S of the shape at rest along `direction`
   double now = 0;      ///< S of the design along `direction`
+  QualityScope scope = QualityScope::all;  ///< measures of quality that an edit has to keep
 };
 
 /// A design with an edit, or what stands against it.
 struct TriedEdit {
-  std::optional<MeasuredDesign> made;  ///< set if the edit can be made within all limits that follow a drag
+  std::optional<MeasuredDesign> made;  ///< set if the edit can be made within all limits of `scope`
   std::optional<Obstacle> obstacle;    ///< otherwise
 };
 

@@ -19,9 +19,9 @@ DeformationConstraints Workspace::constraints(const Direction& direction) const 
 }
 
 MeasuredDesign Workspace::measured(std::shared_ptr<const Design> design, const Direction& direction,
-                                   double at_rest) const {
+                                   double at_rest, QualityScope scope) const {
   MeasuredDesign result;
-  result.assessment = checker_->check(*design, direction, QualityScope::parts);
+  result.assessment = checker_->check(*design, direction, scope);
   result.energy = rest_->energy_meter().energy(*design, result.assessment.measured.value - at_rest);
   result.change = shape_change(space_->rest().shape, design->shape);
   result.design = std::move(design);

@@ -17,9 +17,10 @@ class Workspace {
   const DeformationModel& space() const { return *space_; }
   const RequirementChecker& checker() const { return *checker_; }
   DeformationConstraints constraints(const Direction& direction) const;
-  /// Measures a design along r. `at_rest`: S of the shape at rest along r.
-  MeasuredDesign measured(std::shared_ptr<const Design> design, const Direction& direction,
-                          double at_rest) const;
+  /// Measures a design along r. `at_rest`: S of the shape at rest along r. `scope`: measures of quality among
+  /// the checks.
+  MeasuredDesign measured(std::shared_ptr<const Design> design, const Direction& direction, double at_rest,
+                          QualityScope scope = QualityScope::parts) const;
 
  private:
   std::shared_ptr<const DeformationModel> space_;
