@@ -280,6 +280,31 @@ async function frameDrawn(page) {
   await page.waitForFunction((count) => window.editor.viewer.framesDrawn > count, before);
 }
 
+editing('where drawing is slow, what moves is sketched and what rests is drawn in full', 'armchair.obj', async (page) => {
+  const seen = () => page.evaluate(() => {
+    const { viewer } = window.editor, { body, ghosts, sketch } = viewer.main.objects;
+    return { body: body.visible, ghosts: ghosts.children.map(({ children }) => children.map((one) => one.visible)), sketch: sketch.visible, width: viewer.canvas.width };
+  });
+  await page.waitForFunction(() => !window.editor.viewer.sketched);
+  const whole = await seen();
+  assert.ok(whole.ghosts.length > 0);
+  for (const ghost of whole.ghosts) assert.deepEqual(ghost, [true, true, true, false]);
+  const [moving, picked] = await page.evaluate(async () => {
+    const { viewer } = window.editor, frame = () => new Promise(requestAnimationFrame);
+    viewer.slow = true;
+    viewer.turn(0.4, 0);
+    await frame();
+    await frame();
+    const { body, sketch } = viewer.main.objects;
+    const box = viewer.canvas.getBoundingClientRect(), hit = window.editor.picker.pick(box.left + box.width / 2, box.top + box.height / 2);
+    return [{ body: body.visible, sketch: sketch.visible, width: viewer.canvas.width, sketched: viewer.sketched }, hit?.part];
+  });
+  assert.deepEqual({ ...moving, width: moving.width < whole.width / 2 }, { body: false, sketch: true, width: true, sketched: true });
+  assert.ok(picked >= 0, 'a part is picked in a sketch');
+  await page.waitForFunction(() => !window.editor.viewer.sketched);
+  assert.deepEqual(await seen(), whole);
+});
+
 editing('a part is picked in the view', 'table.obj', async (page) => {
   await suggestionsOf(page);
   const at = await page.evaluate(() => {

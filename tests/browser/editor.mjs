@@ -121,5 +121,6 @@ export const canvasFacts = (page) =>
 export async function keepPicture(page, name) {
   if (!pictures) return;
   fs.mkdirSync(pictures, { recursive: true });
+  await page.waitForFunction(() => !(window.editor ?? window.reportView)?.viewer?.sketched);
   await page.screenshot({ path: path.join(pictures, name + '.png') });
 }

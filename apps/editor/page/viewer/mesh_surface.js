@@ -1,7 +1,11 @@
 // A triangle mesh whose vertices move while its triangles stay: what three.js draws of it.
 import * as THREE from 'three';
+import { coarseIndex } from './coarse_index.js';
 
 const creaseCosine = Math.cos((32 * Math.PI) / 180);
+
+/** Triangles of a coarse surface, about. */
+const coarseTriangles = 2500;
 
 /**
  * @typedef {object} MeshData
@@ -74,6 +78,19 @@ export class MeshSurface {
     /** @type {Float32Array} */
     this.vertices = mesh.vertices;
     this.set(mesh.vertices);
+    /** The surface with fewer triangles, if it has many. */
+    this.coarse = this.#coarse();
+  }
+
+  #coarse() {
+    if (this.index.length <= 3 * coarseTriangles) return this.geometry;
+    let area = 0;
+    for (let face = 0; face < this.faces.length; face += 3)
+      area += Math.hypot(this.faces[face], this.faces[face + 1], this.faces[face + 2]) / 2;
+    const coarse = new THREE.BufferGeometry();
+    for (const [name, attribute] of Object.entries(this.geometry.attributes)) coarse.setAttribute(name, attribute);
+    // Two triangles per cell that the surface crosses.
+    return coarse.setIndex(new THREE.BufferAttribute(coarseIndex(this, Math.sqrt((2 * area) / coarseTriangles) || 1), 1));
   }
 
   /**

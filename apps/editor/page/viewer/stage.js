@@ -13,7 +13,9 @@ function makeObjects(surface) {
   const edgeMaterial = new THREE.LineBasicMaterial({ transparent: true, opacity: 0.55 });
   const body = new THREE.Mesh(surface.geometry, material);
   const bodyEdges = new THREE.LineSegments(surface.edgeGeometry, edgeMaterial);
-  root.add(body, bodyEdges);
+  const sketch = new THREE.Mesh(surface.coarse, material);
+  sketch.frustumCulled = sketch.visible = false;  // it shares vertices that move
+  root.add(body, bodyEdges, sketch);
   // Ghosts: first their depth, then one layer of colour, so that their insides are not seen.
   const ghostDepth = new THREE.MeshBasicMaterial({ colorWrite: false, side: THREE.DoubleSide,
     polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 2 });
@@ -29,7 +31,7 @@ function makeObjects(surface) {
   const joints = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 9, sizeAttenuation: false, depthTest: false }));
   const strokes = new THREE.Group(), symmetry = new THREE.Group();
   root.add(ghosts, contacts, contactDots, before, primitives, joints, strokes, symmetry);
-  return { root, before, body, contactDots, contactMaterial, contacts, edgeMaterial, ghostDepth, ghostEdgeMaterial, ghostMaterial, ghosts, joints, primitives, strokes, symmetry };
+  return { root, before, body, contactDots, contactMaterial, contacts, edgeMaterial, ghostDepth, ghostEdgeMaterial, ghostMaterial, ghosts, joints, primitives, sketch, strokes, symmetry };
 }
 
 /** @param {number[]} numbers */
@@ -178,10 +180,24 @@ export class Stage {
   #ghost(objects) {
     const depth = new THREE.Mesh(objects.body.geometry, objects.ghostDepth), colour = new THREE.Mesh(objects.body.geometry, objects.ghostMaterial);
     const edges = new THREE.LineSegments(this.surface?.edgeGeometry, objects.ghostEdgeMaterial);
+    const sketch = new THREE.Mesh(objects.sketch.geometry, objects.ghostMaterial);
+    sketch.frustumCulled = sketch.visible = false;
     depth.renderOrder = 2;
-    colour.renderOrder = 3;
+    colour.renderOrder = sketch.renderOrder = 3;
     edges.renderOrder = 4;
-    return new THREE.Group().add(depth, colour, edges);
+    return new THREE.Group().add(depth, colour, edges, sketch);
+  }
+
+  /** @param {boolean} sketched  whether surfaces are drawn coarsely for now */
+  sketch(sketched) {
+    const { objects } = this;
+    if (!objects) return;
+    objects.body.visible = !sketched;
+    objects.sketch.visible = sketched;
+    for (const { children: [depth, colour, , sketch] } of objects.ghosts.children) {
+      depth.visible = colour.visible = !sketched;
+      sketch.visible = sketched;
+    }
   }
 
   /** @param {ArrayLike<number>} direction */

@@ -5,6 +5,15 @@ import { palettes } from './palettes.js';
 import { Stage } from './stage.js';
 import { ThumbnailPainter } from './thumbnails.js';
 
+/** A frame that takes so many milliseconds is slow. */
+const slowMilliseconds = 80;
+/** Milliseconds that slow frames in a row take before it is no accident. */
+const patience = 400;
+/** Of the pixels of the window, along each side, that a sketch has. */
+const sketchScale = 1 / 3;
+/** Milliseconds after which what was sketched is drawn in full, unless it changes again. */
+const restMilliseconds = 250;
+
 /** Where the eye is at first, seen from the object. */
 const firstView = [1.6, -2.4, 1.15];
 
@@ -41,6 +50,17 @@ export class Viewer {
     this.design = null;
     this.waits = false;
     this.framesDrawn = 0;
+    /** Whether pictures that change are only sketched: without a graphics card they would follow slowly. */
+    this.slow = false;
+    /** Whether what is seen is a sketch. */
+    this.sketched = false;
+    /** Milliseconds that the last frames took, if they were slow. */
+    this.slowly = 0;
+    /** Whether a frame is timed now. */
+    this.timed = false;
+    /** Whether nothing was drawn of the mesh yet. */
+    this.first = true;
+    this.rest = /** @type {ReturnType<typeof setTimeout> | undefined} */ (undefined);
     this.painter = /** @type {ThumbnailPainter | null} */ (null);
     new ResizeObserver(() => this.resize()).observe(canvas);
     canvas.addEventListener('webglcontextrestored', () => this.draw());
@@ -55,6 +75,9 @@ export class Viewer {
     while (this.stages.length > 1) this.removeStage();
     this.main.setMesh(data);
     this.main.setPalette(this.palette);
+    this.slow = false;
+    this.slowly = 0;
+    this.first = true;
     this.fit();
   }
 
@@ -161,7 +184,6 @@ export class Viewer {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (!width || !height) return;
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / this.stages.length / height;
     this.camera.updateProjectionMatrix();
@@ -176,12 +198,61 @@ export class Viewer {
     this.waits = true;
     requestAnimationFrame(() => {
       this.waits = false;
-      this.#render();
+      this.#render(this.slow);
     });
   }
 
-  #render() {
+  /** @param {boolean} [sketched]  whether it is drawn coarsely now, and in full a little later */
+  #render(sketched = false) {
     if (!this.main.surface) return;
+    clearTimeout(this.rest);
+    this.sketched = sketched;
+    const ratio = Math.min(devicePixelRatio, 2) * (sketched ? sketchScale : 1);
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+    for (const stage of this.stages) stage.sketch(sketched);
+    this.#paint();
+    const frame = this.framesDrawn;
+    if (sketched) this.#whenDrawn((waits) => this.#finish(waits, frame));
+    // The first frame of a mesh takes long everywhere.
+    else if (!this.slow && !this.timed && !this.first) this.timed = this.#whenDrawn((waits, milliseconds) => this.#time(waits, milliseconds));
+    this.first = false;
+  }
+
+  /**
+   * Says again and again how long the last frame takes until it is drawn.
+   * @param {(waits: boolean, milliseconds: number) => boolean} heard  whether to go on while it waits
+   */
+  #whenDrawn(heard) {
+    const gl = /** @type {WebGL2RenderingContext} */ (this.renderer.getContext()), begin = performance.now();
+    const drawn = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    if (!drawn) return false;
+    gl.flush();
+    const look = () => {
+      const waits = !gl.isContextLost() && gl.getSyncParameter(drawn, gl.SYNC_STATUS) === gl.UNSIGNALED;
+      if (heard(waits, performance.now() - begin) && waits) setTimeout(look, 5);
+      else gl.deleteSync(drawn);
+    };
+    setTimeout(look, 5);
+    return true;
+  }
+
+  /** Finds out whether frames are slow. @param {boolean} waits @param {number} milliseconds */
+  #time(waits, milliseconds) {
+    this.slow ||= this.slowly + milliseconds > patience;
+    if (waits && !this.slow) return true;
+    this.timed = false;
+    this.slowly = milliseconds > slowMilliseconds ? this.slowly + milliseconds : 0;
+    return false;
+  }
+
+  /** Draws in full what was sketched, unless it changes again. @param {boolean} waits @param {number} frame */
+  #finish(waits, frame) {
+    if (frame !== this.framesDrawn) return false;
+    if (!waits) this.rest = setTimeout(() => this.#render(), restMilliseconds);
+    return waits;
+  }
+
+  #paint() {
     const { camera, renderer } = this, size = renderer.getSize(new THREE.Vector2()), width = size.x / this.stages.length;
     this.onDraw?.();
     renderer.setScissorTest(true);
