@@ -64,6 +64,7 @@ class PageCommand {
            return editing::TakeEdit{whole("node"), whole("edit")};
          }},
         {"map", [] { return editing::MapDirections{}; }},
+        {"envelopes", [] { return editing::SampleEnvelopes{}; }},
         {"accept-advice",
          [&] {
            return AcceptRemedy{whole("number"), AcceptRemedy::Source::advice};

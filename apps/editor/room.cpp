@@ -233,7 +233,8 @@ class EditingRoom::Implementation {
     if (study_) send(page, study_->state());
     for (const Change change :
          {Change::structure, Change::wishes, Change::design, Change::tree, Change::review,
-          Change::suggestions, Change::range, Change::found, Change::map})
+          Change::suggestions, Change::range, Change::found, Change::map,
+          Change::envelopes})
       show(change, {page});
   }
 
@@ -342,6 +343,9 @@ class EditingRoom::Implementation {
       }
       case Change::range:
         return all(range_json(*session_));
+      case Change::envelopes:
+        if (session_->envelopes()) frames(pages, envelope_frame(*session_->envelopes()));
+        return;
       case Change::map:
         return all(map_json(*session_));
       case Change::found: {

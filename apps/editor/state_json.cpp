@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "apps/common/design_json.h"
 #include "apps/common/edit_grammar.h"
@@ -335,6 +336,24 @@ std::string contact_frame(const std::vector<ContactRegion>& regions) {
         corners << polygon.upper_points.row(0), polygon.upper_points.row(k - 1), polygon.upper_points.row(k);
         frame.add(corners);
       }
+  return frame.take();
+}
+
+std::string envelope_frame(const HeightField& envelopes) {
+  const Window& window = envelopes.window;
+  const Eigen::Vector2d first = window.sample(0, 0);
+  Points head(4, 3);
+  head.row(0) = envelopes.frame.to_world({first.x(), first.y(), 0}).transpose();
+  head.row(1) = window.pixel_size * envelopes.frame.u.transpose();
+  head.row(2) = window.pixel_size * envelopes.frame.v.transpose();
+  head.row(3) = envelopes.frame.w.transpose();
+  Frame frame(FrameKind::envelopes, static_cast<std::uint32_t>(window.columns), envelopes.upper.size(), 0);
+  frame.add(head);
+  for (const Eigen::MatrixXd* heights : {&envelopes.upper, &envelopes.lower})
+    for (int j = 0; j < window.rows; ++j)
+      for (int i = 0; i < window.columns; ++i)
+        frame.add(envelopes.covered(i, j) ? static_cast<float>((*heights)(i, j))
+                                          : std::numeric_limits<float>::quiet_NaN());
   return frame.take();
 }
 

@@ -47,6 +47,9 @@ enum class FrameKind : std::uint32_t {
   node = 4,        ///< float32 vertices of node `number`
   found = 5,       ///< float32 vertices of the found design `number`
   contacts = 6,    ///< float32 corners of the triangles of the contact regions on the copy below
+  envelopes = 7,   ///< samples of envelopes, `number` columns of `points`: float32 x, y, z of the first one at
+                   ///< height 0, of the steps to the next column and row and of the unit of height; then upper
+                   ///< heights row by row, not a number where there is no surface; then lower heights
 };
 
 /// Returns the frame of the mesh.
@@ -55,5 +58,7 @@ std::string mesh_frame(const Shape& shape);
 std::string vertex_frame(FrameKind kind, std::uint32_t number, std::uint32_t stamp, const Points& vertices);
 /// Returns the frame of contact regions.
 std::string contact_frame(const std::vector<ContactRegion>& regions);
+/// Returns the frame of envelopes.
+std::string envelope_frame(const HeightField& envelopes);
 
 }  // namespace stackabilization::apps

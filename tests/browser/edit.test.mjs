@@ -305,6 +305,36 @@ editing('where drawing is slow, what moves is sketched and what rests is drawn i
   assert.deepEqual(await seen(), whole);
 });
 
+editing('the gap is shown in colours, again for each design, until it is not wanted', 'table.obj', async (page) => {
+  await page.click('text=Gap');
+  await page.waitForFunction(() => window.editor.viewer.main.envelopes);
+  const seen = () => page.evaluate(() => {
+    const { main } = window.editor.viewer, { gap } = main.objects, { upper, lower } = main.envelopes;
+    const { position, color } = gap.geometry.attributes;
+    let most = -1, red = -1;
+    for (let k = 0; k < upper.length; ++k) if (upper[k] - lower[k] > (most < 0 ? -1 : upper[most] - lower[most])) most = k;
+    for (let k = 0; k < upper.length; ++k) if (!Number.isNaN(upper[k]) && (red < 0 || color.getX(k) - color.getY(k) > color.getX(red) - color.getY(red))) red = k;
+    const gaps = [most, red].map((k) => upper[k] - lower[k]), box = main.surface.geometry;
+    box.computeBoundingBox();
+    return { gaps, f_max: window.editor.state.design.measured.f_max, triangles: gap.geometry.index.count / 3, visible: gap.visible,
+      inside: Array.from({ length: upper.length }, (_, k) => k).every((k) => Number.isNaN(upper[k]) || box.boundingBox.clone().expandByScalar(1e-5).containsPoint(main.centre.clone().fromBufferAttribute(position, k))) };
+  });
+  const first = await seen();
+  assert.ok(first.visible && first.inside && first.triangles > 1000, JSON.stringify(first));
+  assert.ok(Math.abs(first.gaps[0] - first.f_max) < 1e-3 && first.gaps[0] === first.gaps[1], 'where copies touch it is red: ' + JSON.stringify(first));
+  const legend = page.locator('#gap-legend');
+  assert.match(await legend.textContent(), /touches.* apart/);
+  await keepPicture(page, 'gap');
+  const [{ stackability: promised }] = await suggestionsOf(page);
+  await page.locator('.card').first().click();
+  await page.waitForFunction((s) => Math.abs(window.editor.state.design.measured.stackability - s) < 1e-9 && window.editor.viewer.main.envelopes, promised);
+  const second = await seen();
+  assert.ok(Math.abs(second.gaps[0] - second.f_max) < 0.01 * second.f_max && second.f_max < first.f_max, JSON.stringify(second));
+  await page.keyboard.press('h');
+  await page.waitForFunction(() => !window.editor.viewer.main.objects.gap.visible);
+  assert.equal(await legend.isVisible(), false);
+});
+
 editing('a part is picked in the view', 'table.obj', async (page) => {
   await suggestionsOf(page);
   const at = await page.evaluate(() => {

@@ -202,6 +202,28 @@ TEST_CASE("an edit is taken from another design, and one that a limit does not a
   CHECK_THROWS_AS(session.execute(TakeEdit{0, 0}), UsageError);
 }
 
+TEST_CASE("envelopes are sampled along the direction of the design, and go with it") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  observed.work();
+  CHECK(!session.envelopes());
+  session.execute(SampleEnvelopes{});
+  observed.work();
+  REQUIRE(session.envelopes());
+  const HeightField field = *session.envelopes();
+  CHECK(field.frame.w == session.direction().unit());
+  // Legs on the top: the samples on them have the largest gap, the height.
+  CHECK(maximum_gap(field).value == Approx(6).epsilon(1e-12));
+  CHECK(session.current().assessment.measured.f_max == Approx(6).epsilon(1e-12));
+  session.execute(SetDirection{{1, 0, 2}});
+  CHECK(!session.envelopes());
+  session.execute(SampleEnvelopes{});
+  observed.work();
+  REQUIRE(session.envelopes());
+  CHECK(session.envelopes()->frame.w == session.direction().unit());
+  CHECK(maximum_gap(*session.envelopes()).value <= session.current().assessment.measured.f_max * (1 + 1e-9));
+}
+
 TEST_CASE("a map of directions has S of the design, and goes with it") {
   Observed observed(sessions::table_document());
   EditingSession& session = observed.session;

@@ -1,7 +1,7 @@
 // The WebSocket to the program: JSON both ways, and frames of little-endian numbers from it.
 
 /** Kinds of frames, as apps/editor/state_json.h has them. */
-export const frameKind = { mesh: 1, shown: 2, suggestion: 3, node: 4, found: 5, contacts: 6 };
+export const frameKind = { mesh: 1, shown: 2, suggestion: 3, node: 4, found: 5, contacts: 6, envelopes: 7 };
 
 /**
  * @typedef {object} Frame
@@ -38,6 +38,12 @@ export function meshOf(frame) {
     triangles: new Uint32Array(frame.buffer, at, 3 * frame.number),
     parts: new Uint32Array(frame.buffer, at + 12 * frame.number, frame.number),
   };
+}
+
+/** The envelopes of a frame. @param {Frame} frame @returns {import('./viewer/gap_surface.js').Envelopes} */
+export function envelopesOf(frame) {
+  const [place, upper, lower] = [[0, 12], [12, frame.count], [12 + frame.count, frame.count]].map(([at, count]) => new Float32Array(frame.buffer, headBytes + 4 * at, count));
+  return { columns: frame.number, place, upper, lower };
 }
 
 export class Connection {

@@ -1,5 +1,7 @@
 // The page: what the program tells goes into the view and the panels; what a person does becomes commands.
-import { Connection, frameKind, meshOf, verticesOf } from './connection.js';
+import { Connection, envelopesOf, frameKind, meshOf, verticesOf } from './connection.js';
+import { length } from './format.js';
+import { largestClearance } from './viewer/gap_surface.js';
 import { Viewer } from './viewer/viewer.js';
 import { Picker } from './picker.js';
 import { Measures } from './measures.js';
@@ -207,6 +209,8 @@ function receive(message) {
       const first = !state.design;
       state.design = message;
       showDesign();
+      showEnvelopes(null);
+      wantEnvelopes();
       if (message.primitives) {
         viewer.main.setPrimitives(message.primitives);
         parts.setPrimitives(message.primitives);
@@ -297,6 +301,9 @@ function receiveFrame(frame) {
     case frameKind.found:
       automatic.setVertices(frame.number, verticesOf(frame));
       break;
+    case frameKind.envelopes:
+      showEnvelopes(envelopesOf(frame));
+      break;
     case frameKind.contacts:
       contactCorners = new Float32Array(frame.buffer, 16, 9 * frame.count);
       break;
@@ -332,10 +339,28 @@ function exportList(stem) {
   list.append(picture);
 }
 
+/** Shows how near the copy above comes, or nothing of it. @param {import('./viewer/gap_surface.js').Envelopes | null} envelopes */
+function showEnvelopes(envelopes) {
+  viewer.main.setEnvelopes(envelopes);
+  const { apart, contact } = viewer.palette, shown = viewer.main.layers.gap && envelopes !== null;
+  element('gap-legend').hidden = !shown;
+  if (!shown) return;
+  element('gap-most').textContent = length(largestClearance(envelopes), state.model.unit) + ' apart';
+  const [near, far] = [contact, apart].map((hex) => '#' + hex.toString(16).padStart(6, '0'));
+  /** @type {HTMLElement} */ (element('gap-legend').querySelector('i')).style.background = `linear-gradient(to right, ${near}, color-mix(in srgb, ${near}, ${far} 71%) 50%, ${far})`;
+}
+
+/** Asks for the envelopes of the design where they are wanted and not here. */
+function wantEnvelopes() {
+  const { envelopes, layers: { gap } } = viewer.main;
+  if (gap && !envelopes && state.writes && !state.design?.dragging) send({ do: 'envelopes' });
+  else showEnvelopes(envelopes);
+}
+
 /** What can be shown, with its key. */
 const layers = /** @type {const} */ ([
   ['ghosts', 'Copies', 'g'], ['contacts', 'Contacts', 'c'], ['before', 'At rest', 'r'], ['parts', 'Parts', 'p'],
-  ['primitives', 'Primitives', 'b'], ['joints', 'Joints', 'j'], ['symmetry', 'Symmetry', 'y'],
+  ['primitives', 'Primitives', 'b'], ['joints', 'Joints', 'j'], ['symmetry', 'Symmetry', 'y'], ['gap', 'Gap', 'h'],
 ]);
 /** @type {Record<string, () => void>} */
 const toggles = {};
@@ -347,6 +372,7 @@ for (const [layer, words, key] of layers) {
   toggles[key] = () => {
     viewer.main.setLayers({ [layer]: !viewer.main.layers[layer] });
     if (layer === 'before') viewer.main.setBefore(null);
+    if (layer === 'gap') wantEnvelopes();
     mark();
   };
   button.addEventListener('click', toggles[key]);
@@ -388,6 +414,7 @@ function setTheme() {
   automatic.paint();
   tree.paint();
   directions.paint();
+  showEnvelopes(viewer.main.envelopes);
 }
 const toggleTheme = () => { dark = !dark; setTheme(); };
 element('theme').addEventListener('click', toggleTheme);

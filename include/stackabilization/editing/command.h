@@ -138,10 +138,14 @@ struct TakeEdit {
 /// Measures the current design along all directions: EditingSession::map.
 struct MapDirections {};
 
+/// Samples the gap between the envelopes of the current design: EditingSession::envelopes.
+struct SampleEnvelopes {};
+
 /// A command.
 using Command =
     std::variant<ApplySuggestion, Drag, EndDrag, FindRange, RollBack, Undo, Redo, SetTarget, SetDirection,
                  SetLimit, KeepParts, FindDesigns, StopFinding, TakeDesign, AcceptRemedy, Segment, SetKind,
-                 RemoveRelations, RemoveParts, Join, MakeSymmetric, TakeEdit, MapDirections>;
+                 RemoveRelations, RemoveParts, Join, MakeSymmetric, TakeEdit, MapDirections,
+                 SampleEnvelopes>;
 
 }  // namespace stackabilization::editing

@@ -20,6 +20,7 @@ enum class Change {
   range,        ///< EditingSession::range
   found,        ///< EditingSession::found
   map,          ///< EditingSession::map
+  envelopes,    ///< EditingSession::envelopes
 };
 
 /// Something in the session changed.

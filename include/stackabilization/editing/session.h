@@ -10,6 +10,7 @@
 #include "stackabilization/editing/command.h"
 #include "stackabilization/editing/document.h"
 #include "stackabilization/editing/event.h"
+#include "stackabilization/envelope/height_field.h"
 #include "stackabilization/improvement/explanation.h"
 #include "stackabilization/improvement/improve.h"
 #include "stackabilization/improvement/shape_change.h"
@@ -151,6 +152,8 @@ class EditingSession {
   const std::optional<HandleRange>& range() const;  ///< of the last FindRange
   const FoundDesigns& found() const;                ///< by the automatic search
   const std::optional<DirectionMap>& map() const;   ///< of the last MapDirections for the current design
+  /// Returns the envelopes along `direction`, of the last SampleEnvelopes for the current design.
+  const std::optional<HeightField>& envelopes() const;
   /// Returns the design of a node. Throws UsageError when there is no such node.
   std::shared_ptr<const Design> design_of(int node) const;
   /// Returns f_max of a node along its direction, model units. Throws UsageError when there is no such node.

@@ -14,6 +14,9 @@ namespace {
 constexpr double map_step_degrees = 5;
 constexpr std::int64_t max_map_directions = 4000;
 
+/// Samples of envelopes along the longer side.
+constexpr int envelope_resolution = 160;
+
 /// Gain of S below which a suggestion is no answer, and the work that goes into a diagnosis then.
 constexpr double min_gain = 0.005;
 constexpr double max_diagnosis_designs = 200;
@@ -146,6 +149,19 @@ JobWork EditingSession::Implementation::range_work() {
     deliver(unless(cancelled, [this, range] {
       advice_.range = range;
       emit(Changed{Change::range});
+    }));
+  };
+}
+
+JobWork EditingSession::Implementation::envelope_work() {
+  return [this, from = from_current()](const Cancelled& cancelled, const Deliver& deliver) {
+    const Shape& shape = from.design->shape;
+    const auto field = std::make_shared<const HeightField>(height_field_by_rays(
+        shape, from.direction, window_around(shape, from.direction, envelope_resolution)));
+    deliver(unless(cancelled, [this, field] {
+      envelopes_wanted_ = false;
+      advice_.envelopes = *field;
+      emit(Changed{Change::envelopes});
     }));
   };
 }

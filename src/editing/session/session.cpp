@@ -108,6 +108,10 @@ const std::optional<DirectionMap>& EditingSession::map() const {
   return implementation_->advice_.map;
 }
 
+const std::optional<HeightField>& EditingSession::envelopes() const {
+  return implementation_->advice_.envelopes;
+}
+
 std::shared_ptr<const Design> EditingSession::design_of(int node) const {
   const History& history = implementation_->document_.project.history;
   expect_row(node, history.nodes.size(), "node");

@@ -42,6 +42,8 @@ std::optional<EditingSession::Job> EditingSession::Implementation::next_job(Lane
     work = automatic_work();
   else if ((range_runs_ = wanted_range_.has_value()))
     work = range_work();
+  else if (!drag_ && envelopes_wanted_)
+    work = envelope_work();
   else if (!drag_ && !advice_.review)
     work = review_work();
   else if (!drag_ && !advice_.complete && options_.suggests)
@@ -54,7 +56,7 @@ void EditingSession::Implementation::forget_advice() {
   lanes_.cancel(Lane::advice);
   advice_ = {};
   wanted_range_.reset();
-  map_wanted_ = false;
+  map_wanted_ = envelopes_wanted_ = false;
   drag_.reset();
 }
 

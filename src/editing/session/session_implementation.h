@@ -21,6 +21,7 @@ struct Advice {
   std::optional<Diagnosis> diagnosis;
   std::optional<HandleRange> range;
   std::optional<DirectionMap> map;
+  std::optional<HeightField> envelopes;
 };
 
 /// A drag that was not ended yet.
@@ -115,19 +116,21 @@ class EditingSession::Implementation {
   void run(const MakeSymmetric& command);
   void run(const TakeEdit& command);
   void run(const MapDirections& command);
+  void run(const SampleEnvelopes& command);
 
   JobWork review_work();
   JobWork suggestion_work();
   JobWork range_work();
   JobWork automatic_work();
   JobWork map_work();
+  JobWork envelope_work();
   void deliver_suggestions(std::vector<OfferedEdit> offered, const Cancelled& cancelled,
                            const Deliver& deliver);
   void deliver_found(const FoundDesigns& designs, const Cancelled& cancelled, const Deliver& deliver);
 
   std::optional<Edit> wanted_range_;
   bool range_runs_ = false;  ///< whether the job of the lane of advice is a range
-  bool finding_wanted_ = false, map_wanted_ = false;
+  bool finding_wanted_ = false, map_wanted_ = false, envelopes_wanted_ = false;
 };
 
 /// Throws UsageError naming `what` if there is no such row.

@@ -103,4 +103,10 @@ void EditingSession::Implementation::run(const MapDirections& /*command*/) {
   if (!advice_.map) map_wanted_ = true;
 }
 
+void EditingSession::Implementation::run(const SampleEnvelopes& /*command*/) {
+  if (advice_.envelopes || envelopes_wanted_) return;
+  envelopes_wanted_ = true;
+  if (!range_runs_) lanes_.cancel(Lane::advice);
+}
+
 }  // namespace stackabilization::editing

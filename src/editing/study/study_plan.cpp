@@ -56,7 +56,7 @@ std::string name_of(StudyCondition condition) {
 }
 
 bool allows(StudyCondition condition, const Command& command) {
-  if (is_any<RollBack, Undo, Redo, MapDirections, FindRange>(command)) return true;
+  if (is_any<RollBack, Undo, Redo, MapDirections, SampleEnvelopes, FindRange>(command)) return true;
   switch (condition) {
     case StudyCondition::manual:
       return is_any<Drag, EndDrag, TakeEdit>(command);

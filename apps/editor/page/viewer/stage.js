@@ -1,5 +1,6 @@
 // One design on the stage: the object, copies above and below it, and layers of what is known of it.
 import * as THREE from 'three';
+import { gapGeometry } from './gap_surface.js';
 import { MeshSurface } from './mesh_surface.js';
 import { palettes, partColours, strokeColour } from './palettes.js';
 import { primitiveLines } from './primitive_lines.js';
@@ -27,11 +28,13 @@ function makeObjects(surface) {
   const contactDots = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 7, sizeAttenuation: false, depthTest: false, transparent: true, opacity: 0.9 }));
   contacts.renderOrder = contactDots.renderOrder = 6;
   const before = new THREE.LineSegments(surface.edgeGeometry.clone(), new THREE.LineBasicMaterial({ transparent: true, opacity: 0.9 }));
+  const gap = new THREE.Mesh(new THREE.BufferGeometry(), new THREE.MeshBasicMaterial({ vertexColors: true, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -4 }));
+  gap.renderOrder = 1;
   const primitives = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial());
   const joints = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 9, sizeAttenuation: false, depthTest: false }));
   const strokes = new THREE.Group(), symmetry = new THREE.Group();
-  root.add(ghosts, contacts, contactDots, before, primitives, joints, strokes, symmetry);
-  return { root, before, body, contactDots, contactMaterial, contacts, edgeMaterial, ghostDepth, ghostEdgeMaterial, ghostMaterial, ghosts, joints, primitives, sketch, strokes, symmetry };
+  root.add(gap, ghosts, contacts, contactDots, before, primitives, joints, strokes, symmetry);
+  return { root, before, body, contactDots, contactMaterial, contacts, edgeMaterial, gap, ghostDepth, ghostEdgeMaterial, ghostMaterial, ghosts, joints, primitives, sketch, strokes, symmetry };
 }
 
 /** @param {number[]} numbers */
@@ -54,7 +57,8 @@ export class Stage {
     this.copiesAbove = 2;
     this.copiesBelow = 1;
     /** What is shown. @type {Record<string, boolean>} */
-    this.layers = { ghosts: true, contacts: true, before: false, parts: false, primitives: false, joints: false, symmetry: false };
+    this.layers = { ghosts: true, contacts: true, before: false, parts: false, primitives: false, joints: false, symmetry: false, gap: false };
+    this.envelopes = /** @type {import('./gap_surface.js').Envelopes | null} */ (null);
     /** Whether another design than the one at rest is outlined. */
     this.outlines = false;
     this.selected = /** @type {Set<number>} */ (new Set());
@@ -85,7 +89,7 @@ export class Stage {
     if (!this.objects) return;
     this.scene.remove(this.objects.root);
     release(this.objects.root);
-    this.objects = this.surface = null;
+    this.objects = this.surface = this.envelopes = null;
   }
 
   /** @param {import('./palettes.js').Palette} palette */
@@ -111,6 +115,7 @@ export class Stage {
     objects.before.material.color.setHex(palette.before);
     objects.primitives.material.color.setHex(palette.choice);
     objects.joints.material.color.setHex(palette.joint);
+    this.#paintGap();
     this.draw();
   }
 
@@ -174,6 +179,7 @@ export class Stage {
     objects.primitives.visible = layers.primitives;
     objects.joints.visible = layers.joints;
     objects.symmetry.visible = layers.symmetry;
+    objects.gap.visible = layers.gap;
   }
 
   /** @param {ReturnType<typeof makeObjects>} objects */
@@ -229,6 +235,21 @@ export class Stage {
     objects.contactDots.geometry.dispose();
     objects.contactDots.geometry = pointsOf(centres.flat());
     this.draw();
+  }
+
+  /** @param {import('./gap_surface.js').Envelopes | null} envelopes  of what is shown, seen along the direction */
+  setEnvelopes(envelopes) {
+    if (this.envelopes === envelopes) return;
+    this.envelopes = envelopes;
+    this.#paintGap();
+    this.draw();
+  }
+
+  #paintGap() {
+    const { envelopes, objects, palette } = this;
+    if (!objects) return;
+    objects.gap.geometry.dispose();
+    objects.gap.geometry = envelopes ? gapGeometry(envelopes, new THREE.Color(palette.contact), new THREE.Color(palette.apart)) : new THREE.BufferGeometry();
   }
 
   /** Outlines another design in the layer `before`; null: the one at rest. @param {Float32Array | null} vertices */
