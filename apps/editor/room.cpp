@@ -233,8 +233,7 @@ class EditingRoom::Implementation {
     if (study_) send(page, study_->state());
     for (const Change change :
          {Change::structure, Change::wishes, Change::design, Change::tree, Change::review,
-          Change::suggestions, Change::range, Change::found, Change::map,
-          Change::envelopes})
+          Change::suggestions, Change::range, Change::found, Change::map, Change::envelopes})
       show(change, {page});
   }
 

@@ -47,9 +47,9 @@ enum class FrameKind : std::uint32_t {
   node = 4,        ///< float32 vertices of node `number`
   found = 5,       ///< float32 vertices of the found design `number`
   contacts = 6,    ///< float32 corners of the triangles of the contact regions on the copy below
-  envelopes = 7,   ///< samples of envelopes, `number` columns of `points`: float32 x, y, z of the first one at
-                   ///< height 0, of the steps to the next column and row and of the unit of height; then upper
-                   ///< heights row by row, not a number where there is no surface; then lower heights
+  envelopes = 7,  ///< samples of envelopes, `number` columns of `points`: float32 x, y, z of the first one at
+                  ///< height 0, of the steps to the next column and row and of the unit of height; then upper
+                  ///< heights row by row, not a number where there is no surface; then lower heights
 };
 
 /// Returns the frame of the mesh.

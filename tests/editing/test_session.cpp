@@ -217,8 +217,7 @@ TEST_CASE("the range of a handle ends where limits do") {
   constexpr double resolution = 0.01;
   const DeformationResult beyond =
       session.space().edited(session.space().at_rest(), scaled(whole, range.high + resolution), constraints);
-  CHECK((beyond.refusal ||
-         !within_limits(session.checker().check(beyond.design, session.direction()))));
+  CHECK((beyond.refusal || !within_limits(session.checker().check(beyond.design, session.direction()))));
 }
 
 TEST_CASE("results that come too late are dropped") {

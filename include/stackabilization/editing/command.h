@@ -145,7 +145,6 @@ struct SampleEnvelopes {};
 using Command =
     std::variant<ApplySuggestion, Drag, EndDrag, FindRange, RollBack, Undo, Redo, SetTarget, SetDirection,
                  SetLimit, KeepParts, FindDesigns, StopFinding, TakeDesign, AcceptRemedy, Segment, SetKind,
-                 RemoveRelations, RemoveParts, Join, MakeSymmetric, TakeEdit, MapDirections,
-                 SampleEnvelopes>;
+                 RemoveRelations, RemoveParts, Join, MakeSymmetric, TakeEdit, MapDirections, SampleEnvelopes>;
 
 }  // namespace stackabilization::editing

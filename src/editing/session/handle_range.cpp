@@ -79,7 +79,8 @@ LargestEdit largest_part(const EditedFrom& from, const Edit& edit, double known)
     }
   }
   result.amount = low;
-  if (!result.made.design) result.made = from.workspace->measured(from.design, from.direction, from.at_rest, from.scope);
+  if (!result.made.design)
+    result.made = from.workspace->measured(from.design, from.direction, from.at_rest, from.scope);
   return result;
 }
 

@@ -12,8 +12,8 @@ struct EditedFrom {
   std::shared_ptr<const Workspace> workspace;
   std::shared_ptr<const Design> design;
   Direction direction;
-  double at_rest = 0;  ///< S of the shape at rest along `direction`
-  double now = 0;      ///< S of the design along `direction`
+  double at_rest = 0;                      ///< S of the shape at rest along `direction`
+  double now = 0;                          ///< S of the design along `direction`
   QualityScope scope = QualityScope::all;  ///< measures of quality that an edit has to keep
 };
 

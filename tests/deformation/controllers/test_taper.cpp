@@ -85,7 +85,8 @@ TEST_CASE("A tapered cup keeps its rim and its height, and its foot shrinks", "[
 TEST_CASE("Only controllers taper, and only the shape", "[taper]") {
   const StructuredShape rest = structures::table();
   const ControllerModel model(rest, {}, Following::smooth);
-  CHECK_THROWS_AS(model.edited(model.at_rest(), {{HandleKind::part, 0, 0}, Taper{0.9, {0, 0, 1}, {}}}), UsageError);
+  CHECK_THROWS_AS(model.edited(model.at_rest(), {{HandleKind::part, 0, 0}, Taper{0.9, {0, 0, 1}, {}}}),
+                  UsageError);
   CHECK_THROWS_AS(model.edited(model.at_rest(), taper(0, {0, 0, 1})), UsageError);
   CHECK_THROWS_AS(model.edited(model.at_rest(), taper(0.9, {0, 0, 0})), UsageError);
   CHECK_THROWS_AS(model.edited(model.at_rest(), taper(0.9, {0, 0, 1}, Eigen::Vector3d(1, 0, 1))), UsageError);
