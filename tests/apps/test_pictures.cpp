@@ -58,6 +58,14 @@ TEST_CASE("every --picture is a picture of its kind") {
     }
 }
 
+TEST_CASE("a stack of more copies than can be told apart is not drawn") {
+  const TemporaryFolder folder;
+  const std::string tile = folder.model("tile.obj", solids::box({40, 30, 2}));
+  const Arguments within = {"stack", tile, "-n", "max", "--within", "402", "--picture", folder / "a.png"};
+  check_refused(folder, within, 2, "at most 200");
+  check_refused(folder, {"stack", tile, "-n", "201", "--picture", folder / "a.png"}, 2, "at most 200");
+}
+
 TEST_CASE("the picture of a drop says how high it lies, and how low it could") {
   const TemporaryFolder folder;
   const std::string step = folder.model(

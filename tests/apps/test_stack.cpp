@@ -284,8 +284,6 @@ TEST_CASE("a stack of prints is as high as the room allows, in whole layers, wit
   check_refused(folder, {"stack", model, "--layer", "1", "--separators"}, 2, "--clearance");
   check_refused(folder, {"stack", model, "--clearance", "1", "--separators"}, 2, "--layer");
   check_refused(folder, {"stack", model, "--layer", "1", "--into", model}, 2, "--layer");
-  check_refused(folder, {"stack", model, "-n", "max", "--within", "900", "--picture", folder / "a.png"}, 2,
-                "at most 200");
 }
 
 TEST_CASE("copies step aside where they come lower, with a proof") {
