@@ -316,7 +316,13 @@ class WebServer::Implementation::Connection : public std::enable_shared_from_thi
 
 void WebServer::Implementation::accept() {
   acceptor_.async_accept([this](error_code error, tcp::socket socket) {
-    if (!error) std::make_shared<Connection>(*this, std::move(socket))->read();
+    if (!error) {
+      // A step of a drag is answered by two short messages; the second must not wait for the page's
+      // acknowledgement of the first.
+      error_code ignored;
+      socket.set_option(tcp::no_delay(true), ignored);
+      std::make_shared<Connection>(*this, std::move(socket))->read();
+    }
     if (error != asio::error::operation_aborted) accept();
   });
 }
