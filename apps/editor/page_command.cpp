@@ -47,6 +47,10 @@ class PageCommand {
         {"undo", [] { return Undo{}; }},
         {"redo", [] { return Redo{}; }},
         {"target", [&] { return SetTarget{number(entry("value"))}; }},
+        {"within",
+         [&] {
+           return editing::SetLengthLimit{{whole("copies"), number(entry("length"))}};
+         }},
         {"direction", [&] { return SetDirection{direction()}; }},
         {"limit", [&] { return limit(); }},
         {"keep", [&] { return KeepParts{rows("parts")}; }},

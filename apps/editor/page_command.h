@@ -19,6 +19,7 @@ namespace stackabilization::apps {
 ///     {"do": "accept-advice", "number": 0}              {"do": "take-edit", "node": 2, "edit": 0}
 ///     {"do": "remove-parts", "parts": [3]}              {"do": "join", "parts": [0, 3]}
 ///     {"do": "make-symmetric", "parts": [0, 3]}         {"do": "map"}
+///     {"do": "within", "copies": 5, "length": 2.2}      {"do": "envelopes"}
 ///
 /// Edits are those of edit_grammar.h. Throws UsageError, in words for people, for anything else.
 editing::Command page_command(const Json& json, const StructuredShape& rest);

@@ -46,6 +46,13 @@ Explanation explanation_of(const EditingSession& session) {
   return explain(session.space().rest(), design.shape, {.edits = design.edits, .reasons = {}});
 }
 
+std::string wish_text(const EditingSession& session) {
+  const Requirements& wishes = session.checker().requirements();
+  if (!wishes.length_limit) return stackability_text(wishes.target);
+  return std::to_string(wishes.length_limit->copies) + " copies within " +
+         quantity(wishes.length_limit->length, session.space().rest().shape.unit);
+}
+
 const std::vector<Check>& checks_of(const EditingSession& session) {
   return session.review() && !session.dragging() ? session.review()->assessment.checks
                                                  : session.shown().assessment.checks;
@@ -66,8 +73,7 @@ std::string session_page(const EditingSession& session, const std::string& name,
   std::string body = element("h1", title) + "\n";
   body += element(std::string("p class=\"verdict ") + (reached ? "good\"" : "bad\""),
                   "S " + stackability_text(after.value) + " " + direction_text(direction) + ", " +
-                      stackability_text(before.value) + " as given; asked for " +
-                      stackability_text(session.checker().requirements().target) +
+                      stackability_text(before.value) + " as given; asked for " + wish_text(session) +
                       (reached ? "" : ", not reached")) +
           "\n";
   body += element("p class=\"headline\"", shown.design->edits.empty()

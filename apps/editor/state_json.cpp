@@ -99,6 +99,10 @@ Json offers_json(const std::optional<Diagnosis>& diagnosis, const Structure& res
   return offers;
 }
 
+Json to_json(const std::optional<StackLengthLimit>& limit) {
+  return limit ? Json{{"copies", limit->copies}, {"length", limit->length}} : Json(nullptr);
+}
+
 class Frame {
  public:
   Frame(FrameKind kind, std::uint32_t number, Eigen::Index count, std::uint32_t stamp) {
@@ -230,7 +234,11 @@ Json wishes_json(const EditingSession& session) {
       limits[name_of(measure)] =
           wishes.quality->is_limited(measure) ? Json((*wishes.quality)[measure]) : Json(nullptr);
     }
-  return {{"type", "wishes"}, {"target", wishes.target}, {"kept", wishes.kept_parts}, {"limits", limits}};
+  return {{"type", "wishes"},
+          {"target", wishes.target},
+          {"within", to_json(wishes.length_limit)},
+          {"kept", wishes.kept_parts},
+          {"limits", limits}};
 }
 
 Json suggestions_json(const EditingSession& session) {
@@ -302,6 +310,7 @@ Json found_json(const EditingSession& session) {
                     {"change", found.changes[k].root_mean_square}});
   return {{"type", "found"},
           {"target", found.target},
+          {"within", to_json(found.within)},
           {"running", found.running},
           {"list", list},
           {"diagnosis", diagnosis_json(found.diagnosis, rest)},

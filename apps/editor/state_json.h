@@ -22,7 +22,7 @@ Json review_json(const editing::EditingSession& session);
 /// {type: "tree", current, nodes: [{parent, name, stackability, direction, edits}], can_undo, can_redo,
 /// saved}
 Json tree_json(const editing::EditingSession& session);
-/// {type: "wishes", target, kept, limits}
+/// {type: "wishes", target, within: {copies, length}, kept, limits}; within is null where a target is wanted
 Json wishes_json(const editing::EditingSession& session);
 /// {type: "suggestions", complete, list: [{words, edit, gain, stackability, f_max, change, reaches}],
 /// refused, diagnosis, offers}
@@ -31,8 +31,8 @@ Json suggestions_json(const editing::EditingSession& session);
 Json range_json(const editing::EditingSession& session);
 /// {type: "map", ready, samples: [[x, y, z, S]], best: {direction, words, stackability}}
 Json map_json(const editing::EditingSession& session);
-/// {type: "found", target, running, list: [{words, stackability, f_max, direction, change}], diagnosis,
-/// offers}
+/// {type: "found", target, within, running, list: [{words, stackability, f_max, direction, change}],
+/// diagnosis, offers}
 Json found_json(const editing::EditingSession& session);
 
 /// What stands against an edit, as the page says it.

@@ -335,6 +335,34 @@ editing('the gap is shown in colours, again for each design, until it is not wan
   assert.equal(await legend.isVisible(), false);
 });
 
+editing('so many copies within a length are wanted in place of a target', 'table.obj', async (page) => {
+  const wishes = () => page.evaluate(() => window.editor.state.wishes);
+  const stack = page.locator('#stack'), { target } = await wishes();
+  await page.fill('#copies', '5');
+  await page.fill('#within', '3');
+  await page.press('#within', 'Enter');
+  await page.waitForFunction(() => window.editor.state.wishes.within);
+  assert.deepEqual((await wishes()).within, { copies: 5, length: 3 });
+  assert.match(await stack.getAttribute('class'), /beyond/, 'the stack is 3.7 high');
+  assert.equal(await page.evaluate(() => window.editor.state.design.reaches), false);
+  await page.fill('#copies', '4');
+  await page.press('#copies', 'Enter');
+  await page.waitForFunction(() => window.editor.state.design.reaches);
+  assert.doesNotMatch((await stack.getAttribute('class')) ?? '', /beyond/, 'that of four is 2.96');
+  await page.fill('#within', '0.5');
+  await page.press('#within', 'Enter');
+  await page.waitForFunction(() => /no room for 4 copies/.test(document.getElementById('hint').textContent));
+  assert.equal(await page.inputValue('#within'), '3', 'what was refused is not shown');
+  await page.click('#tab-automatic');
+  assert.match(await page.textContent('#panel-automatic'), /4 copies within 3/);
+  await page.fill('#within', '');
+  await page.press('#within', 'Enter');
+  await page.waitForFunction(() => !window.editor.state.wishes.within);
+  await page.fill('#target', String(target));
+  await page.press('#target', 'Enter');
+  await page.waitForFunction((target) => window.editor.state.wishes.target === target, target);
+});
+
 editing('a part is picked in the view', 'table.obj', async (page) => {
   await suggestionsOf(page);
   const at = await page.evaluate(() => {

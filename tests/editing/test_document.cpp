@@ -29,6 +29,7 @@ TEST_CASE("a new document asks for S at rest and 0.2 more, and keeps the limits 
 TEST_CASE("a document is read back as it was written") {
   Document document = sessions::table_document();
   document.requirements.target = 0.1 + 0.2;
+  document.requirements.length_limit = {7, 30.1};
   document.requirements.keep_height = false;
   document.requirements.kept_parts = {structures::part_named(document.project.rest, "top")};
   document.requirements.quality->relax(QualityMeasure::bending);
@@ -42,6 +43,9 @@ TEST_CASE("a document is read back as it was written") {
   const Document again = document_of_text(text, "saved");
   CHECK(document_text(again) == text);
   CHECK(again.requirements.target == document.requirements.target);
+  REQUIRE(again.requirements.length_limit);
+  CHECK(again.requirements.length_limit->copies == 7);
+  CHECK(again.requirements.length_limit->length == 30.1);
   CHECK(again.requirements.quality == document.requirements.quality);
   CHECK(again.requirements.kept_parts == document.requirements.kept_parts);
   CHECK(again.visited == document.visited);

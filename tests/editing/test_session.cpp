@@ -383,3 +383,33 @@ TEST_CASE("a joint that is taken out is gone until Undo") {
   session.execute(Undo{});
   CHECK(session.space().rest().structure.relations.size() == before);
 }
+
+TEST_CASE("so many copies within a length are wanted in place of a stackability, until one is again") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  const double target = session.checker().requirements().target;
+  // The table is 6 high, and stands on the one below: 5 copies are 30 high.
+  session.execute(SetLengthLimit{{5, 30}});
+  CHECK(session.checker().meets_target(session.current().assessment.measured));
+  CHECK(session.checker().requirements().target == Approx(0).margin(1e-12));
+  session.execute(SetLengthLimit{{5, 26}});
+  CHECK(!session.checker().meets_target(session.current().assessment.measured));
+  CHECK(!observed.all<Changed>().empty());
+  observed.work();
+  REQUIRE(!session.suggestions().empty());
+  for (const OfferedEdit& one : session.suggestions()) {
+    const Stackability measured = session.checker().measure(one.design->shape, session.direction());
+    CHECK(one.suggestion.reaches_target == (measured.stack_height(5) <= 26));
+  }
+  CHECK(mentions(message_of<UsageError>([&] {
+                   session.execute(SetLengthLimit{{5, 6}});
+                 }),
+                 "no room for 5 copies"));
+  CHECK_THROWS_AS(session.execute(SetLengthLimit{{1, 60}}), UsageError);
+  CHECK(session.checker().requirements().length_limit->length == 26);
+  Observed again(document_of_text(document_text(session.document()), "saved"));
+  CHECK(again.session.checker().requirements().length_limit->copies == 5);
+  session.execute(SetTarget{target});
+  CHECK(!session.checker().requirements().length_limit);
+  CHECK(session.checker().requirements().target == target);
+}

@@ -60,12 +60,12 @@ export class Automatic {
     this.button.textContent = message.running ? 'Stop' : 'Find designs';
     this.button.classList.toggle('primary', !message.running);
     this.bar.hidden = !message.running;
-    const target = this.wishes ? format.stackability(this.wishes.target) : '';
+    const wanted = (/** @type {any} */ { within, target }) => (within ? `${within.copies} copies within ${within.length}` : `S ${format.stackability(target)}`);
     const count = message.list.length;
-    this.note.textContent = count ? `${count === 1 ? 'One design reaches' : count + ' designs reach'} S ${format.stackability(message.target)}, least change first.${message.running ? ' Looking for better ones …' : ''}`
-      : message.running ? `Looking for designs of S ${format.stackability(message.target)} …`
-        : message.diagnosis ? `No design of S ${format.stackability(message.target)} within the limits; the best one has ${format.stackability(message.diagnosis.reached)}.`
-          : `Looks for the least change that reaches S ${target}, with all limits kept.`;
+    this.note.textContent = count ? `${count === 1 ? 'One design reaches' : count + ' designs reach'} ${wanted(message)}, least change first.${message.running ? ' Looking for better ones …' : ''}`
+      : message.running ? `Looking for designs of ${wanted(message)} …`
+        : message.diagnosis ? `No design of ${wanted(message)} within the limits; the best one has S ${format.stackability(message.diagnosis.reached)}.`
+          : this.wishes ? `Looks for the least change that reaches ${wanted(this.wishes)}, with all limits kept.` : '';
     this.#list();
     this.#diagnose();
   }

@@ -274,6 +274,7 @@ function receive(message) {
       hint(message.words, true);
       break;
     case 'error':
+      if (state.wishes) measures.setWishes(state.wishes);
       hint(message.words, true);
       study.fail(message.words);
       break;

@@ -14,7 +14,14 @@ export class Measures {
       if (target.value !== '' && value < 1) send({ do: 'target', value });
       else if (this.wishes) target.value = this.wishes.target.toFixed(2);
     });
-    element('copies').addEventListener('input', () => this.#update());
+    const within = /** @type {HTMLInputElement} */ (element('within')), copies = element('copies');
+    const sendWithin = () => send({ do: 'within', copies: this.copies, length: Number(within.value) });
+    within.addEventListener('change', () => {
+      if (within.value !== '') sendWithin();
+      else if (this.wishes?.within) send({ do: 'target', value: this.wishes.target });
+    });
+    copies.addEventListener('input', () => this.#update());
+    copies.addEventListener('change', () => { if (this.wishes?.within && this.wishes.within.copies !== this.copies) sendWithin(); });
   }
 
   /** How many copies the height of a stack is told of. */
@@ -30,6 +37,9 @@ export class Measures {
   setWishes(wishes) {
     this.wishes = wishes;
     /** @type {HTMLInputElement} */ (element('target')).value = String(Math.round(100 * wishes.target) / 100);
+    const { within } = wishes, copies = /** @type {HTMLInputElement} */ (element('copies'));
+    /** @type {HTMLInputElement} */ (element('within')).value = within ? String(within.length) : '';
+    if (within) copies.value = String(within.copies);
     this.#update();
   }
 
@@ -77,6 +87,7 @@ export class Measures {
     element('rest-legend').textContent = `At rest ${format.stackability(design.rest.stackability)}`;
     element('f').textContent = format.length(step, model.unit);
     element('h').textContent = format.length(design.measured.height, model.unit);
+    element('stack').classList.toggle('beyond', Boolean(wishes.within) && value === null && !design.reaches);
     element('stack').textContent = format.length(design.measured.height + (this.copies - 1) * step, model.unit);
     element('change').textContent = format.percent(design.change);
     element('energy').textContent = format.signed(design.energy.value, 3);

@@ -34,7 +34,7 @@ export class Study {
   /** @param {any} message */
   set(message) {
     document.body.dataset.study = message.phase === 'task' ? message.condition : 'pause';
-    for (const id of ['direction', 'target']) /** @type {HTMLButtonElement | HTMLInputElement} */ (element(id)).disabled = true;
+    for (const id of ['direction', 'target', 'within']) /** @type {HTMLButtonElement | HTMLInputElement} */ (element(id)).disabled = true;
     this.bar.hidden = message.phase !== 'task';
     if (this.dialog.open) this.dialog.close();
     if (message.phase === 'task') this.#task(message);

@@ -9,6 +9,7 @@
 
 #include "stackabilization/deformation/edit.h"
 #include "stackabilization/improvement/quality.h"
+#include "stackabilization/improvement/requirements.h"
 #include "stackabilization/structure/fitting.h"
 #include "stackabilization/structure/segmentation.h"
 
@@ -50,9 +51,15 @@ struct Undo {};
 /// Reverts the last Undo.
 struct Redo {};
 
-/// Changes the stackability that is wanted.
+/// Changes the stackability that is wanted. No length limits the stack any more.
 struct SetTarget {
   double target = 0;  ///< S, finite, < 1
+};
+
+/// Wants a stack of some copies within a length, in place of a stackability. Throws UsageError where the
+/// length has no room for so many, however well they stack.
+struct SetLengthLimit {
+  StackLengthLimit limit;  ///< copies and length along the direction
 };
 
 /// Stacks along another direction: a new node without edits.
@@ -142,9 +149,9 @@ struct MapDirections {};
 struct SampleEnvelopes {};
 
 /// A command.
-using Command =
-    std::variant<ApplySuggestion, Drag, EndDrag, FindRange, RollBack, Undo, Redo, SetTarget, SetDirection,
-                 SetLimit, KeepParts, FindDesigns, StopFinding, TakeDesign, AcceptRemedy, Segment, SetKind,
-                 RemoveRelations, RemoveParts, Join, MakeSymmetric, TakeEdit, MapDirections, SampleEnvelopes>;
+using Command = std::variant<ApplySuggestion, Drag, EndDrag, FindRange, RollBack, Undo, Redo, SetTarget,
+                             SetLengthLimit, SetDirection, SetLimit, KeepParts, FindDesigns, StopFinding,
+                             TakeDesign, AcceptRemedy, Segment, SetKind, RemoveRelations, RemoveParts, Join,
+                             MakeSymmetric, TakeEdit, MapDirections, SampleEnvelopes>;
 
 }  // namespace stackabilization::editing

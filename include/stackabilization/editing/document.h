@@ -30,10 +30,11 @@ Document document_of(Project project, const StackabilityOptions& measure = {});
 ///
 ///     {"format": "stackabilize session", "version": 1, "target": 0.6, "keep_height": true,
 ///      "kept_parts": ["seat"], "limits": {"size": 0.8, "bending": null}, "visited": [0, 1], "place": 1,
-///      "source": "", "project": {...}}
+///      "source": "", "within": {"copies": 5, "length": 2.2}, "project": {...}}
 ///
-/// `limits` has the measures whose limit is not the default; null is no limit. `project` is a project file
-/// (improvement/history.h). Throws as `project_text`.
+/// `within` is null, or missing, where no length limits the stack. `limits` has the measures whose limit is
+/// not the default; null is no limit. `project` is a project file (improvement/history.h). Throws as
+/// `project_text`.
 std::string document_text(const Document& document);
 
 /// Reads a document. `measure`: meaning of S, which the text does not hold. Throws InputError naming `name`

@@ -67,12 +67,13 @@ struct DirectionMap {
 
 /// What the automatic search has found.
 struct FoundDesigns {
-  double target = 0;                      ///< S that was asked for
-  std::vector<Candidate> designs;         ///< least change first; all meet all requirements
-  std::vector<Explanation> explanations;  ///< one per design: its change from the shape at rest
-  std::vector<ShapeChange> changes;       ///< one per design, from the shape at rest
-  std::optional<Diagnosis> diagnosis;     ///< why there are none
-  bool running = false;                   ///< whether the search goes on
+  double target = 0;                       ///< S that was asked for
+  std::optional<StackLengthLimit> within;  ///< or the length for some copies
+  std::vector<Candidate> designs;          ///< least change first; all meet all requirements
+  std::vector<Explanation> explanations;   ///< one per design: its change from the shape at rest
+  std::vector<ShapeChange> changes;        ///< one per design, from the shape at rest
+  std::optional<Diagnosis> diagnosis;      ///< why there are none
+  bool running = false;                    ///< whether the search goes on
 };
 
 /// Options of an EditingSession.

@@ -40,6 +40,9 @@ struct Check {
   QualityMeasure measure = QualityMeasure::self_intersection;  ///< quality: what was measured
   int other = -1;                                              ///< quality: QualityValue::other
 
+  /// Returns whether the check says how well the shape stacks: of the target, or of the room in its place.
+  bool is_of_target() const { return kind == CheckKind::target || kind == CheckKind::room; }
+
   /// Compares the members in their order.
   auto operator<=>(const Check&) const = default;
 };

@@ -51,6 +51,10 @@ enum class QualityScope {
   parts,  ///< the fast ones: QualityMeter::measure_parts
 };
 
+/// Returns the stackability that a length limit amounts to, with the height and the boxes at rest along a
+/// direction. Throws UsageError where the length has no room for so many copies, however well they stack.
+double target_within(const StackLengthLimit& limit, const RestShape& rest, const Direction& direction);
+
 /// Throws UsageError for a target >= 1, a room out of range, negative lengths, fractions or angles, air of
 /// more than a million diagonals, angles above 90 degrees, limits of quality out of
 /// range, fewer than one standing copy, a tilt without

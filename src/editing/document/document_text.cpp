@@ -1,3 +1,4 @@
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "io/formats/json_node.h"
@@ -60,12 +61,15 @@ std::string document_text(const Document& document) {
   Json kept = Json::array();
   for (const int part : wishes.kept_parts)
     kept.push_back(document.project.rest.shape.part_names.at(static_cast<std::size_t>(part)));
+  Json within;
+  if (wishes.length_limit)
+    within = {{"copies", wishes.length_limit->copies}, {"length", wishes.length_limit->length}};
   const Json head = {
       {"format", document_format},   {"version", 1},
       {"target", wishes.target},     {"keep_height", wishes.keep_height},
       {"kept_parts", kept},          {"limits", changed_limits(wishes.quality.value_or(QualityLimits()))},
       {"visited", document.visited}, {"place", document.place},
-      {"source", document.source}};
+      {"source", document.source},   {"within", within}};
   std::string text = head.dump();
   text.pop_back();
   return text + ",\n \"project\": " + project_text(document.project) + "}\n";
@@ -76,13 +80,20 @@ Document document_of_text(std::string_view text, const std::string& name,
   const Json json = detail::parse_json(text, name);
   const JsonNode root(json, name);
   root.expect_keys({"format", "version", "target", "keep_height", "kept_parts", "limits", "visited", "place",
-                    "source", "project"});
+                    "source", "project", "within"},
+                   1);
   root["format"].one_of({document_format});
   root["version"].integer(1, 1);
   Document document = document_of(project_with_history(json["project"].dump(), name), measure);
   const auto last_node = static_cast<std::int64_t>(document.project.history.nodes.size()) - 1;
   Requirements& wishes = document.requirements;
   wishes.target = root["target"].number();
+  if (json.contains("within") && !json["within"].is_null()) {
+    const JsonNode within = root["within"];
+    within.expect_keys({"copies", "length"});
+    wishes.length_limit = {static_cast<int>(within["copies"].integer(2, std::numeric_limits<int>::max())),
+                           within["length"].number()};
+  }
   wishes.keep_height = root["keep_height"].boolean();
   std::vector<std::string> kept;
   for (std::size_t k = 0; k < root["kept_parts"].list_size(); ++k)

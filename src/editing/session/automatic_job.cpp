@@ -22,6 +22,7 @@ class FoundSoFar {
  public:
   explicit FoundSoFar(const RequirementChecker& checker) : rest_(checker.space().rest()), diversity_(rest_) {
     found_.target = checker.requirements().target;
+    found_.within = checker.requirements().length_limit;
     found_.running = true;
   }
 

@@ -102,6 +102,7 @@ class EditingSession::Implementation {
   void run(const Redo& command);
   void run(const TakeDesign& command);
   void run(const SetTarget& command);
+  void run(const SetLengthLimit& command);
   void run(const SetLimit& command);
   void run(const KeepParts& command);
   void run(const SetDirection& command);

@@ -62,6 +62,7 @@ void EditingSession::Implementation::replace_structure(StructuredShape structure
   fresh.source = document_.source;
   const Requirements& wishes = document_.requirements;
   fresh.requirements.target = wishes.target;
+  fresh.requirements.length_limit = wishes.length_limit;
   fresh.requirements.keep_height = wishes.keep_height;
   fresh.requirements.quality = wishes.quality;
   Document before = document_;

@@ -20,6 +20,14 @@ void EditingSession::Implementation::require(const Requirements& requirements) {
 void EditingSession::Implementation::run(const SetTarget& command) {
   Requirements requirements = document_.requirements;
   requirements.target = command.target;
+  requirements.length_limit.reset();
+  require(requirements);
+}
+
+void EditingSession::Implementation::run(const SetLengthLimit& command) {
+  Requirements requirements = document_.requirements;
+  requirements.target = target_within(command.limit, workspace_->checker().rest_shape(), direction_);
+  requirements.length_limit = command.limit;
   require(requirements);
 }
 
@@ -55,6 +63,7 @@ void EditingSession::Implementation::run(const FindDesigns& /*command*/) {
   lanes_.cancel(Lane::automatic);
   found_ = {};
   found_.target = document_.requirements.target;
+  found_.within = document_.requirements.length_limit;
   found_.running = finding_wanted_ = true;
   emit(Changed{Change::found});
   emit(Progress{Work::designs, 0});

@@ -30,7 +30,7 @@ MeasuredDesign Workspace::measured(std::shared_ptr<const Design> design, const D
 
 std::optional<Obstacle> obstacle_in(const Assessment& assessment) {
   for (const Check& check : assessment.checks)
-    if (!check.passed && check.kind != CheckKind::target && check.kind != CheckKind::room) return check;
+    if (!check.passed && !check.is_of_target()) return check;
   return std::nullopt;
 }
 

@@ -160,7 +160,7 @@ class DiagnosisBuilder {
     if (made.refusal) return;
     const Assessment assessment = checker_.check(made.design, direction_);
     for (const Check& check : assessment.checks)
-      if (!check.passed && check.kind != CheckKind::target && check.kind != CheckKind::room) return;
+      if (!check.passed && !check.is_of_target()) return;
     Candidate candidate = best_;
     candidate.measured = assessment.measured;
     const double gain = best_.energy.gain + assessment.measured.value - best_.measured.value;

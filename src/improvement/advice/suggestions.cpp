@@ -87,7 +87,7 @@ class SuggestionScorer {
   void check(Suggestion& suggestion, const Design& edited) const {
     const Assessment assessment = checker_.check(edited, direction_);
     for (const Check& check : assessment.checks)
-      if (check.kind == CheckKind::target)
+      if (check.is_of_target())
         suggestion.reaches_target = check.passed;
       else if (!check.passed && !suggestion.refusal)
         suggestion.refusal = check;

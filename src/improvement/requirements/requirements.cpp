@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "improvement/design/design_match.h"
 #include "improvement/requirements/requirement_checks.h"
 #include "improvement/requirements/size_ratios.h"
 #include "stackabilization/core/errors.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/improvement/removal.h"
 #include "stackabilization/stacking/plan.h"
 
@@ -88,6 +90,19 @@ void validate(const Requirements& requirements, const StructuredShape& rest) {
     throw UsageError("a stack that stands needs at least one copy");
   if (requirements.min_tipping_degrees > 0 && !requirements.standing_copies)
     throw UsageError("a least tilt needs the number of copies that are to stand");
+}
+
+double target_within(const StackLengthLimit& limit, const RestShape& rest, const Direction& direction) {
+  require_length_limit(limit);
+  const double clearance = rest.options().clearance;
+  const Stackability measured = rest.measure(direction);
+  const StackPlan plan = plan_stack(measured, {limit.copies, limit.length, clearance});
+  if (!plan.possible || *plan.stackability >= 1)
+    throw UsageError("the length " + shortest_text(limit.length) + " has no room for " +
+                     std::to_string(limit.copies) + " copies of height " + shortest_text(measured.extent) +
+                     (clearance > 0 ? " with " + shortest_text(clearance) + " of air between them" : "") +
+                     ", however well they stack");
+  return *plan.stackability;
 }
 
 DeformationConstraints deformation_constraints(const Requirements& requirements, const StructuredShape& rest,

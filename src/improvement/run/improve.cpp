@@ -198,9 +198,8 @@ class ImprovementRun {
   /// Returns whether a design holds all that is asked but the target.
   bool is_acceptable(const Candidate& candidate) const {
     const Assessment assessment = checker_.check(candidate.design, Direction(candidate.direction));
-    return std::all_of(assessment.checks.begin(), assessment.checks.end(), [](const Check& check) {
-      return check.passed || check.kind == CheckKind::target || check.kind == CheckKind::room;
-    });
+    return std::all_of(assessment.checks.begin(), assessment.checks.end(),
+                       [](const Check& check) { return check.passed || check.is_of_target(); });
   }
 
   /// Leaves out what came near but breaks a limit of quality, or changes the shape for nothing. The shape at

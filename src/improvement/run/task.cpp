@@ -2,16 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "core/angles.h"
-#include "stackabilization/core/errors.h"
-#include "stackabilization/core/number_text.h"
 #include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/effort.h"
 #include "stackabilization/improvement/tolerances.h"
-#include "stackabilization/stacking/plan.h"
 #include "stackabilization/stacking/search.h"
 #include "stackabilization/stacking/tolerances.h"
 
@@ -54,19 +50,6 @@ Stackability measure_up(const StackabilitySolver& solver, const Structure& struc
   return of_shape.value > of_file.value + tolerance::stackability ? of_shape : of_file;
 }
 
-/// Returns the target that a length limit amounts to, with the height and the boxes at rest.
-double target_of(const StackLengthLimit& limit, const RestShape& rest, const Direction& direction) {
-  const double clearance = rest.options().clearance;
-  const Stackability measured = rest.measure(direction);
-  const StackPlan plan = plan_stack(measured, {limit.copies, limit.length, clearance});
-  if (!plan.possible || *plan.stackability >= 1)
-    throw UsageError("the length " + shortest_text(limit.length) + " has no room for " +
-                     std::to_string(limit.copies) + " copies of height " + shortest_text(measured.extent) +
-                     (clearance > 0 ? " with " + shortest_text(clearance) + " of air between them" : "") +
-                     ", however well they stack");
-  return *plan.stackability;
-}
-
 }  // namespace
 
 ImprovementTask::ImprovementTask(StructuredShape rest, Requirements requirements,
@@ -94,7 +77,8 @@ ImprovementTask::ImprovementTask(StructuredShape rest, Requirements requirements
     }
   }
   const Direction first(directions_.front());
-  if (requirements.length_limit) requirements.target = target_of(*requirements.length_limit, *known, first);
+  if (requirements.length_limit)
+    requirements.target = target_within(*requirements.length_limit, *known, first);
   const Following following =
       options.following.value_or(requirements.quality ? Following::smooth : Following::free);
   space_ = deformation_model(std::move(rest), {options.kind, first, {}, following});
