@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "stackabilization/core/tolerances.h"
-
 namespace stackabilization::editing {
 
 Edit scaled(Edit edit, double amount) {
@@ -22,8 +20,7 @@ Edit scaled(Edit edit, double amount) {
 
 namespace {
 
-/// Resolution of the part of an edit that can be made, in the whole edit or what is beyond a known part.
-constexpr double resolution = 1.0 / 64;
+constexpr int bisections = 6;        ///< of the part of an edit that can be made: 1/64 of what is left
 constexpr int samples_per_side = 8;  ///< of a range
 
 /// Samples one side of a range, from the design outwards. Returns the end of the range, and what is there.
@@ -70,19 +67,17 @@ LargestEdit largest_part(const EditedFrom& from, const Edit& edit, double known)
   if (whole.made) return {std::move(*whole.made), 1, std::nullopt};
   result.obstacle = whole.obstacle;
   double low = 0, high = 1;
-  const auto narrow = [&](double amount) {
+  for (int k = 0; k <= bisections; ++k) {
+    const double amount = k == 0 && known > 0 && known < 1 ? known : (low + high) / 2;
     TriedEdit tried = try_edit(from, scaled(edit, amount));
-    (tried.made ? low : high) = amount;
-    if (tried.made)
+    if (tried.made) {
+      low = amount;
       result.made = std::move(*tried.made);
-    else
+    } else {
+      high = amount;
       result.obstacle = tried.obstacle;
-  };
-  if (known > 0 && known < 1) narrow(known);
-  const double near = low > 0 ? std::max(resolution * (1 - low), tolerance::relative) : resolution;
-  // What held the last step of a drag mostly holds this one.
-  if (high == 1) narrow(low + near);
-  while (high - low > near) narrow((low + high) / 2);
+    }
+  }
   result.amount = low;
   if (!result.made.design)
     result.made = from.workspace->measured(from.design, from.direction, from.at_rest, from.scope);

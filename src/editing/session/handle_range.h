@@ -32,9 +32,8 @@ struct LargestEdit {
   std::optional<Obstacle> obstacle;  ///< what stands against more of it; none if `amount` is 1
 };
 
-/// Returns the largest part of `edit` that can be made, within a 64th of what is beyond `known`, found by
-/// bisection between an amount that can and one that cannot. `known`: an amount below which everything can
-/// probably be made, tried first; 0: none is known.
+/// Returns the largest part of `edit` that can be made, found by bisection between an amount that can and one
+/// that cannot. `known`: an amount below which everything can be made, tried first.
 LargestEdit largest_part(const EditedFrom& from, const Edit& edit, double known);
 
 /// Returns the range of a handle, see EditingSession::range. `cancelled` is asked between designs; the range
