@@ -65,5 +65,14 @@ TEST_CASE("a damaged document is refused with the place") {
   CHECK(mentions(message("\"limits\":{}", "\"limits\":{\"size\":-1}"), "/limits"));
   CHECK(mentions(message("\"kept_parts\":[]", "\"kept_parts\":[\"wheel\"]"), "/kept_parts"));
   CHECK(mentions(message("\"target\":", "\"aim\":"), "aim"));
+  const auto within = [&](const std::string& value) {
+    return message("\"within\":null", "\"within\":" + value);
+  };
+  CHECK(mentions(within("7"), "/within"));
+  CHECK(mentions(within("{\"copies\":1,\"length\":3}"), "/within/copies"));
+  CHECK(mentions(within("{\"copies\":2,\"length\":0}"), "/within/length"));
+  CHECK(mentions(within("{\"copies\":2}"), "length"));
+  // Sessions that were saved before there were lengths have none.
+  CHECK(!document_of_text(replaced(text, ",\"within\":null", ""), "saved").requirements.length_limit);
   CHECK(!message_of<InputError>([&] { document_of_text(text.substr(0, text.size() / 2), "saved"); }).empty());
 }

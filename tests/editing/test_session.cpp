@@ -409,6 +409,8 @@ TEST_CASE("so many copies within a length are wanted in place of a stackability,
   CHECK(session.checker().requirements().length_limit->length == 26);
   Observed again(document_of_text(document_text(session.document()), "saved"));
   CHECK(again.session.checker().requirements().length_limit->copies == 5);
+  session.execute(RemoveParts{{structures::part_named(session.space().rest(), "bar_1")}});
+  CHECK(session.checker().requirements().length_limit->length == 26);
   session.execute(SetTarget{target});
   CHECK(!session.checker().requirements().length_limit);
   CHECK(session.checker().requirements().target == target);

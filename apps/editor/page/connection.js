@@ -40,7 +40,7 @@ export function meshOf(frame) {
   };
 }
 
-/** The envelopes of a frame. @param {Frame} frame @returns {import('./viewer/gap_surface.js').Envelopes} */
+/** The envelopes of a frame. @param {Frame} frame */
 export function envelopesOf(frame) {
   const [place, upper, lower] = [[0, 12], [12, frame.count], [12 + frame.count, frame.count]].map(([at, count]) => new Float32Array(frame.buffer, headBytes + 4 * at, count));
   return { columns: frame.number, place, upper, lower };

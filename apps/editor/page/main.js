@@ -1,7 +1,7 @@
 // The page: what the program tells goes into the view and the panels; what a person does becomes commands.
 import { Connection, envelopesOf, frameKind, meshOf, verticesOf } from './connection.js';
 import { length } from './format.js';
-import { largestClearance } from './viewer/gap_surface.js';
+import { gapColour, largestDistance } from './viewer/gap_surface.js';
 import { Viewer } from './viewer/viewer.js';
 import { Picker } from './picker.js';
 import { Measures } from './measures.js';
@@ -303,7 +303,7 @@ function receiveFrame(frame) {
       automatic.setVertices(frame.number, verticesOf(frame));
       break;
     case frameKind.envelopes:
-      showEnvelopes(envelopesOf(frame));
+      showEnvelopes({ ...envelopesOf(frame), f_max: state.design.measured.f_max });
       break;
     case frameKind.contacts:
       contactCorners = new Float32Array(frame.buffer, 16, 9 * frame.count);
@@ -343,12 +343,12 @@ function exportList(stem) {
 /** Shows how near the copy above comes, or nothing of it. @param {import('./viewer/gap_surface.js').Envelopes | null} envelopes */
 function showEnvelopes(envelopes) {
   viewer.main.setEnvelopes(envelopes);
-  const { apart, contact } = viewer.palette, shown = viewer.main.layers.gap && envelopes !== null;
+  const shown = viewer.main.layers.gap && envelopes !== null;
   element('gap-legend').hidden = !shown;
   if (!shown) return;
-  element('gap-most').textContent = length(largestClearance(envelopes), state.model.unit) + ' apart';
-  const [near, far] = [contact, apart].map((hex) => '#' + hex.toString(16).padStart(6, '0'));
-  /** @type {HTMLElement} */ (element('gap-legend').querySelector('i')).style.background = `linear-gradient(to right, ${near}, color-mix(in srgb, ${near}, ${far} 71%) 50%, ${far})`;
+  element('gap-most').textContent = length(largestDistance(envelopes), state.model.unit) + ' apart';
+  const colours = [0, 0.1, 0.3, 0.6, 1].map((share) => `#${gapColour(share, viewer.palette).getHexString()} ${100 * share}%`);
+  /** @type {HTMLElement} */ (element('gap-legend').querySelector('i')).style.background = `linear-gradient(to right, ${colours.join(', ')})`;
 }
 
 /** Asks for the envelopes of the design where they are wanted and not here. */

@@ -88,11 +88,12 @@ Document document_of_text(std::string_view text, const std::string& name,
   const auto last_node = static_cast<std::int64_t>(document.project.history.nodes.size()) - 1;
   Requirements& wishes = document.requirements;
   wishes.target = root["target"].number();
-  if (json.contains("within") && !json["within"].is_null()) {
+  if (root.has("within") && !json["within"].is_null()) {
     const JsonNode within = root["within"];
     within.expect_keys({"copies", "length"});
     wishes.length_limit = {static_cast<int>(within["copies"].integer(2, std::numeric_limits<int>::max())),
                            within["length"].number()};
+    if (!(wishes.length_limit->length > 0)) within["length"].fail_expected("a number above 0");
   }
   wishes.keep_height = root["keep_height"].boolean();
   std::vector<std::string> kept;

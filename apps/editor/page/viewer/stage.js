@@ -249,7 +249,7 @@ export class Stage {
     const { envelopes, objects, palette } = this;
     if (!objects) return;
     objects.gap.geometry.dispose();
-    objects.gap.geometry = envelopes ? gapGeometry(envelopes, new THREE.Color(palette.contact), new THREE.Color(palette.apart)) : new THREE.BufferGeometry();
+    objects.gap.geometry = envelopes ? gapGeometry(envelopes, palette) : new THREE.BufferGeometry();
   }
 
   /** Outlines another design in the layer `before`; null: the one at rest. @param {Float32Array | null} vertices */

@@ -212,14 +212,16 @@ export class Viewer {
     for (const stage of this.stages) stage.sketch(sketched);
     this.#paint();
     const frame = this.framesDrawn;
-    if (sketched) this.#whenDrawn((waits) => this.#finish(waits, frame));
-    // The first frame of a mesh takes long everywhere.
-    else if (!this.slow && !this.timed && !this.first) this.timed = this.#whenDrawn((waits, milliseconds) => this.#time(waits, milliseconds));
+    if (sketched) {
+      if (!this.#whenDrawn((waits) => this.#finish(waits, frame))) this.#finish(false, frame);
+    } else if (!this.slow && !this.timed && !this.first) {  // the first frame of a mesh takes long everywhere
+      this.timed = this.#whenDrawn((waits, milliseconds) => this.#time(waits, milliseconds));
+    }
     this.first = false;
   }
 
   /**
-   * Says again and again how long the last frame takes until it is drawn.
+   * Says again and again how long the last frame takes until it is drawn. False where the graphics card does not tell.
    * @param {(waits: boolean, milliseconds: number) => boolean} heard  whether to go on while it waits
    */
   #whenDrawn(heard) {
