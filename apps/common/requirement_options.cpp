@@ -19,6 +19,23 @@ Number target_option(const std::string& description) {
   return {.name = "--target", .description = description, .min = -1000, .max = 1, .open_max = true};
 }
 
+std::optional<StackLengthLimit> StackRoom::limit(Unit unit) const {
+  return within ? std::optional(StackLengthLimit{*copies, within->in(unit)}) : std::nullopt;
+}
+
+void add_room_options(CLI::App& command, StackRoom& room) {
+  add_count(command, {"--copies", "Instead: so many copies are to fit ...", 2, max_copies}, room.copies);
+  add_length(command, {"--within", "... into this length along the direction, as 1.5 or 150cm", true},
+             room.within);
+}
+
+void check(const StackRoom& room, const std::optional<double>& target) {
+  if (target && (room.copies || room.within))
+    throw UsageError("--target and --copies with --within are two ways to say the same: give one of them");
+  if (room.copies.has_value() != room.within.has_value())
+    throw UsageError("--copies and --within go together: how many copies within what length");
+}
+
 Number alpha_option() {
   return {"--alpha", "Weight of the distortion in the energy (default: 0.2)", 0, 1};
 }

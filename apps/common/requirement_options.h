@@ -30,6 +30,21 @@ void add_relax_option(CLI::App& command, std::vector<std::string>& relaxed);
 /// --draft-degrees, --standing, --tilt-degrees, --relax, --any-quality.
 void add_requirement_options(CLI::App& command, RequirementArguments& arguments);
 
+/// A wish in place of a stackability: so many copies are to fit into a length along the direction.
+struct StackRoom {
+  std::optional<int> copies;     ///< --copies
+  std::optional<Length> within;  ///< --within
+
+  /// Nothing where it was not asked for. Throws UsageError as Length::in.
+  std::optional<StackLengthLimit> limit(Unit unit) const;
+};
+
+/// --copies and --within.
+void add_room_options(CLI::App& command, StackRoom& room);
+
+/// Throws UsageError where one is given without the other, or beside --target.
+void check(const StackRoom& room, const std::optional<double>& target);
+
 /// --target, a stackability that can be reached.
 Number target_option(const std::string& description);
 /// --alpha.

@@ -12,6 +12,7 @@
 #include "apps/improve/improve_project.h"
 #include "apps/improve/improve_report.h"
 #include "stackabilization/deformation/rebase.h"
+#include "stackabilization/improvement/change_measure.h"
 #include "stackabilization/structure/project_file.h"
 
 namespace stackabilization::apps {
@@ -47,7 +48,8 @@ class Writer {
     for (const std::string& name : summary_names()) owned_.remove(name);
   }
 
-  void write_summaries(const Json& document) {
+  void write_summaries(Json document) {
+    document.erase("seconds");  // every run fills the folder with the same bytes
     owned_.remove_others(written_);
     write(project_name, project_text(improvement_project(report_)));
     if (report_.run.front) write("front.csv", front_table(report_));
@@ -206,17 +208,58 @@ void hand_over_solutions(ImproveReport& report, Caller& caller) {
   caller.written_texts["project"] = project_text(improvement_project(report));
 }
 
-/// Tells a caller of every design on the way to the solutions.
-std::function<void(const ImproveRun&, const Candidate&)> teller(const ImproveCommandOptions& options,
-                                                                const ImproveTask& task) {
+Json document_of(const CLI::App& command, const ImproveReport& report, const Stopwatch& watch) {
+  Json document = document_head(command, report.task.model);
+  add_improvement(document, report);
+  add_document_tail(document, report.options.common, report.task.model, watch);
+  return document;
+}
+
+/// A function that is told of every design on the way to the solutions.
+using Teller = std::function<void(const ImproveRun&, const Candidate&)>;
+
+/// A design that was found while the search goes on.
+SolutionReport found_report(const ImproveCommandOptions& options, const ImproveTask& task,
+                            const Candidate& candidate, std::string name) {
+  SolutionReport solution = solution_report(
+      options, task, candidate, task.checker().check(candidate.design, Direction(candidate.direction)));
+  solution.name = std::move(name);
+  return solution;
+}
+
+/// Tells a caller of every design.
+Teller telling_caller(const ImproveCommandOptions& options, const ImproveTask& task) {
   const Caller* const caller = options.common.caller;
-  if (!caller || !caller->found) return {};
+  if (!caller->found) return {};
   return [&options, &task, caller](const ImproveRun& run, const Candidate& candidate) {
     const ImproveReport report{options, task, run, {}, {}, {}};
-    SolutionReport solution = solution_report(
-        options, task, candidate, task.checker().check(candidate.design, Direction(candidate.direction)));
-    solution.name = "design";
-    caller->found(solution_json(report, solution), candidate.design.shape);
+    caller->found(solution_json(report, found_report(options, task, candidate, "design")),
+                  candidate.design.shape);
+  };
+}
+
+/// Keeps the best design so far in the folder, without pictures, so that there is something to look at
+/// before the search ends. A front is told of as a whole.
+Teller filling_folder(const CLI::App& command, const ImproveCommandOptions& options, const ImproveTask& task,
+                      const Stopwatch& watch) {
+  if (options.front) return {};
+  return [&, least = std::optional<double>()](const ImproveRun& run, const Candidate& candidate) mutable {
+    const double change = options.preset == ImprovementPreset::paper
+                              ? candidate.energy.value
+                              : size_of(options.objective, candidate, task.rest().shape);
+    if (least && change >= *least) return;
+    least = change;
+    ImproveReport report{options, task, run, {}, {}, "they are drawn when the search has ended"};
+    report.solutions.push_back(found_report(options, task, candidate, "solution_1"));
+    try {
+      Writer writer(report);
+      writer.begin();
+      writer.write_meshes(report.solutions.front());
+      writer.write_report(report.solutions.front());
+      writer.write_summaries(document_of(command, report, watch));
+    } catch (const OutputError&) {
+      // What is in the way now is told of at the end, when the search is not lost by it.
+    }
   };
 }
 
@@ -234,7 +277,9 @@ int run_improve_command(const CLI::App& command, const ImproveCommandOptions& op
   const ImproveTask task = improve_task(command, options, watch);
   Caller* const caller = options.common.caller;
   if (!caller) improve_folder(options).make();
-  const ImproveRun found = run_improve(options, task, watch, teller(options, task));
+  const ImproveRun found =
+      run_improve(options, task, watch,
+                  caller ? telling_caller(options, task) : filling_folder(command, options, task, watch));
 
   ImproveReport report{options, task, found, {}, {}, {}};
   report.pictures_missing = options.no_pictures ? "left out by --no-pictures" : rendering_missing();
@@ -248,12 +293,8 @@ int run_improve_command(const CLI::App& command, const ImproveCommandOptions& op
     hand_over_solutions(report, *caller);
   else
     write_solutions(report, writer.emplace(report));
-  Json document = document_head(command, task.model);
-  add_improvement(document, report);
-  add_document_tail(document, options.common, task.model, watch);
-  Json untimed = document;
-  untimed.erase("seconds");  // every run fills the folder with the same bytes
-  if (writer) writer->write_summaries(untimed);
+  const Json document = document_of(command, report, watch);
+  if (writer) writer->write_summaries(document);
   deliver(options.common, document,
           options.common.quiet ? essential_improvement(report) : improvement_text(report));
   if (found.interrupted) throw Interrupted();

@@ -12,8 +12,9 @@ namespace stackabilization::apps {
 
 namespace {
 
-const char* search_end_name(SearchEnd end) {
-  switch (end) {
+const char* search_end_name(const ImproveRun& run) {
+  if (run.running) return "running";
+  switch (run.result.end) {
     case SearchEnd::solved:
       return "solved";
     case SearchEnd::exhausted:
@@ -165,7 +166,7 @@ Json target_json(const ImproveReport& report) {
   for (const Eigen::Vector3d& direction : task.task->directions()) directions.push_back(to_json(direction));
   const StackabilityOptions& measure = task.checker().requirements().measure;
   return {{"stackability", task.target()},
-          {"copies", to_json(report.options.copies)},
+          {"copies", to_json(report.options.room.copies)},
           {"within", to_json(task.length_limit())},
           {"directions", directions},
           {"semantics", name_of(measure.semantics)},
@@ -229,7 +230,7 @@ void add_improvement(Json& document, const ImproveReport& report) {
   document["front"] = front_json(report);
   document["diagnosis"] =
       result.diagnosis ? diagnosis_json(*result.diagnosis, report.task.rest()) : Json(nullptr);
-  document["search"] = {{"end", search_end_name(result.end)},
+  document["search"] = {{"end", search_end_name(report.run)},
                         {"expanded", result.progress.expanded},
                         {"evaluated", result.progress.evaluated},
                         {"queued", result.progress.queued}};

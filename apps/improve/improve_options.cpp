@@ -6,6 +6,7 @@
 
 #include "apps/common/text.h"
 #include "apps/improve/improve_files.h"
+#include "stackabilization/improvement/front.h"
 
 namespace stackabilization::apps {
 
@@ -14,24 +15,19 @@ namespace {
 constexpr double max_seconds = 1e9;  ///< some thirty years
 constexpr double max_effort = 1e6;   ///< about a year
 constexpr int max_solutions = 20;
-/// Target of a front that goes as far as it can, and the effort for each of its targets.
-constexpr double front_target = 0.95, front_effort = 0.3;
 
 void check_wish(const ImproveCommandOptions& options) {
-  if (options.target && (options.copies || options.within))
-    throw UsageError("--target and --copies with --within are two ways to say the same: give one of them");
-  if (options.copies.has_value() != options.within.has_value())
-    throw UsageError("--copies and --within go together: how many copies within what length");
-  if (!options.target && !options.copies && !options.front)
+  check(options.room, options.target);
+  if (!options.target && !options.room.copies && !options.front)
     throw UsageError("expected --target S, or --copies N with --within LENGTH");
-  refuse_option(options.copies && options.directions.size() > 1, "--direction",
+  refuse_option(options.room.copies && options.directions.size() > 1, "--direction",
                 "is given once with --copies and --within: the room is along it");
 }
 
 /// A front is made of refined designs for several targets, each by a run of its own.
 void check_front(const ImproveCommandOptions& options) {
   if (!options.front) return;
-  refuse_option(options.copies.has_value(), "--copies", "does not go with --front, which goes by S");
+  refuse_option(options.room.copies.has_value(), "--copies", "does not go with --front, which goes by S");
   refuse_option(options.preset == ImprovementPreset::paper, "--preset paper",
                 "does not go with --front, whose designs are refined");
   refuse_option(options.seconds.has_value(), "--time", "does not go with --front: --effort bounds its work");
@@ -49,9 +45,7 @@ void check_gap_scaling(const ImproveCommandOptions& options) {
 
 void add_wish_options(CLI::App& command, ImproveCommandOptions& options) {
   add_number(command, target_option("Stackability to be reached, below 1"), options.target);
-  add_count(command, {"--copies", "Instead: so many copies are to fit ...", 2, max_copies}, options.copies);
-  add_length(command, {"--within", "... into this length along the direction, as 1.5 or 150cm", true},
-             options.within);
+  add_room_options(command, options.room);
   add_directions(
       command, "--direction", options.directions,
       "Direction to stack along; repeatable, the first is preferred (default: 0 0 1, then the best "
@@ -133,7 +127,7 @@ void check(const ImproveCommandOptions& options) {
 }
 
 std::optional<double> ImproveCommandOptions::wanted_target() const {
-  return target || !front ? target : front_target;
+  return target || !front ? target : farthest_target;
 }
 
 double effort_of(const ImproveCommandOptions& options) {

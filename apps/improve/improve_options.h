@@ -18,8 +18,7 @@ struct ImproveCommandOptions {
   AnalysisArguments analysis;
   StackabilityOptions measure;
   std::optional<double> target;  ///< --target
-  std::optional<int> copies;     ///< --copies
-  std::optional<Length> within;  ///< --within
+  StackRoom room;                ///< instead
   std::optional<int> solutions;  ///< --solutions; default 3, and 8 for a front
   bool front = false;            ///< --front
   DeformationKind kind = DeformationKind::controllers;
@@ -39,7 +38,7 @@ struct ImproveCommandOptions {
   /// S to be reached, where that is asked for: of a front without --target, more than anything reaches.
   std::optional<double> wanted_target() const;
   /// Copies of the stacks that are shown.
-  int shown_copies() const { return copies.value_or(5); }
+  int shown_copies() const { return room.copies.value_or(5); }
 };
 
 void add_improve_options(CLI::App& command, ImproveCommandOptions& options);

@@ -173,6 +173,7 @@ std::string improvement_page(const ImproveReport& report) {
   const PageView view = view_of(report);
   const std::string title = title_of(report.task.model) + ", made to stack";
   std::string body = element("h1", title) + "\n" + verdict(report) + "\n";
+  if (report.run.running) body += element("p", "Reload this page to see what has been found since.") + "\n";
   body += element("h3", "Asked for") + "\n" + list("ul", wish_lines(report));
   if (const Diagnosis* const diagnosis = report.diagnosis())
     body += element("h3", "Why it was not reached, and what would help") + "\n" +

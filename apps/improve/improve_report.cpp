@@ -131,7 +131,7 @@ std::vector<std::string> wish_lines(const ImproveReport& report) {
     directions += (directions.empty() ? "" : " or ") + direction_text(direction);
   std::vector<std::string> lines;
   if (task.length_limit())
-    lines.push_back(std::to_string(*report.options.copies) + " copies within " +
+    lines.push_back(std::to_string(*report.options.room.copies) + " copies within " +
                     quantity(*task.length_limit(), task.rest().shape.unit));
   const BoxModel boxes = task.checker().requirements().measure.boxes;
   const std::string goal = report.options.front && !report.options.target
@@ -144,6 +144,7 @@ std::vector<std::string> wish_lines(const ImproveReport& report) {
 }
 
 std::string end_text(const ImproveRun& run) {
+  if (run.running) return "the search had not ended when this was written";
   switch (run.result.end) {
     case SearchEnd::solved:
       return "all solutions that were asked for are found";

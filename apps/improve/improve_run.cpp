@@ -77,6 +77,7 @@ void run_front(const ImproveCommandOptions& options, const ImproveTask& task, Im
   }
   if (points.size() == 1) run.result.nearest = run.front->nearest;
   run.result.diagnosis = run.front->diagnosis;
+  run.result.progress = {};
   run.result.progress.evaluated = run.front->evaluated;
   run.result.end = run.front->end;
 }
@@ -97,7 +98,7 @@ ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& o
         options.requirements, rest.shape, options.measure,
         options.preset == ImprovementPreset::paper ? QualityDefault::any : QualityDefault::limited);
     requirements.target = options.wanted_target().value_or(0);
-    if (options.within) requirements.length_limit = {*options.copies, options.within->in(rest.shape.unit)};
+    requirements.length_limit = options.room.limit(rest.shape.unit);
     ProgressBar bar("Looking for directions", options.common.caller);
     ImprovementTaskOptions how = task_options(options, task.saved, watch);
     how.progress = [&bar](double fraction) { bar.show(fraction); };
@@ -109,13 +110,15 @@ ImproveTask improve_task(const CLI::App& command, const ImproveCommandOptions& o
 }
 
 bool ended_by_itself(const ImproveRun& run) {
-  return !run.interrupted && (run.result.end == SearchEnd::solved || run.result.end == SearchEnd::exhausted);
+  return !run.running && !run.interrupted &&
+         (run.result.end == SearchEnd::solved || run.result.end == SearchEnd::exhausted);
 }
 
 ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& task, const Stopwatch& watch,
                        const std::function<void(const ImproveRun&, const Candidate&)>& found) {
   const Caller* const caller = options.common.caller;
   ImproveRun run;
+  run.running = true;
   run.options = improvement_options_of(options, *task.task);
   const std::filesystem::path state = state_file(options.folder);
   std::error_code error;
@@ -124,7 +127,8 @@ ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& 
   StatusLine status;
   BestFirstOptions& search = run.options.search;
   if (options.seconds) search.seconds = std::max(*options.seconds - watch.seconds(), min_seconds);
-  search.progress = [&status, caller](const ImprovementProgress& progress) {
+  search.progress = [&status, &run, caller](const ImprovementProgress& progress) {
+    run.result.progress = progress;
     if (caller && caller->progress)
       caller->progress("Improving", progress.work);
     else if (status.due())
@@ -144,6 +148,7 @@ ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& 
   } catch (const InputError& error_of_model) {
     throw InputError(display_name(task.model) + ": " + error_of_model.what());
   }
+  run.running = false;
   run.interrupted = interrupts.requested();
   if (task.task->cancelled() && !run.interrupted) run.result.end = SearchEnd::time_limit;
   return run;

@@ -39,15 +39,16 @@ struct ImproveRun {
   ImprovementOptions options;
   Improvement result;
   std::optional<Front> front;  ///< with --front; its designs but the first are the solutions
+  bool running = false;        ///< the search goes on: what is here are designs found so far
   bool interrupted = false;    ///< by a signal, which is answered once all is written
 };
 
-/// Was it not stopped, by a signal or a limit? Then there is nothing to go on with.
+/// Has it ended, and was it not stopped, by a signal or a limit? Then there is nothing to go on with.
 bool ended_by_itself(const ImproveRun& run);
 
 /// Searches with a line of progress on standard error. The state goes to the folder before the search, and
 /// now and then; a caller has no folder. `found`: told of every design that is found, when it is, with the
-/// run so far. Throws InputError when --resume finds the state of another search.
+/// run so far, which is running. Throws InputError when --resume finds the state of another search.
 ImproveRun run_improve(const ImproveCommandOptions& options, const ImproveTask& task, const Stopwatch& watch,
                        const std::function<void(const ImproveRun&, const Candidate&)>& found = {});
 

@@ -1,9 +1,11 @@
 #include <signal.h>
 
 #include <chrono>
+#include <filesystem>
 #include <map>
 
 #include "apps/run_program.h"
+#include "stackabilization/io/read.h"
 #include "stackabilization/io/write_file.h"
 #include "support/catch.h"
 #include "support/solids.h"
@@ -59,23 +61,37 @@ struct SearchFolder : TemporaryFolder {
   std::string cup;
 };
 
-/// Every file is there as the whole run wrote it, or as `before`, or is a state that can be read; all others
-/// have temporary names.
+/// Can a file of a design that was found on the way be read to its end?
+void check_readable(const std::string& name, const std::string& bytes) {
+  const TemporaryFolder folder;
+  if (name.ends_with(".json"))
+    CHECK(json::accept(bytes));
+  else if (name.ends_with(".html"))
+    CHECK(bytes.ends_with("</html>\n"));
+  else
+    CHECK(read_shape(folder.file(name, bytes)).triangle_count() > 0);
+}
+
+/// Every file is there as the whole run wrote it, or as `before`, or can be read, since it is of a design
+/// that was found on the way; all others have temporary names. Summaries speak of what is there.
 void check_whole(const std::map<std::string, std::string>& left,
                  const std::map<std::string, std::string>& whole,
                  const std::map<std::string, std::string>& before) {
   for (const auto& [name, bytes] : left) {
     INFO(name);
     if (target_of_temporary(name)) continue;
-    if (name == "search-state.json" || name == "stackabilize-files.json") {
-      CHECK(json::accept(bytes));
-      continue;
-    }
     const auto made = whole.find(name), old = before.find(name);
-    CHECK(((made != whole.end() && made->second == bytes) || (old != before.end() && old->second == bytes)));
+    if ((made == whole.end() || made->second != bytes) && (old == before.end() || old->second != bytes))
+      check_readable(name, bytes);
   }
-  // Summaries speak of what is there.
-  if (left.contains("index.html") && left.at("index.html") == whole.at("index.html"))
+  if (!left.contains("index.html")) return;
+  const json result = json::parse(left.at("result.json"));
+  for (const json& solution : result.at("solutions")) {
+    const std::string name = solution.at("name");
+    CHECK(json::parse(left.at(name + ".json")) == solution);
+    for (const char* ending : {".obj", ".3mf", ".stackabilize.json"}) CHECK(left.contains(name + ending));
+  }
+  if (left.at("index.html") == whole.at("index.html"))
     for (const auto& [name, bytes] : whole)
       CHECK((name == "stackabilize-files.json" || (left.contains(name) && left.at(name) == bytes)));
 }
@@ -106,6 +122,23 @@ void check_resumed(const SearchFolder& folder, int status) {
 TEST_CASE("a refined improvement that is killed at any moment goes on to the same files") {
   check_resumed(SearchFolder({"--target", "0.51", "--solutions", "1", "--expansions", "6", "--no-pictures"}),
                 0);
+}
+
+TEST_CASE("the first design is in the folder while the search goes on") {
+  const SearchFolder folder({"--target", "0.51", "--solutions", "1", "--expansions", "6", "--no-pictures"});
+  REQUIRE(run_program(folder.into("whole")).status == 0);
+  run_and_signal(folder.into("killed"), SIGKILL,
+                 [&](pid_t) { return std::filesystem::exists(folder / "killed/index.html"); });
+  const std::map<std::string, std::string> left = contents(folder / "killed");
+  check_whole(left, contents(folder / "whole"), {});
+  const json result = json::parse(left.at("result.json"));
+  CHECK(result.at("search").at("end") == "running");
+  REQUIRE(result.at("solutions").size() == 1);
+  CHECK(result.at("solutions")[0].at("good") == true);
+  CHECK(left.at("index.html").find("had not ended") != std::string::npos);
+  CHECK(left.contains("search-state.json"));
+  CHECK(run_program(folder.into("killed", {"--resume"})).status == 0);
+  CHECK(contents(folder / "killed") == contents(folder / "whole"));
 }
 
 TEST_CASE("a search that is killed at any moment goes on to the same files") {

@@ -16,6 +16,11 @@ struct FrontPoint {
   double change = 0;      ///< size of the change, see change_measure.h; 0 at rest
 };
 
+/// A target for fronts that go as far as they can: more than objects of use reach.
+inline constexpr double farthest_target = 0.95;
+/// An effort for each target of a front, see effort.h: its designs start from each other.
+inline constexpr double front_effort = 0.3;
+
 /// Options of `improvement_front`.
 struct FrontOptions {
   int points = 8;  ///< number of designs, the shape at rest included; >= 2
@@ -25,6 +30,9 @@ struct FrontOptions {
   ImprovementOptions improvement;
   /// Called before each run of `improve` with its number, from 0, and the largest number of runs.
   std::function<void(int run, int runs)> progress = {};
+  /// Called from the calling thread with each design that reaches its target, as soon as it is found. Some
+  /// are no part of the front in the end.
+  std::function<void(const Candidate&)> found = {};
 };
 
 /// The trade of S against change.

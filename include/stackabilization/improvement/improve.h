@@ -33,8 +33,8 @@ struct ImprovementOptions {
   /// the shape by more than such a design that meets the requirements. Not used by the paper's preset, and no
   /// part of a saved state.
   std::vector<Candidate> starts = {};
-  /// Called from the calling thread with the solutions of each search when it ends, and with every refined
-  /// design that meets the requirements as soon as it is found.
+  /// Called from the calling thread with designs that meet the requirements: those of pursuits and of
+  /// refinements as soon as each is found, the solutions of a search when it ends.
   std::function<void(const Candidate&)> found = {};
 };
 
@@ -52,7 +52,8 @@ struct Improvement {
   std::optional<Candidate> nearest;     ///< candidate of largest S, when there is no solution
   std::optional<Diagnosis> diagnosis;   ///< why there is no solution
   /// `expanded` counts both searches. `evaluated` counts all designs measured, also by pursuits and
-  /// refinements. The other fields are those of the last search.
+  /// refinements. The best S and E are those of pursuits and searches, the other fields those of the last
+  /// search.
   ImprovementProgress progress;
   /// `cancelled` when the caller cancelled the run. Otherwise `time_limit` when the deadline ended any phase.
   /// Otherwise `solved` when there are as many solutions as wanted, or when only refinement reached the

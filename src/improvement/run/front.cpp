@@ -74,6 +74,7 @@ class FrontRun {
     FrontPoint result{target, std::move(found.solutions.front()), std::move(found.assessments.front())};
     result.change =
         size_of(options_.improvement.refinement.objective, result.candidate, checker_.space().rest().shape);
+    if (options_.found) options_.found(result.candidate);
     return result;
   }
 

@@ -115,6 +115,13 @@ class ImprovementRun {
   bool late(double share) { return budget_.late(share) || cancelled(); }
   bool cancelled() const { return options_.search.cancelled && options_.search.cancelled(); }
 
+  /// Tells the caller of a design if it meets the requirements.
+  void tell(const Candidate& candidate) const {
+    if (options_.found && checker_.meets_target(candidate.measured) &&
+        checker_.check(candidate.design, Direction(candidate.direction)).passed())
+      options_.found(candidate);
+  }
+
   /// Runs a pursuit along every starting direction and, where no edit by itself is worth it, one by overlaps.
   std::vector<Candidate> pursuits(const BestFirstOptions& search) {
     std::vector<Candidate> found;
@@ -144,6 +151,11 @@ class ImprovementRun {
     GapDescentResult result = descend_gaps(checker_, start, options);
     budget_.charge(result.evaluations);
     result_.progress.evaluated += result.evaluations;
+    result_.progress.best_stackability =
+        std::max(result_.progress.best_stackability, result.candidate.measured.value);
+    result_.progress.best_energy = std::min(result_.progress.best_energy, result.candidate.energy.value);
+    report_progress();
+    tell(result.candidate);
     return result;
   }
 
@@ -165,10 +177,21 @@ class ImprovementRun {
     return found;
   }
 
-  /// Adds the counts of the phases before this search.
+  /// Reports the progress of a phase that is no search.
+  void report_progress() const {
+    if (!options_.search.progress) return;
+    ImprovementProgress now = result_.progress;
+    now.work = std::max(now.work, budget_.share_used());
+    now.seconds_left = budget_.seconds_until(1);
+    options_.search.progress(now);
+  }
+
+  /// Adds what the phases before this search came to.
   ImprovementProgress counted(ImprovementProgress now) const {
     now.expanded += result_.progress.expanded;
     now.evaluated += result_.progress.evaluated;
+    now.best_stackability = std::max(now.best_stackability, result_.progress.best_stackability);
+    now.best_energy = std::min(now.best_energy, result_.progress.best_energy);
     now.work = std::max(budget_.share_used(now.trials),
                         static_cast<double>(now.expanded) / static_cast<double>(options_.search.expansions));
     now.trials += result_.progress.trials;
@@ -177,17 +200,13 @@ class ImprovementRun {
   }
 
   void refine(std::vector<Candidate> starts, BestFirstResult& found) {
-    const std::int64_t before = budget_.used();
-    RefinementPhase phase(checker_, options_, budget_, [this, before] {
-      if (!options_.search.progress) return;
-      ImprovementProgress now = result_.progress;
-      now.evaluated += budget_.used() - before;
-      now.work = std::max(now.work, budget_.share_used());
-      now.seconds_left = budget_.seconds_until(1);
-      options_.search.progress(now);
+    const std::int64_t others = result_.progress.evaluated - budget_.used();
+    RefinementPhase phase(checker_, options_, budget_, [this, others] {
+      result_.progress.evaluated = others + budget_.used();
+      report_progress();
     });
     result_.solutions = phase.refined(std::move(starts), found);
-    result_.progress.evaluated += budget_.used() - before;
+    result_.progress.evaluated = others + budget_.used();
     if (phase.nearest()) found.nearest.insert(found.nearest.begin(), *phase.nearest());
     std::stable_sort(found.nearest.begin(), found.nearest.end(), detail::more_stackable);
     if (result_.solutions.size() >= static_cast<std::size_t>(options_.search.solutions) ||

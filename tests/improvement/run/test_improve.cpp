@@ -92,6 +92,24 @@ TEST_CASE("designs are told of as they are found, the solutions among them") {
   }
 }
 
+TEST_CASE("what a pursuit reaches is told of before the search begins") {
+  ImprovementOptions options;
+  options.search.solutions = 1;
+  options.effort = std::numeric_limits<double>::infinity();
+  options.search.expansions = 20;
+  options.refinement.evaluations = 60;
+  int told = 0, told_before = -1;
+  options.found = [&](const Candidate&) { ++told; };
+  double best_before = 0;
+  options.search.progress = [&](const ImprovementProgress& now) {
+    CHECK(now.best_stackability >= best_before);
+    best_before = now.best_stackability;
+    if (told_before < 0 && now.expanded > 0) told_before = told;
+  };
+  improve(checker(0.75), options);
+  CHECK(told_before == 1);
+}
+
 TEST_CASE("improving gives the same bytes for any number of threads") {
   std::vector<Improvement> results;
   for (const std::size_t threads : {1, 4}) {
