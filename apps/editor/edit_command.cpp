@@ -18,6 +18,7 @@
 #include "stackabilization/core/part_names.h"
 #include "stackabilization/core/text.h"
 #include "stackabilization/improvement/removal.h"
+#include "stackabilization/improvement/rest_shape.h"
 #include "stackabilization/io/format.h"
 #include "stackabilization/io/read.h"
 #include "stackabilization/io/read_file.h"
@@ -34,6 +35,7 @@ struct EditCommandOptions {
   StackabilityOptions measure;
   std::optional<Eigen::Vector3d> direction;
   std::optional<double> target;
+  StackRoom room;
   std::optional<std::string> session, study;
   int port = 0;
   bool fresh = false, keep_open = false, no_browser = false;
@@ -123,6 +125,22 @@ AnalysisOptions options_of_designs() {
   options.max_parts = bounds_of_designs.max_parts;
   options.joints.max_pairs = bounds_of_designs.max_pairs;
   return options;
+}
+
+/// Replaces what is wanted by what the options say.
+void set_wish(const EditCommandOptions& options, editing::Document& document) {
+  Requirements& wishes = document.requirements;
+  if (options.target) {
+    wishes.target = *options.target;
+    wishes.length_limit.reset();
+  }
+  const StructuredShape& rest = document.project.rest;
+  if (const auto limit = options.room.limit(rest.shape.unit)) {
+    const History& history = document.project.history;
+    const Direction direction(history.nodes[static_cast<std::size_t>(history.current)].direction);
+    wishes.target = target_within(*limit, RestShape(rest, options.measure), direction);
+    wishes.length_limit = limit;
+  }
 }
 
 /// Makes a document of a mesh file that was dropped onto the page, and writes the file beside MODEL, so that
@@ -225,10 +243,14 @@ WebOptions web_options(const EditCommandOptions& options) {
 
 /// Leads a participant through the tasks of a study; MODEL is its plan.
 int run_study(const EditCommandOptions& options) {
-  if (options.session || options.fresh || options.direction || options.target || options.common.json)
-    throw UsageError("--study goes with none of --session, --fresh, --direction, --target and --json");
+  if (options.session || options.fresh || options.direction || options.target || options.room.copies ||
+      options.common.json)
+    throw UsageError(
+        "--study goes with none of --session, --fresh, --direction, --target, --copies and --json");
   const ThreadLimit limit(options.common);
+  SessionLocks locks;
   RoomOptions room_options;
+  room_options.lock = locks.take(*options.study);  // of two programs, each would have the same participant
   room_options.study = study_options(options);
   room_options.session.suggests = false;
   // Models that cannot be read are refused now, not in the middle of a study.
@@ -246,6 +268,7 @@ int run_study(const EditCommandOptions& options) {
 
 int run_edit_command(const CLI::App& command, const EditCommandOptions& options) {
   const Stopwatch watch;
+  check(options.room, options.target);
   const std::filesystem::path autosave = session_file(options);
   CommandFiles files{{{"--study", options.study}, {"--session", options.session}},
                      analysis_inputs(options.analysis)};
@@ -264,7 +287,7 @@ int run_edit_command(const CLI::App& command, const EditCommandOptions& options)
   if (document) check_options_of_saved(command, options, *document);
   room_options.resumed = document.has_value();
   if (!document) document = fresh_document(command, options);
-  if (options.target) document->requirements.target = *options.target;
+  set_wish(options, *document);
   Model model;
   model.name = options.common.model;
   model.shape = document->project.rest.shape;
@@ -303,6 +326,7 @@ Command make_edit_command(CLI::App& program) {
                 "Direction along which copies are stacked at first (default: 0 0 1)");
   add_number(*command, target_option("Stackability that is wanted (default: S at rest + 0.2)"),
              options->target);
+  add_room_options(*command, options->room);
   constexpr int max_port = 65535;
   add_count(*command, {"--port", "Port on 127.0.0.1 (default: one that is free)", 0, max_port},
             options->port);

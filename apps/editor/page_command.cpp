@@ -54,7 +54,7 @@ class PageCommand {
         {"direction", [&] { return SetDirection{direction()}; }},
         {"limit", [&] { return limit(); }},
         {"keep", [&] { return KeepParts{rows("parts")}; }},
-        {"find", [] { return FindDesigns{}; }},
+        {"find", [&] { return FindDesigns{json_.contains("front") && truth("front")}; }},
         {"stop", [] { return StopFinding{}; }},
         {"take", [&] { return TakeDesign{whole("number")}; }},
         {"segment", [&] { return segment(); }},

@@ -348,9 +348,9 @@ class EditingRoom::Implementation {
       case Change::map:
         return all(map_json(*session_));
       case Change::found: {
-        std::uint32_t number = 0;
-        for (const Candidate& design : session_->found().designs)
-          frames(pages, vertex_frame(FrameKind::found, number++, stamp_, design.design.shape.vertices));
+        for (const editing::FoundDesign& one : session_->found().designs)
+          frames(pages, vertex_frame(FrameKind::found, static_cast<std::uint32_t>(one.number), stamp_,
+                                     one.candidate.design.shape.vertices));
         return all(found_json(*session_));
       }
     }

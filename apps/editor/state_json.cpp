@@ -302,15 +302,18 @@ Json found_json(const EditingSession& session) {
   const editing::FoundDesigns& found = session.found();
   const Structure& rest = session.space().rest().structure;
   Json list = Json::array();
-  for (std::size_t k = 0; k < found.designs.size(); ++k)
-    list.push_back({{"words", explanation_lines(found.explanations[k])},
-                    {"stackability", found.designs[k].measured.value},
-                    {"f_max", found.designs[k].measured.f_max},
-                    {"direction", to_json(found.designs[k].direction)},
-                    {"change", found.changes[k].root_mean_square}});
+  for (const editing::FoundDesign& one : found.designs)
+    list.push_back({{"number", one.number},
+                    {"words", explanation_lines(one.explanation)},
+                    {"stackability", one.candidate.measured.value},
+                    {"f_max", one.candidate.measured.f_max},
+                    {"direction", to_json(one.candidate.direction)},
+                    {"change", one.change.root_mean_square}});
   return {{"type", "found"},
           {"target", found.target},
           {"within", to_json(found.within)},
+          {"front", found.front},
+          {"at_rest", found.at_rest},
           {"running", found.running},
           {"list", list},
           {"diagnosis", diagnosis_json(found.diagnosis, rest)},

@@ -31,8 +31,8 @@ Json suggestions_json(const editing::EditingSession& session);
 Json range_json(const editing::EditingSession& session);
 /// {type: "map", ready, samples: [[x, y, z, S]], best: {direction, words, stackability}}
 Json map_json(const editing::EditingSession& session);
-/// {type: "found", target, within, running, list: [{words, stackability, f_max, direction, change}],
-/// diagnosis, offers}
+/// {type: "found", target, within, front, at_rest, running, list: [{number, words, stackability, f_max,
+/// direction, change}], diagnosis, offers}
 Json found_json(const editing::EditingSession& session);
 
 /// What stands against an edit, as the page says it.
@@ -45,7 +45,7 @@ enum class FrameKind : std::uint32_t {
   shown = 2,       ///< float32 vertices of the design that is shown
   suggestion = 3,  ///< float32 vertices of suggestion `number`
   node = 4,        ///< float32 vertices of node `number`
-  found = 5,       ///< float32 vertices of the found design `number`
+  found = 5,       ///< float32 vertices of the found design with that `number`
   contacts = 6,    ///< float32 corners of the triangles of the contact regions on the copy below
   envelopes = 7,  ///< samples of envelopes, `number` columns of `points`: float32 x, y, z of the first one at
                   ///< height 0, of the steps to the next column and row and of the unit of height; then upper

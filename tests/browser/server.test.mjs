@@ -179,6 +179,38 @@ test('a flood of commands ends the page, not the program, and others need not wa
   other.close();
 });
 
+test('a session that goes on wants what the command line says', async () => {
+  const other = new Folder('cup.obj');
+  const wishes = async (...options) => {
+    const program = await Editor.start(other, options);
+    try {
+      const { WebSocket } = await import('./websocket.mjs');
+      const page = await WebSocket.open(new URL(program.address));
+      const { target, within } = await page.next((message) => message.type === 'wishes');
+      page.send('{"do": "write"}');
+      page.send('{"do": "keep", "parts": [0]}'); // saved with it
+      await page.next((message) => message.type === 'wishes' && message.kept.length);
+      page.close();
+      await program.ended;
+      return { target, within };
+    } finally {
+      await program.kill();
+    }
+  };
+  try {
+    const room = await wishes('--copies', '5', '--within', '0.15');
+    assert.deepEqual(room.within, { copies: 5, length: 0.15 });
+    assert.ok(room.target > 0.8 && room.target < 0.9, `S ${room.target}`);
+    assert.deepEqual(await wishes(), room);
+    assert.deepEqual(await wishes('--target', '0.85'), { target: 0.85, within: null });
+    await assert.rejects(Editor.start(other, ['--copies', '5']), /--copies and --within go together/);
+    await assert.rejects(Editor.start(other, ['--target', '0.8', '--copies', '5', '--within', '1']), /give one of them/);
+    await assert.rejects(Editor.start(other, ['--copies', '5', '--within', '0.01']), /room/);
+  } finally {
+    other.remove();
+  }
+});
+
 test('a dropped file replaces no file, and no session of another shape', async () => {
   const cube = ['o cube', ...[0, 1].flatMap((x) => [0, 1].flatMap((y) => [0, 1].map((z) => `v ${x} ${y} ${z}`))),
     'f 1 3 4 2', 'f 5 6 8 7', 'f 1 2 6 5', 'f 3 7 8 4', 'f 1 5 7 3', 'f 2 4 8 6', ''].join('\n');

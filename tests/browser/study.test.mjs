@@ -112,6 +112,7 @@ test('the next participant has the next number, and other conditions first', { t
   const page = await openPage(browser, editor);
   await page.click('#study-dialog button.primary');
   await page.waitForFunction(() => document.body.dataset.study === 'suggestive');
+  await assert.rejects(Editor.start({ model: path.join(folder.path, 'plan.json') }, ['--study', results()]), /another program edits/, 'it would lead the same participant');
   await editor.kill();
   await page.close();
   const rows = rowsOf(fs.readFileSync(results(), 'utf8'));

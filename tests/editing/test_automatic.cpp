@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "sessions.h"
 #include "stackabilization/core/errors.h"
@@ -56,12 +57,12 @@ TEST_CASE("designs that the automatic search finds reach the target, and one is 
   CHECK(!session.found().running);
   const FoundDesigns& found = session.found();
   REQUIRE(!found.designs.empty());
-  for (const Candidate& one : found.designs) {
-    CHECK(session.checker().check(one.design, Direction(one.direction)).passed());
-    CHECK(one.measured.value >= found.target);
+  for (const FoundDesign& one : found.designs) {
+    CHECK(session.checker().check(one.candidate.design, Direction(one.candidate.direction)).passed());
+    CHECK(one.candidate.measured.value >= found.target);
   }
-  const Points vertices = found.designs[0].design.shape.vertices;
-  session.execute(TakeDesign{0});
+  const Points vertices = found.designs[0].candidate.design.shape.vertices;
+  session.execute(TakeDesign{found.designs[0].number});
   CHECK((session.current().design->shape.vertices - vertices).cwiseAbs().maxCoeff() < 1e-9);
   CHECK(session.document().project.history.nodes[1].parent == 0);
   CHECK_THROWS_AS(session.execute(TakeDesign{99}), UsageError);
@@ -78,6 +79,7 @@ TEST_CASE("designs arrive while the search goes on, least change first") {
   const auto job = session.next_job(Lane::automatic);
   REQUIRE(job);
   const double first_search = 0.1;  // share of the first of two searches
+  std::map<int, Points> numbered;
   double done = 0, done_at_first_design = -1;
   bool same_search_goes_on = false;
   (*job)([&](const EditingSession::Result& result) {
@@ -89,18 +91,64 @@ TEST_CASE("designs arrive while the search goes on, least change first") {
     const double since = done_at_first_design;
     if (since >= 0 && done > since && done < 1 && (since > first_search || done <= first_search))
       same_search_goes_on = true;
-    REQUIRE(found.explanations.size() == found.designs.size());
     double before = 0;
-    for (std::size_t k = 0; k < found.designs.size(); ++k) {
-      const Candidate& one = found.designs[k];
+    for (const FoundDesign& found_design : found.designs) {
+      const Candidate& one = found_design.candidate;
       CHECK(session.checker().check(one.design, Direction(one.direction)).passed());
       const double size = size_of(ChangeMeasure::both, one, session.space().rest().shape);
       CHECK(size >= before);
       before = size;
+      // A number is that of one design, however the list changes.
+      const Points& vertices = one.design.shape.vertices;
+      CHECK(numbered.emplace(found_design.number, vertices).first->second == vertices);
     }
   });
   CHECK(same_search_goes_on);
   CHECK(!session.found().running);
+}
+
+TEST_CASE("a front arrives design by design, whatever the target, and one is taken on") {
+  SessionOptions options;
+  options.effort = 0.1;
+  Document document = sessions::table_document();
+  document.requirements.length_limit = {5, 100};  // out of account, as the target is
+  Observed observed(std::move(document), options);
+  EditingSession& session = observed.session;
+  session.execute(FindDesigns{true});
+  const auto job = session.next_job(Lane::automatic);
+  REQUIRE(job);
+  std::vector<std::size_t> counts;
+  double done = 0;
+  (*job)([&](const EditingSession::Result& result) {
+    observed.events.clear();
+    result();
+    for (const Progress& progress : observed.all<Progress>()) {
+      CHECK(progress.fraction >= done);
+      done = progress.fraction;
+    }
+    const FoundDesigns& found = session.found();
+    CHECK(found.front);
+    CHECK(found.at_rest == session.at_rest().value);
+    if (counts.empty() || counts.back() != found.designs.size()) counts.push_back(found.designs.size());
+    double change = 0, s = found.at_rest;
+    for (const FoundDesign& one : found.designs) {
+      const double size = size_of(ChangeMeasure::both, one.candidate, session.space().rest().shape);
+      CHECK(size > change);
+      CHECK(one.candidate.measured.value > s);
+      change = size;
+      s = one.candidate.measured.value;
+      const Assessment assessment =
+          session.checker().check(one.candidate.design, Direction(one.candidate.direction));
+      for (const Check& check : assessment.checks) CHECK((check.passed || check.is_of_target()));
+    }
+  });
+  CHECK(done == 1);
+  CHECK(!session.found().running);
+  CHECK(counts.size() > 2);
+  const std::vector<FoundDesign> designs = session.found().designs;
+  REQUIRE(designs.size() > 2);
+  session.execute(TakeDesign{designs[1].number});
+  CHECK(session.current().assessment.measured.value == Approx(designs[1].candidate.measured.value));
 }
 
 TEST_CASE("a target out of reach is diagnosed, and an offer is accepted") {
@@ -121,6 +169,25 @@ TEST_CASE("an object that is taken apart goes on as its largest piece, until Und
   CHECK(session.space().rest().shape.part_names == std::vector<std::string>{names[0]});
   session.execute(Undo{});
   CHECK(session.space().rest().shape.part_names == names);
+}
+
+TEST_CASE("a search for what is no longer wanted ends") {
+  Observed observed(sessions::table_document());
+  EditingSession& session = observed.session;
+  session.execute(FindDesigns{});
+  const auto job = session.next_job(Lane::automatic);
+  REQUIRE(job);
+  observed.events.clear();
+  session.execute(SetTarget{0.3});
+  CHECK(!session.found().running);
+  const std::vector<Changed> changes = observed.all<Changed>();
+  CHECK(std::any_of(changes.begin(), changes.end(),
+                    [](const Changed& change) { return change.what == Change::found; }));
+  REQUIRE(!observed.all<Progress>().empty());
+  CHECK(observed.all<Progress>().back().fraction == 1);
+  (*job)([](const EditingSession::Result& result) { result(); });
+  CHECK(session.found().designs.empty());
+  CHECK(!session.next_job(Lane::automatic));
 }
 
 TEST_CASE("a search that is stopped keeps nothing running") {

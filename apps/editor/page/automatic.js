@@ -1,5 +1,6 @@
-// The automatic search: a target, designs as they are found, and what is in the way.
+// The automatic search: a target or a front, designs as they are found, and what is in the way.
 import { create, element, walkWithArrows } from './dom.js';
+import { FrontCurve } from './front_curve.js';
 import { diagnosisLines } from './offers.js';
 import * as format from './format.js';
 
@@ -13,14 +14,19 @@ export class Automatic {
     this.actions = actions;
     this.panel = element('panel-automatic');
     this.message = /** @type {any} */ ({ list: [], offers: [], running: false, diagnosis: null });
-    /** @type {Float32Array[]} */
-    this.vertices = [];
+    /** By the numbers of the designs. @type {Map<number, Float32Array>} */
+    this.vertices = new Map();
     /** Cards by what they show: those that stay are not painted again. @type {Map<string, {card: HTMLButtonElement, picture: HTMLCanvasElement, offer: any}>} */
     this.cards = new Map();
     this.wishes = /** @type {any} */ (null);
     this.button = create('button', 'primary', 'Find designs');
     this.button.id = 'find';
     this.button.addEventListener('click', () => actions.send({ do: this.message.running ? 'stop' : 'find' }));
+    this.whole = create('button', '', 'Explore');
+    this.whole.id = 'find-front';
+    this.whole.title = 'Designs of least change, from S at rest to the largest S that the limits allow';
+    this.whole.addEventListener('click', () => actions.send({ do: 'find', front: true }));
+    this.curve = new FrontCurve({ preview: (number) => this.#startPreview(number), leave: actions.leave, take: (number) => this.#take(number) });
     this.bar = create('progress');
     this.bar.max = 1;
     this.bar.setAttribute('aria-label', 'Progress of the search');
@@ -31,8 +37,8 @@ export class Automatic {
     this.list.setAttribute('aria-label', 'Designs found, least change first');
     this.reasons = create('div');
     const row = create('div', 'row find');
-    row.append(this.button, this.bar);
-    this.panel.append(row, this.note, this.list, this.reasons);
+    row.append(this.button, this.whole, this.bar);
+    this.panel.append(row, this.note, this.curve.element, this.list, this.reasons);
     walkWithArrows(this.list);
     this.#show();
   }
@@ -44,7 +50,7 @@ export class Automatic {
   }
 
   /** @param {number} number @param {Float32Array} vertices */
-  setVertices(number, vertices) { this.vertices[number] = vertices; }
+  setVertices(number, vertices) { this.vertices.set(number, vertices); }
 
   /** @param {any} message */
   set(message) {
@@ -60,24 +66,44 @@ export class Automatic {
     this.button.textContent = message.running ? 'Stop' : 'Find designs';
     this.button.classList.toggle('primary', !message.running);
     this.bar.hidden = !message.running;
+    this.whole.hidden = message.running;
     const wanted = (/** @type {any} */ { within, target }) => (within ? `${within.copies} copies within ${within.length}` : `S ${format.stackability(target)}`);
     const count = message.list.length;
-    this.note.textContent = count ? `${count === 1 ? 'One design reaches' : count + ' designs reach'} ${wanted(message)}, least change first.${message.running ? ' Looking for better ones …' : ''}`
+    this.note.textContent = message.front ? this.#frontNote() : count ? `${count === 1 ? 'One design reaches' : count + ' designs reach'} ${wanted(message)}, least change first.${message.running ? ' Looking for better ones …' : ''}`
       : message.running ? `Looking for designs of ${wanted(message)} …`
         : message.diagnosis ? `No design of ${wanted(message)} within the limits; the best one has S ${format.stackability(message.diagnosis.reached)}.`
           : this.wishes ? `Looks for the least change that reaches ${wanted(this.wishes)}, with all limits kept.` : '';
+    this.curve.set(message);
     this.#list();
     this.#diagnose();
+  }
+
+  #frontNote() {
+    const { list, running, at_rest: rest } = this.message, s = (/** @type {any} */ design) => format.stackability(design.stackability);
+    const soFar = list.length > 1 ? `${list.length} designs, S ${s(list[0])} to ${s(list[list.length - 1])}, each of the least change found for its S.`
+      : list.length ? `One design, S ${s(list[0])}.` : '';
+    return running ? soFar + ' Looking for more …' : soFar || `No design within the limits stacks better than S ${format.stackability(rest)}.`;
+  }
+
+  /** @param {number} number */
+  #take(number) {
+    this.actions.leave();
+    this.actions.send({ do: 'take', number });
+  }
+
+  /** @param {number} number */
+  #startPreview(number) {
+    const vertices = this.vertices.get(number), design = this.message.list.find((/** @type {any} */ one) => one.number === number);
+    if (vertices && design) this.actions.preview({ ...design, vertices });
   }
 
   /** Puts the cards in order. Designs come while somebody looks at those that are there. */
   #list() {
     const focused = [...this.cards.values()].find(({ card }) => card === document.activeElement)?.card, cards = new Map();
-    this.message.list.forEach((/** @type {any} */ design, /** @type {number} */ k) => {
-      const key = JSON.stringify(design), shown = this.cards.get(key) ?? this.#card({ ...design, vertices: this.vertices[k] });
-      shown.card.onclick = () => { this.actions.leave(); this.actions.send({ do: 'take', number: k }); };
-      cards.set(key, shown);
-    });
+    for (const design of this.message.list) {
+      const key = JSON.stringify(design);
+      cards.set(key, this.cards.get(key) ?? this.#card({ ...design, vertices: this.vertices.get(design.number) }));
+    }
     this.cards = cards;
     this.list.replaceChildren(...[...this.cards.values()].map(({ card }) => card));
     if (focused?.isConnected) focused.focus();
@@ -93,6 +119,7 @@ export class Automatic {
     facts.append(gain, ...offer.words.slice(0, 3).map((/** @type {string} */ words) => create('span', 'what', words)));
     card.append(picture, facts);
     card.setAttribute('aria-label', `S ${format.stackability(offer.stackability)}, change ${format.percent(offer.change)}, ${offer.words.join(', ')}`);
+    card.onclick = () => this.#take(offer.number);
     card.onmousemove = card.onfocus = () => offer.vertices && this.actions.preview(offer);
     card.onmouseleave = card.onblur = () => this.actions.leave();
     this.#paint(picture, offer);

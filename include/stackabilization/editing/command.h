@@ -78,13 +78,18 @@ struct KeepParts {
   std::vector<int> parts;  ///< all of them, rows of Shape::part_names
 };
 
-/// Starts the automatic search for designs that reach the target.
-struct FindDesigns {};
+/// Starts the automatic search for designs that reach the target, or for designs of all S.
+struct FindDesigns {
+  /// Whether a front is wanted: designs of least change from S at rest to the largest S that the limits
+  /// allow, see front.h. Target and length limit are left out of account then.
+  bool front = false;
+};
 /// Ends that search; what it has found stays.
 struct StopFinding {};
-/// Makes a found design current: a new node, child of the root.
+/// Makes a found design current: a new node, child of the root. Throws UsageError where a better one has
+/// taken its place.
 struct TakeDesign {
-  int number = 0;  ///< row of EditingSession::found
+  int number = 0;  ///< FoundDesign::number
 };
 
 /// Accepts a change that a diagnosis offers. Of an object that is taken apart, the session goes on with the

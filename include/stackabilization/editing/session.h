@@ -65,13 +65,21 @@ struct DirectionMap {
   double best = 0;                                            ///< S along it
 };
 
+/// A design that the automatic search has found.
+struct FoundDesign {
+  int number = 0;           ///< no other design of the search has it
+  Candidate candidate;      ///< meets all requirements; the design of a front all but the target
+  Explanation explanation;  ///< its change from the shape at rest, in words
+  ShapeChange change;       ///< from the shape at rest
+};
+
 /// What the automatic search has found.
 struct FoundDesigns {
   double target = 0;                       ///< S that was asked for
   std::optional<StackLengthLimit> within;  ///< or the length for some copies
-  std::vector<Candidate> designs;          ///< least change first; all meet all requirements
-  std::vector<Explanation> explanations;   ///< one per design: its change from the shape at rest
-  std::vector<ShapeChange> changes;        ///< one per design, from the shape at rest
+  bool front = false;                      ///< or designs of all S, each with more than those before it
+  double at_rest = 0;                      ///< S of the shape at rest along the direction of the search
+  std::vector<FoundDesign> designs;        ///< least change first
   std::optional<Diagnosis> diagnosis;      ///< why there are none
   bool running = false;                    ///< whether the search goes on
 };

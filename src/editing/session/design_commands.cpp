@@ -101,12 +101,14 @@ void EditingSession::Implementation::run(const Redo& /*command*/) {
 }
 
 void EditingSession::Implementation::run(const TakeDesign& command) {
-  expect_row(command.number, found_.designs.size(), "design");
-  const auto row = static_cast<std::size_t>(command.number);
-  const Candidate candidate = found_.designs[row];
+  const auto one = std::find_if(found_.designs.begin(), found_.designs.end(),
+                                [&](const FoundDesign& each) { return each.number == command.number; });
+  if (one == found_.designs.end())
+    throw UsageError("design " + std::to_string(command.number) +
+                     " is none of those found: a better one may have taken its place");
+  const Candidate candidate = one->candidate;
   HistoryNode node =
-      node_with(candidate.design.edits,
-                node_name(found_.explanations[row], "found design " + std::to_string(command.number + 1)));
+      node_with(candidate.design.edits, node_name(one->explanation, "design " + std::to_string(one->number)));
   node.constraints = workspace_->constraints(Direction(candidate.direction));
   node.direction = candidate.direction;
   node.stackability = candidate.measured.value;

@@ -15,7 +15,8 @@ EditingSession::Job Lanes::start(Lane lane, JobWork work) {
     try {
       work(cancelled, deliver);
     } catch (const std::exception& error) {
-      deliver(unless(cancelled, [this, sentence = failure_sentence(error)] { failed_(sentence); }));
+      deliver(
+          unless(cancelled, [this, lane, sentence = failure_sentence(error)] { failed_(lane, sentence); }));
     }
     deliver([this, lane] { state_of(lane).running = false; });
   };

@@ -21,7 +21,7 @@ using JobWork = std::function<void(const Cancelled&, const Deliver&)>;
 class Lanes {
  public:
   /// Receives what a job threw, on the thread of the session.
-  using FailureListener = std::function<void(const std::string& sentence)>;
+  using FailureListener = std::function<void(Lane lane, const std::string& sentence)>;
 
   explicit Lanes(FailureListener failed) : failed_(std::move(failed)) {}
 

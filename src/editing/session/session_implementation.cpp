@@ -27,7 +27,10 @@ EditingSession::Implementation::Implementation(Document document, SessionOptions
     : document_(std::move(document)),
       options_(std::move(options)),
       listener_(std::move(listener)),
-      lanes_([this](const std::string& sentence) { emit(Failed{sentence}); }) {
+      lanes_([this](Lane lane, const std::string& sentence) {
+        if (lane == Lane::automatic && !finding_wanted_) stop_finding();
+        emit(Failed{sentence});
+      }) {
   expect_usable(document_, options_);
   workspace_ = std::make_shared<const Workspace>(document_.project, document_.requirements);
   load_node();

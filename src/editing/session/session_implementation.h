@@ -83,6 +83,8 @@ class EditingSession::Implementation {
   HistoryNode node_with(std::vector<Edit> edits, std::string name) const;
   /// Adds a node with one more edit, from which `made` came.
   void keep_edit(const Edit& edit, const MeasuredDesign& made);
+  /// Ends the automatic search; what it has found stays.
+  void stop_finding();
   /// Replaces the requirements.
   void require(const Requirements& requirements);
   /// Starts anew with a document.
@@ -131,8 +133,13 @@ class EditingSession::Implementation {
 
   std::optional<Edit> wanted_range_;
   bool range_runs_ = false;  ///< whether the job of the lane of advice is a range
-  bool finding_wanted_ = false, map_wanted_ = false, envelopes_wanted_ = false;
+  std::optional<FindDesigns> finding_wanted_;
+  bool map_wanted_ = false, envelopes_wanted_ = false;
 };
+
+/// What a search for designs begins with.
+FoundDesigns designs_to_find(const RequirementChecker& checker, const Direction& direction,
+                             const FindDesigns& command);
 
 /// Throws UsageError naming `what` if there is no such row.
 void expect_row(int row, std::size_t size, const std::string& what);

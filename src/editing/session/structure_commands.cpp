@@ -41,7 +41,7 @@ void EditingSession::Implementation::load(Document document) {
 void EditingSession::Implementation::load(Document document, std::shared_ptr<const Workspace> workspace) {
   lanes_.cancel(Lane::automatic);
   found_ = {};
-  finding_wanted_ = false;
+  finding_wanted_.reset();
   designs_ = {};
   workspace_ = std::move(workspace);
   document_ = std::move(document);

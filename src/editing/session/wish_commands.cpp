@@ -1,5 +1,6 @@
 // Commands that change what is wanted of designs.
 #include <algorithm>
+#include <utility>
 
 #include "editing/session/session_implementation.h"
 #include "stackabilization/core/direction_text.h"
@@ -10,8 +11,7 @@ namespace stackabilization::editing {
 void EditingSession::Implementation::require(const Requirements& requirements) {
   workspace_ = std::make_shared<const Workspace>(*workspace_, requirements);
   document_.requirements = requirements;
-  lanes_.cancel(Lane::automatic);
-  finding_wanted_ = false;
+  stop_finding();
   load_node();
   emit(Changed{Change::wishes});
   announce_node();
@@ -59,19 +59,22 @@ void EditingSession::Implementation::run(const SetDirection& command) {
   add_node(std::move(node), current_.design);
 }
 
-void EditingSession::Implementation::run(const FindDesigns& /*command*/) {
+void EditingSession::Implementation::run(const FindDesigns& command) {
   lanes_.cancel(Lane::automatic);
-  found_ = {};
-  found_.target = document_.requirements.target;
-  found_.within = document_.requirements.length_limit;
-  found_.running = finding_wanted_ = true;
+  finding_wanted_ = command;
+  found_ = designs_to_find(workspace_->checker(), direction_, command);
   emit(Changed{Change::found});
   emit(Progress{Work::designs, 0});
 }
 
 void EditingSession::Implementation::run(const StopFinding& /*command*/) {
+  stop_finding();
+}
+
+void EditingSession::Implementation::stop_finding() {
   lanes_.cancel(Lane::automatic);
-  finding_wanted_ = found_.running = false;
+  finding_wanted_.reset();
+  if (!std::exchange(found_.running, false)) return;
   emit(Changed{Change::found});
   emit(Progress{Work::designs, 1});
 }
