@@ -2,6 +2,7 @@
 //
 //     study [--seeds N] [--edits N] [--compared N] [--expansions N] [--threads N] [--paper-data FOLDER]
 //           [--people FILE] [-o FOLDER] [TASK...]
+//     study --write-plan FILE [--paper-data FOLDER] [TASK...]
 //
 // After the user study of the paper (section 6), with simulated users instead of people. TASK is one of seven
 // objects of the shipped models, each with a target for S along one direction; with --paper-data those of the
@@ -12,7 +13,8 @@
 // and keeping or undoing. One row per task, user and seed; `summary`: medians and quartiles. `edits_tried` of
 // the automatic method is the number of designs that it made. With --people, those who did the
 // tasks in the editor (`stackabilize edit experiments/study/plan.json --study FILE --boxes frame`) have rows
-// too, with the number of the participant as seed.
+// too, with the number of the participant as seed. --write-plan makes the plan of these tasks for people, and
+// nobody does them: those of the authors' study with --paper-data, whose names begin with authors/.
 
 #include "stackabilization/editing/study.h"
 
@@ -28,6 +30,7 @@
 #include "stackabilization/deformation/factory.h"
 #include "stackabilization/improvement/shape_change.h"
 #include "stackabilization/io/read_file.h"
+#include "stackabilization/io/write_file.h"
 #include "study/automatic_work.h"
 #include "study/manual_work.h"
 #include "study/study_summary.h"
@@ -38,7 +41,7 @@ namespace {
 struct Settings {
   int seeds = 20, edits = 200, compared = 8;
   std::int64_t expansions = 40;
-  std::filesystem::path paper_data, people;
+  std::filesystem::path paper_data, people, plan;
   std::vector<std::string> names;
 };
 
@@ -173,6 +176,8 @@ void add_options(Settings& settings, CLI::App& app) {
                  "folder of the authors' data; tasks of their study too");
   app.add_option("--people", settings.people,
                  "CSV of `stackabilize edit --study`: people who did tasks of these names");
+  app.add_option("--write-plan", settings.plan,
+                 "write the plan of the tasks for `stackabilize edit --study`, and do nothing else");
   app.add_option("tasks", settings.names, "names of tasks; by default all")->type_name("TASK");
 }
 
@@ -188,7 +193,10 @@ int main(int argc, char** argv) {
   add_options(settings, experiment.app());
   return experiment.run(argc, argv, [&](Report& report) {
     std::vector<StudyRun> runs;
-    for (const StudyTask& task : tasks_of(settings)) try {
+    const std::vector<StudyTask> tasks = tasks_of(settings);
+    if (!settings.plan.empty())
+      return write_file_atomically(settings.plan, study_plan_text(tasks, settings.plan.parent_path()));
+    for (const StudyTask& task : tasks) try {
         for (StudyRun& run : TaskStudy(task, settings).runs()) runs.push_back(std::move(run));
       } catch (const InputError& error) {
         report.failed(error.what());

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/authors_targets.h"
+#include "common/json.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/part_names.h"
 #include "stackabilization/improvement/removal.h"
@@ -69,6 +70,20 @@ AuthorsTasks authors_tasks(const std::filesystem::path& paper_data) {
     result.tasks.push_back(std::move(task));
   }
   return result;
+}
+
+std::string study_plan_text(const std::vector<StudyTask>& tasks, const std::filesystem::path& folder) {
+  std::string text = "{\"format\": \"stackabilize study\", \"version\": 1,\n \"tasks\": [";
+  for (const StudyTask& task : tasks) {
+    Json json = {{"name", task.name},
+                 {"model", std::filesystem::proximate(task.model.path, folder).generic_string()}};
+    if (task.direction != Eigen::Vector3d::UnitZ())
+      json["direction"] = {task.direction.x(), task.direction.y(), task.direction.z()};
+    json["target"] = task.requirements.target;
+    if (!task.without.empty()) json["without"] = task.without;
+    text += (&task == &tasks.front() ? "\n  " : ",\n  ") + json.dump();
+  }
+  return text + "\n ]}\n";
 }
 
 StructuredShape structured_shape(const StudyTask& task) {

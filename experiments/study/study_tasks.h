@@ -34,6 +34,10 @@ struct AuthorsTasks {
 /// first by path counts. Throws InputError when the folder, or its tasks.txt, is missing or damaged.
 AuthorsTasks authors_tasks(const std::filesystem::path& paper_data);
 
+/// A plan of these tasks for `stackabilize edit PLAN --study FILE --boxes frame`, to be kept in `folder`,
+/// from which the paths of the models lead.
+std::string study_plan_text(const std::vector<StudyTask>& tasks, const std::filesystem::path& folder);
+
 /// The shape of a task with its structure found.
 StructuredShape structured_shape(const StudyTask& task);
 

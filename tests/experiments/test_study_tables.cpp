@@ -4,6 +4,8 @@
 #include <fstream>
 
 #include "stackabilization/core/errors.h"
+#include "stackabilization/editing/study.h"
+#include "stackabilization/io/read_file.h"
 #include "study/study_summary.h"
 #include "study/study_tasks.h"
 #include "support/catch.h"
@@ -104,6 +106,23 @@ TEST_CASE("there are seven tasks of shipped models, each with a target") {
     CHECK(fs::is_regular_file(task.model.path));
     CHECK(task.requirements.target > 0.2);
     CHECK(task.requirements.target < 1);
+  }
+}
+
+TEST_CASE("the plan for people has the tasks of the simulated users") {
+  const fs::path plan_file = fs::path(STACKABILIZATION_SOURCE_DIR) / "experiments/study/plan.json";
+  const std::vector<StudyTask> tasks = shipped_tasks();
+  CHECK(read_file(plan_file) == study_plan_text(tasks, plan_file.parent_path()));
+  const fs::path folder = fs::path(STACKABILIZATION_BINARY_DIR) / "plans";
+  const std::string elsewhere = study_plan_text(tasks, folder);
+  const editing::StudyPlan plan = editing::study_plan_of_text(elsewhere, "plan.json");
+  REQUIRE(plan.tasks.size() == tasks.size());
+  for (std::size_t k = 0; k < tasks.size(); ++k) {
+    CHECK(plan.tasks[k].name == tasks[k].name);
+    CHECK(fs::weakly_canonical(folder / plan.tasks[k].model) == fs::weakly_canonical(tasks[k].model.path));
+    CHECK(plan.tasks[k].direction == tasks[k].direction);
+    CHECK(plan.tasks[k].target == tasks[k].requirements.target);
+    CHECK(plan.tasks[k].without == tasks[k].without);
   }
 }
 
