@@ -1,10 +1,12 @@
 // The editor in a real browser: what a person sees and does.
 import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
+import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { canvasFacts, Editor, Folder, keepPicture, models, openBrowser, openPage, seconds, stackability, suggestionsOf } from './editor.mjs';
+import { canvasFacts, Editor, Folder, keepPicture, models, openBrowser, openPage, program, seconds, stackability, suggestionsOf } from './editor.mjs';
 
 let browser;
 before(async () => { browser = await openBrowser(); });
@@ -91,6 +93,42 @@ editing('what is exported is what is shown', 'small_cup.obj', async (page) => {
   const shown = await page.evaluate(() => Array.from(window.editor.viewer.design));
   assert.equal(vertices.length, shown.length);
   vertices.forEach((value, k) => assert.ok(Math.abs(value - shown[k]) <= 1e-6 * Math.abs(value) + 1e-12));
+});
+
+editing('every kind of export holds the design', 'small_cup.obj', async (page) => {
+  await suggestionsOf(page);
+  await page.locator('.card').first().click();
+  await page.waitForFunction(() => window.editor.state.tree.current === 1);
+  const shown = await stackability(page), folder = fs.mkdtempSync(path.join(os.tmpdir(), 'exports-'));
+  const saved = async (link) => {
+    await page.click('#export summary');
+    const [download] = await Promise.all([page.waitForEvent('download'), link.click()]);
+    const file = path.join(folder, download.suggestedFilename());
+    await download.saveAs(file);
+    if (await page.locator('#export').getAttribute('open') !== null) await page.click('#export summary');
+    return file;
+  };
+  try {
+    const links = page.locator('#export-list a'), names = [];
+    for (let k = 0; k < await links.count(); ++k) {
+      const file = await saved(links.nth(k));
+      names.push(path.basename(file));
+      if (/\.(obj|3mf|glb|stl)$/.test(file)) {
+        const said = Number(execFileSync(program, ['measure', file, '--quiet'], { encoding: 'utf8' }));
+        // GLB and STL hold single precision.
+        assert.ok(Math.abs(said - shown) < (/\.(glb|stl)$/.test(file) ? 1e-5 : 1e-9), `${file}: S ${said}, not ${shown}`);
+      } else if (file.endsWith('.json')) {
+        const { history } = JSON.parse(fs.readFileSync(file, 'utf8'));
+        assert.ok(Math.abs(history.nodes[history.current].stackability - shown) < 1e-9);
+      }
+    }
+    assert.deepEqual(names, ['obj', '3mf', 'glb', 'stl', 'stackabilize.json', 'html'].map((ending) => 'small_cup.' + ending));
+    const picture = fs.readFileSync(await saved(page.locator('#export-list button')));
+    assert.equal(picture.subarray(0, 8).toString('latin1'), '\x89PNG\r\n\x1a\n');
+    assert.ok(picture.readUInt32BE(16) > 400 && picture.readUInt32BE(20) > 300, 'as large as the view');
+  } finally {
+    fs.rmSync(folder, { recursive: true });
+  }
 });
 
 editing('a report of the design is one page that needs neither editor nor network', 'small_cup.obj', async (page) => {
