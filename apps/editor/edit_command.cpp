@@ -224,7 +224,7 @@ void add_session(Json& document, const EditCommandOptions& options, const editin
 }
 
 /// Prints the address, and serves until the last page has left.
-editing::Document serve(const EditCommandOptions& options, EditingRoom& room) {
+std::optional<editing::Document> serve(const EditCommandOptions& options, EditingRoom& room) {
   (options.common.json_on_stdout() ? std::cerr : std::cout) << room.address() << std::endl;
   if (!options.common.quiet)
     std::cerr << "stackabilize: open this address in a browser on this machine. "
@@ -266,9 +266,29 @@ int run_study(const EditCommandOptions& options) {
   return status_done;
 }
 
+/// Waits for a mesh file that is dropped onto the page. Throws UsageError for options that say something of
+/// MODEL.
+int run_without_model(const CLI::App& command, const EditCommandOptions& options) {
+  std::optional<std::string> given = given_mesh_option(command);
+  for (const char* option :
+       {"--study", "--session", "--fresh", "--direction", "--target", "--copies", "--json"})
+    if (!given && command.count(option) > 0) given = option;
+  if (given) throw UsageError(*given + " needs MODEL");
+  const ThreadLimit limit(options.common);
+  SessionLocks locks;
+  RoomOptions room_options;
+  room_options.open = [&options, &locks](const std::string& name, const std::string& bytes) {
+    return dropped_model(options, locks, name, bytes);
+  };
+  EditingRoom room(std::nullopt, std::move(room_options), web_options(options));
+  serve(options, room);
+  return status_done;
+}
+
 int run_edit_command(const CLI::App& command, const EditCommandOptions& options) {
   const Stopwatch watch;
   check(options.room, options.target);
+  if (options.common.model.empty()) return run_without_model(command, options);
   const std::filesystem::path autosave = session_file(options);
   CommandFiles files{{{"--study", options.study}, {"--session", options.session}},
                      analysis_inputs(options.analysis)};
@@ -299,7 +319,7 @@ int run_edit_command(const CLI::App& command, const EditCommandOptions& options)
     return dropped_model(options, locks, name, bytes);
   };
   EditingRoom room(std::move(*document), std::move(room_options), web_options(options));
-  const editing::Document last = serve(options, room);
+  const editing::Document last = *serve(options, room);
   if (options.common.json) {
     Json result = document_head(command, model);
     add_session(result, options, last);
@@ -319,6 +339,9 @@ Command make_edit_command(CLI::App& program) {
                   "Prints the address of a page for a browser on this machine. Each change is saved in\n"
                   "MODEL.session.json, and the next start goes on from there.");
   add_common_options(*command, options->common);
+  command->get_option("MODEL")->required(false)->description(
+      "Mesh file (" + std::string(readable_extensions()) +
+      "), - for stdin, or a project; without it the page asks for a file, and keeps it in this folder");
   add_analysis_options(*command, options->analysis);
   add_semantics_option(*command, options->measure.semantics);
   add_boxes_option(*command, options->measure.boxes);

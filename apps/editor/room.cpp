@@ -18,6 +18,7 @@
 #include "stackabilization/core/failure_sentence.h"
 #include "stackabilization/editing/command_loop.h"
 #include "stackabilization/io/write.h"
+#include "stackabilization/structure/analysis.h"
 
 namespace stackabilization::apps {
 
@@ -90,6 +91,18 @@ std::string decoded(const std::string& query) {
   return text;
 }
 
+/// What a session needs while nothing is opened. No page sees it.
+Document placeholder() {
+  Shape tetrahedron;
+  tetrahedron.vertices.resize(4, 3);
+  tetrahedron.vertices << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1;
+  tetrahedron.triangles.resize(4, 3);
+  tetrahedron.triangles << 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3;
+  tetrahedron.triangle_part.assign(4, 0);
+  tetrahedron.part_names = {"part"};
+  return editing::new_document(analyse_structure(tetrahedron));
+}
+
 const Export* export_of(const std::string& path) {
   static const std::vector<Export> exports = {{"obj", "text/plain; charset=utf-8", Format::obj},
                                               {"3mf", "model/3mf", Format::three_mf},
@@ -106,24 +119,28 @@ const Export* export_of(const std::string& path) {
 
 class EditingRoom::Implementation {
  public:
-  Implementation(Document document, RoomOptions options, WebOptions web)
+  Implementation(std::optional<Document> document, RoomOptions options, WebOptions web)
       : options_(std::move(options)),
+        empty_(!document),
         server_(with_upload(std::move(web)),
                 {[this](WebRequest request, auto reply) { answer(std::move(request), reply); },
                  [this](PageId page) { arrived(page); }, [this](PageId page) { left(page); },
                  [this](PageId page, const std::string& text) { received(page, text); }}) {
-    auto session = std::make_unique<EditingSession>(std::move(document), options_.session,
-                                                    [this](const Event& event) { tell(event); });
+    auto session =
+        std::make_unique<EditingSession>(document ? std::move(*document) : placeholder(), options_.session,
+                                         [this](const Event& event) { tell(event); });
     session_ = session.get();
     if (options_.study) study_.emplace(std::move(*options_.study));
     loop_.emplace(std::move(session));
   }
 
   std::string address() const { return server_.address(); }
-  Document run() {
+  std::optional<Document> run() {
     server_.run();
-    std::promise<Document> last;
-    loop_->post([&last](EditingSession& session) { last.set_value(session.document()); });
+    std::promise<std::optional<Document>> last;
+    loop_->post([this, &last](EditingSession& session) {
+      last.set_value(empty_ ? std::nullopt : std::optional(session.document()));
+    });
     return last.get_future().get();
   }
 
@@ -197,6 +214,7 @@ class EditingRoom::Implementation {
   }
 
   WebReply exported(const Export& wanted, const std::string& query) const {
+    if (empty_) return {404, plain_type, "nothing is opened", ""};
     try {
       return {200, wanted.type, export_bytes(wanted, query), options_.stem + "." + wanted.ending};
     } catch (const UsageError& error) {
@@ -211,18 +229,28 @@ class EditingRoom::Implementation {
     try {
       if (study_) throw UsageError("a study has its own models");
       if (!options_.open) throw UsageError("files cannot be opened here");
-      DroppedModel model = options_.open(decoded(request.query), request.body);
-      editing::SessionOptions session = options_.session;
-      session.autosave = model.autosave;
-      options_.name = model.name;
-      options_.stem = model.stem;
-      options_.resumed = false;
-      session_->open(std::move(model.document), session);
-      options_.session = session;
-      options_.lock = std::move(model.lock);
+      open(options_.open(decoded(request.query), request.body));
       return {200, plain_type, "opened", ""};
     } catch (const std::exception& failure) {
       return {422, plain_type, failure_sentence(failure), ""};
+    }
+  }
+
+  void open(DroppedModel model) {
+    RoomOptions options = options_;
+    options.session.autosave = model.autosave;
+    options.name = model.name;
+    options.stem = model.stem;
+    options.lock = std::move(model.lock);
+    options.resumed = false;
+    std::swap(options_, options);
+    const bool empty = std::exchange(empty_, false);
+    try {
+      session_->open(std::move(model.document), options_.session);
+    } catch (...) {
+      std::swap(options_, options);
+      empty_ = empty;
+      throw;
     }
   }
 
@@ -230,6 +258,7 @@ class EditingRoom::Implementation {
     pages_.push_back(page);
     if (!writer_) writer_ = page;
     tell_writers();
+    if (empty_) return send(page, {{"type", "empty"}});
     if (study_) send(page, study_->state());
     for (const Change change :
          {Change::structure, Change::wishes, Change::design, Change::tree, Change::review,
@@ -253,10 +282,12 @@ class EditingRoom::Implementation {
       if (session_->dragging()) session_->execute(EndDrag{false});
       writer_ = page;
       tell_writers();
-    } else if (word == "picture") {
+    } else if (word == "picture" && !empty_) {
       send_picture(page, command_number(json, "node"));
     } else if (writer_ != page) {
       throw UsageError("another page is editing; this one looks on");
+    } else if (empty_) {
+      throw UsageError("open a mesh file first");
     } else if (word == "study") {
       step_study(page, json);
     } else {
@@ -292,6 +323,7 @@ class EditingRoom::Implementation {
       if (changed->what == Change::tree && study_) study_->note(*session_);
       return;
     }
+    if (empty_) return;
     Json json;
     std::uint32_t replaces = keeps_all;
     if (const auto* refused = std::get_if<Refused>(&event)) {
@@ -310,7 +342,7 @@ class EditingRoom::Implementation {
 
   /// Tells pages what changed.
   void show(Change change, const std::vector<PageId>& pages) {
-    if (pages.empty()) return;
+    if (pages.empty() || empty_) return;
     const auto all = [&](const Json& json, std::uint32_t replaces = keeps_all) {
       for (const PageId page : pages) send(page, json, replaces);
     };
@@ -377,6 +409,7 @@ class EditingRoom::Implementation {
   }
 
   RoomOptions options_;
+  bool empty_;  ///< whether nothing is opened yet
   std::optional<StudyDesk> study_;
   std::vector<PageId> pages_;
   std::optional<PageId> writer_;
@@ -387,7 +420,7 @@ class EditingRoom::Implementation {
   std::optional<CommandLoop> loop_;    ///< last: its threads use everything above
 };
 
-EditingRoom::EditingRoom(Document document, RoomOptions options, WebOptions web)
+EditingRoom::EditingRoom(std::optional<Document> document, RoomOptions options, WebOptions web)
     : implementation_(std::make_unique<Implementation>(std::move(document), std::move(options), web)) {}
 
 EditingRoom::~EditingRoom() = default;
@@ -396,7 +429,7 @@ std::string EditingRoom::address() const {
   return implementation_->address();
 }
 
-Document EditingRoom::run() {
+std::optional<Document> EditingRoom::run() {
   return implementation_->run();
 }
 

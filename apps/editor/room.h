@@ -38,15 +38,16 @@ struct RoomOptions {
 /// told to the pages; nothing but a signal or the last page ends it.
 class EditingRoom {
  public:
-  /// Throws as EditingSession.
-  EditingRoom(editing::Document document, RoomOptions options, WebOptions web);
+  /// Without a document pages are asked for a mesh file first. Throws as EditingSession.
+  EditingRoom(std::optional<editing::Document> document, RoomOptions options, WebOptions web);
   ~EditingRoom();
   EditingRoom(const EditingRoom&) = delete;
   EditingRoom& operator=(const EditingRoom&) = delete;
 
   std::string address() const;
-  /// Serves until the last page has left, or a signal. Returns what was edited.
-  editing::Document run();
+  /// Serves until the last page has left, or a signal. Returns what was edited; nothing where nothing was
+  /// opened.
+  std::optional<editing::Document> run();
 
  private:
   class Implementation;

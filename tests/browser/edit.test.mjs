@@ -799,6 +799,37 @@ editing('a mesh file that is dropped is opened, and written beside the first one
   page.failures.length = 0; // the refused files, which a browser reports too
 });
 
+test('without a model the page asks for a mesh file', { timeout: seconds(300) }, async () => {
+  const folder = new Folder('small_cup.obj');
+  const editor = await Editor.start({ model: null }, [], folder.path);
+  try {
+    const page = await browser.newPage(), failures = [];
+    page.on('pageerror', (error) => failures.push(String(error)));
+    await page.goto(editor.address);
+    await page.waitForFunction(() => window.editor?.state.empty);
+    assert.match(await page.textContent('#veil-text'), /Drop a mesh file/);
+    await keepPicture(page, 'no_model');
+    await page.setInputFiles('#open-file', { name: 'none.obj', mimeType: '', buffer: Buffer.from('v 0 0 0\n') });
+    await page.waitForFunction(() => /no faces/.test(document.getElementById('hint').textContent));
+    assert.equal(await page.isVisible('#veil'), true, 'it still asks');
+    await page.evaluate(() => window.editor.send({ do: 'undo' }));
+    await page.waitForFunction(() => /open a mesh file first/.test(document.getElementById('hint').textContent));
+    const file = { name: 'dropped.obj', mimeType: '', buffer: fs.readFileSync(folder.model) };
+    await page.setInputFiles('#open-file', file);
+    await page.waitForFunction(() => window.editor.state.design && window.editor.viewer.framesDrawn > 0);
+    assert.equal(await page.isVisible('#veil'), false);
+    assert.equal(await page.textContent('#title'), 'dropped.obj');
+    assert.deepEqual(fs.readFileSync(path.join(folder.path, 'dropped.obj')), file.buffer);
+    assert.deepEqual(failures, []);
+    await page.close();
+    assert.equal(await editor.ended, 0);
+    await assert.rejects(Editor.start({ model: null }, ['--target', '0.5'], folder.path), /--target needs MODEL/);
+  } finally {
+    await editor.kill();
+    folder.remove();
+  }
+});
+
 editing('a part is left out, two parts are joined, and undo brings both back', 'table.obj', async (page) => {
   const parts = await page.evaluate(() => window.editor.state.model.parts.map((part) => part.name));
   await pick(page, 'middle_bar');

@@ -57,10 +57,10 @@ export class Folder {
 
 /** A running editor. */
 export class Editor {
-  /** @param {Folder} folder @param {string[]} [more] */
-  static async start(folder, more = []) {
+  /** @param {{model: string | null}} folder @param {string[]} [more] @param {string} [cwd]  where it runs */
+  static async start(folder, more = [], cwd = undefined) {
     const editor = new Editor();
-    editor.process = spawn(program, ['edit', folder.model, '--no-browser', ...more], { stdio: ['ignore', 'pipe', 'pipe'] });
+    editor.process = spawn(program, ['edit', ...(folder.model ? [folder.model] : []), '--no-browser', ...more], { cwd, stdio: ['ignore', 'pipe', 'pipe'] });
     editor.ended = new Promise((resolve) => editor.process.on('exit', (status, signal) => resolve(signal ?? status)));
     editor.errors = '';
     editor.process.stderr.on('data', (data) => (editor.errors += data));

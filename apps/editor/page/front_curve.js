@@ -29,7 +29,7 @@ export class FrontCurve {
   set({ front, list, at_rest: rest }) {
     this.element.hidden = !front || !list.length;
     if (this.element.hidden) return;
-    const most = Math.max(...list.map((/** @type {any} */ one) => one.stackability)), largest = Math.max(...list.map((/** @type {any} */ one) => one.change));
+    const most = Math.max(...list.map((/** @type {any} */ one) => one.stackability)), largest = Math.max(1e-9, ...list.map((/** @type {any} */ one) => one.change));
     const x = (/** @type {number} */ s) => left + ((s - rest) / (most - rest)) * (width - left - right);
     const y = (/** @type {number} */ change) => height - bottom - (change / largest) * (height - bottom - top);
     this.points = list.map((/** @type {any} */ one) => ({ number: one.number, x: x(one.stackability), y: y(one.change) }));

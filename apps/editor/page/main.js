@@ -25,7 +25,8 @@ const canvas = /** @type {HTMLCanvasElement} */ (element('view'));
 const viewer = new Viewer(canvas), picker = new Picker(viewer);
 
 /** What the program has told. @type {Record<string, any>} */
-const state = { model: null, design: null, review: null, tree: null, wishes: null, suggestions: { list: [] }, found: { list: [] }, writes: false };
+const state = { model: null, design: null, review: null, tree: null, wishes: null, suggestions: { list: [] }, found: { list: [] }, writes: false, empty: false };
+const askForFile = 'Drop a mesh file onto this page, or choose one with Open.';
 /** @type {Float32Array | null} */
 let shown = null;
 /** What is shown instead while the mouse is over it. @type {Float32Array | null} */
@@ -77,7 +78,7 @@ const quality = new Quality(send);
 const compare = new Compare(viewer, tree, send);
 const study = new Study(send);
 bindDrop({
-  busy: (words) => { element('veil').hidden = !words; element('veil-text').textContent = words; },
+  busy: (words) => { element('veil').hidden = !words && !state.empty; element('veil-text').textContent = words || askForFile; },
   failed: (words) => hint(words, true),
 });
 
@@ -179,7 +180,14 @@ let seen = false;
 /** @param {any} message */
 function receive(message) {
   switch (message.type) {
+    case 'empty':
+      state.empty = true;
+      element('veil').hidden = false;
+      element('veil-text').textContent = askForFile;
+      break;
     case 'model':
+      if (state.empty) element('veil').hidden = true;
+      state.empty = false;
       state.model = message;
       element('title').textContent = message.name;
       document.title = message.name + ' – Stackabilization';
