@@ -7,7 +7,7 @@ set -euo pipefail
 
 purpose=${1:-all}
 packages=(
-  g++ cmake ninja-build ccache pkg-config git
+  g++ clang cmake ninja-build ccache pkg-config git
   libcgal-dev libeigen3-dev libboost-dev libtbb-dev libgmp-dev libmpfr-dev
   libpugixml-dev libminizip-dev zlib1g-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
   libvtk9-dev libegl-dev libegl1 libegl-mesa0 libgl1-mesa-dri

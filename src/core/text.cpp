@@ -66,10 +66,10 @@ void append_integer(std::string& text, std::int64_t value) {
 }
 
 std::string in_quotes(std::string_view token) {
-  constexpr std::size_t longest = 40;
+  constexpr std::size_t max_quoted = 40;
   std::string result = "'";
-  for (const char c : token.substr(0, longest)) result += c >= ' ' && c <= '~' ? c : '?';
-  if (token.size() > longest) result += "...";
+  for (const char c : token.substr(0, max_quoted)) result += c >= ' ' && c <= '~' ? c : '?';
+  if (token.size() > max_quoted) result += "...";
   result += '\'';
   return result;
 }

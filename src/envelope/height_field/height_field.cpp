@@ -82,13 +82,13 @@ HeightField empty_height_field(const Shape& shape, const Direction& direction, c
     throw UsageError("a sampling window needs 1 to " + std::to_string(max_resolution) +
                      " samples along each side");
 
-  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double nowhere = std::numeric_limits<double>::infinity();
   HeightField field;
   field.frame = frame_of(direction);
   field.window = window;
   field.unit = shape.unit;
-  field.upper = Eigen::MatrixXd::Constant(window.columns, window.rows, -infinity);
-  field.lower = Eigen::MatrixXd::Constant(window.columns, window.rows, infinity);
+  field.upper = Eigen::MatrixXd::Constant(window.columns, window.rows, -nowhere);
+  field.lower = Eigen::MatrixXd::Constant(window.columns, window.rows, nowhere);
   return field;
 }
 

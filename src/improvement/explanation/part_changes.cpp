@@ -47,7 +47,7 @@ constexpr double deformed = 5;
 /// of what is seen.
 constexpr double minor = 1.0 / 7;
 /// Pieces of the surface of a part: enough for a vessel of many triangles.
-constexpr std::size_t max_pieces = 40000;
+constexpr std::size_t max_form_pieces = 40000;
 constexpr int sweeps = 100;
 
 /// Returns the one of two ratios that is nearer to 1; 1 if they are on different sides of it.
@@ -388,7 +388,7 @@ double ObjectFrame::visible() const {
 }
 
 PartAtRest part_at_rest(const StructuredShape& rest, std::size_t part, std::vector<std::int32_t> triangles) {
-  PartAtRest result{part_form(rest, part, triangles, max_pieces), std::move(triangles)};
+  PartAtRest result{part_form(rest, part, triangles, max_form_pieces), std::move(triangles)};
   if (!result.form.fit) return result;
   result.low.setConstant(std::numeric_limits<double>::infinity());
   result.high = -result.low;

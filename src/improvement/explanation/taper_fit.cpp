@@ -24,11 +24,12 @@ TaperMap fit_taper(const Points& rest, const Points& now, const Eigen::Vector3d&
   const Eigen::MatrixX2d across = from_rest * map.axes.transpose();
   const Eigen::VectorXd t = from_rest * up / map.height;
 
-  Eigen::MatrixXd level(rest.rows(), 5), upright(rest.rows(), 2);
-  level << (1 - t.array()).matrix().asDiagonal() * across, t.asDiagonal() * across,
+  Eigen::MatrixXd sideways(rest.rows(), 5), upright(rest.rows(), 2);
+  sideways << (1 - t.array()).matrix().asDiagonal() * across, t.asDiagonal() * across,
       Eigen::VectorXd::Ones(rest.rows());
   upright << t, Eigen::VectorXd::Ones(rest.rows());
-  const Eigen::Matrix<double, 5, 2> found = level.colPivHouseholderQr().solve(moved * map.axes.transpose());
+  const Eigen::Matrix<double, 5, 2> found =
+      sideways.colPivHouseholderQr().solve(moved * map.axes.transpose());
   const Eigen::Vector2d raised = upright.colPivHouseholderQr().solve(moved * up);
   map.ends = {found.topRows<2>().transpose(), found.middleRows<2>(2).transpose()};
   map.shift = found.row(4).transpose();
