@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Configures the preset `release` and builds it, or only the targets given as arguments, into build/release.
 # For the program and the Python module alone (build.sh stackabilize stackabilization_python) the packages of tests and
-# experiments need not be there. A new build is made by clang where CC and CXX name no other compiler: it takes half of
-# the time of GCC, for a program of the same speed and the same results. A build that is there keeps its compiler.
+# experiments need not be there. A new build is made by clang where CC and CXX name no other compiler: it takes about
+# half of the time of GCC, for a program of the same speed and the same results. A build that is there keeps its compiler.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
