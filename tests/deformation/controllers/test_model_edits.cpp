@@ -5,6 +5,7 @@
 #include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
 #include "support/random_edits.h"
+#include "support/repetitions.h"
 
 using namespace stackabilization;
 using namespace stackabilization::random_edits;
@@ -17,7 +18,7 @@ TEST_CASE("a thousand random edits of every shipped model leave no broken relati
   for (const std::filesystem::path& path : models) {
     INFO(path.filename());
     const ControllerModel model(analyse_structure(read_shape(path)));
-    const std::map<std::string, Tally> tallies = run(model, 1000, 42);
+    const std::map<std::string, Tally> tallies = run(model, test::repetitions(1000), 42);
     report(path.stem().string(), tallies);
     CHECK(acceptance(tallies) > 0.5);
   }
