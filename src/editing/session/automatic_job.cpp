@@ -13,7 +13,7 @@ namespace stackabilization::editing {
 namespace {
 
 /// Efforts of the automatic search, fractions of the effort asked for: a first answer soon, then a better
-/// one.
+/// one. Fronts are made of first answers.
 constexpr std::array<double, 2> effort_shares = {0.1, 1};
 
 /// Different designs that are looked for.
@@ -167,7 +167,7 @@ void find_front(const RequirementChecker& checker, const ImprovementOptions& opt
                 const SearchCallbacks& callbacks, FoundSoFar& found) {
   FrontOptions how;
   how.improvement = options;
-  how.improvement.effort = front_effort * effort;
+  how.improvement.effort = effort_shares.front() * effort;
   int before = 0, all = 1;  // runs
   how.progress = [&](int run, int runs) {
     before = run;
