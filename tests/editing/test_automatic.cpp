@@ -109,7 +109,7 @@ TEST_CASE("designs arrive while the search goes on, least change first") {
 
 TEST_CASE("a front arrives design by design, whatever the target, and one is taken on") {
   SessionOptions options;
-  options.effort = 0.1;
+  options.effort = 0.3;
   Document document = sessions::table_document();
   document.requirements.length_limit = {5, 100};  // out of account, as the target is
   Observed observed(std::move(document), options);
