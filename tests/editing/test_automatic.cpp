@@ -42,6 +42,14 @@ struct SearchInVain : Observed {
   }
 };
 
+/// Begins a search, and returns its job.
+EditingSession::Job begun(EditingSession& session, const FindDesigns& command = {}) {
+  session.execute(command);
+  const auto job = session.next_job(Lane::automatic);
+  REQUIRE(job);
+  return *job;
+}
+
 }  // namespace
 
 TEST_CASE("designs that the automatic search finds reach the target, and one is taken on") {
@@ -75,14 +83,12 @@ TEST_CASE("designs arrive while the search goes on, least change first") {
   options.effort = 0.2;
   Observed observed(new_document(table), options);
   EditingSession& session = observed.session;
-  session.execute(FindDesigns{});
-  const auto job = session.next_job(Lane::automatic);
-  REQUIRE(job);
+  const EditingSession::Job job = begun(session);
   const double first_search = 0.1;  // share of the first of two searches
   std::map<int, Points> numbered;
   double done = 0, done_at_first_design = -1;
   bool same_search_goes_on = false;
-  (*job)([&](const EditingSession::Result& result) {
+  job([&](const EditingSession::Result& result) {
     observed.events.clear();
     result();
     for (const Progress& progress : observed.all<Progress>()) done = progress.fraction;
@@ -114,12 +120,10 @@ TEST_CASE("a front arrives design by design, whatever the target, and one is tak
   document.requirements.length_limit = {5, 100};  // out of account, as the target is
   Observed observed(std::move(document), options);
   EditingSession& session = observed.session;
-  session.execute(FindDesigns{true});
-  const auto job = session.next_job(Lane::automatic);
-  REQUIRE(job);
+  const EditingSession::Job job = begun(session, {true});
   std::vector<std::size_t> counts;
   double done = 0;
-  (*job)([&](const EditingSession::Result& result) {
+  job([&](const EditingSession::Result& result) {
     observed.events.clear();
     result();
     for (const Progress& progress : observed.all<Progress>()) {
@@ -174,9 +178,7 @@ TEST_CASE("an object that is taken apart goes on as its largest piece, until Und
 TEST_CASE("a search for what is no longer wanted ends") {
   Observed observed(sessions::table_document());
   EditingSession& session = observed.session;
-  session.execute(FindDesigns{});
-  const auto job = session.next_job(Lane::automatic);
-  REQUIRE(job);
+  const EditingSession::Job job = begun(session);
   observed.events.clear();
   session.execute(SetTarget{0.3});
   CHECK(!session.found().running);
@@ -185,7 +187,7 @@ TEST_CASE("a search for what is no longer wanted ends") {
                     [](const Changed& change) { return change.what == Change::found; }));
   REQUIRE(!observed.all<Progress>().empty());
   CHECK(observed.all<Progress>().back().fraction == 1);
-  (*job)([](const EditingSession::Result& result) { result(); });
+  job([](const EditingSession::Result& result) { result(); });
   CHECK(session.found().designs.empty());
   CHECK(!session.next_job(Lane::automatic));
 }
@@ -193,12 +195,10 @@ TEST_CASE("a search for what is no longer wanted ends") {
 TEST_CASE("a search that is stopped keeps nothing running") {
   Observed observed(sessions::table_document());
   EditingSession& session = observed.session;
-  session.execute(FindDesigns{});
-  const auto job = session.next_job(Lane::automatic);
-  REQUIRE(job);
+  const EditingSession::Job job = begun(session);
   session.execute(StopFinding{});
   std::vector<EditingSession::Result> results;
-  (*job)([&](EditingSession::Result result) { results.push_back(std::move(result)); });
+  job([&](EditingSession::Result result) { results.push_back(std::move(result)); });
   for (const EditingSession::Result& result : results) result();
   CHECK(session.found().designs.empty());
   CHECK(!session.found().running);
