@@ -65,10 +65,11 @@ struct ControllerModel::Data {
       task.wanted = detail::tapered(now, *taper, rest.structure);
       task.is_taper = true;
     } else if (edit.handle.kind == HandleKind::shape) {
-      task.wanted = detail::edit_handle(now, edit.operation);
+      task.wanted = detail::edit_handle(now, edit.operation, following);
     } else {
       const Part& edited = part(edit.handle);
-      task.wanted = {detail::edit_handle(now[static_cast<std::size_t>(edit.handle.part)], edit, edited.name)};
+      task.wanted = {
+          detail::edit_handle(now[static_cast<std::size_t>(edit.handle.part)], edit, edited.name, following)};
       task.gives_way = following == Following::smooth && edit.handle.kind == HandleKind::part &&
                        std::holds_alternative<Move>(edit.operation);
     }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "deformation/model/straight_curve.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization::detail {
@@ -94,7 +95,13 @@ void prescribe_points(PartEdit& edit, const Primitive& now, const std::vector<in
   }
 }
 
-PartEdit of_whole(const Primitive& now, const Operation& operation, int part, const Eigen::Vector3d& centre) {
+/// Returns whether a bar of constant section would be bent to this curve: a handle, a frame.
+bool is_bent_bar(const GeneralizedCylinder& cylinder) {
+  return !cylinder.closed && !is_straight(cylinder);
+}
+
+PartEdit of_whole(const Primitive& now, const Operation& operation, int part, const Eigen::Vector3d& centre,
+                  Following following) {
   PartEdit result;
   result.part = part;
   prescribe_points(result, now, all_points(now), {operation, centre});
@@ -103,8 +110,11 @@ PartEdit of_whole(const Primitive& now, const Operation& operation, int part, co
   const Eigen::Matrix3d linear = linear_map(operation);
   if (std::holds_alternative<Rotate>(operation)) result.rotation = Eigen::Quaterniond(linear);
   const auto n = static_cast<int>(cylinder->radii.size());
+  const auto* scale = std::get_if<Scale>(&operation);
+  const bool keeps_sections =
+      scale == nullptr || (scale->along && following == Following::smooth && is_bent_bar(*cylinder));
   const Eigen::VectorXd factors =
-      std::holds_alternative<Scale>(operation) ? radius_factors(*cylinder, linear) : Eigen::VectorXd::Ones(n);
+      keeps_sections ? Eigen::VectorXd::Ones(n) : radius_factors(*cylinder, linear);
   for (int i = 0; i < n; ++i) prescribe(result, 3 * n + i, (factors(i) - 1) * cylinder->radii(i));
   return result;
 }
@@ -151,11 +161,13 @@ Eigen::VectorXd radius_factors(const GeneralizedCylinder& cylinder, const Eigen:
   return factors;
 }
 
-PartEdit edit_handle(const Primitive& now, const Edit& edit, const std::string& part_name) {
+PartEdit edit_handle(const Primitive& now, const Edit& edit, const std::string& part_name,
+                     Following following) {
   const std::vector<int> held = held_points(now, edit.handle, part_name);
   check_operation(edit, part_name);
   const Eigen::Vector3d centre = handle_centre(now, edit.handle, part_name);
-  if (edit.handle.kind == HandleKind::part) return of_whole(now, edit.operation, edit.handle.part, centre);
+  if (edit.handle.kind == HandleKind::part)
+    return of_whole(now, edit.operation, edit.handle.part, centre, following);
   PartEdit result;
   result.part = edit.handle.part;
   const auto* curve = std::get_if<GeneralizedCylinder>(&now);
@@ -170,11 +182,12 @@ PartEdit edit_handle(const Primitive& now, const Edit& edit, const std::string& 
   return result;
 }
 
-std::vector<PartEdit> edit_handle(const std::vector<Primitive>& now, const Operation& operation) {
+std::vector<PartEdit> edit_handle(const std::vector<Primitive>& now, const Operation& operation,
+                                  Following following) {
   const Eigen::Vector3d centre = shape_centre(now);
   std::vector<PartEdit> edits;
   for (std::size_t part = 0; part < now.size(); ++part)
-    edits.push_back(of_whole(now[part], operation, static_cast<int>(part), centre));
+    edits.push_back(of_whole(now[part], operation, static_cast<int>(part), centre, following));
   return edits;
 }
 

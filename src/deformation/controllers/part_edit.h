@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "stackabilization/deformation/deformation_model.h"
 #include "stackabilization/deformation/edit.h"
 #include "stackabilization/structure/primitive.h"
 
@@ -40,14 +41,17 @@ Eigen::VectorXd radius_factors(const GeneralizedCylinder& cylinder, const Eigen:
 
 /// Computes the control values that an edit prescribes for a part, with the degrees of freedom of section 4.1
 /// of the paper. A whole part moves, rotates and scales, by an affine map of its control points. Its radii
-/// change such that the areas of the cross-sections change as under that map (circles stay circles). A face
-/// moves, rotates, and scales within its plane. A corner moves. A cross-section moves or changes its radius.
-/// Throws UsageError for other handles and operations.
-PartEdit edit_handle(const Primitive& now, const Edit& edit, const std::string& part_name);
+/// change such that the areas of the cross-sections change as under that map (circles stay circles). With
+/// Following::smooth, a bent bar that is scaled along an axis keeps its radii. A face moves, rotates, and
+/// scales within its plane. A corner moves. A cross-section moves or changes its radius. Throws UsageError
+/// for other handles and operations.
+PartEdit edit_handle(const Primitive& now, const Edit& edit, const std::string& part_name,
+                     Following following);
 
 /// Computes the prescriptions of one operation on all parts as wholes about the centre of the shape, one per
 /// part in order.
-std::vector<PartEdit> edit_handle(const std::vector<Primitive>& now, const Operation& operation);
+std::vector<PartEdit> edit_handle(const std::vector<Primitive>& now, const Operation& operation,
+                                  Following following);
 
 /// Returns `primitive` with the changes of control values and, for a generalized cylinder, the rotation of
 /// `edit`.

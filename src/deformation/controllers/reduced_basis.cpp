@@ -39,17 +39,26 @@ Eigen::MatrixXd smooth_functions(const GeneralizedCylinder& cylinder) {
   return solver.eigenvectors().rightCols(count) * strength.tail(count).cwiseSqrt().asDiagonal();
 }
 
-/// Computes n x (1 + rank) orthogonal functions 1, x, y, z over the centres, of mean square 1.
+/// Computes n x (1 + rank) functions over the centres: 1, and F with F F^T = C C^T / s^2 for the centred
+/// positions C, where the largest singular value of F is sqrt(n). So an affine map costs its strain.
+/// Functions of mean square 1 would make a map cheap that moves centres by how little they deviate from a
+/// plane, and crumples them.
 Eigen::MatrixXd affine_functions(const GeneralizedCylinder& cylinder) {
   const Eigen::Index n = cylinder.centres.rows();
   const Eigen::MatrixXd centred = cylinder.centres.rowwise() - cylinder.centres.colwise().mean();
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
   qr.setThreshold(tolerance::relative);
   qr.compute(centred);
-  const Eigen::MatrixXd orthonormal =
-      Eigen::MatrixXd(qr.householderQ() * Eigen::MatrixXd::Identity(n, qr.rank()));
-  Eigen::MatrixXd functions(n, 1 + qr.rank());
-  functions << Eigen::VectorXd::Ones(n), std::sqrt(static_cast<double>(n)) * orthonormal;
+  const Eigen::Index rank = qr.rank();
+  const Eigen::MatrixXd orthonormal = qr.householderQ() * Eigen::MatrixXd::Identity(n, rank);
+  const Eigen::MatrixXd components = orthonormal.transpose() * centred;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(components * components.transpose());
+  const Eigen::VectorXd extents = solver.eigenvalues().cwiseMax(0).cwiseSqrt();
+  const Eigen::MatrixXd& axes = solver.eigenvectors();
+  Eigen::MatrixXd functions(n, 1 + rank);
+  functions << Eigen::VectorXd::Ones(n),
+      std::sqrt(static_cast<double>(n)) * orthonormal *
+          (axes * (extents / extents.maxCoeff()).asDiagonal() * axes.transpose());
   return functions;
 }
 

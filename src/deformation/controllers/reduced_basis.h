@@ -38,8 +38,9 @@ Eigen::MatrixXd edit_kernel(const Primitive& rest);
 /// Computes the basis B of the corrections that a solver may apply to a primitive. A correction B y costs
 /// |y|^2: all columns have the same cost, and longer columns are cheaper motions. From cheap to expensive:
 ///
-/// * affine motions of the whole primitive: a translation by 1 is a column; in the strain of a cuboid along
-///   an axis the corners move by its side over the longest side, so equal strains have equal costs;
+/// * affine motions of the whole primitive: a translation by 1 is a column; equal strains cost the same: in
+///   that of a cuboid along an axis the corners move by its side over the longest side, in that of a
+///   generalized cylinder the centres by their root mean square along the axis over the largest one;
 /// * smooth bending of a generalized cylinder;
 /// * non-affine moves of single corners of a cuboid, and changes of radii.
 ///

@@ -94,6 +94,33 @@ TEST_CASE("generalized cylinders alone take rigid motions and uniform scalings e
   }
 }
 
+TEST_CASE("a bent bar that is flattened in a smooth design keeps its sections, other bodies do not") {
+  const auto flattened = [](const GeneralizedCylinder& curve, Following following) {
+    const ControllerModel model(structures::tube_alone(curve, 12), {}, following);
+    const DeformationResult result = model.deformed({{kWhole, Scale{0.5, Eigen::Vector3d::UnitX()}}});
+    REQUIRE_FALSE(result.refusal);
+    return std::get<GeneralizedCylinder>(result.design.primitives.front());
+  };
+  const GeneralizedCylinder bar = structures::arc_cylinder(3, 0.4, -0.5, 0.5, 9),
+                            ring = structures::ring_cylinder(2, 0.3, 12),
+                            post = structures::straight_cylinder({0, 0, 0}, {0, 0, 3}, 0.5, 5);
+  for (const Following following : {Following::free, Following::smooth}) {
+    // Half as far from the middle along x, as far along the other axes.
+    const GeneralizedCylinder bent = flattened(bar, following);
+    const double middle = bar.centres.col(0).mean();
+    const Eigen::VectorXd halved = 0.5 * (bar.centres.col(0).array() - middle) + middle;
+    CHECK((bent.centres.col(0) - halved).norm() < 1e-12);
+    CHECK((bent.centres.rightCols(2) - bar.centres.rightCols(2)).norm() < 1e-12);
+    // What is half as wide and as deep as before has a section of half the area.
+    const GeneralizedCylinder thin = flattened(post, following);
+    CHECK((thin.radii - std::sqrt(0.5) * post.radii).norm() < 1e-12);
+    CHECK((flattened(ring, following).radii - ring.radii).minCoeff() < -0.05);
+  }
+  CHECK((flattened(bar, Following::smooth).radii - bar.radii).norm() < 1e-12);
+  // In the middle of the arc the tangent is across x.
+  CHECK(flattened(bar, Following::free).radii(4) == Approx(std::sqrt(0.5) * bar.radii(4)));
+}
+
 TEST_CASE("cross-sections move and scale with their neighbours, by a Gaussian over the arc length") {
   const GeneralizedCylinder curve = structures::straight_cylinder({0, 0, 0}, {0, 0, 10}, 1, 11);
   const ControllerModel model(structures::tube_alone(curve, 8));

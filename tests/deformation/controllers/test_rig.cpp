@@ -1,4 +1,7 @@
+#include <Eigen/SVD>
+#include <cmath>
 #include <map>
+#include <numbers>
 
 #include "deformation/controllers/joint_copies.h"
 #include "deformation/controllers/reduced_basis.h"
@@ -58,4 +61,36 @@ TEST_CASE("bases hold what self-symmetries leave, in as few columns as that take
   const Rig table(structures::table().structure);
   CHECK(table.bases[static_cast<std::size_t>(table.space.class_of(0))].cols() == 6);
   CHECK(table.bases[static_cast<std::size_t>(table.space.class_of(1))].cols() == 24);
+}
+
+TEST_CASE("an affine motion of a tube costs its strain, however little the tube leaves a plane") {
+  // Half a ring. Its centres leave their plane by `height`, up and down in turns, as those of a scanned
+  // handle do.
+  const auto handle = [](double height) {
+    GeneralizedCylinder tube;
+    tube.centres.resize(9, 3);
+    tube.radii = Eigen::VectorXd::Constant(9, 0.1);
+    for (int k = 0; k < 9; ++k) {
+      const double angle = std::numbers::pi * k / 8;
+      tube.centres.row(k) << std::cos(angle), std::sin(angle), k % 2 == 0 ? height : -height;
+    }
+    return tube;
+  };
+  // Products of the columns of the affine motions along x: 1 + n C C^T / s^2, where the singular value s is
+  // the largest of the centred positions C.
+  const auto products = [](const GeneralizedCylinder& tube) -> Eigen::MatrixXd {
+    const Eigen::MatrixXd basis = reduced_basis(tube, 1, Following::smooth);
+    Eigen::MatrixXd rows(9, basis.cols());
+    for (int k = 0; k < 9; ++k) rows.row(k) = basis.row(3 * k);
+    return rows * rows.transpose();
+  };
+  for (const double height : {0.0, 1e-9, 1e-6, 1e-3, 0.3}) {
+    const GeneralizedCylinder tube = handle(height);
+    const Eigen::MatrixXd centred = tube.centres.rowwise() - tube.centres.colwise().mean();
+    const double largest = Eigen::JacobiSVD<Eigen::MatrixXd>(centred).singularValues()(0);
+    const Eigen::MatrixXd wanted =
+        Eigen::MatrixXd::Ones(9, 9) + 9 * centred * centred.transpose() / (largest * largest);
+    CAPTURE(height);
+    CHECK((products(tube) - wanted).norm() < 1e-12);
+  }
 }
