@@ -808,6 +808,7 @@ test('without a model the page asks for a mesh file', { timeout: seconds(300) },
     await page.goto(editor.address);
     await page.waitForFunction(() => window.editor?.state.empty);
     assert.match(await page.textContent('#veil-text'), /Drop a mesh file/);
+    for (const id of ['#undo', '#export', '#tabs', '#target']) assert.equal(await page.isVisible(id), false, id);
     await keepPicture(page, 'no_model');
     await page.setInputFiles('#open-file', { name: 'none.obj', mimeType: '', buffer: Buffer.from('v 0 0 0\n') });
     await page.waitForFunction(() => /no faces/.test(document.getElementById('hint').textContent));
@@ -818,6 +819,7 @@ test('without a model the page asks for a mesh file', { timeout: seconds(300) },
     await page.setInputFiles('#open-file', file);
     await page.waitForFunction(() => window.editor.state.design && window.editor.viewer.framesDrawn > 0);
     assert.equal(await page.isVisible('#veil'), false);
+    assert.equal(await page.isVisible('#export'), true);
     assert.equal(await page.textContent('#title'), 'dropped.obj');
     assert.deepEqual(fs.readFileSync(path.join(folder.path, 'dropped.obj')), file.buffer);
     assert.deepEqual(failures, []);

@@ -182,12 +182,14 @@ function receive(message) {
   switch (message.type) {
     case 'empty':
       state.empty = true;
+      document.body.classList.add('empty');
       element('veil').hidden = false;
       element('veil-text').textContent = askForFile;
       break;
     case 'model':
       if (state.empty) element('veil').hidden = true;
       state.empty = false;
+      document.body.classList.remove('empty');
       state.model = message;
       element('title').textContent = message.name;
       document.title = message.name + ' – Stackabilization';
