@@ -67,7 +67,7 @@ std::string complaint_about_task(const std::string& task) {
   return colon == std::string::npos ? text : text.substr(colon + 2);
 }
 
-constexpr const char* camera = R"("camera": {"azimuth": 35, "elevation": 12})";
+constexpr const char* camera_field = R"("camera": {"azimuth": 35, "elevation": 12})";
 const std::string table_task =
     R"("model": {"file": "table.obj"}, "direction": [0, 0, 1], "expansions": 1, "target": )";
 
@@ -118,7 +118,7 @@ TEST_CASE("scenes side by side do not overlap as the camera sees them, and share
 TEST_CASE("figure 6 compares solutions that are equally compact, one of them squashed") {
   const FigureResult result = made_figure(
       figure_06(),
-      R"({"task": {)" + table_task + R"(0.1}, "longest_edge": 0.05, "copies": 2, )" + camera + "}", 0);
+      R"({"task": {)" + table_task + R"(0.1}, "longest_edge": 0.05, "copies": 2, )" + camera_field + "}", 0);
   CHECK(value_of(result, "gap scaling: f_max") ==
         Approx(value_of(result, "structure-aware: f_max")).epsilon(1e-4));
   CHECK(value_of(result, "structure-aware: h") == Approx(1).epsilon(1e-9));
@@ -138,7 +138,7 @@ TEST_CASE("the pieces of figure 14 take up what their own boxes do") {
   const std::string legs = R"("leg_1", "leg_2", "leg_3", "leg_4")";
   const auto input = [&](const std::string& pieces) {
     return R"({"whole": {"file": "table.obj"}, "direction": [0, 0, 1], "copies": 2, "pieces": [)" + pieces +
-           "], " + camera + "}";
+           "], " + camera_field + "}";
   };
   const FigureResult result =
       made_figure(figure_14(), input(piece("top", legs) + ", " + piece("legs", R"("top")")), inset);

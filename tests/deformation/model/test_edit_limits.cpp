@@ -20,8 +20,8 @@ using namespace stackabilization;
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double turn = 2 * std::numbers::pi;
-const Eigen::Vector3d size(4, 1, 2);
+constexpr double full_turn = 2 * std::numbers::pi;
+const Eigen::Vector3d box_size(4, 1, 2);
 struct NamedModel {
   std::string name;
   std::unique_ptr<DeformationModel> model;
@@ -29,7 +29,7 @@ struct NamedModel {
 
 /// Every model, for a box.
 std::vector<NamedModel> models() {
-  const StructuredShape rest = structures::box_alone(size);
+  const StructuredShape rest = structures::box_alone(box_size);
   std::vector<NamedModel> all;
   all.push_back({"controllers", std::make_unique<ControllerModel>(rest)});
   all.push_back({"surface", surface_model(rest)});
@@ -60,7 +60,7 @@ TEST_CASE("an axis means its direction, however long it is, or is refused") {
     };
     for (const double length : good_lengths) {
       INFO(named.name << ", axis of length " << length);
-      const double slack = 1e-14 * size.norm();
+      const double slack = 1e-14 * box_size.norm();
       CHECK((scaled(length).design.shape.vertices - scaled(1).design.shape.vertices).cwiseAbs().maxCoeff() <=
             slack);
       if (!gap)
@@ -78,7 +78,7 @@ TEST_CASE("an axis means its direction, however long it is, or is refused") {
 }
 
 TEST_CASE("moves, factors and angles beyond their limits are refused by every model") {
-  const double diagonal = size.norm();
+  const double diagonal = box_size.norm();
   const std::vector<std::pair<Operation, std::string>> cases = {
       {Move{{1.001 * edit_limits::max_move * diagonal, 0, 0}}, "a move goes at most 1000 times the diagonal"},
       {Move{{0, -1e300, 1e300}}, "a move goes at most"},
@@ -90,7 +90,8 @@ TEST_CASE("moves, factors and angles beyond their limits are refused by every mo
       {Scale{5e-324, {}}, "a scaling needs a factor from"},
       {Scale{-2, {}}, "a scaling needs a positive factor, found -2"},
       {Scale{NAN, {}}, "a scaling needs a positive factor"},
-      {Rotate{{0, 0, 1}, 10.01 * turn}, "a rotation needs an angle from -3600 to 3600 degrees, found 3603.6"},
+      {Rotate{{0, 0, 1}, 10.01 * full_turn},
+       "a rotation needs an angle from -3600 to 3600 degrees, found 3603.6"},
       {Rotate{{0, 0, 1}, -1e300}, "a rotation needs an angle"},
       {Rotate{{0, 0, 1}, NAN}, "a rotation needs an angle"}};
   for (const NamedModel& named : models())
@@ -104,12 +105,13 @@ TEST_CASE("moves, factors and angles beyond their limits are refused by every mo
 }
 
 TEST_CASE("edits at their limits are made, and are finite and right") {
-  const ControllerModel model(structures::box_alone(size));
+  const ControllerModel model(structures::box_alone(box_size));
   const Points rest = model.rest().shape.vertices;
-  const Eigen::Vector3d far(edit_limits::max_move * size.norm(), 0, 0);
+  const Eigen::Vector3d far(edit_limits::max_move * box_size.norm(), 0, 0);
   const Points moved = model.deformed({{whole_shape, Move{far}}}).design.shape.vertices;
   CHECK(((moved.rowwise() - far.transpose()) - rest).cwiseAbs().maxCoeff() < 1e-9);
-  const Points turned = model.deformed({{whole_shape, Rotate{{0, 0, 1}, -10 * turn}}}).design.shape.vertices;
+  const Points turned =
+      model.deformed({{whole_shape, Rotate{{0, 0, 1}, -10 * full_turn}}}).design.shape.vertices;
   CHECK((turned - rest).cwiseAbs().maxCoeff() < 1e-12);
   for (const NamedModel& named : models())
     for (const double factor : {1 / edit_limits::max_scale, edit_limits::max_scale}) {

@@ -6,6 +6,8 @@ using namespace stackabilization::test;
 
 namespace {
 
+using Names = std::vector<std::string>;
+
 Shape read_obj_text(const std::string& text) {
   return read_text(Format::obj, text);
 }
@@ -57,7 +59,6 @@ TEST_CASE("OBJ numbers are rounded to nearest, with three-digit exponents") {
 TEST_CASE("OBJ parts are groups inside objects") {
   const std::string f = "f 1 2 3\n";
   const auto names = [&](const std::string& text) { return read_obj_text(three_vertices + text).part_names; };
-  using Names = std::vector<std::string>;
   CHECK(names(f) == Names{"part"});
   CHECK(names("g a\n" + f + "g b\n" + f) == Names{"a", "b"});
   CHECK(names("g a b\n" + f) == Names{"a b"});

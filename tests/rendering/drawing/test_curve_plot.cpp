@@ -12,7 +12,7 @@ using namespace stackabilization;
 
 namespace {
 
-const Rectangle place{40, 30, 700, 500};
+const Rectangle plot_place{40, 30, 700, 500};
 constexpr double text_size = 20;
 
 CurvePlot plot_of(std::vector<Eigen::Vector2d> points) {
@@ -44,8 +44,8 @@ std::vector<PlanePoints> lines_of(const std::vector<DrawingElement>& elements, c
 
 TEST_CASE("a point of the data lands where the axes say") {
   const CurvePlot plot = plot_of({{0, 0}, {2, 30}, {10, 50}});
-  const std::vector<DrawingElement> elements = plot_elements(plot, place, text_size);
-  const PlotArea area(plot, place, text_size);
+  const std::vector<DrawingElement> elements = plot_elements(plot, plot_place, text_size);
+  const PlotArea area(plot, plot_place, text_size);
   for (const double x : {0.0, 2.0, 10.0}) {
     const std::optional<Text> tick = label(elements, std::to_string(static_cast<int>(x)));
     REQUIRE(tick);
@@ -65,11 +65,11 @@ TEST_CASE("a point of the data lands where the axes say") {
 
 TEST_CASE("linear axes keep proportions, logarithmic ones ratios") {
   CurvePlot plot = plot_of({{1, 1}, {1000, 1000}});
-  const PlotArea linear(plot, place, text_size);
+  const PlotArea linear(plot, plot_place, text_size);
   const auto x = [](const PlotArea& area, double value) { return area.at({value, 1}).x(); };
   CHECK(x(linear, 300) - x(linear, 200) == Approx(x(linear, 800) - x(linear, 700)));
   plot.x.scale = AxisScale::logarithmic;
-  const PlotArea logarithmic(plot, place, text_size);
+  const PlotArea logarithmic(plot, plot_place, text_size);
   CHECK(x(logarithmic, 1) == Approx(logarithmic.rectangle().x));
   CHECK(x(logarithmic, 1000) == Approx(logarithmic.rectangle().right()));
   CHECK(x(logarithmic, 20) - x(logarithmic, 10) == Approx(x(logarithmic, 200) - x(logarithmic, 100)));
@@ -77,24 +77,24 @@ TEST_CASE("linear axes keep proportions, logarithmic ones ratios") {
 
 TEST_CASE("default ranges are round and hold all data; given ones are kept") {
   CurvePlot plot = plot_of({{0.13, -0.7}, {9.2, 4.1}});
-  const PlotArea area(plot, place, text_size);
+  const PlotArea area(plot, plot_place, text_size);
   CHECK(area.x().low == Approx(0).margin(1e-12));
   CHECK(area.x().high == Approx(10));
   CHECK(area.y().low == Approx(-1));
   CHECK(area.y().high == Approx(5));
   plot.x.range = Range{0, 7};
-  const PlotArea given(plot, place, text_size);
+  const PlotArea given(plot, plot_place, text_size);
   CHECK(given.x().high == 7);
   CHECK(!given.holds({9.2, 4.1}));
-  CHECK(PlotArea(plot_of({{3, 3}}), place, text_size).holds({3, 3}));  // one point has a range too
+  CHECK(PlotArea(plot_of({{3, 3}}), plot_place, text_size).holds({3, 3}));  // one point has a range too
 }
 
 TEST_CASE("what is off the axes or not finite breaks the line") {
   CurvePlot plot = plot_of({{0, 1}, {1, 2}, {2, NAN}, {3, 1}, {4, 2}, {5, 99}, {6, 1}, {7, 1}});
   plot.y.range = Range{0, 10};
-  const std::vector<DrawingElement> elements = plot_elements(plot, place, text_size);
+  const std::vector<DrawingElement> elements = plot_elements(plot, plot_place, text_size);
   CHECK(lines_of(elements, palette::upper).size() == 3);
-  const PlotArea area(plot, place, text_size);
+  const PlotArea area(plot, plot_place, text_size);
   for (const PlanePoints& line : lines_of(elements, palette::upper))
     CHECK(line.col(1).minCoeff() >= area.rectangle().y);
 }
