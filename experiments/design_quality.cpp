@@ -5,8 +5,8 @@
 //
 // Each model is asked for S + G along z, at most 0.9, with the height kept, every limit of quality at its
 // default and no clock. A row says whether that was reached, the measure of quality that uses most of its
-// limit, the change, the edits and, if it was not reached, whether the model is closed, the nearest design
-// and the first remedy. A sheet per gain shows the model and its first solution side by side.
+// limit, the change, the edits and, if it was not reached, whether the model is closed, the nearest design,
+// what blocks it and the first remedy. A sheet per gain shows the model and its first solution side by side.
 
 #include <algorithm>
 #include <string>
@@ -35,7 +35,7 @@ struct Settings {
 Table& table_of(Report& report) {
   std::vector<Column> all = columns({"model", "input_hash", "gain"}, ColumnKind::key);
   for (const Column& column : columns({"S_rest", "target", "reached", "closed", "S", "D", "change_rms",
-                                       "edits", "measure", "share_of_limit", "remedy"}))
+                                       "edits", "measure", "share_of_limit", "why", "remedy"}))
     all.push_back(column);
   all.push_back({"seconds", ColumnKind::clock});
   return report.table("", all);
@@ -73,10 +73,12 @@ void ask(const ModelFile& file, const StructuredShape& model, const std::string&
   const auto [measure, share] =
       tightest(task.checker().check(best.design, Direction(best.direction)), *requirements.quality);
   const bool closed = found.diagnosis && found.diagnosis->closed;
+  const bool blocked = found.diagnosis && !found.diagnosis->blockers.empty();
   const bool remedied = found.diagnosis && !found.diagnosis->remedies.empty();
   table.add({file.name, hash, gain, at_rest, requirements.target, reached, closed, best.measured.value,
              best.energy.distortion.total(), shape_change(model.shape, best.design.shape).root_mean_square,
              static_cast<std::int64_t>(best.design.edits.size()), measure, share,
+             blocked ? describe(found.diagnosis->blockers.front(), model.structure) : "",
              remedied ? describe(found.diagnosis->remedies.front(), model.structure) : "", seconds});
   if (reached && !file.authors) {
     sheet.tiles.push_back({model.shape, {file.name, "at rest"}, true});

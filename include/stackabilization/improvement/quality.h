@@ -20,6 +20,7 @@ enum class QualityMeasure {
   piercing,           ///< increase of the depth to which touching parts enter each other, of the diagonal
   joints,             ///< increase of the gap between joined parts, of the diagonal
   symmetry,           ///< increase of the violation of a symmetry of the whole, of the diagonal
+  creases,            ///< length of new creases in what was smooth, of the diagonal
   straightness,       ///< distance of a straight centre line from straight, of its length
   bending,            ///< largest change of the turn of a centre line at one place, degrees
   section,            ///< loss of roundness of a round cross-section, of its width
@@ -36,7 +37,7 @@ enum class QualityMeasure {
 };
 
 /// Number of measures.
-inline constexpr std::size_t quality_measure_count = 18;
+inline constexpr std::size_t quality_measure_count = 19;
 
 /// Returns the name of a measure: that of its enumerator with "-" for "_".
 std::string name_of(QualityMeasure measure);
@@ -112,7 +113,7 @@ class QualityMeter {
   /// Takes all measures, in the order of QualityMeasure. Throws UsageError when `now` does not have the
   /// triangles and parts of the object at rest.
   std::vector<QualityValue> measure(const Shape& now) const;
-  /// Takes the measures from symmetry to feet: those that follow from the places of marked points alone.
+  /// Takes the measures from symmetry to feet: those that ask for no intersections of triangles.
   /// Much faster than `measure`. Throws as `measure`.
   std::vector<QualityValue> measure_parts(const Shape& now) const;
 

@@ -21,8 +21,9 @@ namespace stackabilization::detail {
 
 namespace {
 
-/// Number of stations of a line, and the fewest pieces of a station.
-constexpr int station_count = 12;
+/// Number of stations of a straight and of a curved line, and the fewest pieces of a station. Curved lines
+/// show waves, which take more.
+constexpr int straight_stations = 12, curved_stations = 24;
 constexpr std::size_t pieces_per_station = 6;
 /// Ratio of length to width from which on a cuboid is elongated.
 constexpr double elongated = 3;
@@ -106,10 +107,38 @@ Eigen::VectorXd shares_of_line(const Points& points) {
   return (points.rowwise() - points.row(0)) * chord.transpose() / chord.squaredNorm();
 }
 
-/// Returns the angle by which a line turns at `middle`, radians.
-double turn(const Eigen::RowVector3d& before, const Eigen::RowVector3d& middle,
-            const Eigen::RowVector3d& after) {
-  return angle_between((middle - before).transpose(), (after - middle).transpose());
+/// Returns how a line turns at its inner points, at all points of a loop, one per row: rotation vectors,
+/// radians, as components across the line in a frame that is carried along it without twist [Bishop 1975].
+Eigen::MatrixX2d turns(const Points& line, bool closed) {
+  const Eigen::Index n = line.rows(), first = closed ? 0 : 1;
+  const auto direction = [&](Eigen::Index k) -> Eigen::Vector3d {
+    return (line.row((k + 1) % n) - line.row(k)).transpose().stableNormalized();
+  };
+  Eigen::MatrixX2d result(closed ? n : n - 2, 2);
+  Eigen::Vector3d before = direction(closed ? n - 1 : 0), across = before.unitOrthogonal();
+  for (Eigen::Index k = 0; k < result.rows(); ++k) {
+    const Eigen::Vector3d after = direction(first + k);
+    const Eigen::Vector3d turn = angle_between(before, after) * before.cross(after).stableNormalized();
+    result.row(k) << turn.dot(across), turn.dot(before.cross(across));
+    across = Eigen::Quaterniond::FromTwoVectors(before, after) * across;
+    before = after;
+  }
+  return result;
+}
+
+/// Returns the largest difference of the turns of two lines at a point and at two consecutive ones together,
+/// radians, after the rotation about the line that makes the turns most alike.
+double largest_turn(const Eigen::MatrixX2d& turns, const Eigen::MatrixX2d& of_image) {
+  const double along = (turns.array() * of_image.array()).sum(),
+               across = of_image.col(0).dot(turns.col(1)) - of_image.col(1).dot(turns.col(0));
+  const Eigen::Rotation2Dd rotation(std::atan2(across, along));
+  const Eigen::MatrixX2d change = turns - of_image * rotation.toRotationMatrix().transpose();
+  double largest = 0;
+  for (Eigen::Index k = 0; k < change.rows(); ++k) {
+    largest = std::max(largest, change.row(k).norm());
+    if (k > 0) largest = std::max(largest, (change.row(k) + change.row(k - 1)).norm());
+  }
+  return largest;
 }
 
 }  // namespace
@@ -117,14 +146,15 @@ double turn(const Eigen::RowVector3d& before, const Eigen::RowVector3d& middle,
 std::optional<CentreLine> CentreLine::of(const Primitive& primitive, const Shape& rest,
                                          const std::vector<std::int32_t>& triangles, std::size_t max_pieces) {
   const std::optional<PartCurve> curve = curve_of(primitive);
-  if (!curve) return std::nullopt;
+  if (!curve || !(curve->length() > 0)) return std::nullopt;
   CentreLine line;
   line.closed_ = curve->closed;
   line.straight_ = curve->straight;
+  const int station_count = line.straight_ ? straight_stations : curved_stations;
   line.marks_ = pieces_of(rest, triangles, curve->length() / station_count, max_pieces);
   const Points marks = line.marks_.on(rest);
   const int last = line.closed_ ? station_count : station_count - 1;
-  line.stations_.resize(station_count);
+  line.stations_.resize(static_cast<std::size_t>(station_count));
   for (Eigen::Index mark = 0; mark < marks.rows(); ++mark) {
     const double position = position_on(*curve, marks.row(mark).transpose()) * last;
     const double area = line.marks_.areas[static_cast<std::size_t>(mark)];
@@ -196,7 +226,7 @@ void CentreLine::balance(std::vector<Share>& station, const Points& marks, const
 
 std::array<Eigen::Vector3d, 2> CentreLine::ends_on(const Shape& shape, const Points& centres) const {
   const Eigen::RowVector3d from = centres.row(0),
-                           along = (centres.row(station_count - 1) - from).stableNormalized();
+                           along = (centres.row(centres.rows() - 1) - from).stableNormalized();
   std::array<Eigen::Vector3d, 2> ends;
   for (std::size_t end = 0; end < 2; ++end) {
     const Eigen::RowVector3d corner = shape.vertices(end_corners_[end], Eigen::all).colwise().mean();
@@ -206,17 +236,17 @@ std::array<Eigen::Vector3d, 2> CentreLine::ends_on(const Shape& shape, const Poi
 }
 
 Eigen::Vector3d CentreLine::direction() const {
-  return (rest_.row(station_count - 1) - rest_.row(0)).transpose().stableNormalized();
+  return (rest_.row(rest_.rows() - 1) - rest_.row(0)).transpose().stableNormalized();
 }
 
 double CentreLine::radius() const {
   double sum = 0;
   for (const Section& section : sections_) sum += section.radius;
-  return sum / station_count;
+  return sum / static_cast<double>(sections_.size());
 }
 
 Points CentreLine::centres(const Points& marks) const {
-  Points result(station_count, 3);
+  Points result(static_cast<Eigen::Index>(stations_.size()), 3);
   for (std::size_t k = 0; k < stations_.size(); ++k) {
     Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();
     double weight = 0;
@@ -231,6 +261,7 @@ Points CentreLine::centres(const Points& marks) const {
 
 std::vector<CentreLine::Section> CentreLine::sections(const Points& marks, const Points& centres) const {
   std::vector<Section> result;
+  const auto station_count = static_cast<int>(stations_.size());
   for (int k = 0; k < station_count; ++k) {
     const int before = closed_ ? (k + station_count - 1) % station_count : std::max(k - 1, 0);
     const int after = closed_ ? (k + 1) % station_count : std::min(k + 1, station_count - 1);
@@ -262,6 +293,7 @@ double CentreLine::radius_at_rest(double share) const {
 
 CentreLineChange CentreLine::change(const Shape& now, const AffineMap& affine) const {
   CentreLineChange result;
+  const auto station_count = static_cast<int>(stations_.size());
   const Points marks = marks_.on(now);
   const Points centres = this->centres(marks);
   const std::vector<Section> sections = this->sections(marks, centres);
@@ -283,12 +315,7 @@ CentreLineChange CentreLine::change(const Shape& now, const AffineMap& affine) c
   } else {
     Points image(station_count, 3);
     for (int k = 0; k < station_count; ++k) image.row(k) = affine(rest_.row(k).transpose()).transpose();
-    for (int k = closed_ ? 0 : 1; k < (closed_ ? station_count : station_count - 1); ++k) {
-      const int before = (k + station_count - 1) % station_count, after = (k + 1) % station_count;
-      const double change = turn(centres.row(before), centres.row(k), centres.row(after)) -
-                            turn(image.row(before), image.row(k), image.row(after));
-      result.bending = std::max(result.bending, std::abs(change) * 180 / std::numbers::pi);
-    }
+    result.bending = largest_turn(turns(centres, closed_), turns(image, closed_)) * 180 / std::numbers::pi;
     for (int k = 0; k < station_count; ++k)
       ratios(k) =
           sections[static_cast<std::size_t>(k)].radius / sections_[static_cast<std::size_t>(k)].radius;

@@ -16,11 +16,11 @@ namespace stackabilization::detail {
 /// Changes of an elongated part against rest.
 struct CentreLineChange {
   double straightness = 0;  ///< distance of the line from its chord, of its length; straight lines only
-  double bending = 0;       ///< largest change of turn at a station against the affine image, degrees
-  double section = 0;       ///< largest loss of roundness of a round section, of its width
-  double profile = 0;       ///< unevenness of the change of the radii, of the radius
-  double length = 1;        ///< length over that at rest; straight lines only
-  double width = 1;  ///< smallest ratio of a radius to that at the same place at rest; straight lines only
+  double bending = 0;  ///< largest change of turn at one or two stations against the affine image, degrees
+  double section = 0;  ///< largest loss of roundness of a round section, of its width
+  double profile = 0;  ///< unevenness of the change of the radii, of the radius
+  double length = 1;   ///< length over that at rest; straight lines only
+  double width = 1;    ///< smallest ratio of a radius to that at the same place at rest; straight lines only
   /// Ratios of the radii at both ends to those at rest, by the best affine function; straight lines only.
   std::array<double, 2> end_widths = {1, 1};
   /// Ends of the surface on the line, by the corners that are there at rest, so that sliding in between moves

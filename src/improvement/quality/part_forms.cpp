@@ -50,14 +50,19 @@ PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded) : re
   }
   ThicknessOptions options;
   options.probes = thickness_samples;
+  std::vector<int> walls(forms_.size());  // probes that cross a wall, less those that cross the part
   for (ThicknessProbe& probe : thickness_probes(shape, options)) {
     // Solid members are as thick as wide: CentreLineChange::width.
-    const Form& form = forms_[at(shape.triangle_part[at(probe.near_triangle)])];
-    if (form.line && form.line->is_straight() && probe.at_rest > form.line->radius()) continue;
+    const int part = shape.triangle_part[at(probe.near_triangle)];
+    const Form& form = forms_[at(part)];
+    const bool through = form.line && probe.at_rest > form.line->radius();
+    walls[at(part)] += through ? -1 : 1;
+    if (through && form.line->is_straight()) continue;
     if (std::abs(unit_normal(shape, probe.near_triangle).dot(unit_normal(shape, probe.far_triangle))) >=
         opposite)
       probes_.push_back(std::move(probe));
   }
+  for (std::size_t part = 0; part < forms_.size(); ++part) forms_[part].hollow = walls[part] > 0;
 }
 
 /// Returns the stretches of a part: along and across a straight one, so that leaning is none; along the main
@@ -114,7 +119,7 @@ std::vector<QualityValue> PartForms::measure(const Shape& now) const {
     if (form.small) worsen(small_part, *least / *most, part);
     if (form.line && !form.small) {
       worsen(values[0], change.straightness, part);
-      worsen(thinnest, change.width, part);
+      if (!form.hollow) worsen(thinnest, change.width, part);
       worsen(values[1], change.bending, part);
       worsen(values[2], change.section, part);
       worsen(values[3], change.profile, part);

@@ -25,6 +25,7 @@ class PartForms {
  private:
   struct Form : PartForm {
     bool small = false;
+    bool hollow = false;  ///< most probes of thickness cross a wall, not the part
     std::vector<FlatFace> faces;
     std::vector<ParallelFaces> parallel;
   };

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "improvement/quality/creases.h"
 #include "improvement/quality/part_contacts.h"
 #include "improvement/quality/part_forms.h"
 #include "improvement/quality/whole_form.h"
@@ -33,6 +34,7 @@ constexpr std::array<MeasureWords, quality_measure_count> measure_words = {{
     {"piercing", "of the diagonal", false, limits::max_piercing},
     {"joints", "of the diagonal", false, limits::max_joints},
     {"symmetry", "of the diagonal", false, limits::max_symmetry},
+    {"creases", "of the diagonal", false, limits::max_creases},
     {"straightness", "of the length", false, limits::max_straightness},
     {"bending", "degrees", false, limits::max_bending},
     {"section", "of the width", false, limits::max_section},
@@ -122,12 +124,14 @@ struct QualityMeter::Data {
       : rest(validated(std::move(shape))),
         welded(detail::weld(rest.shape)),
         contacts(rest),
+        creases(rest.shape, welded, rest.structure.diagonal),
         parts(rest, welded),
         whole(rest, welded, parts, Direction(up).unit()) {}
 
   StructuredShape rest;
   detail::WeldedMesh welded;
   detail::PartContacts contacts;
+  detail::Creases creases;
   detail::PartForms parts;
   detail::WholeForm whole;
 
@@ -139,6 +143,7 @@ struct QualityMeter::Data {
 
   void append_forms(const Shape& now, std::vector<QualityValue>& values) const {
     values.push_back(whole.symmetry(now));
+    values.push_back(creases.measure(now));
     for (const QualityValue& value : parts.measure(now)) values.push_back(value);
     for (const QualityValue& value : whole.function(now)) values.push_back(value);
   }

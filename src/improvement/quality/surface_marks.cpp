@@ -13,6 +13,13 @@
 
 namespace stackabilization::detail {
 
+namespace {
+
+/// Ratio of the lengths of pieces that are tried, where there would be too many.
+constexpr double coarser = 1.25;
+
+}  // namespace
+
 void SurfaceMarks::append(const Shape& rest, std::int32_t triangle, const Eigen::Vector3d& point) {
   triangles.push_back(triangle);
   weights.push_back(barycentric_weights(rest, triangle, point));
@@ -80,22 +87,39 @@ SurfaceMarks outermost_vertices(const Shape& rest, const std::vector<std::int32_
 
 SurfaceMarks pieces_of(const Shape& rest, const std::vector<std::int32_t>& triangles, double length,
                        std::size_t max_pieces) {
-  SurfaceMarks marks;
-  std::size_t allowed = max_pieces;
+  if (triangles.size() > max_pieces) {
+    double area = 0;
+    for (const std::int32_t t : triangles) area += area_vector(rest, t).norm();
+    SurfaceMarks marks = marks_on(rest, triangles, static_cast<int>(max_pieces));
+    marks.areas.assign(marks.size(), area / static_cast<double>(max_pieces));
+    return marks;
+  }
+  std::vector<double> longest;
   for (const std::int32_t t : triangles) {
-    const double area = area_vector(rest, t).norm();
-    double longest = 0;
+    double edge = 0;
     for (int k = 0; k < 3; ++k)
-      longest = std::max(longest, (rest.corner(t, (k + 1) % 3) - rest.corner(t, k)).norm());
-    // Each side is cut in n: n^2 pieces.
-    const auto wanted = static_cast<std::size_t>(std::ceil(longest / length));
-    const std::size_t n = std::clamp<std::size_t>(wanted, 1, 64);
-    if (n * n > allowed) continue;
-    allowed -= n * n;
+      edge = std::max(edge, (rest.corner(t, (k + 1) % 3) - rest.corner(t, k)).norm());
+    longest.push_back(edge);
+  }
+  // Each side is cut in n: n^2 pieces.
+  const auto cuts = [&](double edge) {
+    return static_cast<std::size_t>(std::clamp(std::ceil(edge / length), 1.0, 64.0));
+  };
+  const auto count = [&] {
+    std::size_t pieces = 0;
+    for (const double edge : longest) pieces += cuts(edge) * cuts(edge);
+    return pieces;
+  };
+  while (count() > max_pieces) length *= coarser;
+  SurfaceMarks marks;
+  for (std::size_t row = 0; row < triangles.size(); ++row) {
+    const std::int32_t t = triangles[row];
+    const std::size_t n = cuts(longest[row]);
+    const double area = area_vector(rest, t).norm() / static_cast<double>(n * n);
     const auto add = [&](double a, double b) {
       marks.triangles.push_back(t);
       marks.weights.emplace_back(1 - a - b, a, b);
-      marks.areas.push_back(area / static_cast<double>(n * n));
+      marks.areas.push_back(area);
     };
     const double step = 1.0 / static_cast<double>(n);
     for (std::size_t i = 0; i < n; ++i)

@@ -34,9 +34,10 @@ SurfaceMarks marks_on(const Shape& rest, const std::vector<std::int32_t>& triang
 /// corners, each once.
 SurfaceMarks outermost_vertices(const Shape& rest, const std::vector<std::int32_t>& triangles);
 
-/// Returns the centres of pieces of some triangles, with their areas: triangles are cut in four until no edge
-/// is longer than `length`, as long as there are no more than `max_pieces` pieces in all. So the marks have
-/// the symmetries of the mesh.
+/// Returns the centres of pieces of some triangles, with their areas: the sides of a triangle are cut in n
+/// equal parts, none longer than `length`, or than a greater length where there would be more than
+/// `max_pieces` pieces. So the marks have the symmetries of the mesh. Of more triangles than that, returns
+/// `max_pieces` marks of equal area.
 SurfaceMarks pieces_of(const Shape& rest, const std::vector<std::int32_t>& triangles, double length,
                        std::size_t max_pieces);
 

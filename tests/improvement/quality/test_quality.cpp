@@ -96,7 +96,10 @@ TEST_CASE("A pose and a scale change no measure but those of fixed places", "[qu
 }
 
 TEST_CASE("A straight tube that is bent to an arc is as far from straight as the arc", "[quality]") {
-  const StructuredShape rest = upright_tube();
+  // Of 1,280 triangles, and of 20,480: more than there are pieces of a part.
+  const int finer = GENERATE(1, 4);
+  const StructuredShape rest = structures::tube_alone(
+      structures::straight_cylinder({0, 0, 0}, {0, 0, 10}, 1, 20 * finer + 1), 32 * finer);
   const double radius = 40;
   const Shape bent = mapped(rest.shape, [&](const Eigen::Vector3d& p) {
     const double angle = p.z() / radius, r = radius - p.x();
@@ -165,6 +168,98 @@ TEST_CASE("A kink in a line that was smooth is its angle", "[quality]") {
   const Shape oval =
       mapped(ring, [](const Eigen::Vector3d& p) { return Eigen::Vector3d(1.1 * p.x(), p.y(), p.z()); });
   CHECK(measured(rest, oval, QualityMeasure::bending) == Approx(0).margin(1e-6));
+}
+
+TEST_CASE("A wave across the plane of a handle counts as much as one within it", "[quality]") {
+  // Half of a ring of radius 5.
+  GeneralizedCylinder curve;
+  curve.centres.resize(93, 3);
+  curve.radii = Eigen::VectorXd::Constant(93, 0.5);
+  for (int k = 0; k < 93; ++k) {
+    const double angle = std::numbers::pi * k / 92;
+    curve.centres.row(k) << 5 * std::cos(angle), 5 * std::sin(angle), 0;
+  }
+  const StructuredShape rest = structures::tube_alone(curve, 16);
+  const double height = 0.05 * 5, waves = 6;
+  const auto wave = [&](const Eigen::Vector3d& p) {
+    return height * std::sin(waves * std::atan2(p.y(), p.x()));
+  };
+  const Shape across = mapped(
+      rest.shape, [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), p.y(), p.z() + wave(p)); });
+  const Shape within = mapped(rest.shape, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    return p + wave(p) * Eigen::Vector3d(p.x(), p.y(), 0).normalized();
+  });
+  // The turn at a station of a wave of height a and length 2 pi / w, at stations of step h, each the mean
+  // under a hat of that step: (2 - 2 cos(w h)) a / h, times the mean of the hat, the square of sin(w h / 2) /
+  // (w h / 2). At the two stations beside a crest together it is 2 cos(w h / 2) times that.
+  const double half = waves * std::numbers::pi / 23 / 2;
+  const double at_station =
+      (2 - 2 * std::cos(2 * half)) * 0.05 * waves / (2 * half) * std::pow(std::sin(half) / half, 2);
+  const double expected = 2 * std::cos(half) * at_station * 180 / std::numbers::pi;
+  CHECK(measured(rest, across, QualityMeasure::bending) == Approx(expected).epsilon(0.1));
+  CHECK(measured(rest, within, QualityMeasure::bending) > 0.9 * expected);
+}
+
+TEST_CASE("A vessel is as thick as its wall, a solid member as it is wide", "[quality]") {
+  const StructuredShape vessel = analyse_structure(solids::frustum_shell({})), member = upright_tube();
+  REQUIRE(vessel.structure.parts.size() == 1);
+  // The lower end gets narrower by 15 % of its radius, and all of the wall there moves inwards alike.
+  const auto narrowed = [](const Shape& shape) {
+    const Points& points = shape.vertices;
+    const double low = points.col(2).minCoeff(), height = points.col(2).maxCoeff() - low;
+    double radius = 0;
+    for (Eigen::Index v = 0; v < points.rows(); ++v)
+      if (points(v, 2) == low) radius = std::max(radius, points.row(v).head<2>().norm());
+    return mapped(shape, [=](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+      const double inwards = 0.15 * radius * (1 - (p.z() - low) / height);
+      const Eigen::Vector3d across(p.x(), p.y(), 0);
+      return p - std::min(inwards, across.norm()) * across.stableNormalized();
+    });
+  };
+  CHECK(measured(vessel, narrowed(vessel.shape), QualityMeasure::thickness) > 0.95);
+  CHECK(measured(member, narrowed(member.shape), QualityMeasure::thickness) == Approx(0.85).epsilon(0.02));
+}
+
+TEST_CASE("A crease across a plate is as long as its two faces are wide", "[quality]") {
+  const StructuredShape rest = plate();
+  const auto folded = [&](double degrees) {
+    const double slope = std::tan(degrees * std::numbers::pi / 180);
+    return measured(rest,
+                    mapped(rest.shape,
+                           [&](const Eigen::Vector3d& p) {
+                             return Eigen::Vector3d(p.x(), p.y(), p.z() + slope * std::max(0.0, p.x()));
+                           }),
+                    QualityMeasure::creases);
+  };
+  const double whole = 2 * 8 / rest.structure.diagonal;
+  CHECK(folded(30) == Approx(whole));
+  CHECK(folded(-25) == Approx(whole));
+  CHECK(folded(15) == Approx(0.5 * whole));
+  CHECK(folded(9.9) == 0);
+  // Each of the lines between five rows of vertices turns by atan(2.5 / 20), 7 degrees.
+  const Shape bent = mapped(rest.shape, [](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x(), p.y(), p.z() + p.x() * p.x() / (2 * 20));
+  });
+  CHECK(measured(rest, bent, QualityMeasure::creases) == 0);
+  // The edges of the plate are no creases, however its ends lean.
+  const Shape leaning = mapped(rest.shape, [](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x() + 0.5 * p.z(), p.y(), p.z());
+  });
+  CHECK(measured(rest, leaning, QualityMeasure::creases) == 0);
+}
+
+TEST_CASE("A crease from a smooth ridge to a smooth hollow is the sum of both folds", "[quality]") {
+  const StructuredShape rest = plate();
+  const auto folded = [&](double degrees) {
+    const double slope = std::tan(degrees * std::numbers::pi / 180);
+    StructuredShape result = rest;
+    for (Eigen::Index v = 0; v < result.shape.vertex_count(); ++v)
+      result.shape.vertices(v, 2) += slope * std::max(0.0, result.shape.vertices(v, 0));
+    return result;
+  };
+  // From 7 degrees down to 8 degrees up: 15 in all, half of a crease.
+  CHECK(measured(folded(-7), folded(8).shape, QualityMeasure::creases) ==
+        Approx(0.5 * 2 * 8 / rest.structure.diagonal));
 }
 
 TEST_CASE("A round section that is squashed loses roundness, and a bulge is a profile", "[quality]") {

@@ -292,7 +292,7 @@ TEST_CASE("a damaged state is named with the place and what was expected there")
            {"\"turn\":0", "\"turn\":1", "/turn: expected an integer from 0 to 0, found 1"},
            {"\"directions\":[[0.0,0.0,1.0]]", "\"directions\":[]", "/directions: expected at least one"},
            {"\"directions\":[[0.0,0.0,1.0]]", "\"directions\":[[0.0,0.0,0.0]]", "/directions/0: a direction"},
-           {"\"version\":4", "\"version\":3", "/: this is no saved search of this version"},
+           {"\"version\":5", "\"version\":4", "/: this is no saved search of this version"},
            {"\"reason\":[", "\"reason\":[true,", "/reason: expected a list of 3"},
            {"\"refusals\":[]", "\"refusals\":{}", "/refusals: expected a list"},
            {"\"refusals\":[]", "\"refusals\":[3]", "/refusals/0: expected an object"},
