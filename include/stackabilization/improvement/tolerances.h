@@ -47,11 +47,11 @@ inline constexpr double coplanar = 0.0175;
 /// Angle between neighbouring triangles below which a surface is smooth there, radians: 30 degrees.
 inline constexpr double smooth_fold = std::numbers::pi / 6;
 
-/// Change of that angle from which on there is a crease, radians: 10 degrees.
-inline constexpr double slight_crease = std::numbers::pi / 18;
+/// Change of that angle from which on there is a crease, radians: 15 degrees.
+inline constexpr double slight_crease = std::numbers::pi / 12;
 
-/// Change of that angle from which on a crease counts in full, radians: 20 degrees.
-inline constexpr double full_crease = std::numbers::pi / 9;
+/// Change of that angle from which on a crease counts in full, radians: 25 degrees.
+inline constexpr double full_crease = 5 * std::numbers::pi / 36;
 
 /// Height of a triangle over a side below which its plane is mostly rounding there, fraction of the diagonal.
 inline constexpr double needle = 1e-4;
@@ -83,7 +83,7 @@ inline constexpr double max_collision = 0;          ///< default limit, pairs of
 inline constexpr double max_piercing = 0.005;       ///< default limit, of the diagonal
 inline constexpr double max_joints = 0.002;         ///< default limit, of the diagonal
 inline constexpr double max_symmetry = 0.002;       ///< default limit, of the diagonal
-inline constexpr double max_creases = 0.02;         ///< default limit, of the diagonal
+inline constexpr double max_creases = 0.05;         ///< default limit, of the diagonal
 inline constexpr double max_straightness = 0.005;   ///< default limit, of the length
 inline constexpr double max_bending = 10;           ///< default limit, degrees
 inline constexpr double max_section = 0.06;         ///< default limit, of the width

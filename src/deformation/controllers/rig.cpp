@@ -54,6 +54,8 @@ Rig::Rig(const Structure& structure, Following following) : rest(structure), spa
             : invariant_basis(space, c, reduced_basis(first, strains.back(), Following::free)));
     const auto* cylinder = std::get_if<GeneralizedCylinder>(&first);
     slides.push_back(cylinder && !cylinder->closed ? slide_functions(*cylinder) : Eigen::MatrixXd());
+    // Castors and knobs are bought, not made: their sections stay where they are.
+    if (following == Following::smooth && strains.back() < 1) slides.back().resize(slides.back().rows(), 0);
     turnings.push_back(cylinder ? turning(*cylinder) : Eigen::MatrixXd());
   }
   distinct_joints = detail::distinct_joints(*this);

@@ -43,8 +43,10 @@ struct Rig {
   /// Per class: the basis of Following::free, projected likewise. Tapers make no affine maps of parts, and so
   /// need these to close joints.
   std::vector<Eigen::MatrixXd> free_bases;
-  std::vector<double> strains;          ///< per class: strain_scale
-  std::vector<Eigen::MatrixXd> slides;  ///< per class: slide_functions of an open cylinder, otherwise empty
+  std::vector<double> strains;  ///< per class: strain_scale
+  /// Per class: slide_functions of an open cylinder, otherwise empty, and without columns for small parts
+  /// (strain_scale below 1) with Following::smooth.
+  std::vector<Eigen::MatrixXd> slides;
   /// Per class: `turning` of a generalized cylinder, empty for a cuboid.
   std::vector<Eigen::MatrixXd> turnings;
 };

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/index.h"
+#include "deformation/model/straight_curve.h"
 #include "improvement/contacts/contact_handles.h"
 #include "improvement/contacts/contact_symmetry.h"
 #include "stackabilization/core/errors.h"
@@ -306,7 +307,8 @@ bool is_smooth(const Edit& edit, const Primitive& primitive) {
   const Handle& handle = edit.handle;
   if (handle.kind == HandleKind::part || std::holds_alternative<Taper>(edit.operation)) return true;
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&primitive))
-    return handle.kind == HandleKind::section && !cylinder->closed && edit.falloff == Falloff::linear &&
+    return handle.kind == HandleKind::section && detail::is_straight(*cylinder) &&
+           edit.falloff == Falloff::linear &&
            (handle.index == 0 || handle.index == cylinder->centres.rows() - 1);
   if (handle.kind != HandleKind::face) return false;
   const OrientedBox box = nearest_box(std::get<Cuboid>(primitive));

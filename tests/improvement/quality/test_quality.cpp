@@ -233,9 +233,9 @@ TEST_CASE("A crease across a plate is as long as its two faces are wide", "[qual
   };
   const double whole = 2 * 8 / rest.structure.diagonal;
   CHECK(folded(30) == Approx(whole));
-  CHECK(folded(-25) == Approx(whole));
-  CHECK(folded(15) == Approx(0.5 * whole));
-  CHECK(folded(9.9) == 0);
+  CHECK(folded(-26) == Approx(whole));
+  CHECK(folded(20) == Approx(0.5 * whole));
+  CHECK(folded(14.9) == 0);
   // Each of the lines between five rows of vertices turns by atan(2.5 / 20), 7 degrees.
   const Shape bent = mapped(rest.shape, [](const Eigen::Vector3d& p) {
     return Eigen::Vector3d(p.x(), p.y(), p.z() + p.x() * p.x() / (2 * 20));
@@ -257,8 +257,8 @@ TEST_CASE("A crease from a smooth ridge to a smooth hollow is the sum of both fo
       result.shape.vertices(v, 2) += slope * std::max(0.0, result.shape.vertices(v, 0));
     return result;
   };
-  // From 7 degrees down to 8 degrees up: 15 in all, half of a crease.
-  CHECK(measured(folded(-7), folded(8).shape, QualityMeasure::creases) ==
+  // From 9 degrees down to 11 degrees up: 20 in all, half of a crease.
+  CHECK(measured(folded(-9), folded(11).shape, QualityMeasure::creases) ==
         Approx(0.5 * 2 * 8 / rest.structure.diagonal));
 }
 
