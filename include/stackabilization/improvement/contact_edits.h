@@ -17,9 +17,9 @@ enum class EditFamily {
 };
 
 /// Returns whether an edit of a part with this primitive keeps straight members straight, flat faces flat and
-/// profiles even: all edits of whole parts; edits of the ends of a generalized cylinder with Falloff::linear;
-/// moves of a face of a cuboid along its normal, and all edits of the two ends of a cuboid that is at least 3
-/// times as long as wide. Other models than controllers have no smooth edits.
+/// profiles even: all edits of whole parts; edits of the ends of a straight generalized cylinder with
+/// Falloff::linear; moves of a face of a cuboid along its normal, and all edits of the two ends of a cuboid
+/// that is at least 3 times as long as wide. Other models than controllers have no smooth edits.
 bool is_smooth(const Edit& edit, const Primitive& primitive);
 
 /// Options of `contact_edits`.

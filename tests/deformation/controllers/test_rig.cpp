@@ -94,3 +94,12 @@ TEST_CASE("an affine motion of a tube costs its strain, however little the tube 
     CHECK((products(tube) - wanted).norm() < 1e-12);
   }
 }
+
+TEST_CASE("small parts of smooth designs do not slide within themselves") {
+  Structure structure =
+      structures::tube_alone(structures::straight_cylinder({0, 0, 0}, {0, 0, 1}, 0.1, 6), 12).structure;
+  CHECK(Rig(structure, Following::smooth).slides[0].cols() == 4);
+  structure.diagonal = 20;  // as of a part of something larger
+  CHECK(Rig(structure, Following::smooth).slides[0].cols() == 0);
+  CHECK(Rig(structure, Following::free).slides[0].cols() == 4);
+}

@@ -463,5 +463,19 @@ TEST_CASE("nothing touches: nothing to suggest, and options out of range are ref
   refused([](auto& o) { o.max_regions = 0; });
 }
 
+TEST_CASE("ends of straight cylinders are smooth handles, those of bent bars and inner sections are not") {
+  const Primitive post = structures::straight_cylinder({0, 0, 0}, {0, 0, 3}, 0.1, 5),
+                  handle = structures::arc_cylinder(3, 0.2, -1, 1, 5);
+  const auto smooth = [](const Primitive& primitive, int section, Falloff falloff) {
+    return is_smooth({{HandleKind::section, 0, section}, Move{{0.1, 0, 0}}, falloff}, primitive);
+  };
+  CHECK(smooth(post, 0, Falloff::linear));
+  CHECK(smooth(post, 4, Falloff::linear));
+  CHECK_FALSE(smooth(post, 2, Falloff::linear));
+  CHECK_FALSE(smooth(post, 4, Falloff::gaussian));
+  CHECK_FALSE(smooth(handle, 0, Falloff::linear));
+  CHECK_FALSE(smooth(handle, 4, Falloff::linear));
+}
+
 }  // namespace
 }  // namespace stackabilization
