@@ -46,8 +46,8 @@ Creases::Creases(const Shape& rest, const WeldedMesh& welded, double diagonal) {
 double Creases::fold(const SmoothEdge& edge, const Shape& shape, const Eigen::Vector3d& left,
                      const Eigen::Vector3d& right) {
   const double angle = angle_between(left, edge.flipped ? Eigen::Vector3d(-right) : right);
-  const bool hollow = left.dot(vertex(shape, edge.corner) - vertex(shape, edge.on_edge)) > 0;
-  return hollow ? -angle : angle;
+  const bool concave = left.dot(vertex(shape, edge.corner) - vertex(shape, edge.on_edge)) > 0;
+  return concave ? -angle : angle;
 }
 
 QualityValue Creases::measure(const Shape& now) const {

@@ -25,12 +25,12 @@ class Creases {
     std::int32_t corner;       ///< vertex of `right` across the edge
     std::int32_t on_edge;      ///< a vertex of the edge
     bool flipped;              ///< whether the two triangles are oriented against each other
-    double fold;               ///< at rest, radians; negative where the surface is hollow
+    double fold;               ///< at rest, radians; negative where the surface is concave
     double length;             ///< at rest, of the diagonal
     double still;              ///< cosine of the folds between which no crease can be
   };
 
-  /// Returns the fold of the surface at an edge, radians; negative where it is hollow. `left`, `right`: unit
+  /// Returns the fold of the surface at an edge, radians; negative where it is concave. `left`, `right`: unit
   /// normals.
   static double fold(const SmoothEdge& edge, const Shape& shape, const Eigen::Vector3d& left,
                      const Eigen::Vector3d& right);
