@@ -1,6 +1,8 @@
-# stackabilization_embed(TARGET SOURCE PATH=FILE ...): adds a source to the target that holds the bytes of these files
-# under these paths, see apps/common/embedded_files.h. The assembler reads them, which takes no time to compile.
+# stackabilization_embed(TARGET SOURCE PATH=FILE ...): adds sources to the target that hold the bytes of these files under
+# these paths, see apps/common/embedded_files.h. The assembler reads them, which takes no time to compile; from a source
+# of its own, since compiler caches do not see what it reads: for C++ they would return the bytes of older files.
 function(stackabilization_embed target source)
+  string(REGEX REPLACE "[.]cpp$" ".S" assembly_source ${source})
   set(assembly "")
   set(declarations "")
   set(rows "")
@@ -11,15 +13,16 @@ function(stackabilization_embed target source)
     set(path ${CMAKE_MATCH_1})
     set(file ${CMAKE_MATCH_2})
     list(APPEND files ${file})
-    string(APPEND assembly "    \"embedded_file_${row}:\\n.incbin \\\"${file}\\\"\\nembedded_file_${row}_end:\\n\"\n")
+    string(APPEND assembly ".globl embedded_file_${row}, embedded_file_${row}_end
+embedded_file_${row}:
+.incbin \"${file}\"
+embedded_file_${row}_end:
+")
     string(APPEND declarations "extern const char embedded_file_${row}[], embedded_file_${row}_end[];\n")
     string(APPEND rows "      {\"${path}\", bytes(embedded_file_${row}, embedded_file_${row}_end)},\n")
     math(EXPR row "${row} + 1")
   endforeach()
   set(text "#include \"apps/common/embedded_files.h\"
-
-asm(\".pushsection .rodata\\n\"
-${assembly}    \".byte 0\\n.popsection\\n\");
 
 extern \"C\" {
 ${declarations}}
@@ -43,6 +46,10 @@ ${rows}  };
 }  // namespace stackabilization::apps
 ")
   file(GENERATE OUTPUT ${source} CONTENT "${text}")
-  target_sources(${target} PRIVATE ${source})
-  set_source_files_properties(${source} PROPERTIES OBJECT_DEPENDS "${files}" SKIP_UNITY_BUILD_INCLUSION ON)
+  file(GENERATE OUTPUT ${assembly_source} CONTENT ".section .rodata
+${assembly}.byte 0
+.section .note.GNU-stack,\"\",%progbits
+")
+  target_sources(${target} PRIVATE ${source} ${assembly_source})
+  set_source_files_properties(${assembly_source} PROPERTIES OBJECT_DEPENDS "${files}")
 endfunction()

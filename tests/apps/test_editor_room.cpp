@@ -3,6 +3,7 @@
 #include <boost/asio/read.hpp>
 #include <boost/asio/write.hpp>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <new>
@@ -10,6 +11,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "apps/common/page_files.h"
 #include "apps/editor/page_command.h"
 #include "apps/editor/room.h"
 #include "stackabilization/core/errors.h"
@@ -100,6 +102,22 @@ TEST_CASE("rows that no int holds are refused, not cut off") {
   const editing::Command keep =
       page_command(Json::parse(R"({"do": "keep", "parts": [2147483647]})"), structures::table(1));
   CHECK(std::get<editing::KeepParts>(keep).parts == std::vector<int>{2147483647});
+}
+
+TEST_CASE("the program holds the files of its page as they are now") {
+  const std::filesystem::path folder =
+      std::filesystem::path(STACKABILIZATION_SOURCE_DIR) / "apps/editor/page";
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file()) continue;
+    INFO(entry.path());
+    const auto embedded = page_file(std::filesystem::relative(entry.path(), folder).generic_string());
+    REQUIRE(embedded);
+    CHECK(embedded->bytes == read_file(entry.path()));
+    ++files;
+  }
+  CHECK(files > 10);
+  CHECK_FALSE(page_file("none.js"));
 }
 
 TEST_CASE("whatever fails is told in words for people, and the program goes on") {
