@@ -100,6 +100,7 @@ struct ContactSituation {
 /// | --- | --- |
 /// | nearest | cuboid: the nearest face, and the nearest corner if the contact is near one |
 /// | | generalized cylinder: the nearest cross-section, or the nearest end if it has to stay straight |
+/// | | smooth family: the nearer end of the part that is widest across r, if that is round about r |
 /// | | models that do not edit primitives: the nearest point, wire and slice |
 /// | end (E) | cuboid: the faces across r; generalized cylinder: both end sections, with Falloff::linear |
 /// | whole (E) | the part |
@@ -130,6 +131,8 @@ struct ContactSituation {
 ///   that one; wider by the smallest size.
 /// * Plates (cuboids thin along the contact, E): the touched face moves along r only. The two edge faces on
 ///   the side of the contact draw back from it, if their normals lie across r.
+/// * The whole shape, with the largest region (smooth family): tapers towards either end along r, narrower
+///   and wider; in both widths, and where the widest part is not round about r also in u or v alone.
 /// * Gap scaling: one edit, the scaling of the shape along r.
 ///
 /// Edits that a self-symmetry forbids are left out, for instance moves of a handle across a mirror plane on

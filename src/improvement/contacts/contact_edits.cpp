@@ -101,7 +101,8 @@ class ContactEditor {
     const ContactRegion& region = situation_.regions.front();
     for (const double size : taper_sizes)
       for (const double sign : {-1.0, 1.0})
-        for (const Edit& edit : tapers(frame_, 1 + sign * size * options_.scale_step))
+        for (const Edit& edit :
+             tapers(frame_, situation_.design.primitives, 1 + sign * size * options_.scale_step))
           edits_.push_back({edit,
                             region.type,
                             0,

@@ -133,9 +133,10 @@ ContactHandle end_of(const GeneralizedCylinder& cylinder, int part, int section)
   return end;
 }
 
+/// `is_round_body`: see `round_body`. Its nearer end also moves along w where no other section may.
 void add_cylinder_handles(std::vector<ContactHandle>& handles, const GeneralizedCylinder& cylinder,
-                          const ContactSide& side, const ContactEditOptions& options) {
-  const int nearest = nearest_row(cylinder.centres, side.centre);
+                          bool is_round_body, const ContactSide& side, const ContactEditOptions& options) {
+  int nearest = nearest_row(cylinder.centres, side.centre);
   const int last = static_cast<int>(cylinder.centres.rows()) - 1;
   const bool ring = side.region.type == ContactType::ring;
   const bool straight = ring ? has_straight_wall(cylinder) : is_straight(cylinder);
@@ -147,6 +148,7 @@ void add_cylinder_handles(std::vector<ContactHandle>& handles, const Generalized
   }
   const bool at_end = nearest == 0 || nearest == last;
   if (free && (ring || options.bends || !at_end)) handles.push_back(section_of(cylinder, side.part, nearest));
+  if (is_round_body && options.family == EditFamily::smooth) nearest = 2 * nearest <= last ? 0 : last;
   for (const int end : {0, last}) {
     handles.push_back(end_of(cylinder, side.part, end));
     handles.back().role = end == nearest ? ContactHandle::Role::nearest : ContactHandle::Role::end;
@@ -194,6 +196,18 @@ std::vector<ContactHandle> surface_handles(const ContactSituation& situation, co
   return result;
 }
 
+/// Returns the larger of the widths of a primitive along u and along v, model units.
+double width_of(const Primitive& primitive, const ContactFrame& frame) {
+  const Points points = control_points(primitive);
+  const auto* cylinder = std::get_if<GeneralizedCylinder>(&primitive);
+  double width = 0;
+  for (const Eigen::Vector3d& axis : {frame.u, frame.v}) {
+    const Eigen::VectorXd places = points * axis;
+    width = std::max(width, places.maxCoeff() - places.minCoeff());
+  }
+  return width + (cylinder ? 2 * cylinder->radii.maxCoeff() : 0);
+}
+
 }  // namespace
 
 Points part_points(const Shape& shape, int part) {
@@ -222,7 +236,8 @@ std::vector<ContactHandle> contact_handles(const ContactSituation& situation, co
   if (const auto* cuboid = std::get_if<Cuboid>(&primitive))
     add_cuboid_handles(handles, *cuboid, side, frame, options.family);
   else
-    add_cylinder_handles(handles, std::get<GeneralizedCylinder>(primitive), side, options);
+    add_cylinder_handles(handles, std::get<GeneralizedCylinder>(primitive),
+                         round_body(situation.design.primitives, frame) == side.part, side, options);
   if (options.family == EditFamily::paper) return handles;
   ContactHandle whole;
   whole.handle = {HandleKind::part, side.part, 0};
@@ -233,9 +248,21 @@ std::vector<ContactHandle> contact_handles(const ContactSituation& situation, co
   return handles;
 }
 
-std::vector<Edit> tapers(const ContactFrame& frame, double factor) {
+int round_body(const std::vector<Primitive>& primitives, const ContactFrame& frame) {
+  const auto widest = std::max_element(
+      primitives.begin(), primitives.end(),
+      [&](const Primitive& a, const Primitive& b) { return width_of(a, frame) < width_of(b, frame); });
+  if (widest == primitives.end()) return -1;
+  const auto* cylinder = std::get_if<GeneralizedCylinder>(&*widest);
+  const bool round = cylinder && !cylinder->closed && is_straight(*cylinder) &&
+                     std::abs(chord_of(*cylinder).normalized().dot(frame.w)) >= tolerance::parallel;
+  return round ? static_cast<int>(widest - primitives.begin()) : -1;
+}
+
+std::vector<Edit> tapers(const ContactFrame& frame, const std::vector<Primitive>& primitives, double factor) {
+  std::vector<std::optional<Eigen::Vector3d>> widths = {std::nullopt};
+  if (round_body(primitives, frame) < 0) widths.insert(widths.end(), {frame.u, frame.v});
   std::vector<Edit> edits;
-  const std::array<std::optional<Eigen::Vector3d>, 3> widths = {std::nullopt, frame.u, frame.v};
   for (const Eigen::Vector3d& axis : {Eigen::Vector3d(-frame.w), frame.w})
     for (const std::optional<Eigen::Vector3d>& along : widths)
       edits.push_back({{HandleKind::shape, 0, 0}, Taper{factor, axis, along}});

@@ -40,8 +40,12 @@ Points part_points(const Shape& shape, int part);
 std::vector<ContactHandle> contact_handles(const ContactSituation& situation, const ContactSide& side,
                                            const ContactFrame& frame, const ContactEditOptions& options);
 
+/// Returns the part that is widest across w, if it is round about w: the body of a vessel. -1: it is not.
+int round_body(const std::vector<Primitive>& primitives, const ContactFrame& frame);
+
 /// Returns the tapers of the whole shape with a factor: towards either end of the extent along w, along u,
-/// along v and along both.
-std::vector<Edit> tapers(const ContactFrame& frame, double factor);
+/// along v and along both. Only along both where there is a round body: its circles stay circles, so tapers
+/// along u or v do less of the same.
+std::vector<Edit> tapers(const ContactFrame& frame, const std::vector<Primitive>& primitives, double factor);
 
 }  // namespace stackabilization::detail

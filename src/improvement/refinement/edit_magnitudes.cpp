@@ -92,8 +92,9 @@ Eigen::Vector3d face_normal(const Cuboid& cuboid, int face) {
   return (middle - cuboid.corners.colwise().mean()).transpose().normalized();
 }
 
-/// Returns the edits offered for one handle.
-std::vector<Edit> edits_of(const Handle& handle, const StructuredShape& rest, const ContactFrame& frame) {
+/// Returns the edits offered for one handle. `round_body`: see there.
+std::vector<Edit> edits_of(const Handle& handle, const StructuredShape& rest, const ContactFrame& frame,
+                           int round_body) {
   const Structure& structure = rest.structure;
   const Primitive& primitive = structure.parts[static_cast<std::size_t>(handle.part)].primitive;
   const auto* cylinder = std::get_if<GeneralizedCylinder>(&primitive);
@@ -109,6 +110,8 @@ std::vector<Edit> edits_of(const Handle& handle, const StructuredShape& rest, co
       return {{handle, Scale{unit_factor, std::nullopt}, falloff}};
     }
     falloff = Falloff::linear;
+    const double height = cylinder->centres.row(handle.index).dot(frame.w);
+    if (handle.part == round_body && !frame.on_end({height, height})) axes.push_back(frame.w);
   } else if (handle.kind == HandleKind::face) {
     const Eigen::Vector3d normal = face_normal(std::get<Cuboid>(primitive), handle.index);
     const bool along_r = std::abs(normal.dot(frame.w)) > std::sqrt(0.5);
@@ -167,9 +170,10 @@ std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edit
   std::vector<bool> stands_for_others(rest.structure.parts.size());
   for (const std::vector<int>& members : symmetric_classes(rest.structure))
     stands_for_others[static_cast<std::size_t>(members.front())] = true;
+  const int body = round_body(design.primitives, frame);
   std::vector<MagnitudeEdit> result;
   if (family == EditFamily::smooth)
-    for (const Edit& edit : tapers(frame, unit_factor))
+    for (const Edit& edit : tapers(frame, design.primitives, unit_factor))
       if (std::none_of(edits.begin(), edits.end(),
                        [&](const MagnitudeEdit& there) { return merge(there.edit, edit).has_value(); }))
         result.push_back({edit, std::nullopt});
@@ -177,7 +181,7 @@ std::vector<MagnitudeEdit> possible_edits(const std::vector<MagnitudeEdit>& edit
     if (handle.kind == HandleKind::shape || !stands_for_others[static_cast<std::size_t>(handle.part)])
       continue;
     const Primitive& primitive = rest.structure.parts[static_cast<std::size_t>(handle.part)].primitive;
-    for (const Edit& edit : edits_of(handle, rest, frame))
+    for (const Edit& edit : edits_of(handle, rest, frame, body))
       if ((family != EditFamily::smooth || is_smooth(edit, primitive)) &&
           std::none_of(edits.begin(), edits.end(),
                        [&](const MagnitudeEdit& there) { return merge(there.edit, edit).has_value(); }))

@@ -477,5 +477,35 @@ TEST_CASE("ends of straight cylinders are smooth handles, those of bent bars and
   CHECK_FALSE(smooth(handle, 4, Falloff::linear));
 }
 
+TEST_CASE("a round body tapers evenly, and its end near a contact moves along r") {
+  StructuredShape cup = straight_cup();
+  cup.structure.parts[0].primitive = structures::straight_cylinder({0, 0, 1}, {0, 0, 9}, 4, 11);
+  const std::vector<ContactRegion> ring = {region_at(ContactType::ring, {0, 0}, {3.5, 0, 3}, {3.5, 0, 3})};
+  ContactEditOptions options;
+  options.family = EditFamily::smooth;
+  const auto edits = edits_of(cup, ring, upwards, options);
+  const auto tapers = [](const std::vector<ContactEdit>& of, bool even) {
+    return std::count_if(of.begin(), of.end(), [&](const ContactEdit& one) {
+      const auto* taper = std::get_if<Taper>(&one.edit.operation);
+      return taper != nullptr && taper->along.has_value() != even;
+    });
+  };
+  CHECK(tapers(edits, true) == 12);  // three sizes, narrower and wider, towards either end
+  CHECK(tapers(edits, false) == 0);
+  const auto along_r = [&](int section) {
+    return std::any_of(edits.begin(), edits.end(), [&](const ContactEdit& one) {
+      return one.edit.handle.kind == HandleKind::section && one.edit.handle.index == section &&
+             moves_along(one, Vector3d::UnitZ());
+    });
+  };
+  CHECK(along_r(0));
+  CHECK_FALSE(along_r(10));
+
+  // Across its axis the same body is none that is round about r: its widths differ.
+  CHECK(tapers(edits_of(cup, ring, Direction(Vector3d::UnitX()), options), false) == 24);
+  const StructuredShape table = structures::table();
+  CHECK(tapers(edits_of(table, regions_of(table.shape, upwards), upwards, options), false) == 24);
+}
+
 }  // namespace
 }  // namespace stackabilization
