@@ -79,8 +79,9 @@ struct Refusal {
 Refusal without_amounts(Refusal refusal);
 
 /// Returns the refusal as one sentence without a full stop: which requirement would be violated, and by how
-/// much. "..." stands for numbers that are not told. `structure`: that of the shape at rest; only the names
-/// of its parts and relations are used. Throws std::out_of_range when it has no such part or relation.
+/// much if its amount is told. "..." stands for components of an axis that are not told. `structure`: that of
+/// the shape at rest; only the names of its parts and relations are used. Throws std::out_of_range when it
+/// has no such part or relation.
 std::string describe(const Refusal& refusal, const Structure& structure);
 
 }  // namespace stackabilization

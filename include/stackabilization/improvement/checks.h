@@ -78,7 +78,7 @@ struct ObstacleCount {
   std::int64_t count = 0;  ///< number of edits or designs
 };
 
-/// Returns the obstacle as one sentence, "..." for amounts, and the count: "'leg' is fixed (12 edits)".
+/// Returns the obstacle as one sentence without amounts, and the count: "'leg' is fixed (12 edits)".
 std::string describe(const ObstacleCount& count, const Structure& rest);
 
 /// Sorts the counts: the most frequent first, equal ones in the alphabetical order of their sentences.

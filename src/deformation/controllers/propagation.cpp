@@ -1,9 +1,9 @@
 #include "deformation/controllers/propagation.h"
 
 #include <Eigen/LU>
-#include <Eigen/SVD>
 
 #include "core/index.h"
+#include "numerics/polar_decomposition.h"
 #include "stackabilization/deformation/tolerances.h"
 
 namespace stackabilization::detail {
@@ -32,9 +32,7 @@ AffineMotion fitted(const Points& p, const Points& q) {
   if (!(spread > 0)) return motion;
   const Eigen::Matrix3d covariance =
       to.transpose() * from + rotation_pull * spread * Eigen::Matrix3d::Identity();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double sign = svd.matrixU().determinant() * svd.matrixV().determinant() < 0 ? -1 : 1;
-  motion.rotation = svd.matrixU() * Eigen::Vector3d(1, 1, sign).asDiagonal() * svd.matrixV().transpose();
+  motion.rotation = polar_decomposition(covariance).rotation;
   const Points turned = from * motion.rotation.transpose();
   const Eigen::Matrix3d moments =
       turned.transpose() * turned + strain_pull * spread * Eigen::Matrix3d::Identity();

@@ -3,10 +3,10 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <Eigen/SVD>
 #include <algorithm>
 
 #include "deformation/model/mean_value_coordinates.h"
+#include "numerics/polar_decomposition.h"
 
 namespace stackabilization::detail {
 
@@ -65,12 +65,9 @@ std::vector<HollowBoxBinding> HollowBoxAtRest::bind(const Points& points) const 
 HollowBoxMotion HollowBoxAtRest::motion(const Cuboid& now) const {
   HollowBoxMotion motion;
   motion.corners = now.corners.rowwise() - centre_.transpose();
-  const Eigen::Matrix3d affine = motion.corners.transpose() * gradient_;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(affine, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Vector3d signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-  motion.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
-  motion.stretch =
-      svd.matrixV() * signs.cwiseProduct(svd.singularValues()).asDiagonal() * svd.matrixV().transpose();
+  const PolarDecomposition polar = polar_decomposition(motion.corners.transpose() * gradient_);
+  motion.rotation = polar.rotation;
+  motion.stretch = polar.stretch();
   motion.axes = motion.rotation * axes_;
   return motion;
 }

@@ -12,44 +12,42 @@ namespace {
 
 /// One sentence per cause, in the order of RefusalCause. "%p": the part; "%r": the relation; "%i", "%o" and
 /// "%s": index, other and symmetry; "%x": the index as the name of an axis; "%a": the axis; "%3" and "%4":
-/// the amount to that many digits.
+/// the amount to that many digits. What stands in brackets is left out where the amount is not told.
 constexpr std::array<std::string_view, static_cast<std::size_t>(RefusalCause::uneven_row) + 1> sentences = {
     "'%p' is fixed, or symmetric to a part that is",
-    "%r does not let the shape go where the edit takes it: it would be off by %3 of the diagonal",
-    "%r does not let '%p' go where the edit takes it: it would miss by %3 of the diagonal",
-    "%r does not let '%p' go where the edit takes it: it would miss by %3 radians",
-    "%r would be off by %3 of the diagonal",
+    "%r does not let the shape go where the edit takes it[: it would be off by %3 of the diagonal]",
+    "%r does not let '%p' go where the edit takes it[: it would miss by %3 of the diagonal]",
+    "%r does not let '%p' go where the edit takes it[: it would miss by %3 radians]",
+    "%r would be off[ by %3 of the diagonal]",
     "'%p' would leave the range of numbers",
     "'%p' is turned inside out at corner %i",
     "'%p' collapses at corner %i",
     "'%p' loses the radius of cross-section %i",
     "'%p' collapses after cross-section %i",
     "'%p' folds after cross-section %i",
-    "a fixed point would move by %3 of the diagonal",
-    "the extent along %a would begin or end elsewhere, off by %3 of the diagonal",
-    "the extent along %a would be too long by %3 of the diagonal",
-    "the extent along %a would be too short by %3 of the diagonal",
+    "a fixed point would move[ by %3 of the diagonal]",
+    "the extent along %a would begin or end elsewhere[, off by %3 of the diagonal]",
+    "the extent along %a would be too long[ by %3 of the diagonal]",
+    "the extent along %a would be too short[ by %3 of the diagonal]",
     "the edit takes vertex %i out of the range of numbers",
-    "the edit would move what is to stay fixed (vertex %i) by %4 of the diagonal",
-    "the edit would flatten the shape along the direction whose extent is kept by %4 of the diagonal",
-    "what is fixed leaves the lower end of the extent no room to be kept: it changes by %4 of the "
-    "diagonal",
-    "what is fixed leaves the upper end of the extent no room to be kept: it changes by %4 of the "
-    "diagonal",
-    "the edit would change the side of the box along %x by %4 of the diagonal",
-    "wire %i would come apart from wire %o, by %3 of the diagonal",
-    "wire %i would leave the plane of wire %o, by %3 of the diagonal",
-    "wire %i would no longer be the image of wire %o under a symmetry, by %3 of the diagonal",
-    "wire %i would leave a point that is to stay, by %3 of the diagonal",
-    "wire %i would change the extent that is to be kept, by %3 of the diagonal",
-    "wire %i would shrink to nothing or turn inside out, by %3 of the diagonal",
-    "symmetry %s would no longer be one, by %3 of any length",
-    "wire %i would no longer be the image of wire %o under symmetry %s, by %3 of the diagonal",
+    "the edit would move what is to stay fixed (vertex %i)[ by %4 of the diagonal]",
+    "the edit would flatten the shape along the direction whose extent is kept[ by %4 of the diagonal]",
+    "what is fixed leaves the lower end of the extent no room to be kept[: it changes by %4 of the diagonal]",
+    "what is fixed leaves the upper end of the extent no room to be kept[: it changes by %4 of the diagonal]",
+    "the edit would change the side of the box along %x[ by %4 of the diagonal]",
+    "wire %i would come apart from wire %o[, by %3 of the diagonal]",
+    "wire %i would leave the plane of wire %o[, by %3 of the diagonal]",
+    "wire %i would no longer be the image of wire %o under a symmetry[, by %3 of the diagonal]",
+    "wire %i would leave a point that is to stay[, by %3 of the diagonal]",
+    "wire %i would change the extent that is to be kept[, by %3 of the diagonal]",
+    "wire %i would shrink to nothing or turn inside out[, by %3 of the diagonal]",
+    "symmetry %s would no longer be one[, by %3 of any length]",
+    "wire %i would no longer be the image of wire %o under symmetry %s[, by %3 of the diagonal]",
     "'%p' would lose its proportions",
     "nothing would change",
     "stackability or distortion would be undefined",
     "triangle %i loses a side",
-    "the row around '%p' would no longer be even, off by %3 of the diagonal",
+    "the row around '%p' would no longer be even[, off by %3 of the diagonal]",
 };
 static_assert(!sentences.back().empty(), "every cause needs its sentence");
 
@@ -104,9 +102,11 @@ std::string describe(const Refusal& refusal, const Structure& structure) {
   const std::string_view sentence = sentences.at(static_cast<std::size_t>(refusal.cause));
   std::string text;
   for (std::size_t k = 0; k < sentence.size(); ++k)
-    if (sentence[k] == '%')
+    if (sentence[k] == '[' && refusal.amount == Refusal::untold)
+      k = sentence.find(']', k);
+    else if (sentence[k] == '%')
       text += filled(sentence[++k], refusal, structure);
-    else
+    else if (sentence[k] != '[' && sentence[k] != ']')
       text += sentence[k];
   return text;
 }

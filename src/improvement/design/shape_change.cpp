@@ -1,11 +1,11 @@
 #include "stackabilization/improvement/shape_change.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 
 #include "mesh/used_vertices.h"
+#include "numerics/polar_decomposition.h"
 #include "stackabilization/core/errors.h"
 
 namespace stackabilization {
@@ -17,12 +17,8 @@ namespace {
 Eigen::Matrix3d similarity(const Points& from, const Points& to) {
   const double spread = from.squaredNorm();
   if (!(spread > 0)) return Eigen::Matrix3d::Zero();
-  const Eigen::Matrix3d covariance = to.transpose() * from;
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d sign = Eigen::Vector3d::Ones();
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0) sign.z() = -1;
-  const Eigen::Matrix3d rotation = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
-  return rotation * (svd.singularValues().dot(sign) / spread);
+  const detail::PolarDecomposition polar = detail::polar_decomposition(to.transpose() * from);
+  return polar.rotation * (polar.factors.sum() / spread);
 }
 
 }  // namespace

@@ -1,8 +1,8 @@
 #include "improvement/quality/affine_fit.h"
 
 #include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 
+#include "numerics/polar_decomposition.h"
 #include "stackabilization/improvement/tolerances.h"
 
 namespace stackabilization::detail {
@@ -28,11 +28,7 @@ AffineMap AffineFit::map(const Points& now) const {
   for (int k = 0; k < rank_; ++k) images.col(k) = moved.transpose() * (centred_ * axes_.col(k)) / squares_(k);
   if (rank_ < 3) {
     // The remaining axes follow the rotation nearest to the map of the others.
-    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(images * axes_.transpose(),
-                                                Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Matrix3d u = svd.matrixU();
-    if ((u * svd.matrixV().transpose()).determinant() < 0) u.col(2) *= -1;
-    const Eigen::Matrix3d rotation = u * svd.matrixV().transpose();
+    const Eigen::Matrix3d rotation = polar_decomposition(images * axes_.transpose()).rotation;
     for (int k = rank_; k < 3; ++k) images.col(k) = rotation * axes_.col(k);
   }
   result.linear = images * axes_.transpose();

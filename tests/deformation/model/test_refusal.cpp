@@ -87,19 +87,17 @@ TEST_CASE("refusals of one kind are equal without their amounts, and say so") {
   CHECK(one != other);
   CHECK(without_amounts(one) == without_amounts(other));
   CHECK(describe(without_amounts(one), structure) ==
-        "the point joint of 'leg 0.5' and '100 %p' would be off by ... of the diagonal");
+        "the point joint of 'leg 0.5' and '100 %p' would be off");
   other.relation = 0;
   CHECK(without_amounts(one) != without_amounts(other));
 
   one = other = refusal(RefusalCause::long_extent);
-  CHECK(describe(without_amounts(one), structure) ==
-        "the extent along (0, ..., ...) would be too long by ... of the diagonal");
+  CHECK(describe(without_amounts(one), structure) == "the extent along (0, ..., ...) would be too long");
   other.axis = {0.0, 0.7, 0.7};
   CHECK(without_amounts(one) == without_amounts(other));
   for (const double nearly : {0.9996, 1.0}) {
     other.axis = {-0.0, 0.0, -nearly};
-    CHECK(describe(without_amounts(other), structure) ==
-          "the extent along (0, 0, -1) would be too long by ... of the diagonal");
+    CHECK(describe(without_amounts(other), structure) == "the extent along (0, 0, -1) would be too long");
     CHECK(without_amounts(other).axis == std::array<double, 3>{0, 0, -1});
   }
 }
