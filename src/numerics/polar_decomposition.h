@@ -4,8 +4,8 @@
 
 namespace stackabilization::detail {
 
-/// Polar decomposition M = R S of a 3 x 3 matrix: R is the rotation nearest to M in the Frobenius norm (Kabsch
-/// 1976), S is symmetric.
+/// Polar decomposition M = R S of a 3 x 3 matrix: R is the rotation nearest to M in the Frobenius norm
+/// (Kabsch 1976), S is symmetric.
 struct PolarDecomposition {
   Eigen::Matrix3d rotation;  ///< R, also where M mirrors
   Eigen::Matrix3d axes;      ///< columns: orthonormal eigenvectors of S

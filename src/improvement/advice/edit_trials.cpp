@@ -5,7 +5,35 @@
 #include <algorithm>
 #include <atomic>
 
+#include "stackabilization/improvement/improve.h"
+
 namespace stackabilization::detail {
+
+namespace {
+
+/// So many edits of largest S have all their checks made, which take longer than an edit, until one passes.
+constexpr std::size_t max_checked = 8;
+
+/// Returns the rows of the largest values above `least`, the largest first.
+std::vector<std::size_t> best_rows(const std::vector<double>& values, double least) {
+  std::vector<std::size_t> rows;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (values[k] > least) rows.push_back(k);
+  std::stable_sort(rows.begin(), rows.end(),
+                   [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
+  rows.resize(std::min(rows.size(), max_checked));
+  return rows;
+}
+
+/// Returns the first check but that of the target that a design fails.
+std::optional<Obstacle> failed_check(const RequirementChecker& checker, const Design& design,
+                                     const Direction& direction) {
+  for (const Check& check : checker.check(design, direction).checks)
+    if (!check.passed && !check.is_of_target()) return check;
+  return std::nullopt;
+}
+
+}  // namespace
 
 EditTrials::EditTrials(const DeformationModel& space, const Candidate& design,
                        const DiagnosisOptions& options)
@@ -22,7 +50,8 @@ std::optional<EditTrial> EditTrials::tried(const std::vector<ContactRegion>& reg
   const DeformationConstraints constraints =
       deformation_constraints(checker.requirements(), space_.rest(), direction);
   const std::vector<ContactEdit> edits = contact_edits(
-      {space_.rest(), space_.capabilities(), handles_, design_.design, regions, direction, centres_});
+      {space_.rest(), space_.capabilities(), handles_, design_.design, regions, direction, centres_},
+      improvement_options(space_).search.edits);
   if (static_cast<double>(edits.size()) > designs_left()) return std::nullopt;
   designs_ += static_cast<std::int64_t>(edits.size());
   std::vector<std::optional<Obstacle>> refusals(edits.size());
@@ -44,11 +73,17 @@ std::optional<EditTrial> EditTrials::tried(const std::vector<ContactRegion>& reg
   EditTrial trial;
   trial.stopped = cut_short;
   trial.best = design_.measured.value;
-  for (std::size_t k = 0; k < edits.size(); ++k) {
-    if (reached[k] > trial.best) {
-      trial.best = reached[k];
-      trial.best_edit = edits[k].edit;
+  for (const std::size_t k : best_rows(reached, trial.best)) {
+    const DeformationResult outcome = space_.edited(design_.design, edits[k].edit, constraints);
+    if (auto obstacle = failed_check(checker, outcome.design, direction)) {
+      refusals[k] = without_amounts(*obstacle);
+      continue;
     }
+    trial.best = reached[k];
+    trial.best_edit = edits[k].edit;
+    break;
+  }
+  for (std::size_t k = 0; k < edits.size(); ++k) {
     if (refusals[k])
       ++trial.refusals[*refusals[k]];
     else

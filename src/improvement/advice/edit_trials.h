@@ -12,7 +12,7 @@ namespace stackabilization::detail {
 
 /// Result of trying the edits that would separate some regions.
 struct EditTrial {
-  double best = 0;  ///< largest S after one edit, at least the S before
+  double best = 0;  ///< largest S after one edit that keeps every requirement, at least the S before
   std::map<Obstacle, std::int64_t> refusals;
   std::optional<Edit> best_edit;  ///< edit that gives it, if any is better
   int made = 0;
@@ -25,8 +25,9 @@ class EditTrials {
   /// `design`: what is edited. Model, design and options must outlive this object.
   EditTrials(const DeformationModel& space, const Candidate& design, const DiagnosisOptions& options);
 
-  /// Tries every edit that these regions suggest, under the requirements of `checker`. Nothing if
-  /// they are more designs than are left, or when stopped.
+  /// Tries every edit that these regions suggest to a search with the model, under the requirements of
+  /// `checker`. All requirements are checked for a few edits of largest S, until one keeps them. Nothing if
+  /// the edits are more designs than are left, or when stopped.
   std::optional<EditTrial> tried(const std::vector<ContactRegion>& regions,
                                  const RequirementChecker& checker);
 

@@ -229,6 +229,32 @@ TEST_CASE("nothing that must stay is offered to be left out or freed without nee
   CHECK(diagnosis.blockers.front().edits != Blocker::Edits::refused);
 }
 
+TEST_CASE("an edit helps only where it keeps every requirement, also those on the whole") {
+  const StructuredShape table = structures::table();
+  const auto space = deformation_model(table);
+  Requirements requirements = designs::frame_requirements(0.8);
+  requirements.standing_copies = 2;
+  for (const double degrees : {1.0, 89.0}) {
+    CAPTURE(degrees);
+    requirements.min_tipping_degrees = degrees;
+    const RequirementChecker checker(*space, requirements);
+    const Diagnosis diagnosis = diagnose(checker, stuck_at_rest(checker));
+    REQUIRE(diagnosis.blockers.size() == 1);
+    const Blocker& blocker = diagnosis.blockers.front();
+    if (degrees > 45) {
+      CHECK(blocker.edits != Blocker::Edits::helpful);
+      CHECK(blocker.best_stackability == diagnosis.reached);
+      CHECK_FALSE(diagnosis.better);
+      continue;
+    }
+    CHECK(blocker.edits == Blocker::Edits::helpful);
+    REQUIRE(diagnosis.better);
+    CHECK(diagnosis.better->measured.value == Approx(blocker.best_stackability).epsilon(1e-12));
+    for (const Check& check : checker.check(diagnosis.better->design, Direction(0, 0, 1)).checks)
+      CHECK((check.passed || check.is_of_target()));
+  }
+}
+
 TEST_CASE("what saves most when it is taken off is offered, with the S of its pieces") {
   const StructuredShape mug = structures::mug();
   const auto space = deformation_model(mug);
