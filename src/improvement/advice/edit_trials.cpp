@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "improvement/requirements/failed_check.h"
 #include "stackabilization/improvement/improve.h"
 
 namespace stackabilization::detail {
@@ -23,14 +24,6 @@ std::vector<std::size_t> best_rows(const std::vector<double>& values, double lea
                    [&](std::size_t a, std::size_t b) { return values[a] > values[b]; });
   rows.resize(std::min(rows.size(), max_checked));
   return rows;
-}
-
-/// Returns the first check but that of the target that a design fails.
-std::optional<Obstacle> failed_check(const RequirementChecker& checker, const Design& design,
-                                     const Direction& direction) {
-  for (const Check& check : checker.check(design, direction).checks)
-    if (!check.passed && !check.is_of_target()) return check;
-  return std::nullopt;
 }
 
 }  // namespace
@@ -75,8 +68,8 @@ std::optional<EditTrial> EditTrials::tried(const std::vector<ContactRegion>& reg
   trial.best = design_.measured.value;
   for (const std::size_t k : best_rows(reached, trial.best)) {
     const DeformationResult outcome = space_.edited(design_.design, edits[k].edit, constraints);
-    if (auto obstacle = failed_check(checker, outcome.design, direction)) {
-      refusals[k] = without_amounts(*obstacle);
+    if (const auto check = failed_but_target(checker, outcome.design, direction)) {
+      refusals[k] = without_amounts(*check);
       continue;
     }
     trial.best = reached[k];

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "improvement/requirements/failed_check.h"
 #include "improvement/run/refinement_phase.h"
 #include "improvement/run/work_budget.h"
 #include "improvement/search/gap_descent.h"
@@ -214,19 +215,13 @@ class ImprovementRun {
       result_.end = SearchEnd::solved;
   }
 
-  /// Returns whether a design holds all that is asked but the target.
-  bool is_acceptable(const Candidate& candidate) const {
-    const Assessment assessment = checker_.check(candidate.design, Direction(candidate.direction));
-    return std::all_of(assessment.checks.begin(), assessment.checks.end(),
-                       [](const Check& check) { return check.passed || check.is_of_target(); });
-  }
-
   /// Leaves out what came near but breaks a limit of quality, or changes the shape for nothing. The shape at
   /// rest is always near.
   void keep_acceptable(std::vector<Candidate>& nearest) const {
     if (!refines_ || !checker_.requirements().quality) return;
-    const auto first = std::find_if(nearest.begin(), nearest.end(),
-                                    [this](const Candidate& candidate) { return is_acceptable(candidate); });
+    const auto first = std::find_if(nearest.begin(), nearest.end(), [this](const Candidate& candidate) {
+      return !detail::failed_but_target(checker_, candidate.design, Direction(candidate.direction));
+    });
     nearest.erase(nearest.begin(), first);
     const Candidate rest =
         at_rest(checker_, nearest.empty() ? options_.search.directions.front() : nearest.front().direction);

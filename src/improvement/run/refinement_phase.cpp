@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "improvement/requirements/failed_check.h"
+
 namespace stackabilization::detail {
 
 namespace {
@@ -139,7 +141,11 @@ void RefinementPhase::keep(Candidate candidate) {
 }
 
 void RefinementPhase::note_nearest(Candidate candidate) {
-  if (!nearest_ || more_stackable(candidate, *nearest_)) nearest_ = std::move(candidate);
+  if (nearest_ && !more_stackable(candidate, *nearest_)) return;
+  if (checker_.requirements().quality &&
+      failed_but_target(checker_, candidate.design, Direction(candidate.direction)))
+    return;
+  nearest_ = std::move(candidate);
 }
 
 }  // namespace stackabilization::detail

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "improvement/requirements/failed_check.h"
+
 namespace stackabilization::detail {
 
 namespace {
 
 /// Largest number of candidates reported when the target was not reached.
 constexpr std::size_t max_nearest = 8;
+/// So many are checked until one is acceptable.
+constexpr int max_checked = 40;
 
 /// Cost of a search of the cone, in edits.
 constexpr std::int64_t cone_trials = 8;
@@ -190,6 +194,8 @@ Candidate BestFirstSearch::candidate(int id) {
   return candidate;
 }
 
+/// With limits of quality the best acceptable candidate is there too, as the last one where it is not among
+/// the first or edits the same handles as one of these.
 std::vector<Candidate> BestFirstSearch::nearest() {
   std::vector<int> order;
   for (int id = 0; id < state_.tree.count(); ++id) {
@@ -201,14 +207,22 @@ std::vector<Candidate> BestFirstSearch::nearest() {
   });
   std::vector<Candidate> nearest;
   std::vector<std::vector<EditSignature>> shown;
+  bool acceptable = !checker().requirements().quality;
+  int checked = 0;
   for (const int id : order) {
-    if (nearest.size() == max_nearest) break;
+    const bool looking = !acceptable && checked < max_checked;
+    if (nearest.size() >= max_nearest && !looking) break;
     std::vector<Edit> edits;
     for (const int step : state_.tree.path(id)) edits.push_back(state_.tree.node(step).edit);
     std::vector<EditSignature> signatures = distinct_.signatures(edits);
-    if (std::find(shown.begin(), shown.end(), signatures) != shown.end()) continue;
+    const bool is_new = std::find(shown.begin(), shown.end(), signatures) == shown.end();
+    if (!is_new && !looking) continue;
     shown.push_back(std::move(signatures));
-    nearest.push_back(candidate(id));
+    Candidate near = candidate(id);
+    const bool passes = looking && !failed_but_target(checker(), near.design, Direction(near.direction));
+    checked += looking ? 1 : 0;
+    acceptable |= passes;
+    if (passes || (is_new && nearest.size() < max_nearest)) nearest.push_back(std::move(near));
   }
   return nearest;
 }

@@ -181,6 +181,35 @@ TEST_CASE("nothing reaches what is impossible, and the nearest come by S, each i
     CHECK(result.nearest[k].measured.value <= result.nearest[k - 1].measured.value);
 }
 
+TEST_CASE("with limits of quality the best that keeps all but the target is among the nearest") {
+  BestFirstOptions how = options();
+  how.expansions = 12;
+  Requirements requirements = checker(0.99).requirements();
+  requirements.quality.emplace();
+  for (std::size_t k = 0; k < quality_measure_count; ++k)
+    requirements.quality->relax(static_cast<QualityMeasure>(k));
+  requirements.standing_copies = 1;
+  bool seen = false;
+  for (double degrees = 5; degrees < 60; degrees += 5) {  // the more conical a cup, the sooner it topples
+    CAPTURE(degrees);
+    requirements.min_tipping_degrees = degrees;
+    const RequirementChecker standing(cups::space, requirements);
+    const auto keeps = [&](const Design& design) {
+      const Assessment assessment = standing.check(design, upwards);
+      return std::all_of(assessment.checks.begin(), assessment.checks.end(),
+                         [](const Check& check) { return check.passed || check.is_of_target(); });
+    };
+    const std::vector<Candidate> nearest = best_first(standing, how).nearest;
+    REQUIRE(!nearest.empty());
+    if (!keeps(cups::space.at_rest()) || keeps(nearest.front().design)) continue;
+    const auto best =
+        std::find_if(nearest.begin(), nearest.end(), [&](const Candidate& one) { return keeps(one.design); });
+    REQUIRE(best != nearest.end());
+    seen |= !best->design.edits.empty();
+  }
+  CHECK(seen);
+}
+
 TEST_CASE("a search that may change nothing is exhausted and tells what forbids it") {
   Requirements requirements;
   requirements.target = 0.5;
