@@ -6,7 +6,6 @@
 #include <atomic>
 
 #include "improvement/requirements/failed_check.h"
-#include "stackabilization/improvement/improve.h"
 
 namespace stackabilization::detail {
 
@@ -42,9 +41,10 @@ std::optional<EditTrial> EditTrials::tried(const std::vector<ContactRegion>& reg
   const Direction direction(design_.direction);
   const DeformationConstraints constraints =
       deformation_constraints(checker.requirements(), space_.rest(), direction);
+  ContactEditOptions kinds;
+  if (space_.following() == Following::smooth) kinds.family = EditFamily::smooth;
   const std::vector<ContactEdit> edits = contact_edits(
-      {space_.rest(), space_.capabilities(), handles_, design_.design, regions, direction, centres_},
-      improvement_options(space_).search.edits);
+      {space_.rest(), space_.capabilities(), handles_, design_.design, regions, direction, centres_}, kinds);
   if (static_cast<double>(edits.size()) > designs_left()) return std::nullopt;
   designs_ += static_cast<std::int64_t>(edits.size());
   std::vector<std::optional<Obstacle>> refusals(edits.size());
