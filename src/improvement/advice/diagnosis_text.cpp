@@ -43,7 +43,8 @@ std::string reason_of(const Blocker& blocker, const Structure& rest) {
     case Blocker::Edits::helpful:
       return "one more edit would give S = " + number(blocker.best_stackability);
     case Blocker::Edits::unhelpful:
-      return "edits separate it, but other contacts ask for as much, or it takes more than one edit";
+      return "edits separate it, but other contacts ask for as much, a limit stands against it, or it takes "
+             "more than one";
     case Blocker::Edits::refused:
       return "every edit that would separate it is refused, most because " + describe(blocker.obstacle, rest);
   }

@@ -162,7 +162,8 @@ TEST_CASE("every outcome of the edits against a blocker, and every remedy, has i
       {Blocker::Edits::none, "no edit would separate it: symmetries and the height that is kept leave none"},
       {Blocker::Edits::helpful, "one more edit would give S = 0.613"},
       {Blocker::Edits::unhelpful,
-       "edits separate it, but other contacts ask for as much, or it takes more than one edit"},
+       "edits separate it, but other contacts ask for as much, a limit stands against it, or it takes more "
+       "than one"},
       {Blocker::Edits::refused,
        "every edit that would separate it is refused, most because 'top' is fixed, or symmetric to a part "
        "that "
