@@ -71,7 +71,8 @@ struct BestFirstResult {
   std::vector<Candidate> solutions;
   /// Candidates of largest S that are no solutions, S descending, at most 8. No two of them make the same
   /// kinds of edits to the same handles. With limits of quality one more where none of them keeps all
-  /// requirements but the target: the best that does, if it is among the 40 of largest S.
+  /// requirements but the target: the best that does, if it is among the 40 of largest S; the 8 after a
+  /// deadline. None is looked for when the search is cancelled.
   std::vector<Candidate> nearest;
   std::vector<ObstacleCount> refusals;   ///< why edits were refused and checks failed, see `sort_by_count`
   ImprovementProgress progress;          ///< counts at the end

@@ -67,6 +67,10 @@ std::optional<EditTrial> EditTrials::tried(const std::vector<ContactRegion>& reg
   trial.stopped = cut_short;
   trial.best = design_.measured.value;
   for (const std::size_t k : best_rows(reached, trial.best)) {
+    if (cancelled()) {
+      trial.stopped = true;
+      break;
+    }
     const DeformationResult outcome = space_.edited(design_.design, edits[k].edit, constraints);
     if (const auto check = failed_but_target(checker, outcome.design, direction)) {
       refusals[k] = without_amounts(*check);

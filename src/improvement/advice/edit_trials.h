@@ -32,9 +32,11 @@ class EditTrials {
                                  const RequirementChecker& checker);
 
   double designs_left() const { return options_.designs - static_cast<double>(designs_); }
-  bool stopped() const { return designs_left() <= 0 || (options_.cancelled && options_.cancelled()); }
+  bool stopped() const { return designs_left() <= 0 || cancelled(); }
 
  private:
+  bool cancelled() const { return options_.cancelled && options_.cancelled(); }
+
   const DeformationModel& space_;
   const Candidate& design_;
   const DiagnosisOptions& options_;

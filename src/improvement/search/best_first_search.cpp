@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <optional>
 
 #include "improvement/requirements/failed_check.h"
 
@@ -10,8 +12,8 @@ namespace stackabilization::detail {
 namespace {
 
 /// Largest number of candidates reported when the target was not reached.
-constexpr std::size_t max_nearest = 8;
-/// So many are checked until one is acceptable.
+constexpr int max_nearest = 8;
+/// So many are checked until one is acceptable; fewer after a deadline, and none of a cancelled search.
 constexpr int max_checked = 40;
 
 /// Cost of a search of the cone, in edits.
@@ -208,10 +210,13 @@ std::vector<Candidate> BestFirstSearch::nearest() {
   std::vector<Candidate> nearest;
   std::vector<std::vector<EditSignature>> shown;
   bool acceptable = !checker().requirements().quality;
+  interruption_.now();
+  const std::optional<SearchEnd> interrupted = interruption_.why();
+  const int to_check = interrupted == SearchEnd::cancelled ? 0 : interrupted ? max_nearest : max_checked;
   int checked = 0;
   for (const int id : order) {
-    const bool looking = !acceptable && checked < max_checked;
-    if (nearest.size() >= max_nearest && !looking) break;
+    const bool looking = !acceptable && checked < to_check;
+    if (std::ssize(nearest) >= max_nearest && !looking) break;
     std::vector<Edit> edits;
     for (const int step : state_.tree.path(id)) edits.push_back(state_.tree.node(step).edit);
     std::vector<EditSignature> signatures = distinct_.signatures(edits);
@@ -222,7 +227,7 @@ std::vector<Candidate> BestFirstSearch::nearest() {
     const bool passes = looking && !failed_but_target(checker(), near.design, Direction(near.direction));
     checked += looking ? 1 : 0;
     acceptable |= passes;
-    if (passes || (is_new && nearest.size() < max_nearest)) nearest.push_back(std::move(near));
+    if (passes || (is_new && std::ssize(nearest) < max_nearest)) nearest.push_back(std::move(near));
   }
   return nearest;
 }
