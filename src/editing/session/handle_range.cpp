@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "improvement/requirements/failed_check.h"
+
 namespace stackabilization::editing {
 
 Edit scaled(Edit edit, double amount) {
@@ -56,7 +58,7 @@ TriedEdit try_edit(const EditedFrom& from, const Edit& edit) {
   }
   MeasuredDesign made = from.workspace->measured(std::make_shared<const Design>(std::move(outcome.design)),
                                                  from.direction, from.at_rest, from.scope);
-  tried.obstacle = obstacle_in(made.assessment);
+  tried.obstacle = detail::failed_but_target(made.assessment);
   if (!tried.obstacle) tried.made = std::move(made);
   return tried;
 }

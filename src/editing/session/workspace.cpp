@@ -28,10 +28,4 @@ MeasuredDesign Workspace::measured(std::shared_ptr<const Design> design, const D
   return result;
 }
 
-std::optional<Obstacle> obstacle_in(const Assessment& assessment) {
-  for (const Check& check : assessment.checks)
-    if (!check.passed && !check.is_of_target()) return check;
-  return std::nullopt;
-}
-
 }  // namespace stackabilization::editing

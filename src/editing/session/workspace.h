@@ -28,7 +28,4 @@ class Workspace {
   std::shared_ptr<const RequirementChecker> checker_;
 };
 
-/// Returns what stands against a design beside the target; nothing if no check fails.
-std::optional<Obstacle> obstacle_in(const Assessment& assessment);
-
 }  // namespace stackabilization::editing

@@ -6,11 +6,10 @@
 
 namespace stackabilization::detail {
 
-/// Returns the first check that a design fails, but for those of the target. Nothing: it is acceptable, and
+/// Returns the first check that failed, but for those of the target. Nothing: the design is acceptable, and
 /// may only stack too little.
-inline std::optional<Check> failed_but_target(const RequirementChecker& checker, const Design& design,
-                                              const Direction& direction) {
-  for (const Check& check : checker.check(design, direction).checks)
+inline std::optional<Check> failed_but_target(const Assessment& assessment) {
+  for (const Check& check : assessment.checks)
     if (!check.passed && !check.is_of_target()) return check;
   return std::nullopt;
 }

@@ -220,7 +220,7 @@ class ImprovementRun {
   void keep_acceptable(std::vector<Candidate>& nearest) const {
     if (!refines_ || !checker_.requirements().quality) return;
     const auto first = std::find_if(nearest.begin(), nearest.end(), [this](const Candidate& candidate) {
-      return !detail::failed_but_target(checker_, candidate.design, Direction(candidate.direction));
+      return !detail::failed_but_target(checker_.check(candidate.design, Direction(candidate.direction)));
     });
     nearest.erase(nearest.begin(), first);
     const Candidate rest =

@@ -143,7 +143,7 @@ void RefinementPhase::keep(Candidate candidate) {
 void RefinementPhase::note_nearest(Candidate candidate) {
   if (nearest_ && !more_stackable(candidate, *nearest_)) return;
   if (checker_.requirements().quality &&
-      failed_but_target(checker_, candidate.design, Direction(candidate.direction)))
+      failed_but_target(checker_.check(candidate.design, Direction(candidate.direction))))
     return;
   nearest_ = std::move(candidate);
 }
