@@ -16,11 +16,12 @@ struct ClosedPair {
 
 /// Returns a pair of pieces, one at the upper end of the shape along `direction` and one at the lower end,
 /// that must pass each other before copies reach `target`, and cannot: they overlap as seen along the
-/// direction after every move across it by up to tolerance::closed_move of the diagonal, and after every
-/// scaling of one of them about the middle of the shape by up to tolerance::closed_scale. Then the height,
-/// and the sizes of parts, would have to change by more than a person would call the same object. Nothing
-/// when there is no such pair: it says nothing about whether the target can be reached. A heuristic on a grid
-/// of pixels, with bounded work. `measured`: stackability of the shape along the direction.
+/// direction after every move across it by up to tolerance::closed_move of the diagonal, and after scalings
+/// of both, about their own middle or that of the shape, by up to tolerance::closed_scale, one up and one
+/// down. Then the height, and the sizes of parts, would have to change by more than a person would call the
+/// same object. Nothing when there is no such pair: it says nothing about whether the target can be reached.
+/// A heuristic on a grid of pixels, with bounded work. `measured`: stackability of the shape along the
+/// direction.
 std::optional<ClosedPair> closed_pair(const Shape& shape, const Direction& direction,
                                       const Stackability& measured, double target);
 

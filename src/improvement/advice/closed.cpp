@@ -26,8 +26,9 @@ using detail::at;
 constexpr int pixels = 96;
 /// Directions of moves, and distances along each.
 constexpr int move_directions = 16, move_distances = 4;
-/// Scalings that are tried, on either side of 1.
-constexpr int scalings = 3;
+/// Scalings that are tried, on either side of 1: both pieces may change, one by the factor, one by its
+/// inverse.
+constexpr int scalings = 6;
 /// Pieces apart if at most this share of the pixels in which they overlapped is left, and this many pixels.
 constexpr double apart_share = 0.02;
 constexpr int apart_pixels = 2;
@@ -40,6 +41,13 @@ using SlabPolygon = std::vector<Eigen::Vector3d>;
 struct PixelMask {
   std::vector<std::pair<int, int>> covered;  ///< column and row of each, without repetition
   std::vector<bool> image;                   ///< row by row
+
+  /// The middle of the box around the covered pixels, in pixels. There must be some.
+  Eigen::Vector2d middle() const {
+    Eigen::AlignedBox2d box;
+    for (const auto& [column, row] : covered) box.extend(Eigen::Vector2d(column + 0.5, row + 0.5));
+    return box.center();
+  }
 };
 
 /// The grid on which pieces are compared.
@@ -82,13 +90,16 @@ class PixelGrid {
     }
   }
 
-  /// Returns in how many pixels `a` meets `b` after a scaling of `a` about the middle of the grid and a move.
-  int overlap(const PixelMask& a, const PixelMask& b, double factor, const Eigen::Vector2d& move) const {
-    const Eigen::Vector2d middle(columns_ / 2.0, rows_ / 2.0);
+  /// The middle of the grid, in pixels.
+  Eigen::Vector2d middle() const { return {columns_ / 2.0, rows_ / 2.0}; }
+
+  /// Returns in how many pixels `a` meets `b` after a scaling of `a` about `centre`, in pixels, and a move.
+  int overlap(const PixelMask& a, const PixelMask& b, double factor, const Eigen::Vector2d& centre,
+              const Eigen::Vector2d& move) const {
     int count = 0;
     for (const auto& [column, row] : a.covered) {
       const Eigen::Vector2d place =
-          middle + factor * (Eigen::Vector2d(column + 0.5, row + 0.5) - middle) + move / pixel_;
+          centre + factor * (Eigen::Vector2d(column + 0.5, row + 0.5) - centre) + move / pixel_;
       const int x = static_cast<int>(std::floor(place.x())), y = static_cast<int>(std::floor(place.y()));
       if (x >= 0 && y >= 0 && x < columns_ && y < rows_ && b.image[at(y * columns_ + x)]) ++count;
     }
@@ -181,21 +192,24 @@ class ClosedSearch {
 
   /// Returns whether pieces do not overlap, or no longer after one of the moves and scalings.
   bool may_pass(const PixelMask& a, const PixelMask& b) const {
-    const int overlap = grid_->overlap(a, b, 1, Eigen::Vector2d::Zero());
+    const Eigen::Vector2d stay = Eigen::Vector2d::Zero();
+    const int overlap = grid_->overlap(a, b, 1, stay, stay);
     const double most = std::max<double>(apart_pixels, apart_share * overlap);
-    const auto apart = [&](double factor, const Eigen::Vector2d& move) {
-      return grid_->overlap(a, b, factor, move) <= most;
-    };
     if (overlap <= most) return true;
-    for (int k = 1; k <= scalings; ++k)
-      for (const double factor : {1 - tolerance::closed_scale, 1 / (1 - tolerance::closed_scale)})
-        if (apart(std::pow(factor, static_cast<double>(k) / scalings), Eigen::Vector2d::Zero())) return true;
+    const double widest = std::pow(1 - tolerance::closed_scale, -2);
+    for (const Eigen::Vector2d& centre : {a.middle(), grid_->middle()})
+      for (int k = 1; k <= scalings; ++k) {
+        const double factor = std::pow(widest, static_cast<double>(k) / scalings);
+        for (const double f : {factor, 1 / factor})
+          if (grid_->overlap(a, b, f, centre, stay) <= most) return true;
+      }
     const double farthest = tolerance::closed_move * diagonal_;
     for (int k = 0; k < move_directions; ++k) {
       const double angle = 2 * std::numbers::pi * k / move_directions;
       for (int distance = 1; distance <= move_distances; ++distance)
-        if (apart(1,
-                  distance * farthest / move_distances * Eigen::Vector2d(std::cos(angle), std::sin(angle))))
+        if (grid_->overlap(a, b, 1, stay,
+                           distance * farthest / move_distances *
+                               Eigen::Vector2d(std::cos(angle), std::sin(angle))) <= most)
           return true;
     }
     return false;
@@ -232,7 +246,7 @@ std::string describe(const ClosedPair& pair, const Structure& rest) {
   return "Closed: " + name(pair.upper_part) + " at the top of each copy lies under " +
          (pair.upper_part == pair.lower_part ? "the bottom" : name(pair.lower_part) + " at the bottom") +
          " of the next one, and no move by " + fixed_text(100 * tolerance::closed_move, 0) +
-         " % of the diagonal, nor a scaling by " + fixed_text(100 * tolerance::closed_scale, 0) +
+         " % of the diagonal, nor a scaling of both by " + fixed_text(100 * tolerance::closed_scale, 0) +
          " % takes it out of the way. While it does not, S is at most " + fixed_text(pair.stackability, 3) +
          ".";
 }

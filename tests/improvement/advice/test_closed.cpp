@@ -39,6 +39,14 @@ TEST_CASE("Tables, cups and boxes without a lid are not closed", "[closed]") {
   CHECK_FALSE(pair_of(solids::frustum_shell({}), 0.9));
 }
 
+TEST_CASE("A straight cup is not closed, whatever stands out at its side", "[closed]") {
+  // A wall of a tenth of the radius, which a taper within a fifth at either end passes.
+  const Shape cup = solids::frustum_shell({3, 3, 2.7, 2.7});
+  CHECK_FALSE(pair_of(cup, 0.2));
+  const Shape handle = solids::box({3, -0.3, 2}, {5.4, 0.3, 6});
+  CHECK_FALSE(pair_of(concatenate(cup, handle), 0.2));
+}
+
 TEST_CASE("A table on one wide foot is closed, on a narrow one at its rim it is not", "[closed]") {
   Shape pedestal = concatenate(solids::box({-5, -5, 7}, {5, 5, 8}), solids::box({-3, -3, 0}, {3, 3, 1}));
   pedestal = concatenate(pedestal, solids::box({-1, -1, 1}, {1, 1, 7}));
