@@ -23,7 +23,7 @@ inline constexpr double max_lean = std::numbers::pi / 6;
 /// Length of the moves across the direction after which two pieces still overlap where they keep copies apart
 /// for good (closed_pair), fraction of the diagonal.
 inline constexpr double closed_move = 0.12;
-/// Scalings after which such pieces still overlap: by 1 minus this, and by the inverse.
+/// Scalings after which such pieces still overlap: of one by 1 minus this, of the other by the inverse.
 inline constexpr double closed_scale = 0.2;
 /// Depth to which such pieces reach into the shape, fraction of the height.
 inline constexpr double closed_depth = 0.06;
@@ -55,6 +55,10 @@ inline constexpr double full_crease = 5 * std::numbers::pi / 36;
 
 /// Height of a triangle over a side below which its plane is mostly rounding there, fraction of the diagonal.
 inline constexpr double needle = 1e-4;
+/// The same, where the height is also below `slender` of the side: what such a sliver does on its own is not
+/// seen, but that of the surface around it.
+inline constexpr double sliver = 0.003;
+inline constexpr double slender = 0.1;
 
 /// Distance at which parts, and triangles of one part, touch at rest, fraction of the diagonal.
 inline constexpr double touching = 0.002;
@@ -112,8 +116,8 @@ inline constexpr double ratio = 0.015;
 /// Ratios of two sizes that differ by less than this share of the larger change are one.
 inline constexpr double alike = 0.1;
 
-/// Slope that a level plane or an upright line may get and still count as level or upright.
-inline constexpr double level = 0.002;
+/// Slope that level planes or upright lines may get beside a shear; more is a rotation.
+inline constexpr double level = 0.02;
 
 /// Least advantage of a shear over a rotation, in logarithms of stretches.
 inline constexpr double same_split = 1e-9;

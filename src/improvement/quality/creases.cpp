@@ -13,6 +13,14 @@ namespace stackabilization::detail {
 
 namespace {
 
+/// Returns whether a triangle is so flat over a side of this length that its plane says nothing of the
+/// surface.
+bool is_needle(double area, double length, double diagonal) {
+  const double height = 2 * area / length;
+  return !(height > tolerance::quality::needle * diagonal) ||
+         (height < tolerance::quality::sliver * diagonal && height < tolerance::quality::slender * length);
+}
+
 Eigen::Vector3d vertex(const Shape& shape, std::int32_t row) {
   return shape.vertices.row(row).transpose();
 }
@@ -34,7 +42,7 @@ Creases::Creases(const Shape& rest, const WeldedMesh& welded, double diagonal) {
     const double length = (welded.points.row(sides[0].high) - welded.points.row(sides[0].low)).norm();
     const double smaller =
         std::min(area_vector(rest, edge.left).norm(), area_vector(rest, edge.right).norm());
-    if (!(2 * smaller > tolerance::quality::needle * diagonal * length)) continue;
+    if (is_needle(smaller, length, diagonal)) continue;
     edge.fold = fold(edge, rest, unit_normal(rest, edge.left), unit_normal(rest, edge.right));
     if (std::abs(edge.fold) >= tolerance::quality::smooth_fold) continue;
     edge.length = length / diagonal;

@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -246,6 +247,24 @@ TEST_CASE("A crease across a plate is as long as its two faces are wide", "[qual
     return Eigen::Vector3d(p.x() + 0.5 * p.z(), p.y(), p.z());
   });
   CHECK(measured(rest, leaning, QualityMeasure::creases) == 0);
+}
+
+TEST_CASE("A step is two creases, but one on a sliver is not seen", "[quality]") {
+  // A sheet of three strips; the one in the middle becomes a slope of 30 degrees.
+  const auto step = [](double width) {
+    Points points(8, 3);
+    points << -5, -4, 0, -5, 4, 0, 0, -4, 0, 0, 4, 0, width, -4, 0, width, 4, 0, 5, -4, 0, 5, 4, 0;
+    Triangles triangles(6, 3);
+    triangles << 0, 2, 3, 0, 3, 1, 2, 4, 5, 2, 5, 3, 4, 6, 7, 4, 7, 5;
+    const StructuredShape rest = analyse_structure(make_shape(points, triangles));
+    const Shape after = mapped(rest.shape, [&](const Eigen::Vector3d& p) {
+      return Eigen::Vector3d(p.x(), p.y(), std::clamp(p.x(), 0.0, width) / std::sqrt(3));
+    });
+    return measured(rest, after, QualityMeasure::creases) * rest.structure.diagonal;
+  };
+  CHECK(step(0.5) == Approx(2 * 8));
+  CHECK(step(0.05) == Approx(2 * 8));
+  CHECK(step(0.03) == 0);
 }
 
 TEST_CASE("A crease from a smooth ridge to a smooth hollow is the sum of both folds", "[quality]") {
