@@ -38,11 +38,18 @@ bool is_place(Kind kind) {
   return kind == Kind::rise || kind == Kind::shift;
 }
 
-/// Returns the amount of a kind of change; 0 without one.
+/// Returns the change of a kind whose amount is nearest: a part may get wider one way and narrower the other
+/// way. One by 0 without any.
 SeenChange found(const PartChanges& changes, const FormChange& like) {
-  for (const SeenChange& one : changes.changes)
-    if (one.change.kind == like.kind && one.change.heading == like.heading) return one;
-  return {{like.kind, 0, like.heading}, 0};
+  SeenChange nearest{{like.kind, 0, like.heading}, 0};
+  double distance = std::numeric_limits<double>::infinity();
+  for (const SeenChange& one : changes.changes) {
+    const double apart = std::abs(one.change.amount - like.amount);
+    if (one.change.kind != like.kind || one.change.heading != like.heading || apart >= distance) continue;
+    nearest = one;
+    distance = apart;
+  }
+  return nearest;
 }
 
 /// Returns whether a person would describe two changes by the same words.

@@ -56,6 +56,15 @@ double nearer(double a, double b) {
   return std::abs(a - 1) < std::abs(b - 1) ? a : b;
 }
 
+/// Returns whether a part changes as its centre line does: a straight member, but for boards and panels that
+/// lie along theirs, which also turn about it.
+bool is_member(const PartAtRest& part, const ObjectFrame& frame) {
+  if (!part.form.line || !part.form.line->is_straight()) return false;
+  const Eigen::Vector3d box = part.high - part.low;  // longest first
+  return box(2) >= plate_ratio * box(1) ||
+         std::abs(part.form.line->direction().dot(frame.up)) >= upright_cosine;
+}
+
 /// Collects the changes of one part.
 class PartMeasurement {
  public:
@@ -71,7 +80,7 @@ class PartMeasurement {
 
   PartChanges run() {
     if (result_.displacement < frame_.visible()) return std::move(result_);
-    if (part_.form.line && part_.form.line->is_straight())
+    if (is_member(part_, frame_))
       measure_member();
     else
       measure_body();
@@ -411,8 +420,7 @@ PartChanges part_changes(const PartAtRest& part, const Shape& rest, const Shape&
 
 std::string form_noun(const PartAtRest& part, const ObjectFrame& frame) {
   if (!part.form.fit) return "part";
-  if (part.form.line && part.form.line->is_straight() &&
-      (part.high - part.low).maxCoeff() >= stout_length * part.form.line->radius())
+  if (is_member(part, frame) && (part.high - part.low).maxCoeff() >= stout_length * part.form.line->radius())
     return std::abs(part.form.line->direction().dot(frame.up)) >= upright_cosine ? "upright" : "bar";
   const Eigen::Vector3d box = part.high - part.low;
   if (box(2) >= plate_ratio * box(1)) return "part";

@@ -16,7 +16,9 @@ struct AffineMap {
 };
 
 /// Fits the affine map of some points in the least-squares sense. Along directions in which the points have
-/// no extent (a flat or straight part) it stretches by 1 and keeps them orthogonal to the others.
+/// no extent (a flat or straight part) it stretches by 1 and keeps them orthogonal to the others. What
+/// becomes of the thin direction of a plate is told by points on both sides of it and not by how the plate
+/// itself changes: changes that are quadratic along the plate, as those of a taper, do not turn it.
 class AffineFit {
  public:
   /// Prepares the fit for the points at rest, one per row. Precondition: there is a point.
@@ -37,6 +39,9 @@ class AffineFit {
   Eigen::Matrix3d axes_;
   Eigen::Vector3d squares_;  ///< sums of the squares along the axes
   int rank_ = 0;
+  /// Of a plate, the places of the points along its third axis, less what is quadratic in those along the
+  /// others; else empty.
+  Eigen::VectorXd thin_;
 };
 
 }  // namespace stackabilization::detail

@@ -30,6 +30,13 @@ TEST_CASE("A rotation and a shear along or across up stretch nothing", "[explana
     CHECK((factors(linear) - Eigen::Vector3d::Ones()).norm() < 1e-12);
 }
 
+TEST_CASE("A shear beside a small tilt stretches nothing", "[explanation]") {
+  Eigen::Matrix3d leaning = Eigen::Matrix3d::Identity();
+  leaning(1, 2) = 0.19;
+  leaning(2, 1) = 0.005;
+  CHECK((factors(leaning) - Eigen::Vector3d::Ones()).norm() < 1e-12);
+}
+
 TEST_CASE("A stretch is found before a rotation and beside a shear", "[explanation]") {
   const Eigen::Vector3d by(0.93, 1.1, 1);
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).matrix();

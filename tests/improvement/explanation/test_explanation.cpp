@@ -9,6 +9,7 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/improvement/explanation.h"
 #include "stackabilization/improvement/tolerances.h"
+#include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/still_designs.h"
@@ -174,6 +175,25 @@ TEST_CASE("A rigid rotation of a leg is a lean by its angle, without a change of
   CHECK(amount(found, FormChangeKind::lean) == Approx(5).epsilon(1e-9));
   CHECK(amount(found, FormChangeKind::length) == 0);
   CHECK(amount(found, FormChangeKind::thickness) == 0);
+}
+
+TEST_CASE("A wall leans by its angle, however long it is", "[explanation]") {
+  for (const double length : {4.0, 8.0}) {  // as long as a panel, and as a member
+    Shape floor = solids::box({0, 0, 0}, {length, 5, 0.1}),
+          wall = solids::box({0, 0, 0.1}, {length, 0.1, 2.1});
+    floor.part_names = {"floor"};
+    wall.part_names = {"front"};
+    const StructuredShape rest = analyse_structure(concatenate(floor, wall));
+    const double slope = std::tan(5 * radians_of_degree);
+    const Explanation found =
+        explain(rest, with_parts_mapped(rest.shape, "front", [=](const Eigen::Vector3d& p) {
+                  return Eigen::Vector3d(p.x(), p.y() - slope * (p.z() - 0.1), p.z());
+                }));
+    REQUIRE(found.groups.size() == 1);
+    REQUIRE(found.groups[0].changes.size() == 1);
+    CHECK(found.groups[0].changes[0].kind == FormChangeKind::lean);
+    CHECK(found.groups[0].changes[0].amount == Approx(5).epsilon(1e-9));
+  }
 }
 
 TEST_CASE("A plate that gets narrower does so by its ratio", "[explanation]") {
@@ -358,6 +378,16 @@ TEST_CASE("What gets wider one way and narrower the other way says so", "[explan
   REQUIRE(found.size() == 1);
   CHECK(found[0].find("5 % wider one way") != std::string::npos);
   CHECK(found[0].find("4 % narrower the other way") != std::string::npos);
+  // Two that do so are one line.
+  Shape left = solids::box({0, 0, 0}, {9, 8, 5}), right = solids::box({20, 0, 0}, {29, 8, 5});
+  left.part_names = {"crate_1"};
+  right.part_names = {"crate_2"};
+  const StructuredShape pair = analyse_structure(concatenate(left, right));
+  const Map alike = [](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+    const Eigen::Vector3d centre(p.x() < 15 ? 4.5 : 24.5, 4, 2.5);
+    return centre + Eigen::Vector3d(1.05, 0.96, 1).cwiseProduct(p - centre);
+  };
+  CHECK(explain(pair, mapped(pair.shape, alike)).groups.size() == 1);
 }
 
 TEST_CASE("A part that is longer and less tall is not called longer and shorter", "[explanation]") {
