@@ -12,10 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "common/clock.h"
+#include "common/asked_design.h"
 #include "common/experiment.h"
-#include "stackabilization/improvement/shape_change.h"
-#include "stackabilization/improvement/task.h"
+#include "stackabilization/stacking/stackability.h"
 #include "stackabilization/structure/analysis.h"
 
 using namespace stackabilization;
@@ -41,46 +40,19 @@ Table& table_of(Report& report) {
   return report.table("", all);
 }
 
-/// The measure of quality that uses most of its limit, and the share.
-std::pair<std::string, double> tightest(const Assessment& assessment, const QualityLimits& limits) {
-  std::pair<std::string, double> result{"", 0};
-  for (const Check& check : assessment.checks) {
-    if (check.kind != CheckKind::quality) continue;
-    const double share = share_of_limit({check.measure, check.value}, limits);
-    if (share > result.second) result = {name_of(check.measure), share};
-  }
-  return result;
-}
-
 /// Asks one model for one gain, and adds a row and the tiles of the sheet.
 void ask(const ModelFile& file, const StructuredShape& model, const std::string& hash, double gain,
          const Settings& settings, Table& table, Sheet& sheet) {
-  Requirements requirements;
-  requirements.quality.emplace();
-  const double at_rest = stackability(model.shape, upwards, requirements.measure).value;
-  requirements.target = std::min(highest_target, at_rest + gain);
-  ImprovementTaskOptions how;
-  how.directions = {upwards.vector()};
-  how.effort = settings.effort;
-  const ImprovementTask task(model, requirements, how);
-  ImprovementOptions options = improvement_options(task);
-  options.effort = settings.effort;
-  const double start = now();
-  const Improvement found = improve(task, options);
-  const double seconds = now() - start;
-  const bool reached = !found.solutions.empty();
-  const Candidate& best = reached ? found.solutions.front() : found.nearest ? *found.nearest : found.before;
-  const auto [measure, share] =
-      tightest(task.checker().check(best.design, Direction(best.direction)), *requirements.quality);
-  const bool closed = found.diagnosis && found.diagnosis->closed;
-  const bool blocked = found.diagnosis && !found.diagnosis->blockers.empty();
-  const bool remedied = found.diagnosis && !found.diagnosis->remedies.empty();
-  table.add({file.name, hash, gain, at_rest, requirements.target, reached, closed, best.measured.value,
-             best.energy.distortion.total(), shape_change(model.shape, best.design.shape).root_mean_square,
-             static_cast<std::int64_t>(best.design.edits.size()), measure, share,
-             blocked ? describe(found.diagnosis->blockers.front(), model.structure) : "",
-             remedied ? describe(found.diagnosis->remedies.front(), model.structure) : "", seconds});
-  if (reached && !file.authors) {
+  const double at_rest = stackability(model.shape, upwards).value;
+  const double target = std::min(highest_target, at_rest + gain);
+  const AskedDesign asked = ask_for_design(model, upwards, target, settings.effort);
+  const Candidate& best = asked.best;
+  const bool closed = asked.found.diagnosis && asked.found.diagnosis->closed;
+  table.add({file.name, hash, gain, at_rest, target, asked.reached(), closed, best.measured.value,
+             best.energy.distortion.total(), asked.change,
+             static_cast<std::int64_t>(best.design.edits.size()), asked.measure, asked.share_of_limit,
+             asked.why(model.structure), asked.remedy(model.structure), asked.seconds});
+  if (asked.reached() && !file.authors) {
     sheet.tiles.push_back({model.shape, {file.name, "at rest"}, true});
     sheet.tiles.push_back({best.design.shape, {file.name, "S + " + std::to_string(gain).substr(0, 4)}});
   }

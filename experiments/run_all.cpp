@@ -78,6 +78,7 @@ const std::vector<Entry>& entries() {
       {"segmentation_quality", {.models = false, .paper_data = false, .needs_benchmark = true}, {}, {}},
       {"refined_against_paper", {.paper_data = false}, {}, {"--expansions", "3"}},
       {"design_quality", {}, {}, {"--gain", "0.1", "--effort", "0.05"}},
+      {"authors_designs", {.models = false, .needs_paper_data = true}, {}, {"--effort", "0.05"}},
       {"study",
        {.models = false, .own_choice = true},
        {},

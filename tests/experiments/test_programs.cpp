@@ -55,7 +55,8 @@ std::vector<std::string> operator+(std::vector<std::string> a, const std::vector
 
 TEST_CASE("every experiment explains itself and its options") {
   for (const std::string& program :
-       with_models + std::vector<std::string>{"scaling", "study", "relations_against_lists", "run_all"}) {
+       with_models + std::vector<std::string>{"scaling", "study", "relations_against_lists",
+                                              "authors_designs", "run_all"}) {
     const Outcome outcome = run(program, {"--help"});
     CHECK(outcome.status == 0);
     CHECK(outcome.out.find("--output") != std::string::npos);
@@ -194,6 +195,40 @@ TEST_CASE("run_all reports what fails and goes on") {
   CHECK(outcome.out.find("relations_against_lists: FAILED with status 3") != std::string::npos);
   CHECK(outcome.out.find("deformation_speed: done") != std::string::npos);
   CHECK(outcome.out.find("scaling: done") != std::string::npos);
+}
+
+TEST_CASE("the authors' tasks and results are rows, where their models are there") {
+  const TemporaryFolder folder;
+  CHECK(run("authors_designs", {}).status == 2);
+  CHECK(says(run("authors_designs", {"--paper-data", folder / "nowhere"}), "authors_designs", "tasks.txt"));
+  for (const char* place : {"user-study-graphics/UserStudyApp/data/Tasks", "stacker/data/RESULTS/Gallery"})
+    std::filesystem::create_directories(folder / place);
+  folder.file("user-study-graphics/UserStudyApp/tasks.txt",
+              "data/Tasks/cup.obj 0.5\ndata/Tasks/chair.obj 0.6\n");
+  folder.model("user-study-graphics/UserStudyApp/data/Tasks/cup.obj", solids::frustum_shell({}));
+  // Theirs is wider above, and twice as large, which is no change.
+  Shape wider = solids::frustum_shell({.outer_top = 4.4, .inner_top = 3.9});
+  wider.vertices *= 2;
+  folder.model("stacker/data/RESULTS/Gallery/30.obj", solids::frustum_shell({}));
+  folder.model("stacker/data/RESULTS/Gallery/30_stackable.obj", wider);
+  const Outcome outcome = run("authors_designs", {"--paper-data", folder.path().string(), "--effort", "0.1",
+                                                  "-o", folder / "results"});
+  CHECK(outcome.status == 3);  // the other results of theirs are not there
+  const auto rows = [&](const std::string& table) {
+    return nlohmann::json::parse(bytes_of(folder / ("results/authors_designs" + table + ".json")))["rows"];
+  };
+  const nlohmann::json tasks = rows(""), results = rows("_results");
+  REQUIRE(tasks.size() == 1);
+  CHECK(tasks[0]["model"] == "cup");
+  CHECK(tasks[0]["target"] == 0.5);
+  CHECK(tasks[0]["S_rest"].get<double>() > 0.5);  // it stacks as well at rest
+  CHECK(tasks[0]["reached"] == true);
+  CHECK(tasks[0]["change_rms"].get<double>() < 1e-12);
+  REQUIRE(results.size() == 1);
+  CHECK(results[0]["theirs_S"].get<double>() > results[0]["S_rest"].get<double>());
+  CHECK(results[0]["theirs_change_rms"].get<double>() > 0.001);
+  CHECK(results[0]["theirs_change_rms"].get<double>() < 0.05);
+  CHECK(results[0]["theirs_breaks"] == "");
 }
 
 #ifdef COMMAND_COSTS_BUILT
