@@ -32,6 +32,15 @@ std::string unknown_command(const CLI::App& program) {
   return "expected one of the commands " + known + "; " + found;
 }
 
+/// What CLI11 says of arguments that no option takes, in the order in which they were given: it reverses
+/// them.
+std::string unexpected(const std::vector<std::string>& words) {
+  std::string text = words.size() == 1 ? "The following argument was not expected:"
+                                       : "The following arguments were not expected:";
+  for (const std::string& word : words) text += " " + word;
+  return text;
+}
+
 /// Names of files and parts go on into JSON, which holds UTF-8 only.
 void check_encoding(const std::vector<std::string>& arguments) {
   for (std::size_t i = 0; i < arguments.size(); ++i)
@@ -73,6 +82,8 @@ void Program::parse(std::vector<std::string> arguments) {
   } catch (const CLI::RequiredError&) {
     if (!app_->get_subcommands().empty()) throw;
     throw UsageError(unknown_command(*app_));
+  } catch (const CLI::ExtrasError&) {
+    throw UsageError(unexpected(app_->remaining(true)));
   }
 }
 

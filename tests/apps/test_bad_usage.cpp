@@ -24,6 +24,7 @@ TEST_CASE("wrong command lines end with 2 and one sentence that names the mistak
       {{"measure"}, "MODEL"},
       {{"measure", box, box}, "not expected"},
       {{"measure", box, "--colour"}, "--colour"},
+      {{"measure", box, "--colour", "red", "7"}, "--colour red 7"},
       {{"measure", box, "--direction", "0", "0"}, "--direction"},
       {{"measure", box, "--direction", "0", "0", "0"}, "zero"},
       {{"measure", box, "--direction", "0", "0", "up"}, "'up'"},

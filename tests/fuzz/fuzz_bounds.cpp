@@ -32,7 +32,7 @@ class Bytes {
   Value take() {
     Value value{};
     const std::size_t count = std::min(sizeof value, size_ - at_);
-    std::memcpy(&value, data_ + at_, count);
+    if (count > 0) std::memcpy(&value, data_ + at_, count);  // of no bytes the address may be null
     at_ += count;
     return value;
   }

@@ -40,6 +40,7 @@ uLong read_memory(void*, void* stream, void* buffer, uLong size) {
 
 uLong write_memory(void*, void* stream, const void* buffer, uLong size) {
   MemoryFile& file = file_of(stream);
+  if (size == 0) return 0;
   if (file.position + size > file.sink->size()) file.sink->resize(file.position + size);
   std::memcpy(file.sink->data() + file.position, buffer, size);
   file.position += size;
