@@ -58,6 +58,7 @@ inline constexpr double needle = 1e-4;
 /// The same, where the height is also below `slender` of the side: what such a sliver does on its own is not
 /// seen, but that of the surface around it.
 inline constexpr double sliver = 0.003;
+/// Ratio of the height of a sliver to the side, at most.
 inline constexpr double slender = 0.1;
 
 /// Distance at which parts, and triangles of one part, touch at rest, fraction of the diagonal.

@@ -177,19 +177,23 @@ TEST_CASE("A rigid rotation of a leg is a lean by its angle, without a change of
   CHECK(amount(found, FormChangeKind::thickness) == 0);
 }
 
-TEST_CASE("A wall leans by its angle, however long it is", "[explanation]") {
+TEST_CASE("Walls lean by their angle, however long they are", "[explanation]") {
   for (const double length : {4.0, 8.0}) {  // as long as a panel, and as a member
-    Shape floor = solids::box({0, 0, 0}, {length, 5, 0.1}),
-          wall = solids::box({0, 0, 0.1}, {length, 0.1, 2.1});
-    floor.part_names = {"floor"};
-    wall.part_names = {"front"};
-    const StructuredShape rest = analyse_structure(concatenate(floor, wall));
+    Shape tray = solids::box({0, 0, 0}, {length, 5, 0.1});
+    tray.part_names = {"floor"};
+    for (const double y : {0.0, 4.9}) {
+      Shape wall = solids::box({0, y, 0.1}, {length, y + 0.1, 2.1});
+      wall.part_names = {y > 0 ? "back" : "front"};
+      tray = concatenate(tray, wall);
+    }
+    const StructuredShape rest = analyse_structure(tray);
     const double slope = std::tan(5 * radians_of_degree);
-    const Explanation found =
-        explain(rest, with_parts_mapped(rest.shape, "front", [=](const Eigen::Vector3d& p) {
-                  return Eigen::Vector3d(p.x(), p.y() - slope * (p.z() - 0.1), p.z());
-                }));
+    const Explanation found = explain(rest, mapped(rest.shape, [=](const Eigen::Vector3d& p) {
+                                        const double by = slope * std::max(0.0, p.z() - 0.1);
+                                        return Eigen::Vector3d(p.x(), p.y() + (p.y() > 2 ? by : -by), p.z());
+                                      }));
     REQUIRE(found.groups.size() == 1);
+    CHECK(found.groups[0].parts == std::vector{1, 2});
     REQUIRE(found.groups[0].changes.size() == 1);
     CHECK(found.groups[0].changes[0].kind == FormChangeKind::lean);
     CHECK(found.groups[0].changes[0].amount == Approx(5).epsilon(1e-9));
