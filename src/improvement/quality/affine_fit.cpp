@@ -16,9 +16,11 @@ constexpr double thin_ratio = 0.25;
 /// has none.
 constexpr double min_thin = 0.1;
 
-/// Returns the third coordinates less their best quadratic function of the first two. `places`: n x 3.
+/// Returns the third coordinates less their best quadratic function of the first two, in any unit.
+/// Precondition: `places`, n x 3, are not all 0 in these.
 Eigen::VectorXd without_quadratic(const Points& places) {
-  const Eigen::ArrayXd x = places.col(0).array(), y = places.col(1).array();
+  const double unit = places.leftCols<2>().cwiseAbs().maxCoeff();
+  const Eigen::ArrayXd x = places.col(0).array() / unit, y = places.col(1).array() / unit;
   Eigen::Matrix<double, Eigen::Dynamic, 6> functions(places.rows(), 6);
   functions << Eigen::VectorXd::Ones(places.rows()), x.matrix(), y.matrix(), (x * x).matrix(),
       (x * y).matrix(), (y * y).matrix();
