@@ -28,12 +28,12 @@ Polar<Size> polar(const Eigen::Matrix<double, Size, Size>& linear) {
   return {svd.matrixU() * svd.matrixV().transpose(), svd.matrixV(), svd.singularValues()};
 }
 
-double cost(const AffineSplit& split) {
-  if (!(split.factors.minCoeff() > 0)) return std::numeric_limits<double>::infinity();
-  return split.factors.array().log().abs().sum();
-}
-
 }  // namespace
+
+double AffineSplit::total_stretch() const {
+  if (!(factors.minCoeff() > 0)) return std::numeric_limits<double>::infinity();
+  return factors.array().log().abs().sum();
+}
 
 AffineSplit split_affine(const Eigen::Matrix3d& linear, const Eigen::Vector3d& up) {
   const Polar<3> whole = polar<3>(linear);
@@ -50,7 +50,7 @@ AffineSplit split_affine(const Eigen::Matrix3d& linear, const Eigen::Vector3d& u
   sheared.axes.col(2) = up;
   sheared.axes.leftCols<2>() = frame.leftCols<2>() * across.axes;
   sheared.factors << across.factors, map(2, 2);
-  if (cost(sheared) + tolerance::explanation::same_split > cost(best)) return best;
+  if (sheared.total_stretch() + tolerance::explanation::same_split > best.total_stretch()) return best;
   sheared.turn =
       linear * sheared.axes * sheared.factors.cwiseInverse().asDiagonal() * sheared.axes.transpose();
   return sheared;

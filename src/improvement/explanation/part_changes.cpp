@@ -215,7 +215,9 @@ class PartMeasurement {
   void measure_body() {
     const double departure = departure_from(result_.map);
     if (departure >= deformed * frame_.visible() && measure_taper()) return;
-    const AffineSplit split = split_affine(result_.map.linear, frame_.up);
+    AffineSplit split = split_affine(result_.map.linear, frame_.up);
+    const AffineSplit unslid = split_affine(part_.form.fit->without_slide(result_.map), frame_.up);
+    if (unslid.total_stretch() < split.total_stretch()) split = unslid;
     measure_turns(split.turn);
     measure_sizes(split);
     measure_place();

@@ -61,4 +61,12 @@ AffineMap AffineFit::map(const Points& now) const {
   return result;
 }
 
+Eigen::Matrix3d AffineFit::without_slide(const AffineMap& map) const {
+  if (thin_.size() == 0) return map.linear;
+  Eigen::Matrix3d images = map.linear * axes_;
+  const Eigen::Vector3d normal = images.col(0).cross(images.col(1)).normalized();
+  images.col(2) = normal.dot(images.col(2)) * normal;
+  return images * axes_.transpose();
+}
+
 }  // namespace stackabilization::detail

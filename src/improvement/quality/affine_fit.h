@@ -26,6 +26,10 @@ class AffineFit {
 
   /// Returns the map of `now`, the same points elsewhere.
   AffineMap map(const Points& now) const;
+  /// Returns the linear part of a map of a plate without what its faces slide along each other: its thin
+  /// direction goes to the normal of the plate. How faces slide depends on how they are cut into triangles,
+  /// and is seen at the edges only. That of other parts is returned as it is.
+  Eigen::Matrix3d without_slide(const AffineMap& map) const;
   /// Returns the mean of the points at rest.
   const Eigen::Vector3d& centre() const { return from_; }
   /// Returns the number of directions in which the points have an extent, 0 to 3.

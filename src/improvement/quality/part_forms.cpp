@@ -33,7 +33,7 @@ Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded) : rest_(rest) {
+PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded) {
   const Shape& shape = rest.shape;
   const std::vector<std::vector<std::int32_t>> rows = triangles_of_parts(shape);
   for (std::size_t part = 0; part < rows.size(); ++part) {
@@ -82,7 +82,7 @@ std::vector<double> PartForms::stretches(const Form& form, const AffineMap& map,
     const Eigen::Matrix<double, 3, 2> images = map.linear * across;
     append(singular_values(images - now * (now.transpose() * images)));
   } else {
-    append(singular_values(map.linear * form.fit->axes().leftCols(form.fit->rank())));
+    append(singular_values(form.fit->without_slide(map) * form.fit->axes().leftCols(form.fit->rank())));
   }
   return result;
 }

@@ -14,7 +14,7 @@ namespace stackabilization::detail {
 /// parallelism, size, small_part and thickness.
 class PartForms {
  public:
-  /// Prepares what depends on the object at rest. `rest` must outlive this object.
+  /// Prepares what depends on the object at rest.
   PartForms(const StructuredShape& rest, const WeldedMesh& welded);
 
   /// Takes the nine measures, in their order.
@@ -33,7 +33,6 @@ class PartForms {
   static std::vector<double> stretches(const Form& form, const AffineMap& map, double length);
   void measure_faces(const Shape& now, int part, std::vector<QualityValue>& values) const;
 
-  const StructuredShape& rest_;
   std::vector<Form> forms_;  ///< per part
   std::vector<ThicknessProbe> probes_;
 };

@@ -177,6 +177,20 @@ TEST_CASE("A rigid rotation of a leg is a lean by its angle, without a change of
   CHECK(amount(found, FormChangeKind::thickness) == 0);
 }
 
+TEST_CASE("A panel whose faces slide along each other is as wide as before", "[explanation]") {
+  Shape base = solids::box({-1, -5, -1}, {10, 5, 0}), panel = solids::box({0, 0, 0}, {9, 0.4, 8});
+  base.part_names = {"base"};
+  panel.part_names = {"panel"};
+  const StructuredShape rest = analyse_structure(concatenate(base, panel));
+  const Explanation found =
+      explain(rest, with_parts_mapped(rest.shape, "panel", [](const Eigen::Vector3d& p) {
+                return Eigen::Vector3d(p.x() + 0.4 * p.y(), p.y(), p.z());
+              }));
+  for (const FormChangeKind kind : {FormChangeKind::width, FormChangeKind::length, FormChangeKind::size,
+                                    FormChangeKind::thickness, FormChangeKind::turn})
+    CHECK(amount(found, kind) == 0);
+}
+
 TEST_CASE("Walls lean by their angle, however long they are", "[explanation]") {
   for (const double length : {4.0, 8.0}) {  // as long as a panel, and as a member
     Shape tray = solids::box({0, 0, 0}, {length, 5, 0.1});

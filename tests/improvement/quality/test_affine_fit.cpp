@@ -59,6 +59,23 @@ TEST_CASE("The taper and the bend of a plate leave its thickness where it is", "
   }
 }
 
+TEST_CASE("Faces of a plate that slide along each other leave its normal where it is", "[quality]") {
+  const auto slid = [](const Points& rest, const Eigen::Matrix3d& turn) {
+    return mapped(rest, [&](const Eigen::Vector3d& p) -> Eigen::Vector3d {
+      return turn * Eigen::Vector3d(p.x() + 0.4 * p.z(), p.y(), 1.1 * p.z());
+    });
+  };
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Points rest = plate(0.2), cube = plate(6);
+  const AffineFit fit(rest);
+  const Eigen::Matrix3d stretched = turn * Eigen::Vector3d(1, 1, 1.1).asDiagonal();
+  // The axes of uneven points lean by a thousandth.
+  CHECK((fit.without_slide(fit.map(slid(rest, turn))) - stretched).norm() < 1e-2);
+  const AffineMap of_cube = AffineFit(cube).map(slid(cube, turn));
+  CHECK(AffineFit(cube).without_slide(of_cube) == of_cube.linear);
+}
+
 TEST_CASE("A flat part keeps its normal, and a curved sheet is fitted as it is", "[quality]") {
   const Points flat =
       mapped(plate(1), [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x(), p.y(), 0); });
