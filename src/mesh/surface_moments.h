@@ -14,6 +14,12 @@ inline Eigen::Vector3d area_vector(const Eigen::Vector3d& a, const Eigen::Vector
   return (b - a).cross(c - a) / 2;
 }
 
+/// Returns the signed volume of the tetrahedron of a triangle and the origin, model units cubed: positive
+/// where the normal of the triangle points away from the origin. Those of a closed surface sum to its volume.
+inline double signed_volume(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+  return a.dot(b.cross(c)) / 6;
+}
+
 /// Returns the vector area of triangle `t` of a shape.
 inline Eigen::Vector3d area_vector(const Shape& shape, Eigen::Index t) {
   return area_vector(shape.corner(t, 0), shape.corner(t, 1), shape.corner(t, 2));

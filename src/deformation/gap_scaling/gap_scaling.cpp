@@ -32,7 +32,8 @@ using PlaneBox = boost::geometry::model::box<PlanePoint>;
 using Entry = std::pair<PlaneBox, Eigen::Index>;
 using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 
-/// Heights that triangles reach in narrow columns along the third axis.
+/// Heights that triangles reach in narrow columns along the third axis. Rays would miss walls that are
+/// upright but for rounding.
 class Columns {
  public:
   Columns(const Points& points, const Triangles& triangles, double half_width)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/edge_table.h"
+#include "mesh/surface_moments.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/mesh/exact_triangles.h"
 
@@ -98,8 +99,7 @@ class Inspector {
     double volume = 0;
     for (Eigen::Index t = 0; t < mesh_.triangles.rows(); ++t) {
       const Corners corner = corners(t);
-      const Eigen::Vector3d a = corner[0] - centre, b = corner[1] - centre, c = corner[2] - centre;
-      volume += a.dot(b.cross(c)) / 6;
+      volume += detail::signed_volume(corner[0] - centre, corner[1] - centre, corner[2] - centre);
     }
     findings_.volume = volume;
     findings_.oriented_outward = volume > 0;
@@ -120,19 +120,16 @@ class Inspector {
   /// Centre of the surface, in fractions of the box; 1/2 along axes without extent.
   Eigen::Vector3d relative_centroid(const Eigen::Array3d& extent) const {
     const Eigen::Array3d scale = (extent > 0).select(extent, 1);
-    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-    double total = 0;
+    const auto scaled = [&](const Eigen::Vector3d& corner) -> Eigen::Vector3d {
+      return (corner - findings_.lower).array() / scale;
+    };
+    detail::SurfaceMoments moments(Eigen::Vector3d::Zero());
     for (Eigen::Index t = 0; t < mesh_.triangles.rows(); ++t) {
       const Corners corner = corners(t);
-      const Eigen::Vector3d a = (corner[0] - findings_.lower).array() / scale;
-      const Eigen::Vector3d b = (corner[1] - findings_.lower).array() / scale;
-      const Eigen::Vector3d c = (corner[2] - findings_.lower).array() / scale;
-      const double area = (b - a).cross(c - a).norm();
-      moment += area * (a + b + c) / 3;
-      total += area;
+      moments.add(scaled(corner[0]), scaled(corner[1]), scaled(corner[2]));
     }
-    if (!(total > 0)) return Eigen::Vector3d::Constant(0.5);
-    return moment / total;
+    if (!(moments.area() > 0)) return Eigen::Vector3d::Constant(0.5);
+    return moments.centre();
   }
 
   /// Returns the stability of the shape on its lower end along `axis`: the share of the footprint that the

@@ -42,7 +42,7 @@ std::vector<Body> bodies(const Shape& shape, const ClosedSurface& surface, const
     Body& body = result[static_cast<std::size_t>(component)];
     const Eigen::Vector3d a = shape.corner(t, 0) - origin, b = shape.corner(t, 1) - origin,
                           c = shape.corner(t, 2) - origin;
-    const double volume = a.dot(b.cross(c)) / 6;
+    const double volume = signed_volume(a, b, c);
     body.mass.amount += volume;
     body.mass.moment += volume / 4 * (a + b + c);
     body.box.extend(a).extend(b).extend(c);

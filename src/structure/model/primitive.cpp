@@ -4,6 +4,7 @@
 #include <numbers>
 #include <type_traits>
 
+#include "mesh/surface_moments.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 
@@ -33,7 +34,7 @@ double volume_of(const GeneralizedCylinder& cylinder) {
 
 double volume_of(const Cuboid& cuboid) {
   const Eigen::Vector3d origin = cuboid.corners.colwise().mean();
-  double sixfold = 0;
+  double twofold = 0;
   for (int face = 0; face < 6; ++face) {
     const std::array<int, 4> ring = cuboid_face(face);
     for (int k = 0; k < 4; ++k) {
@@ -41,10 +42,10 @@ double volume_of(const Cuboid& cuboid) {
         return cuboid.corners.row(ring[static_cast<std::size_t>((k + i) % 4)]).transpose() - origin;
       };
       // The four triangles of three successive corners cover the face twice, once per diagonal.
-      sixfold += corner(0).dot(corner(1).cross(corner(2))) / 2;
+      twofold += detail::signed_volume(corner(0), corner(1), corner(2));
     }
   }
-  return sixfold / 6;
+  return twofold / 2;
 }
 
 void check(bool holds, const std::string& name, const std::string& what) {
