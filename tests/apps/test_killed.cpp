@@ -146,13 +146,6 @@ TEST_CASE("a search that is killed at any moment goes on to the same files") {
       SearchFolder({"--target", "0.97", "--preset", "paper", "--expansions", "15", "--no-pictures"}), 1);
 }
 
-TEST_CASE("improvements are the same bytes for any number of threads") {
-  const SearchFolder folder({"--target", "0.6", "--solutions", "1", "--expansions", "6"});
-  CHECK(run_program(folder.into("one", {"--threads", "1"})).status == 0);
-  CHECK(run_program(folder.into("four", {"--threads", "4"})).status == 0);
-  CHECK(contents(folder / "one") == contents(folder / "four"));
-}
-
 TEST_CASE("a step of a session that is killed leaves the project as it was or as it is to be") {
   const TemporaryFolder folder;
   const std::string table = folder.model("table.obj", solids::table({})), project = folder / "table.json";

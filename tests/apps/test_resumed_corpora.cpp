@@ -41,7 +41,7 @@ std::vector<fs::path> spread(const std::vector<fs::path>& files, std::size_t cou
 }  // namespace
 
 TEST_CASE("a run in pieces ends with the files of a run at once, for models of the corpora") {
-  constexpr std::size_t sample = 3;
+  constexpr std::size_t sample = 2;
   std::vector<fs::path> models = outside_meshes();
   if (models.empty()) std::cout << "SKIPPED: there are no outside models\n";
   if (!std::getenv("STACKABILIZATION_EVERY_MODEL") && models.size() > sample) models = spread(models, sample);
