@@ -86,7 +86,7 @@ struct ExplanationOptions {
 /// each part by its best affine map, straight members by their centre lines and the radii at their ends.
 ///
 /// Parts are in one group if they are symmetric or have one noun, and changed alike. A part is left out if no
-/// point of it moved by tolerance::explanation::visible of the diagonal. A change is left out if it moves no
+/// point of it moved by tolerance::visible of the diagonal. A change is left out if it moves no
 /// surface so far; ratios count from tolerance::explanation::ratio on also where they move less. A change is
 /// left out too if some change of the object is seen more than seven times better, unless it is the one of
 /// its part that is seen best.

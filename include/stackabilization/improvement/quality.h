@@ -25,7 +25,7 @@ enum class QualityMeasure {
   bending,            ///< largest change of the turn of a centre line at one place, degrees
   section,            ///< loss of roundness of a round cross-section, of its width
   profile,            ///< unevenness of the change of the radius along a part, of the radius
-  flatness,           ///< distance of a flat face from its plane, of its width
+  flatness,           ///< distance of a flat face from its plane beyond what is seen, of its width
   parallelism,        ///< angle between faces of a part that were parallel, degrees
   size,               ///< smallest ratio of a size of a part to that at rest, or its inverse
   small_part,         ///< ratio of smallest to largest stretch of a part too small to be deformed

@@ -6,6 +6,9 @@
 /// Tolerances of the search for designs and of their refinement.
 namespace stackabilization::tolerance {
 
+/// Displacement from which on a person sees a change, fraction of the diagonal.
+inline constexpr double visible = 0.001;
+
 /// A search identifies two designs when their controls differ by less than this, fraction of the diagonal. It
 /// is far above the rounding of edits in another order, and far below any step.
 inline constexpr double same_design = 1e-6;
@@ -107,9 +110,6 @@ inline constexpr double max_feet = 0.002;           ///< default limit, of the d
 
 /// Small literals of the description of a change in words.
 namespace stackabilization::tolerance::explanation {
-
-/// Displacement from which on a person sees a change, fraction of the diagonal.
-inline constexpr double visible = 0.001;
 
 /// Change of a size that is named even where it moves the surface less, as of thin bars.
 inline constexpr double ratio = 0.015;

@@ -25,8 +25,8 @@ struct ControllerModel::Data {
 
   static StructuredShape prepared(StructuredShape structured, Following following) {
     if (following != Following::smooth) return structured;
-    detail::let_joints_yield(structured.structure);
     detail::keep_walls(structured);
+    detail::let_joints_yield(structured.structure);
     return structured;
   }
 

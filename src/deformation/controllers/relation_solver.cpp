@@ -75,6 +75,15 @@ Eigen::Vector3d beyond_slack(const Eigen::Vector3d& gap, double slack) {
   return gap * (length > slack ? 1 - slack / length : 0);
 }
 
+/// Returns the directions in which a joint is held on its carrier. Precondition: it has one.
+Eigen::Matrix3d held_at(const Rig& rig, const Constraint& constraint, const std::vector<Primitive>& now) {
+  const int carrier = *constraint.carrier;
+  const BoundPoint& on_carrier = *std::find_if(constraint.bound_points.begin(), constraint.bound_points.end(),
+                                               [&](const BoundPoint& b) { return b.part == carrier; });
+  return held_directions(now[at(carrier)], rig.primitive_bindings[at(carrier)].position_of(on_carrier.binding,
+                                                                                           now[at(carrier)]));
+}
+
 Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state,
                      const std::vector<Primitive>& now) {
   Eigen::VectorXd all(rows_of(constraints));
@@ -88,7 +97,7 @@ Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints,
       all(row) = constraint.normal->dot(sum) - constraint.height -
                  (constraint.level ? state.levels(*constraint.level) : 0);
     } else {
-      if (constraint.carrier) sum = held_directions(now[at(*constraint.carrier)]) * sum;
+      if (constraint.carrier) sum = held_at(rig, constraint, now) * sum;
       all.segment<3>(row) = beyond_slack(sum, constraint.slack);
     }
     row += rows_of(constraint);
@@ -153,6 +162,8 @@ class Solver {
         row += rows_of(constraint);
         continue;
       }
+      const Eigen::Matrix3d held =
+          constraint.carrier ? held_at(rig_, constraint, now_) : Eigen::Matrix3d::Identity();
       for (const BoundPoint& bound : constraint.bound_points) {
         const int c = rig_.space.class_of(bound.part);
         if (bases_[at(c)].cols() == 0) continue;
@@ -160,10 +171,8 @@ class Solver {
         auto block = all.block(row, offsets_[at(c)], rows_of(constraint), slope.cols());
         if (constraint.normal)
           block += constraint.normal->transpose() * slope;
-        else if (constraint.carrier)
-          block += held_directions(now_[at(*constraint.carrier)]) * slope;
         else
-          block += slope;
+          block += held * slope;
       }
       if (constraint.level) all(row, columns_ + *constraint.level) = -1;
       row += rows_of(constraint);

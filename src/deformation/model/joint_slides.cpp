@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/index.h"
+#include "deformation/model/hollow_box.h"
 #include "deformation/model/straight_curve.h"
 #include "stackabilization/deformation/tolerances.h"
 #include "structure/model/nearest_box.h"
@@ -19,10 +20,36 @@ namespace {
 constexpr double slender = 3;
 /// Ratio of length to radius between those of discs, below 1, and those of members, from 6 on.
 constexpr double disc_to_member = 2.5;
-/// A joint is at the rim of a plate, or at the end of a member, beyond this fraction of the way from the
-/// centre. What belongs at an end, such as a castor under an arm of a base, leaves the end bare when it
-/// slides.
+/// A joint is at the rim of a plate, or at the end of a member or a wall, beyond this fraction of the way
+/// from the centre. What belongs at an end, such as a castor under an arm of a base, leaves the end bare when
+/// it slides.
 constexpr double rim = 0.97, end_of_member = 0.85;
+
+/// How far within the inner side of a wall a joint may be, fraction of half the extent of the box.
+constexpr double wall_margin = 0.01;
+
+/// Returns the outward unit normal of a face of a cuboid.
+Eigen::Vector3d normal_of(const Cuboid& cuboid, int face) {
+  const std::array<int, 4> ring = cuboid_face(face);
+  const Eigen::Vector3d a = (cuboid.corners.row(ring[2]) - cuboid.corners.row(ring[0])).transpose(),
+                        b = (cuboid.corners.row(ring[3]) - cuboid.corners.row(ring[1])).transpose();
+  return a.cross(b).stableNormalized();
+}
+
+/// Returns the face of a hollow box whose wall is nearest to a point. Precondition: it has walls.
+int wall_at(const Cuboid& box, const Eigen::Vector3d& point) {
+  int nearest = -1;
+  double least = 0;
+  for (int face = 0; face < 6; ++face) {
+    if (box.inner_sides(face / 2, face % 2) == 1) continue;
+    const Eigen::Vector3d corner = box.corners.row(cuboid_face(face)[0]).transpose();
+    const double distance = std::abs(normal_of(box, face).dot(point - corner));
+    if (nearest >= 0 && !(distance < least)) continue;
+    nearest = face;
+    least = distance;
+  }
+  return nearest;
+}
 
 /// Returns the axes of a box along which joints may slide: one of a member, two of a plate, else none.
 std::vector<int> sliding_axes(const OrientedBox& box) {
@@ -70,6 +97,24 @@ std::optional<double> place_within(double place, double limit) {
   return place < limit ? std::optional(place) : std::nullopt;
 }
 
+/// Returns how far from the middle of a wall of a hollow box the farthest joint point is, 1 at its border.
+/// Nothing if they are at different walls, or not within one.
+std::optional<double> sliding_place_on_wall(const Cuboid& hollow, const OrientedBox& box,
+                                            const Points& points) {
+  const int wall = wall_at(hollow, points.row(0).transpose());
+  double farthest = 0;
+  for (const auto point : points.rowwise()) {
+    if (wall_at(hollow, point.transpose()) != wall) return std::nullopt;
+    const Eigen::Array3d place =
+        (box.axes.transpose() * (point.transpose() - box.centre)).array() / box.half_extents.array();
+    if (place(wall / 2) * (wall % 2 == 0 ? -1 : 1) < hollow.inner_sides(wall / 2, wall % 2) - wall_margin)
+      return std::nullopt;
+    for (int axis = 0; axis < 3; ++axis)
+      if (axis != wall / 2) farthest = std::max(farthest, std::abs(place(axis)));
+  }
+  return place_within(farthest, end_of_member);
+}
+
 /// Returns how far from the centre of the carrier the farthest joint point is, 1 at its rim or end. Nothing
 /// if the joint cannot slide on it.
 std::optional<double> sliding_place_on(const Primitive& carrier, const Points& points) {
@@ -85,7 +130,9 @@ std::optional<double> sliding_place_on(const Primitive& carrier, const Points& p
     }
     return place_within(farthest, member ? end_of_member : rim);
   }
-  const OrientedBox box = nearest_box(std::get<Cuboid>(carrier));
+  const Cuboid& cuboid = std::get<Cuboid>(carrier);
+  const OrientedBox box = nearest_box(cuboid);
+  if (is_hollow(cuboid)) return sliding_place_on_wall(cuboid, box, points);
   const std::vector<int> axes = sliding_axes(box);
   if (axes.empty()) return std::nullopt;
   for (const auto point : points.rowwise())
@@ -118,15 +165,18 @@ double distance_beyond(const Primitive& carrier, const Eigen::Vector3d& point) {
                               : distance_from_axis(*cylinder, point) - cylinder->radii.maxCoeff();
     return std::max(0.0, beyond);
   }
-  const OrientedBox box = nearest_box(std::get<Cuboid>(carrier));
+  const Cuboid& cuboid = std::get<Cuboid>(carrier);
+  const OrientedBox box = nearest_box(cuboid);
+  std::vector<int> axes = is_hollow(cuboid) ? std::vector<int>{0, 1, 2} : sliding_axes(box);
+  if (is_hollow(cuboid)) axes.erase(axes.begin() + wall_at(cuboid, point) / 2);
   double farthest = 0;
-  for (const int axis : sliding_axes(box))
+  for (const int axis : axes)
     farthest =
         std::max(farthest, std::abs((point - box.centre).dot(box.axes.col(axis))) - box.half_extents(axis));
   return farthest;
 }
 
-Eigen::Matrix3d held_directions(const Primitive& carrier) {
+Eigen::Matrix3d held_directions(const Primitive& carrier, const Eigen::Vector3d& point) {
   const Eigen::Matrix3d all = Eigen::Matrix3d::Identity();
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
     if (cylinder->closed) return all;
@@ -134,7 +184,12 @@ Eigen::Matrix3d held_directions(const Primitive& carrier) {
     const Eigen::Matrix3d along = axis * axis.transpose();
     return was_member(*cylinder) ? Eigen::Matrix3d(all - along) : along;
   }
-  const auto& corners = std::get<Cuboid>(carrier).corners;
+  const Cuboid& cuboid = std::get<Cuboid>(carrier);
+  if (is_hollow(cuboid)) {
+    const Eigen::Vector3d normal = normal_of(cuboid, wall_at(cuboid, point));
+    return normal * normal.transpose();
+  }
+  const auto& corners = cuboid.corners;
   Eigen::Matrix3d edges = Eigen::Matrix3d::Zero();
   for (int corner = 0; corner < 8; ++corner)
     for (int axis = 0; axis < 3; ++axis)

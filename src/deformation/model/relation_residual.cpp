@@ -67,8 +67,10 @@ double joint_gap(const Relation& relation, const Structure& rest, const std::vec
       continue;
     }
     const Primitive& carrier = deformed[static_cast<std::size_t>(relation.carrier)];
-    widen(gap, beyond_slack((detail::held_directions(carrier) * (first - second)).norm()));
-    widen(gap, detail::distance_beyond(carrier, relation.carrier == relation.parts[0] ? second : first));
+    const bool on_first = relation.carrier == relation.parts[0];
+    const Eigen::Matrix3d held = detail::held_directions(carrier, on_first ? first : second);
+    widen(gap, beyond_slack((held * (first - second)).norm()));
+    widen(gap, detail::distance_beyond(carrier, on_first ? second : first));
   }
   return gap;
 }

@@ -395,7 +395,7 @@ void leave_out_minor(std::vector<PartChanges>& parts) {
 }
 
 double ObjectFrame::visible() const {
-  return limit::visible * diagonal;
+  return tolerance::visible * diagonal;
 }
 
 PartAtRest part_at_rest(const StructuredShape& rest, std::size_t part, std::vector<std::int32_t> triangles) {

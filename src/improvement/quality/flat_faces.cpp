@@ -73,7 +73,7 @@ double FlatFace::deviation_on(const Shape& shape) const {
   double farthest = 0;
   for (const Eigen::Index v : vertices)
     farthest = std::max(farthest, std::abs(normal.dot(shape.vertices.row(v) - centre)));
-  return farthest / std::sqrt(area);
+  return farthest;
 }
 
 std::vector<FlatFace> flat_faces(const Shape& shape, const WeldedMesh& mesh,

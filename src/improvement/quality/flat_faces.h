@@ -16,13 +16,12 @@ struct FlatFace {
   std::vector<double> sides;            ///< per triangle, 1 if it faces as the first one, else -1
   std::vector<Eigen::Index> vertices;   ///< different corners, rows of Shape::vertices
   double area = 0;                      ///< model units squared
-  double deviation = 0;                 ///< distance of a corner from the plane at rest, over the width
+  double deviation = 0;                 ///< distance of a corner from the plane at rest, model units
 
   /// Returns the sum of the vector areas of the triangles on `shape`, all facing as the first one at rest,
   /// model units squared.
   Eigen::Vector3d area_vector(const Shape& shape) const;
-  /// Returns the largest distance of a corner from the best plane on `shape`, over the width of the face at
-  /// rest, which is the root of its area.
+  /// Returns the largest distance of a corner from the best plane on `shape`, model units.
   double deviation_on(const Shape& shape) const;
 };
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "core/angles.h"
+#include "core/bounding_diagonal.h"
 #include "core/index.h"
 #include "mesh/surface_moments.h"
 #include "stackabilization/improvement/tolerances.h"
@@ -33,7 +34,8 @@ Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded) {
+PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded)
+    : visible_(tolerance::visible * bounding_diagonal(rest.shape)) {
   const Shape& shape = rest.shape;
   const std::vector<std::vector<std::int32_t>> rows = triangles_of_parts(shape);
   for (std::size_t part = 0; part < rows.size(); ++part) {
@@ -90,7 +92,10 @@ std::vector<double> PartForms::stretches(const Form& form, const AffineMap& map,
 void PartForms::measure_faces(const Shape& now, int part, std::vector<QualityValue>& values) const {
   const Form& form = forms_[at(part)];
   QualityValue &flatness = values[4], &parallelism = values[5];
-  for (const FlatFace& face : form.faces) worsen(flatness, face.deviation_on(now) - face.deviation, part);
+  for (const FlatFace& face : form.faces) {
+    const double farther = face.deviation_on(now) - face.deviation;
+    worsen(flatness, (farther - visible_) / std::sqrt(face.area), part);
+  }
   for (const ParallelFaces& pair : form.parallel) {
     const double angle = angle_between_lines(form.faces[pair.first].area_vector(now),
                                              form.faces[pair.second].area_vector(now));

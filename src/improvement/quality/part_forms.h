@@ -33,6 +33,7 @@ class PartForms {
   static std::vector<double> stretches(const Form& form, const AffineMap& map, double length);
   void measure_faces(const Shape& now, int part, std::vector<QualityValue>& values) const;
 
+  double visible_ = 0;       ///< displacement that a person sees, model units
   std::vector<Form> forms_;  ///< per part
   std::vector<ThicknessProbe> probes_;
 };

@@ -72,16 +72,50 @@ TEST_CASE("A joint is held along the normal of a plate and across a member, in e
     cuboid.corners = cuboid.corners * turn.transpose();
     return Primitive(cuboid);
   };
-  const Eigen::Vector3d normal = turn * Eigen::Vector3d::UnitZ();
-  CHECK(detail::held_directions(turned(plate)).isApprox(normal * normal.transpose(), 1e-12));
-  CHECK(detail::held_directions(turned(bar))
+  const Eigen::Vector3d normal = turn * Eigen::Vector3d::UnitZ(), origin = Eigen::Vector3d::Zero();
+  CHECK(detail::held_directions(turned(plate), origin).isApprox(normal * normal.transpose(), 1e-12));
+  CHECK(detail::held_directions(turned(bar), origin)
             .isApprox(Eigen::Matrix3d::Identity() - normal * normal.transpose(), 1e-12));
-  CHECK(detail::held_directions(box_of({0, 0, 0}, {1, 1, 1})).isIdentity());
+  CHECK(detail::held_directions(box_of({0, 0, 0}, {1, 1, 1}), origin).isIdentity());
   const Eigen::Vector3d top = 6 * normal;
-  CHECK(detail::held_directions(structures::straight_cylinder({0, 0, 0}, top, 0.3, 5))
+  CHECK(detail::held_directions(structures::straight_cylinder({0, 0, 0}, top, 0.3, 5), origin)
             .isApprox(Eigen::Matrix3d::Identity() - normal * normal.transpose(), 1e-12));
-  CHECK(detail::held_directions(structures::straight_cylinder({0, 0, 0}, top, 8, 5))
+  CHECK(detail::held_directions(structures::straight_cylinder({0, 0, 0}, top, 8, 5), origin)
             .isApprox(normal * normal.transpose(), 1e-12));
+}
+
+TEST_CASE("A joint slides on the wall of a hollow box, held across it", "[joints]") {
+  Cuboid crate = std::get<Cuboid>(box_of({0, 0, 3}, {8, 6, 6}));
+  const Primitive grip = box_of({4.2, 0, 4}, {0.4, 0.4, 0.4});
+  CHECK(carrier_of(joined(crate, grip, {4, 0, 4})) == -1);  // solid
+  crate.inner_sides << 0.9, 0.9, 0.9, 0.9, 1, 1;
+  CHECK(carrier_of(joined(crate, grip, {4, 0, 4})) == 0);
+  CHECK(carrier_of(joined(crate, grip, {3.6, 0, 4})) == 0);   // the inner side of the wall
+  CHECK(carrier_of(joined(crate, grip, {3, 0, 4})) == -1);    // the room within
+  CHECK(carrier_of(joined(crate, grip, {0, 0, 0})) == -1);    // the floor
+  CHECK(carrier_of(joined(crate, grip, {4, 2.6, 4})) == -1);  // near the edge of two walls
+  CHECK(carrier_of(joined(crate, grip, {4, 0, 5.6})) == -1);  // near the rim
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
+  CHECK(detail::held_directions(crate, {4, 0, 4}).isApprox(x * x.transpose(), 1e-12));
+  CHECK(detail::held_directions(crate, {1, -3, 4}).isApprox(y * y.transpose(), 1e-12));
+
+  Structure structure = joined(crate, grip, {4, 0, 4});
+  detail::let_joints_yield(structure);
+  const auto residual = [&](const Cuboid& body, const Eigen::Vector3d& by) {
+    Cuboid moved = std::get<Cuboid>(grip);
+    moved.corners.rowwise() += by.transpose();
+    return relation_residuals(structure, {body, moved}).front();
+  };
+  CHECK(residual(crate, {0, 1, 1}) == Approx(0).margin(1e-12));
+  CHECK(residual(crate, {0.2, 1, 1}) == Approx(0.2 / 10 - tolerance::joint_slack));
+  CHECK(residual(crate, {0, 0, 2.5}) == Approx(0.5 / 10));  // above the rim, at 6
+  // Where the foot is half as wide, the wall leans by 2 over 6, and what rises by 1.5 goes out by 0.5.
+  Cuboid drafted = crate;
+  for (int corner = 0; corner < 8; ++corner)
+    if (drafted.corners(corner, 2) == 0) drafted.corners(corner, 0) /= 2;
+  const double inwards = (4.0 - 2) * (6.0 - 4) / 6;
+  CHECK(residual(drafted, {-inwards, 0, 0}) == Approx(0).margin(1e-12));
+  CHECK(residual(drafted, {0.5 - inwards, 0, 1.5}) == Approx(0).margin(1e-12));
 }
 
 TEST_CASE("A joint that slides has no residual along its carrier", "[joints]") {

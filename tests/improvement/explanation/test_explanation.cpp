@@ -108,7 +108,7 @@ StructuredShape base_arm_castor() {
 
 TEST_CASE("Symmetric parts on both sides of what is seen are told of together", "[explanation]") {
   const StructuredShape table = structures::table();
-  const double seen = tolerance::explanation::visible * table.structure.diagonal;
+  const double seen = tolerance::visible * table.structure.diagonal;
   const auto raised = [&](double first, double others) {
     const Shape top = with_parts_mapped(table.shape, "top", moved({0, 0, 10 * seen}));
     const Shape all = with_parts_mapped(top, "leg", moved({others * seen, 0, 0}));
