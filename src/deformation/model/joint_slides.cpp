@@ -20,6 +20,8 @@ namespace {
 constexpr double slender = 3;
 /// Ratio of length to radius between those of discs, below 1, and those of members, from 6 on.
 constexpr double disc_to_member = 2.5;
+/// Ratio of length to radius of a vessel, at least, and between those of dishes, below 1, and those.
+constexpr double deep = 1.5, dish_to_vessel = 1.22;
 /// A joint is at the rim of a plate, or at the end of a member or a wall, beyond this fraction of the way
 /// from the centre. What belongs at an end, such as a castor under an arm of a base, leaves the end bare when
 /// it slides.
@@ -73,6 +75,36 @@ bool is_disc(const GeneralizedCylinder& cylinder) {
   return !cylinder.closed && chord_of(cylinder).norm() < cylinder.radii.mean();
 }
 
+/// Returns whether a hollow cylinder is at least `ratio` times as long as its mean radius.
+bool is_deep(const GeneralizedCylinder& cylinder, double ratio) {
+  return cylinder.inner_radii.size() > 0 && chord_of(cylinder).norm() >= ratio * cylinder.radii.mean();
+}
+
+/// Returns whether a cylinder is a straight vessel, such as a cup, no dish.
+bool is_vessel(const GeneralizedCylinder& cylinder) {
+  return is_straight(cylinder) && is_deep(cylinder, deep);
+}
+
+/// Returns whether a carrier was a vessel at rest, not a dish: edits change proportions less than that.
+bool was_vessel(const GeneralizedCylinder& carrier) {
+  return is_deep(carrier, dish_to_vessel);
+}
+
+/// Returns the direction in which the side of a straight cylinder runs at a point, unit, towards the last
+/// section.
+Eigen::Vector3d generator_at(const GeneralizedCylinder& cylinder, const Eigen::Vector3d& point) {
+  const Eigen::Vector3d axis = chord_of(cylinder).stableNormalized(),
+                        offset = point - cylinder.centres.row(0).transpose();
+  const Eigen::VectorXd places = places_along_chord(cylinder);
+  const double place = offset.dot(axis);
+  Eigen::Index section = 0;
+  while (section + 2 < places.size() && places(section + 1) <= place) ++section;
+  const double length = places(section + 1) - places(section);
+  if (!(length > 0)) return axis;
+  const double slope = (cylinder.radii(section + 1) - cylinder.radii(section)) / length;
+  return (axis + slope * (offset - place * axis).stableNormalized()).stableNormalized();
+}
+
 /// Returns whether a carrier was a member at rest, not a disc: edits change proportions less than that.
 bool was_member(const GeneralizedCylinder& carrier) {
   return chord_of(carrier).norm() > disc_to_member * carrier.radii.mean();
@@ -120,7 +152,7 @@ std::optional<double> sliding_place_on_wall(const Cuboid& hollow, const Oriented
 std::optional<double> sliding_place_on(const Primitive& carrier, const Points& points) {
   double farthest = 0;
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
-    const bool member = is_member(*cylinder);
+    const bool member = is_member(*cylinder) || is_vessel(*cylinder);
     if (!member && !is_disc(*cylinder)) return std::nullopt;
     const double reach = member ? chord_of(*cylinder).norm() / 2 : cylinder->radii.maxCoeff();
     for (const auto point : points.rowwise()) {
@@ -160,7 +192,7 @@ void let_joints_yield(Structure& structure) {
 
 double distance_beyond(const Primitive& carrier, const Eigen::Vector3d& point) {
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
-    const double beyond = was_member(*cylinder)
+    const double beyond = was_vessel(*cylinder) || was_member(*cylinder)
                               ? distance_from_middle(*cylinder, point) - chord_of(*cylinder).norm() / 2
                               : distance_from_axis(*cylinder, point) - cylinder->radii.maxCoeff();
     return std::max(0.0, beyond);
@@ -180,6 +212,10 @@ Eigen::Matrix3d held_directions(const Primitive& carrier, const Eigen::Vector3d&
   const Eigen::Matrix3d all = Eigen::Matrix3d::Identity();
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
     if (cylinder->closed) return all;
+    if (was_vessel(*cylinder)) {
+      const Eigen::Vector3d along = generator_at(*cylinder, point);
+      return all - along * along.transpose();
+    }
     const Eigen::Vector3d axis = chord_of(*cylinder).stableNormalized();
     const Eigen::Matrix3d along = axis * axis.transpose();
     return was_member(*cylinder) ? Eigen::Matrix3d(all - along) : along;

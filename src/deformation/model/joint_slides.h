@@ -9,9 +9,10 @@ namespace stackabilization::detail {
 /// Sets Relation::slack of every joint, and Relation::carrier of every joint that can slide without a visible
 /// change: on a plate (a cuboid at most a third as thick as wide, or a flat generalized cylinder) anywhere in
 /// its plane, on a member (a straight cuboid or generalized cylinder at least 3 times as long as wide) along
-/// it, on the wall of a hollow box (Cuboid::inner_sides) in its plane. Joints at the rim of a plate, or
-/// within 15 % of half the length from the end of a member or the border of a wall, stay fixed. Where both
-/// parts can carry the joint, the one with the joint farther from its rim or end does.
+/// it, on the wall of a hollow box (Cuboid::inner_sides) in its plane, on that of a straight vessel
+/// (GeneralizedCylinder::inner_radii; at least 1.5 times as deep as its mean radius) up and down. Joints at
+/// the rim of a plate, or within 15 % of half the length from the end of a member or the border of a wall,
+/// stay fixed. Where both parts can carry the joint, the one with the joint farther from its rim or end does.
 void let_joints_yield(Structure& structure);
 
 /// Returns how far a joint at `point` has slid beyond the rim or the end of its carrier, model units; 0 if it
@@ -19,8 +20,8 @@ void let_joints_yield(Structure& structure);
 double distance_beyond(const Primitive& carrier, const Eigen::Vector3d& point);
 
 /// Returns the projector onto the directions in which a joint at `point` is held on a carrier: the normal of
-/// a plate or of the nearest wall of a hollow box, the plane across a member, all directions for other
-/// primitives.
+/// a plate or of the nearest wall of a hollow box, the plane across a member or across the side of a vessel,
+/// all directions for other primitives.
 Eigen::Matrix3d held_directions(const Primitive& carrier, const Eigen::Vector3d& point);
 
 }  // namespace stackabilization::detail

@@ -118,6 +118,33 @@ TEST_CASE("A joint slides on the wall of a hollow box, held across it", "[joints
   CHECK(residual(drafted, {0.5 - inwards, 0, 1.5}) == Approx(0).margin(1e-12));
 }
 
+TEST_CASE("A joint slides up and down the wall of a vessel, held across it", "[joints]") {
+  // Its radius grows from 1 to 2 over a height of 4.
+  GeneralizedCylinder cup = structures::straight_cylinder({0, 0, 0}, {0, 0, 4}, 1, 9);
+  for (Eigen::Index i = 0; i < 9; ++i) cup.radii(i) = 1 + static_cast<double>(i) / 8;
+  const Primitive grip = box_of({1.6, 0, 2}, {0.2, 0.2, 0.2});
+  CHECK(carrier_of(joined(cup, grip, {1.5, 0, 2})) == -1);  // solid
+  cup.inner_radii = cup.radii.array() - 0.1;
+  CHECK(carrier_of(joined(cup, grip, {1.5, 0, 2})) == 0);
+  CHECK(carrier_of(joined(cup, grip, {1.95, 0, 3.8})) == -1);  // near the rim
+  GeneralizedCylinder dish = cup;
+  dish.centres *= 0.5;
+  CHECK(carrier_of(joined(dish, grip, {1.5, 0, 1})) == -1);
+
+  Structure structure = joined(cup, grip, {1.5, 0, 2});
+  detail::let_joints_yield(structure);
+  const auto residual = [&](const Eigen::Vector3d& by) {
+    Cuboid moved = std::get<Cuboid>(grip);
+    moved.corners.rowwise() += by.transpose();
+    return relation_residuals(structure, {cup, moved}).front();
+  };
+  CHECK(residual({0.25, 0, 1}) == Approx(0).margin(1e-12));
+  CHECK(residual({-0.25, 0, -1}) == Approx(0).margin(1e-12));
+  CHECK(residual({0, 0.2, 0}) == Approx(0.2 / 10 - tolerance::joint_slack));
+  CHECK(residual({0, 0, 1}) == Approx(0.25 * 4 / std::sqrt(17) / 10 - tolerance::joint_slack));
+  CHECK(residual({0.75, 0, 3}) == Approx(1.0 / 10));  // above the rim
+}
+
 TEST_CASE("A joint that slides has no residual along its carrier", "[joints]") {
   Structure structure = joined(plate, bar, {1, 1, 0});
   const std::vector<Primitive> moved = {plate, box_of({0.3, 0, 3.1}, {0.5, 0.5, 6})};
