@@ -39,8 +39,9 @@ struct Relation {
   Points points;
   /// Distance by which the surfaces at rest violate the relation, fraction of Structure::diagonal.
   double residual = 0;
-  /// Part on which a joint may slide: in the plane of a plate, or along a straight member. -1: it is fixed to
-  /// both parts. The analysis makes fixed joints; Following::smooth lets them slide.
+  /// Part on which a joint may slide: in the plane of a plate or of a wall of a hollow box, along a straight
+  /// member, or up and down the wall of a vessel. -1: it is fixed to both parts. The analysis makes fixed
+  /// joints; Following::smooth lets them slide.
   int carrier = -1;
   /// How far apart the places of a joint point on its two parts may be, model units. The analysis gives
   /// joints no slack; Following::smooth does, since parts meet in an area and can turn on each other a
