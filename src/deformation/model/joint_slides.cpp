@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -20,8 +21,10 @@ namespace {
 constexpr double slender = 3;
 /// Ratio of length to radius between those of discs, below 1, and those of members, from 6 on.
 constexpr double disc_to_member = 2.5;
-/// Ratio of length to radius of a vessel, at least, and between those of dishes, below 1, and those.
-constexpr double deep = 1.5, dish_to_vessel = 1.22;
+/// Least ratio of length to radius of a vessel.
+constexpr double deep = 1.5;
+/// Ratio of length to radius between those of dishes, below 1, and those of vessels.
+constexpr double dish_to_vessel = 1.22;
 /// A joint is at the rim of a plate, or at the end of a member or a wall, beyond this fraction of the way
 /// from the centre. What belongs at an end, such as a castor under an arm of a base, leaves the end bare when
 /// it slides.
