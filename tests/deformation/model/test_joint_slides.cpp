@@ -1,11 +1,14 @@
 #include <Eigen/Geometry>
 #include <cmath>
+#include <string>
 
 #include "deformation/model/joint_slides.h"
 #include "deformation/model/transfer.h"
 #include "stackabilization/deformation/controller_model.h"
 #include "stackabilization/deformation/relation_residual.h"
 #include "stackabilization/deformation/tolerances.h"
+#include "stackabilization/io/read.h"
+#include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
 #include "support/structures.h"
 
@@ -278,4 +281,25 @@ TEST_CASE("Joints that slide hold after an edit", "[joints]") {
   };
   CHECK(move(leg) == Approx(0.1));
   for (const double residual : model.relation_residuals(outcome.design)) CHECK(residual <= 1e-9);
+}
+
+TEST_CASE("Handles and grips move up a wall, and the wall stays", "[joints]") {
+  const auto moves = [](const std::string& name, const std::string& handle) {
+    const StructuredShape rest =
+        analyse_structure(read_shape(STACKABILIZATION_SOURCE_DIR "/data/models/" + name + ".obj"));
+    const ControllerModel model(rest, {}, Following::smooth);
+    const double rise = 0.01;
+    const DeformationResult outcome = model.edited(
+        model.at_rest(), {{HandleKind::part, structures::part_named(rest, handle), 0}, Move{{0, 0, rise}}});
+    REQUIRE_FALSE(outcome.refusal);
+    const auto body = static_cast<std::size_t>(structures::part_named(rest, "body"));
+    return (control_points(outcome.design.primitives[body]) -
+            control_points(model.at_rest().primitives[body]))
+               .rowwise()
+               .norm()
+               .maxCoeff() /
+           rise;
+  };
+  CHECK(moves("crate", "grip_left") < 0.01);
+  CHECK(moves("bucket_with_handles", "handle_left") < 0.01);
 }
