@@ -1,6 +1,8 @@
 #include "stackabilization/mesh/boxes.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,6 +24,83 @@ void require_finite(const Points& points) {
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     if (!points.row(i).allFinite())
       throw InputError("point " + std::to_string(i) + " has a coordinate that is not a finite number");
+}
+
+/// The edges of an outline, put one after the other.
+class OutlineWalk {
+ public:
+  explicit OutlineWalk(Eigen::Index corners) : neighbours_(static_cast<std::size_t>(corners), {-1, -1}) {}
+
+  void add(int a, int b) {
+    add_neighbour(a, b);
+    add_neighbour(b, a);
+  }
+  /// Returns the corners of all edges: one way round where the edges are one closed curve.
+  std::vector<int> corners() {
+    std::vector<int> way;
+    if (corners_.empty()) return way;
+    way.reserve(corners_.size());
+    closed_ = !crowded_;
+    int before = -1, now = corners_.front();
+    while (closed_) {
+      way.push_back(now);
+      const auto& [a, b] = neighbours_[static_cast<std::size_t>(now)];
+      const int next = a == before ? b : a;
+      before = std::exchange(now, next);
+      if (now < 0 || way.size() > corners_.size()) closed_ = false;
+      if (now == corners_.front()) break;
+    }
+    closed_ = closed_ && way.size() == corners_.size() && way.size() > 2;
+    return closed_ ? way : corners_;
+  }
+  /// Returns whether `corners()` found one closed curve.
+  bool is_closed() const { return closed_; }
+
+ private:
+  void add_neighbour(int corner, int other) {
+    std::array<int, 2>& entry = neighbours_[static_cast<std::size_t>(corner)];
+    if (entry[0] < 0) {
+      entry[0] = other;
+      corners_.push_back(corner);
+    } else if (entry[1] < 0) {
+      entry[1] = other;
+    } else {
+      crowded_ = true;
+    }
+  }
+
+  std::vector<std::array<int, 2>> neighbours_;
+  std::vector<int> corners_;  ///< in the order in which they were first met
+  bool crowded_ = false, closed_ = false;
+};
+
+/// Puts a closed curve and its rows counter-clockwise from the lexicographically smallest corner, as
+/// convex_polygon does. Returns whether it is a convex polygon with distinct corners, none of which is
+/// straight.
+bool order_as_polygon(Eigen::Matrix2Xd& curve, double resolution, std::vector<int>& rows) {
+  const Eigen::Index m = curve.cols();
+  double area = 0;
+  for (Eigen::Index i = 1; i + 1 < m; ++i)
+    area += cross(curve.col(i) - curve.col(0), curve.col(i + 1) - curve.col(0));
+  if (area < 0) {
+    curve = curve.rowwise().reverse().eval();
+    std::reverse(rows.begin(), rows.end());
+  }
+  Eigen::Index first = 0;
+  for (Eigen::Index i = 1; i < m; ++i)
+    if (std::make_pair(curve(0, i), curve(1, i)) < std::make_pair(curve(0, first), curve(1, first)))
+      first = i;
+  std::rotate(rows.begin(), rows.begin() + first, rows.end());
+  curve = (Eigen::Matrix2Xd(2, m) << curve.rightCols(m - first), curve.leftCols(first)).finished();
+  int rounds = 0;  // half planes that sides enter: two on one way round
+  Eigen::Vector2d before = curve.col(0) - curve.col(m - 1);
+  for (Eigen::Index i = 0; i < m; ++i) {
+    const Eigen::Vector2d side = curve.col(i + 1 < m ? i + 1 : 0) - curve.col(i);
+    if (side.norm() <= resolution || !(cross(before, side) > 0)) return false;
+    rounds += (side.x() > 0) != (before.x() > 0);
+    before = side;
+  }
+  return rounds == 2;
 }
 
 /// The smallest box with the given axes around points.
@@ -56,43 +135,41 @@ HullSupport::HullSupport(const Points& points) {
 }
 
 double HullSupport::extent(const Direction& direction) const {
-  const Eigen::VectorXd heights = centred_points_ * direction.unit();
+  const Eigen::VectorXd heights = heights_along(direction.unit());
   return heights.maxCoeff() - heights.minCoeff();
 }
 
-Eigen::Matrix2Xd HullSupport::projection(const Frame& frame) const {
+Silhouette HullSupport::silhouette(const Frame& frame) const {
   // Bytes: all faces of a large hull stay in the processor's nearest cache.
   const Eigen::Array<bool, Eigen::Dynamic, 1> faces = (normal_columns_ * frame.w).array() > 0;
-  std::vector<int> rows;
-  std::vector<char> listed(points_.rows(), 0);
-  for (Eigen::Index e = 0; e < edges_.rows(); ++e) {
-    if (faces[edge_faces_(e, 0)] == faces[edge_faces_(e, 1)]) continue;
-    for (int end = 0; end < 2; ++end)
-      if (!std::exchange(listed[edges_(e, end)], 1)) rows.push_back(edges_(e, end));
-  }
-  Eigen::Matrix2Xd projected;
+  OutlineWalk walk(points_.rows());
+  for (Eigen::Index e = 0; e < edges_.rows(); ++e)
+    if (faces[edge_faces_(e, 0)] != faces[edge_faces_(e, 1)]) walk.add(edges_(e, 0), edges_(e, 1));
+  std::vector<int> rows = walk.corners();
   if (rows.empty()) {  // a flat set seen edge on, one that is nearly flat, a straight one or a point
-    projected.resize(2, points_.rows());
-    projected.row(0) = (centred_points_ * frame.u).transpose();
-    projected.row(1) = (centred_points_ * frame.v).transpose();
-  } else {
-    projected.resize(2, static_cast<Eigen::Index>(rows.size()));
-    for (Eigen::Index i = 0; i < projected.cols(); ++i) {
-      const Eigen::Vector3d p = centred_points_.row(rows[i]).transpose();
-      projected.col(i) << p.dot(frame.u), p.dot(frame.v);
-    }
+    rows.resize(static_cast<std::size_t>(points_.rows()));
+    std::iota(rows.begin(), rows.end(), 0);
   }
-  return projected(Eigen::all, convex_polygon(projected, resolution_));
+  Eigen::Matrix2Xd projected(2, static_cast<Eigen::Index>(rows.size()));
+  for (Eigen::Index i = 0; i < projected.cols(); ++i) {
+    const Eigen::Vector3d p = centred_points_.row(rows[static_cast<std::size_t>(i)]).transpose();
+    projected.col(i) << p.dot(frame.u), p.dot(frame.v);
+  }
+  if (walk.is_closed() && order_as_polygon(projected, resolution_, rows)) return {rows, projected};
+  const std::vector<int> columns = convex_polygon(projected, resolution_);
+  Silhouette result{{}, projected(Eigen::all, columns)};
+  for (const int column : columns) result.corners.push_back(rows[static_cast<std::size_t>(column)]);
+  return result;
 }
 
 double HullSupport::minimal_rectangle_area(const Direction& direction) const {
-  return minimal_rectangle(projection(frame_of(direction))).area();
+  return minimal_rectangle(silhouette(frame_of(direction)).polygon).area();
 }
 
 OrientedBox HullSupport::box_along(const Direction& direction) const {
   const Frame frame = frame_of(direction);
-  const PlanarRectangle rectangle = minimal_rectangle(projection(frame));
-  const Eigen::VectorXd heights = centred_points_ * frame.w;
+  const PlanarRectangle rectangle = minimal_rectangle(silhouette(frame).polygon);
+  const Eigen::VectorXd heights = heights_along(frame.w);
   const double low = heights.minCoeff(), high = heights.maxCoeff();
 
   OrientedBox box;

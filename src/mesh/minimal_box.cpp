@@ -4,18 +4,22 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
-#include <optional>
+#include <memory>
 #include <queue>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "core/angles.h"
 #include "mesh/affine_span.h"
+#include "mesh/box_view.h"
+#include "mesh/gauss_arcs.h"
 #include "stackabilization/core/tolerances.h"
 #include "stackabilization/mesh/boxes.h"
 
 namespace stackabilization {
+
+using detail::GaussArc;
+using detail::GaussArcTree;
 
 namespace {
 
@@ -41,61 +45,44 @@ double effort_per_box(const HullSupport& hull) {
          static_cast<double>(hull.points().rows() + hull.edges().rows() + sides.size());
 }
 
-/// Intervals of an arc narrower than this are searched by golden section, radians.
-constexpr double narrow = 0.01;
+/// Faces that are tried before all others: the largest ones.
+constexpr Eigen::Index first_faces = 12;
 
-/// Distance from its end, in radians, at which the slope of such an interval is measured. A kink within this
-/// distance changes the result by little more than the accuracy of boxes. A slope below rounding changes it
-/// by little over the interval.
-constexpr double beside = 3 * tolerance::relative;
+/// Boxes that are larger than the best one by less than this fraction are not looked for: the volume is the
+/// same in every pose to tolerance::relative.
+constexpr double negligible = 0.1 * tolerance::relative;
 
-/// Arc from one hull face normal to a neighbouring one.
-struct Arc {
-  Eigen::Vector3d start, side;
-  double length;
+/// Distance from the end of an interval at which the body is looked at, radians: there it shows which corners
+/// support it from the end on. What changes within this distance changes the result by little more than the
+/// accuracy of boxes.
+constexpr double beside = 0.1 * tolerance::relative;
 
-  Eigen::Vector3d normal(double angle) const { return start * std::cos(angle) + side * std::sin(angle); }
-};
+/// Regions of directions wider than this (radians) are divided without a look at them.
+constexpr double wide = 0.4;
 
-/// The smallest box at one position of an arc, its volume up to a factor that is the same for all. A rotation
-/// by a small angle d increases the volume by a factor of at most 1 + d * rate, because each side must grow
-/// by d times another side to contain the shape.
-struct Sample {
-  double angle = 0, volume = 0, rate = 0;
-};
-
-struct Interval {
-  int arc;
-  Sample low, high;
-  double bound;  ///< volume that boxes inside hardly go below: `rate` of both ends is taken for theirs
-
-  double width() const { return high.angle - low.angle; }
-  bool operator<(const Interval& other) const {  // smallest bound on top of a priority queue
-    return std::tie(bound, arc, low.angle) > std::tie(other.bound, other.arc, other.low.angle);
-  }
-};
-
-double turning_rate(const OrientedBox& box) {
-  const double a = box.half_extents.z(), b = box.half_extents.x(), c = box.half_extents.y();
-  return std::hypot(b / a + a / b, c / a + a / c);
-}
+/// Tries of one interval, each with another place where the bounds from both ends may meet, at least so far
+/// (share of what is left) from the last ones.
+constexpr int tries = 8;
+constexpr double min_step = 0.02;
 
 /// Returns the number of boxes that the work of one search allows.
 int max_boxes(const HullSupport& hull) {
   return static_cast<int>(total_effort / effort_per_box(hull));
 }
 
+/// Branch and bound over the arcs of a hull: regions of the sphere are divided until they are single arcs,
+/// and these where the bounds from their ends meet.
 class MinimalBoxSearch {
  public:
   MinimalBoxSearch(const HullSupport& hull, int boxes)
       : hull_(hull),
         unit_(std::ldexp(1.0, std::min(working_exponent(hull.points()), 1000))),
-        boxes_left_(boxes) {}
+        boxes_left_(boxes),
+        face_visited_(static_cast<std::size_t>(hull.face_normals().rows())) {}
 
   /// Searches all directions.
   OrientedBox run() {
-    visit_faces([](const Eigen::Vector3d&) { return true; });
-    return search_arcs();
+    return search([](const Eigen::Vector3d&) { return true; });
   }
 
   /// Searches near the axes of the best box that is found from boxes along `normals`, when axes across it are
@@ -103,31 +90,35 @@ class MinimalBoxSearch {
   OrientedBox run_near(const std::vector<Eigen::Vector3d>& normals) {
     for (const Eigen::Vector3d& normal : normals) follow(normal);
     const Eigen::Matrix3d axes = best_.axes;
-    visit_faces([&](const Eigen::Vector3d& normal) {
+    return search([&](const Eigen::Vector3d& normal) {
       return (axes.transpose() * normal).cwiseAbs().maxCoeff() >= std::cos(surroundings);
     });
-    return search_arcs();
   }
 
   /// Returns the best directions of all that were visited, the best first.
   std::vector<Eigen::Vector3d> best_directions() const;
 
  private:
-  OrientedBox search_arcs() {
-    visit_arcs();
-    while (!intervals_.empty() && boxes_left_ > 0) {
-      const Interval interval = intervals_.top();
-      intervals_.pop();
-      if (cannot_win(interval.bound)) break;
-      if (interval.width() > narrow)
-        split(interval);
-      else
-        minimise_inside(interval);
-    }
-    return best_;
-  }
+  using View = std::shared_ptr<const detail::BoxView>;
 
-  double volume(const OrientedBox& box) const { return (unit_ * box.half_extents).prod(); }
+  /// A part of an arc, with the body seen from beside its ends; or a node of the tree, which has no view.
+  struct Task {
+    double bound = 0;
+    int node = -1, arc = -1;
+    double low = 0, high = 0;  ///< angles on the arc
+    View at_low, at_high;
+    double meeting = 0;  ///< angle at which the bounds from both ends meet
+    int order = 0;
+
+    bool operator<(const Task& other) const {  // smallest bound on top of a priority queue
+      return std::tie(bound, order) > std::tie(other.bound, other.order);
+    }
+  };
+
+  OrientedBox search(const std::function<bool(const Eigen::Vector3d&)>& wanted);
+
+  double volume(const OrientedBox& box) const { return (unit_ * 2 * box.half_extents).prod(); }
+  bool cannot_win(double bound) const { return bound >= best_volume_ * (1 - negligible); }
 
   OrientedBox box_along(const Eigen::Vector3d& normal) {
     --boxes_left_;
@@ -140,27 +131,30 @@ class MinimalBoxSearch {
     return box;
   }
 
-  Sample visit(const Eigen::Vector3d& normal, double angle) {
-    const OrientedBox box = box_along(normal);
-    return {angle, volume(box), turning_rate(box)};
+  View look(const Eigen::Vector3d& normal) {
+    --boxes_left_;
+    auto view = std::make_shared<const detail::BoxView>(hull_, normal, unit_);
+    visited_.emplace_back(view->volume(), normal);
+    if (view->volume() < best_volume_) box_along(normal);
+    return view;
   }
 
-  bool cannot_win(double bound) const { return bound >= best_volume_ * (1 - tolerance::rounding); }
-
-  void push(int arc, const Sample& low, const Sample& high) {
-    const double growth = std::max(low.rate, high.rate) * (high.angle - low.angle) / 2;
-    const double bound =
-        std::min({low.volume, high.volume, std::sqrt(low.volume * high.volume) * std::exp(-growth)});
-    if (!cannot_win(bound)) intervals_.push({arc, low, high, bound});
+  void visit_face(int face) {
+    if (face_visited_[static_cast<std::size_t>(face)]) return;
+    face_visited_[static_cast<std::size_t>(face)] = true;
+    box_along(hull_.face_normals().row(face).transpose());
   }
 
   /// Takes the axes across the box along `normal` for its normal, as long as that makes it smaller.
   void follow(const Eigen::Vector3d& normal);
-  void visit_faces(const std::function<bool(const Eigen::Vector3d&)>& wanted);
-  void visit_arcs();
-  void split(const Interval& interval);
-  bool is_minimal_at_an_end(const Interval& interval);
-  void minimise_inside(const Interval& interval);
+  void push(Task task) {
+    if (cannot_win(task.bound)) return;
+    task.order = tasks_made_++;
+    tasks_.push(std::move(task));
+  }
+  void push_node(const GaussArcTree& tree, int node, double bound);
+  void push_interval(int arc, double low, double high);
+  void divide(const Task& interval);
 
   const HullSupport& hull_;
   double unit_;  ///< lengths times it have volumes that neither overflow nor underflow
@@ -168,10 +162,38 @@ class MinimalBoxSearch {
   OrientedBox best_;
   double best_volume_ = std::numeric_limits<double>::infinity();
   std::vector<std::pair<double, Eigen::Vector3d>> visited_;  ///< volumes and normals
-  std::vector<std::optional<Sample>> face_samples_;
-  std::vector<Arc> arcs_;
-  std::priority_queue<Interval> intervals_;
+  std::vector<bool> face_visited_;
+  std::vector<GaussArc> arcs_;
+  std::priority_queue<Task> tasks_;
+  int tasks_made_ = 0;
 };
+
+OrientedBox MinimalBoxSearch::search(const std::function<bool(const Eigen::Vector3d&)>& wanted) {
+  for (Eigen::Index face = 0; face < std::min(first_faces, hull_.face_normals().rows()); ++face)
+    if (!hull_.face_normals().row(face).isZero()) visit_face(static_cast<int>(face));
+  arcs_ = detail::without_needless_arcs(detail::gauss_arcs(hull_, wanted), best_.axes);
+  const GaussArcTree tree(arcs_);
+  if (!arcs_.empty()) push_node(tree, 0, 0);
+  while (!tasks_.empty() && boxes_left_ > 0) {
+    const Task task = tasks_.top();
+    tasks_.pop();
+    if (cannot_win(task.bound)) break;
+    if (task.node < 0) {
+      divide(task);
+      continue;
+    }
+    const GaussArcTree::Node& node = tree.nodes()[static_cast<std::size_t>(task.node)];
+    if (node.arc < 0) {
+      for (const int child : {node.left, node.right}) push_node(tree, child, task.bound);
+    } else {
+      const GaussArc& arc = arcs_[static_cast<std::size_t>(node.arc)];
+      visit_face(arc.from);
+      visit_face(arc.to);
+      push_interval(node.arc, 0, arc.length);
+    }
+  }
+  return best_;
+}
 
 std::vector<Eigen::Vector3d> MinimalBoxSearch::best_directions() const {
   std::vector<std::pair<double, Eigen::Vector3d>> sorted = visited_;
@@ -202,74 +224,61 @@ void MinimalBoxSearch::follow(const Eigen::Vector3d& normal) {
   }
 }
 
-/// Where there are too many, the largest faces get half of the work, and the arcs between them the rest.
-void MinimalBoxSearch::visit_faces(const std::function<bool(const Eigen::Vector3d&)>& wanted) {
-  int left = std::max(1, boxes_left_ / 2);
-  face_samples_.resize(hull_.face_normals().rows());
-  for (Eigen::Index f = 0; f < hull_.face_normals().rows() && left > 0; ++f) {
-    const Eigen::Vector3d normal = hull_.face_normals().row(f).transpose();
-    if (normal.isZero() || !wanted(normal)) continue;
-    face_samples_[f] = visit(normal, 0);
-    --left;
-  }
-}
-
-void MinimalBoxSearch::visit_arcs() {
-  for (Eigen::Index e = 0; e < hull_.edge_faces().rows(); ++e) {
-    const int from = hull_.edge_faces()(e, 0), to = hull_.edge_faces()(e, 1);
-    if (!face_samples_[from] || !face_samples_[to]) continue;
-    const Eigen::Vector3d start = hull_.face_normals().row(from).transpose();
-    const Eigen::Vector3d end = hull_.face_normals().row(to).transpose();
-    const Eigen::Vector3d side = (end - start * start.dot(end)).stableNormalized();
-    arcs_.push_back({start, side, detail::angle_between(start, end)});
-    Sample high = *face_samples_[to];
-    high.angle = arcs_.back().length;
-    push(static_cast<int>(arcs_.size()) - 1, *face_samples_[from], high);
-  }
-}
-
-void MinimalBoxSearch::split(const Interval& interval) {
-  const double angle = (interval.low.angle + interval.high.angle) / 2;
-  const Sample middle = visit(arcs_[interval.arc].normal(angle), angle);
-  push(interval.arc, interval.low, middle);
-  push(interval.arc, middle, interval.high);
-}
-
-/// Returns whether boxes grow from the end with the smaller box on. This end is then the minimum of the
-/// interval.
-bool MinimalBoxSearch::is_minimal_at_an_end(const Interval& interval) {
-  if (interval.width() < 2 * beside) return false;
-  const bool at_low = interval.low.volume <= interval.high.volume;
-  const double angle = at_low ? interval.low.angle + beside : interval.high.angle - beside;
-  const double volume = visit(arcs_[interval.arc].normal(angle), angle).volume;
-  return volume >= (at_low ? interval.low : interval.high).volume;
-}
-
-/// Golden section: it needs no derivatives, and the minimum is often a kink where the hull touches with
-/// another corner.
-void MinimalBoxSearch::minimise_inside(const Interval& interval) {
-  constexpr double golden = 0.6180339887498949;
-  if (is_minimal_at_an_end(interval)) return;
-  const Arc& arc = arcs_[interval.arc];
-  double low = interval.low.angle, high = interval.high.angle;
-  const auto inner = [&](double fraction) {
-    const double angle = low + (high - low) * fraction;
-    return visit(arc.normal(angle), angle);
-  };
-  Sample left = inner(1 - golden), right = inner(golden);
-  while (high - low > tolerance::rounding && boxes_left_ > 0) {
-    const Sample& least = left.volume <= right.volume ? left : right;
-    if (cannot_win(least.volume * (1 - least.rate * (high - low)))) return;
-    if (left.volume <= right.volume) {
-      high = right.angle;
-      right = left;
-      left = inner(1 - golden);
+void MinimalBoxSearch::push_node(const GaussArcTree& tree, int node, double bound) {
+  const auto& [centre, radius, left, right, index] = tree.nodes()[static_cast<std::size_t>(node)];
+  Task task;
+  task.node = node;
+  task.bound = bound;
+  if (radius <= wide) {
+    const View view = look(centre);
+    if (index < 0) {
+      task.bound = std::max(bound, view->bound_within(radius));
     } else {
-      low = left.angle;
-      left = right;
-      right = inner(golden);
+      const GaussArc& arc = arcs_[static_cast<std::size_t>(index)];
+      task.bound = std::max(bound, std::min({view->volume(), view->bound_along(arc.normal(0)),
+                                             view->bound_along(arc.normal(arc.length))}));
     }
   }
+  push(std::move(task));
+}
+
+/// Where corners support the body at one end, they bound its boxes up to the other end, and bounds from both
+/// ends meet in between: the interval has no smaller box than at its ends and where they meet.
+void MinimalBoxSearch::push_interval(int index, double low, double high) {
+  const double width = high - low;
+  if (!(width > 4 * beside)) return;
+  const GaussArc& arc = arcs_[static_cast<std::size_t>(index)];
+  Task task;
+  task.arc = index;
+  task.low = low;
+  task.high = high;
+  task.at_low = look(arc.normal(low + beside));
+  task.at_high = look(arc.normal(high - beside));
+  const double ends = std::min(task.at_low->volume(), task.at_high->volume());
+  task.bound = 0;
+  double from = low, to = high, at_from = 0, at_to = 0, angle = (low + high) / 2;
+  for (int attempt = 0; attempt < tries; ++attempt) {
+    const Eigen::Vector3d normal = arc.normal(angle);
+    const double below = task.at_low->bound_along(normal), above = task.at_high->bound_along(normal);
+    if (attempt == 0 || std::min(below, above) > task.bound) {
+      task.bound = std::min(below, above);
+      task.meeting = angle;
+    }
+    if (cannot_win(task.bound)) break;
+    (below > above ? from : to) = angle;
+    (below > above ? at_from : at_to) = below - above;
+    const double share = at_from > 0 && at_to < 0 ? at_from / (at_from - at_to) : 0.5;
+    angle = from + (to - from) * std::clamp(share, min_step, 1 - min_step);
+  }
+  task.bound = std::min(task.bound, ends);
+  push(std::move(task));
+}
+
+void MinimalBoxSearch::divide(const Task& interval) {
+  const double middle = std::clamp(interval.meeting, interval.low + 2 * beside, interval.high - 2 * beside);
+  box_along(arcs_[static_cast<std::size_t>(interval.arc)].normal(middle));
+  push_interval(interval.arc, interval.low, middle);
+  push_interval(interval.arc, middle, interval.high);
 }
 
 /// Returns `count` points that are spread over all: each is the farthest one from those before it, and the

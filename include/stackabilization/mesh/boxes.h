@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <vector>
 
 #include "stackabilization/core/direction.h"
 #include "stackabilization/core/shape.h"
@@ -15,6 +15,12 @@ struct OrientedBox {
   Eigen::Vector3d half_extents = Eigen::Vector3d::Zero();  ///< along the columns of `axes`, model units, >= 0
 
   double volume() const { return 8 * half_extents.prod(); }  ///< model units cubed
+};
+
+/// Outline of a convex body that is seen along a direction.
+struct Silhouette {
+  std::vector<int> corners;  ///< m rows of HullSupport::points(), counter-clockwise in u, v of the frame
+  Eigen::Matrix2Xd polygon;  ///< 2 x m, those corners in u, v relative to the centre of the bounding box
 };
 
 /// Convex hull, prepared for box and extent queries in many directions. Built once per shape, safe to share
@@ -45,21 +51,22 @@ class HullSupport {
   /// Returns, per row of `edges()`, the two adjacent faces: e x 2 rows of `face_normals()`.
   const Eigen::Matrix<int, Eigen::Dynamic, 2>& edge_faces() const { return edge_faces_; }
 
+  /// Returns the heights of `points()` along a unit vector, above the centre of the bounding box; model
+  /// units.
+  Eigen::VectorXd heights_along(const Eigen::Vector3d& unit) const { return centred_points_ * unit; }
   /// Computes h(M, r): the extent along r / |r|, model units.
   double extent(const Direction& direction) const;
   /// Computes the area of the minimal-area rectangle around the projection along r, model units squared.
-  /// Exact up to rounding. Rotating calipers (Toussaint 1983) around the silhouette, which follows from the
-  /// signs of the face normals along r.
+  /// Exact up to rounding. Rotating calipers (Toussaint 1983) around the silhouette.
   double minimal_rectangle_area(const Direction& direction) const;
   /// Returns the box with one axis along r over that rectangle. Its volume is V(M, r) of the `oriented` box
   /// model.
   OrientedBox box_along(const Direction& direction) const;
+  /// Returns the outline seen along `frame.w`. It follows from the signs of the face normals along w.
+  Silhouette silhouette(const Frame& frame) const;
 
  private:
   using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-  /// Returns the 2 x m counter-clockwise corners of the projection in u, v of `frame`, relative to the
-  /// centre.
-  Eigen::Matrix2Xd projection(const Frame& frame) const;
 
   int dimension_ = 0;
   Points points_, face_normals_;
@@ -79,10 +86,11 @@ inline constexpr Eigen::Index large_hull = 1000;
 ///
 /// A minimal box has two adjacent faces that each contain a hull edge (O'Rourke 1985), so one of its normals
 /// lies on an arc of the Gauss map between the normals of two neighbouring hull faces. The function searches
-/// these arcs best first. It estimates minima in intervals from the growth of boxes under rotation, and stops
-/// after a fixed amount of work, which spheres of some hundred faces need. For hulls of more than 1000
-/// corners, it searches the hull of 500 that are spread evenly, and follows the best directions on the whole
-/// hull. The result is therefore the best box found, not proven minimal.
+/// these arcs by branch and bound: the corners that support a box bound the boxes along directions nearby
+/// from below, but for terms of second order. It stops after a fixed amount of work, which spheres of some
+/// hundred faces need. For hulls of more than 1000 corners, it searches the hull of 500 that are spread
+/// evenly, and follows the best directions on the whole hull. The result is therefore the best box found, not
+/// proven minimal.
 OrientedBox minimal_oriented_box(const HullSupport& hull);
 
 /// Computes the box along the file's axes.
