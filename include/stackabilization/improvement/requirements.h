@@ -109,7 +109,9 @@ class RequirementChecker {
   /// slack, from exact separations. The other quantities are computed in double precision and compared within
   /// tolerance::relative.
   ///
-  /// * relations: recomputed, see DeformationModel::relation_residuals;
+  /// * relations: recomputed, see DeformationModel::relation_residuals; they hold up to tolerance::relation,
+  /// or
+  ///   tolerance::visible where they are measured on the mesh;
   /// * parts: no vertex of a part that stays has moved. Where such a part shares vertices with one that may
   ///   change, models that edit primitives let the surface between them follow; there the primitive has not
   ///   moved;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "stackabilization/improvement/tolerances.h"
 #include "support/catch.h"
 #include "support/directions.h"
 #include "support/solids.h"
@@ -131,12 +132,15 @@ TEST_CASE("Relations are held against the mesh of models that edit it", "[requir
     design.shape.vertices.bottomRows(8).col(1).array() += fraction * std::sqrt(18.0);
     return design;
   };
-  CHECK(check_of(space, frame_requirements(), moved(0.99e-6), CheckKind::relations).passed);
-  const Check broken = check_of(space, frame_requirements(), moved(1.01e-6), CheckKind::relations);
+  CHECK(check_of(space, frame_requirements(), moved(0.99 * tolerance::visible), CheckKind::relations).passed);
+  const Check broken =
+      check_of(space, frame_requirements(), moved(1.01 * tolerance::visible), CheckKind::relations);
   CHECK_FALSE(broken.passed);
-  CHECK(broken.value == Approx(1.01e-6));
+  CHECK(broken.value == Approx(1.01 * tolerance::visible));
   CHECK(broken.where == 0);
-  CHECK_FALSE(RequirementChecker(space, frame_requirements()).check(moved(1.01e-6), upwards).passed());
+  CHECK_FALSE(RequirementChecker(space, frame_requirements())
+                  .check(moved(1.01 * tolerance::visible), upwards)
+                  .passed());
 }
 
 TEST_CASE("A table in pieces is no solution, whatever the model", "[requirements]") {
