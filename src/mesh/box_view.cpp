@@ -59,7 +59,8 @@ class Calipers {
   Eigen::Vector2d axis_;
   std::size_t flush_ = 0;
   std::array<Eigen::Index, 4> corners_{};
-  std::array<Eigen::Vector2d, 4> ahead_;  ///< sides that follow the corners, turned by right angles to the axis
+  std::array<Eigen::Vector2d, 4>
+      ahead_;  ///< sides that follow the corners, turned by right angles to the axis
 };
 
 }  // namespace
@@ -97,8 +98,8 @@ BoxView::BoxView(const HullSupport& hull, const Eigen::Vector3d& normal, double 
     turns_.push_back(turn);
   }
   volume_ = height_.z() * least([](const Turn& turn, const Eigen::Vector2d& axis) {
-    return turn.along.head<2>().dot(axis) * turn.across.head<2>().dot(quarter_turn(axis));
-  });
+              return turn.along.head<2>().dot(axis) * turn.across.head<2>().dot(quarter_turn(axis));
+            });
 }
 
 template <typename Product>
@@ -118,7 +119,8 @@ double BoxView::bound_along(const Eigen::Vector3d& other) const {
     return span.head<2>() + way * ((cosine - 1) * span.head<2>().dot(way) - sine * span.z());
   };
   const auto area = [&](const Turn& turn, const Eigen::Vector2d& axis) {
-    return std::max(0.0, seen(turn.along).dot(axis)) * std::max(0.0, seen(turn.across).dot(quarter_turn(axis)));
+    return std::max(0.0, seen(turn.along).dot(axis)) *
+           std::max(0.0, seen(turn.across).dot(quarter_turn(axis)));
   };
   // One turn ends where the next one begins. Bounds of both hold at every axis, so that they may change
   // anywhere: where they did along n, or where the side between them is flush along `other`.
@@ -146,13 +148,14 @@ double BoxView::bound_within(double angle) const {
     return span.head<2>().dot(axis) - (1 - cosine) * span.head<2>().norm();
   };
   return height * least([&](const Turn& turn, const Eigen::Vector2d& axis) {
-    const double along = extent(turn.along, axis), across = extent(turn.across, quarter_turn(axis));
-    if (along <= 0 || across <= 0) return 0.0;
-    const double a = turn.along.z() / along, b = turn.across.z() / across;
-    const double first = (a * axis + b * quarter_turn(axis) - tilt).norm(), c = tilt.norm(), d = std::abs(a), e = std::abs(b);
-    return along * across *
-           std::max(0.0, 1 - sine * (first + sine * (c * d + c * e + d * e + sine * c * d * e)));
-  });
+           const double along = extent(turn.along, axis), across = extent(turn.across, quarter_turn(axis));
+           if (along <= 0 || across <= 0) return 0.0;
+           const double a = turn.along.z() / along, b = turn.across.z() / across;
+           const double first = (a * axis + b * quarter_turn(axis) - tilt).norm(), c = tilt.norm(),
+                        d = std::abs(a), e = std::abs(b);
+           return along * across *
+                  std::max(0.0, 1 - sine * (first + sine * (c * d + c * e + d * e + sine * c * d * e)));
+         });
 }
 
 }  // namespace stackabilization::detail

@@ -48,8 +48,8 @@ std::vector<GaussArc> without_needless_arcs(std::vector<GaussArc> arcs, const Ei
 
 GaussArcTree::GaussArcTree(const std::vector<GaussArc>& arcs) {
   for (const GaussArc& arc : arcs)
-    entries_.push_back({static_cast<int>(entries_.size()), arc.start, arc.normal(arc.length / 2),
-                        arc.normal(arc.length)});
+    entries_.push_back(
+        {static_cast<int>(entries_.size()), arc.start, arc.normal(arc.length / 2), arc.normal(arc.length)});
   nodes_.reserve(2 * arcs.size());
   if (!arcs.empty()) build(0, arcs.size());
 }

@@ -10,8 +10,8 @@
 
 namespace stackabilization::detail {
 
-/// Arc of the Gauss map: the directions between the normals of two neighbouring hull faces. A box along one of
-/// them has the edge between the faces on its side.
+/// Arc of the Gauss map: the directions between the normals of two neighbouring hull faces. A box along one
+/// of them has the edge between the faces on its side.
 struct GaussArc {
   int from, to;                 ///< faces
   Eigen::Vector3d start, side;  ///< unit, orthogonal: the arc begins at `start` and leads towards `side`

@@ -19,7 +19,8 @@ std::vector<GaussArc> all_arcs(const HullSupport& hull) {
 
 bool lies_within(const GaussArc& arc, const GaussArcTree::Node& node) {
   for (int k = 0; k <= 8; ++k)
-    if (std::acos(std::clamp(arc.normal(arc.length * k / 8).dot(node.centre), -1.0, 1.0)) > node.radius + 1e-7)
+    if (std::acos(std::clamp(arc.normal(arc.length * k / 8).dot(node.centre), -1.0, 1.0)) >
+        node.radius + 1e-7)
       return false;
   return true;
 }

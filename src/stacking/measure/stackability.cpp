@@ -270,9 +270,14 @@ ExactStackability measure_exact(const Shape& shape, const SeparationTree& tree, 
                                 const StackabilityOptions& options) {
   validate(shape);
   validate(options);
-  const Separation exact = separation(tree, tree, direction, {options.semantics, std::nullopt});
-  const double f_max = with_air(shape, direction, translation(exact), options);
-  return {BoxesAlong(shape, direction, options).exact().with_f_max(f_max), exact};
+  Separation exact;
+  Stackability boxes;
+  tbb::parallel_invoke(
+      [&] {
+        exact = separation(tree, tree, direction, {options.semantics, std::nullopt});
+      },
+      [&] { boxes = BoxesAlong(shape, direction, options).exact(); });
+  return {boxes.with_f_max(with_air(shape, direction, translation(exact), options)), exact};
 }
 
 }  // namespace stackabilization
