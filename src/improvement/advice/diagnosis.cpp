@@ -45,8 +45,8 @@ class DiagnosisBuilder {
   DiagnosisBuilder(const RequirementChecker& checker, const BestFirstResult& result,
                    const DiagnosisOptions& options)
       : checker_(checker),
-        result_(result),
         options_(options),
+        refusals_(result.refusals),
         best_(result.nearest.front()),
         rest_(checker.space().rest()),
         direction_(best_.direction),
@@ -58,6 +58,8 @@ class DiagnosisBuilder {
     diagnosis_.reached = best_.measured.value;
     diagnosis_.direction = best_.direction;
     find_blockers();
+    if (refusals_.empty())
+      for (const auto& [obstacle, count] : tried_refusals_) refusals_.push_back({obstacle, count});
     diagnosis_.constraints = obstacles();
     if (diagnosis_.constraints.size() > max_constraints) diagnosis_.constraints.resize(max_constraints);
     if (!stopped()) free_parts();
@@ -76,10 +78,11 @@ class DiagnosisBuilder {
 
   bool helps(double stackability) const { return stackability > diagnosis_.reached + worth_saying; }
 
-  /// Returns the obstacles of the search. Checks that stand against the best design alone, which reaches the
-  /// target, come first: nothing else keeps it from being a solution.
+  /// Returns the obstacles of the search, or those of the edits of the best design where the search met none.
+  /// Checks that stand against the best design alone, which reaches the target, come first: nothing else
+  /// keeps it from being a solution.
   std::vector<ObstacleCount> obstacles() const {
-    std::vector<ObstacleCount> all = told_once(result_.refusals);
+    std::vector<ObstacleCount> all = told_once(refusals_);
     if (!checker_.meets_target(best_.measured)) return all;
     std::vector<ObstacleCount> own;
     for (const Check& check : checker_.check(best_.design, direction_).checks) {
@@ -141,6 +144,7 @@ class DiagnosisBuilder {
     if (const auto trial = trials_.tried({region}, checker_)) {
       explain(blocker, *trial);
       note(*trial);
+      for (const auto& [obstacle, count] : trial->refusals) tried_refusals_[obstacle] += count;
     }
     return blocker;
   }
@@ -239,7 +243,7 @@ class DiagnosisBuilder {
 
   /// Returns whether a design of the search had this measure of quality beyond its limit.
   bool stood_in_the_way(QualityMeasure measure) const {
-    return std::any_of(result_.refusals.begin(), result_.refusals.end(), [&](const ObstacleCount& count) {
+    return std::any_of(refusals_.begin(), refusals_.end(), [&](const ObstacleCount& count) {
       const auto* check = std::get_if<Check>(&count.obstacle);
       return check && check->kind == CheckKind::quality && check->measure == measure;
     });
@@ -304,8 +308,9 @@ class DiagnosisBuilder {
   void add(Remedy remedy) { diagnosis_.remedies.push_back(std::move(remedy)); }
 
   const RequirementChecker& checker_;
-  const BestFirstResult& result_;
   const DiagnosisOptions& options_;
+  std::vector<ObstacleCount> refusals_;              ///< of the search, or of the edits that were tried here
+  std::map<Obstacle, std::int64_t> tried_refusals_;  ///< of the edits that were tried here
   const Candidate& best_;
   const StructuredShape& rest_;
   Direction direction_;

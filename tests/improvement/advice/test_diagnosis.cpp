@@ -67,6 +67,18 @@ TEST_CASE("parts that must stay are what is in the way, and freeing the legs is 
   CHECK(mentions(text, "\n  'leg_1' is fixed, or symmetric to a part that is (12 edits)\n"));
 }
 
+TEST_CASE("where the search met nothing, what stood against the edits of the best design is told") {
+  const StructuredShape table = structures::table();
+  const auto space = deformation_model(table);
+  Requirements requirements = designs::frame_requirements(0.8);
+  requirements.kept_parts = all_parts(table);
+  const RequirementChecker checker(*space, requirements);
+  const Diagnosis diagnosis = diagnose(checker, stuck_at_rest(checker));
+  REQUIRE_FALSE(diagnosis.constraints.empty());
+  CHECK(diagnosis.constraints.front().obstacle == diagnosis.blockers.front().obstacle);
+  CHECK(diagnosis.constraints.front().count > 0);
+}
+
 TEST_CASE("a check that keeps the best design from being a solution comes before what met edits") {
   const designs::Still space(designs::two_cubes(), DeformationKind::surface);
   const RequirementChecker checker(space, designs::frame_requirements(-1));
