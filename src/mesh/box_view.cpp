@@ -143,13 +143,14 @@ double BoxView::bound_within(double angle) const {
   const double height = height_.z() * cosine;
   if (height <= 0) return 0;
   const Eigen::Vector2d tilt = height_.head<2>() / height;
-  // How much an extent loses, as a share of it, by a tilt whose sine is 1.
   const auto extent = [&](const Eigen::Vector3d& span, const Eigen::Vector2d& axis) {
     return span.head<2>().dot(axis) - (1 - cosine) * span.head<2>().norm();
   };
   return height * least([&](const Turn& turn, const Eigen::Vector2d& axis) {
            const double along = extent(turn.along, axis), across = extent(turn.across, quarter_turn(axis));
            if (along <= 0 || across <= 0) return 0.0;
+           // Shares of the extents that a tilt takes, for each unit of its sine: together by `first`, of
+           // which no direction of the tilt takes more, and by products.
            const double a = turn.along.z() / along, b = turn.across.z() / across;
            const double first = (a * axis + b * quarter_turn(axis) - tilt).norm(), c = tilt.norm(),
                         d = std::abs(a), e = std::abs(b);
