@@ -294,13 +294,15 @@ test('a page that lost the program says what is saved, and tries again when it i
 });
 
 /** Middle of the handle of an axis in the window, a little away from the centre. */
-const gripOf = (page, name) =>
-  page.evaluate((name) => {
+async function gripOf(page, name) {
+  await frameDrawn(page); // which gives the handles their size
+  return page.evaluate((name) => {
     const { gizmo, viewer } = window.editor, axis = gizmo.handle.axesOf(gizmo.tool).find((one) => one.name === name);
     const length = gizmo.group.scale.x, centre = gizmo.group.position.clone(), at = centre.clone().addScaledVector(axis.direction, 0.8 * length);
     const grip = viewer.screenOf(at), origin = viewer.screenOf(centre);
     return { x: grip.x, y: grip.y, dx: grip.x - origin.x, dy: grip.y - origin.y };
   }, name);
+}
 
 /** Picks a part by its name in the panel. */
 async function pick(page, name) {
