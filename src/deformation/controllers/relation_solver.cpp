@@ -251,8 +251,9 @@ std::vector<Constraint> joint_constraints(const Rig& rig) {
   for (const int k : rig.distinct_joints) {
     const JointPoint& joint = rig.joints[at(k)];
     Constraint constraint;
-    constraint.bound_points = {{joint.parts[0], joint.bindings[0], 1},
-                               {joint.parts[1], joint.bindings[1], -1}};
+    const Eigen::Matrix3d whole = Eigen::Matrix3d::Identity();
+    constraint.bound_points = {{joint.parts[0], joint.bindings[0], whole},
+                               {joint.parts[1], joint.bindings[1], -whole}};
     const int carrier = rig.rest.relations[at(joint.relation)].carrier;
     if (carrier >= 0) constraint.carrier = carrier;
     constraint.slack = rig.rest.relations[at(joint.relation)].slack;
@@ -267,7 +268,8 @@ std::vector<Constraint> row_constraints(const Rig& rig) {
     constexpr std::array<double, 3> weights = {1, -2, 1};  // the difference of the two steps
     Constraint constraint;
     for (std::size_t j = 0; j < weights.size(); ++j)
-      constraint.bound_points.push_back({point.parts[j], point.bindings[j], weights[j]});
+      constraint.bound_points.push_back(
+          {point.parts[j], point.bindings[j], weights[j] * Eigen::Matrix3d::Identity()});
     constraints.push_back(std::move(constraint));
   }
   return constraints;

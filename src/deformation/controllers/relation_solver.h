@@ -9,11 +9,12 @@
 
 namespace stackabilization::detail {
 
-/// A point bound to a part, with a weight in a sum of such points.
+/// A point bound to a part, with a weight in a sum of such points: a multiple of the identity where all of
+/// the point counts, of a projector where a component does.
 struct BoundPoint {
   int part = 0;
   PointBinding binding;
-  double weight = 1;
+  Eigen::Matrix3d weight = Eigen::Matrix3d::Identity();
 };
 
 /// An equation for a weighted sum of bound points. Without a normal, the sum equals `target`. With a normal,

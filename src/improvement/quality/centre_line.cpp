@@ -25,6 +25,8 @@ namespace {
 /// show waves, which take more.
 constexpr int straight_stations = 12, curved_stations = 24;
 constexpr std::size_t pieces_per_station = 6;
+/// Least number of stations between seams that tell the change of a part by themselves.
+constexpr std::size_t min_own_stations = 4;
 /// Ratio of length to width from which on a cuboid is elongated.
 constexpr double elongated = 3;
 /// Largest share by which balancing reduces the weight of a piece.
@@ -178,6 +180,7 @@ std::optional<CentreLine> CentreLine::of(const Primitive& primitive, const Shape
   for (int k = 1; k < station_count; ++k) line.length_ += (line.rest_.row(k) - line.rest_.row(k - 1)).norm();
   if (!(line.length_ > 0)) return std::nullopt;
   line.sections_ = line.sections(marks, line.rest_);
+  line.find_own_stations(rest, triangles, marks);
   if (!line.straight_) return line;
   line.deviation_ =
       distance_from_chord(line.rest_) / (line.rest_.row(station_count - 1) - line.rest_.row(0)).norm();
@@ -222,6 +225,34 @@ void CentreLine::balance(std::vector<Share>& station, const Points& marks, const
   for (const Eigen::Vector2d& offset : across) fall = std::max(fall, -slope.dot(offset));
   const double share = fall > max_fall ? max_fall / fall : 1;
   for (std::size_t i = 0; i < across.size(); ++i) station[i].weight *= 1 + share * slope.dot(across[i]);
+}
+
+void CentreLine::find_own_stations(const Shape& rest, const std::vector<std::int32_t>& triangles,
+                                   const Points& marks) {
+  const std::int32_t part = rest.triangle_part[static_cast<std::size_t>(triangles.front())];
+  std::vector<char> of_others(static_cast<std::size_t>(rest.vertex_count()), 0);
+  for (Eigen::Index t = 0; t < rest.triangle_count(); ++t)
+    if (rest.triangle_part[static_cast<std::size_t>(t)] != part)
+      for (int k = 0; k < 3; ++k) of_others[static_cast<std::size_t>(rest.triangles(t, k))] = 1;
+  std::set<std::int32_t> seam;
+  for (const std::int32_t t : triangles)
+    for (int k = 0; k < 3; ++k)
+      if (const std::int32_t v = rest.triangles(t, k); of_others[static_cast<std::size_t>(v)]) seam.insert(v);
+  const double reach = radius();
+  std::vector<char> at_seam(static_cast<std::size_t>(marks.rows()), 0);
+  for (Eigen::Index mark = 0; mark < marks.rows(); ++mark)
+    at_seam[static_cast<std::size_t>(mark)] = std::any_of(seam.begin(), seam.end(), [&](std::int32_t vertex) {
+      return (rest.vertices.row(vertex) - marks.row(mark)).squaredNorm() < reach * reach;
+    });
+  for (std::size_t k = 0; k < stations_.size(); ++k) {
+    double near = 0, far = 0;
+    for (const Share& share : stations_[k])
+      (at_seam[static_cast<std::size_t>(share.mark)] ? near : far) += share.weight;
+    if (far > near) own_stations_.push_back(static_cast<Eigen::Index>(k));
+  }
+  if (own_stations_.size() >= min_own_stations) return;
+  own_stations_.clear();
+  for (std::size_t k = 0; k < stations_.size(); ++k) own_stations_.push_back(static_cast<Eigen::Index>(k));
 }
 
 std::array<Eigen::Vector3d, 2> CentreLine::ends_on(const Shape& shape, const Points& centres) const {
@@ -311,7 +342,7 @@ CentreLineChange CentreLine::change(const Shape& now, const AffineMap& affine) c
     places = shares_of_line(centres);
     for (int k = 0; k < station_count; ++k)
       ratios(k) = sections[static_cast<std::size_t>(k)].radius / radius_at_rest(places(k));
-    result.width = ratios.minCoeff();
+    result.width = ratios(own_stations_).minCoeff();
   } else {
     Points image(station_count, 3);
     for (int k = 0; k < station_count; ++k) image.row(k) = affine(rest_.row(k).transpose()).transpose();
@@ -320,14 +351,15 @@ CentreLineChange CentreLine::change(const Shape& now, const AffineMap& affine) c
       ratios(k) =
           sections[static_cast<std::size_t>(k)].radius / sections_[static_cast<std::size_t>(k)].radius;
   }
-  for (std::size_t k = 0; k < sections.size(); ++k)
-    if (sections_[k].roundness >= tolerance::quality::round)
+  for (const Eigen::Index station : own_stations_)
+    if (const auto k = static_cast<std::size_t>(station); sections_[k].roundness >= tolerance::quality::round)
       result.section = std::max(result.section, sections_[k].roundness - sections[k].roundness);
   // The best affine function of the place; for a loop, the mean.
-  Eigen::MatrixXd functions = Eigen::MatrixXd::Ones(station_count, closed_ ? 1 : 2);
-  if (!closed_) functions.col(1) = places;
-  const Eigen::VectorXd function = functions.colPivHouseholderQr().solve(ratios);
-  result.profile = (ratios - functions * function).cwiseAbs().maxCoeff() / ratios.mean();
+  const auto count = static_cast<Eigen::Index>(own_stations_.size());
+  Eigen::MatrixXd functions = Eigen::MatrixXd::Ones(count, closed_ ? 1 : 2);
+  if (!closed_) functions.col(1) = places(own_stations_);
+  const Eigen::VectorXd own = ratios(own_stations_), function = functions.colPivHouseholderQr().solve(own);
+  result.profile = (own - functions * function).cwiseAbs().maxCoeff() / own.mean();
   if (straight_)
     for (std::size_t end = 0; end < 2; ++end)
       result.end_widths[end] = function(0) + function(1) * end_shares_[end];

@@ -71,6 +71,8 @@ class CentreLine {
   /// become 0.
   static void balance(std::vector<Share>& station, const Points& marks, const Eigen::Vector3d& place,
                       const Eigen::Vector3d& along);
+  /// Finds the stations that lie mostly farther than a radius from the vertices shared with other parts.
+  void find_own_stations(const Shape& rest, const std::vector<std::int32_t>& triangles, const Points& marks);
   Points centres(const Points& marks) const;
   std::array<Eigen::Vector3d, 2> ends_on(const Shape& shape, const Points& centres) const;
   std::vector<Section> sections(const Points& marks, const Points& centres) const;
@@ -89,6 +91,9 @@ class CentreLine {
   /// Corners near the ends of the surface; straight lines only.
   std::array<std::vector<Eigen::Index>, 2> end_corners_;
   std::vector<Section> sections_;
+  /// Stations whose sections count: not those at a seam with another part of the surface, which may fill the
+  /// corner there and follow that part.
+  std::vector<Eigen::Index> own_stations_;
 };
 
 }  // namespace stackabilization::detail

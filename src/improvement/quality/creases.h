@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "improvement/quality/affine_fit.h"
 #include "mesh/welded_mesh.h"
 #include "stackabilization/improvement/quality.h"
 
@@ -16,8 +17,10 @@ class Creases {
   Creases(const Shape& rest, const WeldedMesh& welded, double diagonal);
 
   /// Measures the length at rest of the edges that have become creases: in full from a change of the fold of
-  /// tolerance::quality::full_crease on, in part above that of tolerance::quality::slight_crease.
-  QualityValue measure(const Shape& now) const;
+  /// tolerance::quality::full_crease on, in part above that of tolerance::quality::slight_crease. Where two
+  /// parts of one surface meet, in the triangles at the vertices that they share, what the parts turn against
+  /// each other is no crease: it comes off the change. `maps`: of the parts to `now`.
+  QualityValue measure(const Shape& now, const std::vector<AffineMap>& maps) const;
 
  private:
   struct SmoothEdge {
@@ -28,6 +31,7 @@ class Creases {
     double fold;               ///< at rest, radians; negative where the surface is concave
     double length;             ///< at rest, of the diagonal
     double still;              ///< cosine of the folds between which no crease can be
+    std::int32_t joined;       ///< part that meets the one of `left` here; that one itself elsewhere
   };
 
   /// Returns the fold of the surface at an edge, radians; negative where it is concave. `left`, `right`: unit

@@ -103,7 +103,14 @@ void PartForms::measure_faces(const Shape& now, int part, std::vector<QualityVal
   }
 }
 
-std::vector<QualityValue> PartForms::measure(const Shape& now) const {
+std::vector<AffineMap> PartForms::maps(const Shape& now) const {
+  std::vector<AffineMap> result;
+  for (const Form& form : forms_)
+    result.push_back(form.fit ? form.fit->map(form.marks.on(now)) : AffineMap{});
+  return result;
+}
+
+std::vector<QualityValue> PartForms::measure(const Shape& now, const std::vector<AffineMap>& maps) const {
   std::vector<QualityValue> values;
   for (const QualityMeasure measure :
        {QualityMeasure::straightness, QualityMeasure::bending, QualityMeasure::section,
@@ -114,8 +121,7 @@ std::vector<QualityValue> PartForms::measure(const Shape& now) const {
   for (int part = 0; part < static_cast<int>(forms_.size()); ++part) {
     const Form& form = forms_[at(part)];
     if (!form.fit || form.fit->rank() == 0) continue;
-    const Points places = form.marks.on(now);
-    const AffineMap map = form.fit->map(places);
+    const AffineMap& map = maps[at(part)];
     CentreLineChange change;
     if (form.line) change = form.line->change(now, map);
     const std::vector<double> stretched = stretches(form, map, change.length);

@@ -17,8 +17,10 @@ class PartForms {
   /// Prepares what depends on the object at rest.
   PartForms(const StructuredShape& rest, const WeldedMesh& welded);
 
-  /// Takes the nine measures, in their order.
-  std::vector<QualityValue> measure(const Shape& now) const;
+  /// Returns the best affine map of each part; the identity for a part without area.
+  std::vector<AffineMap> maps(const Shape& now) const;
+  /// Takes the nine measures, in their order. `maps`: those of `now`.
+  std::vector<QualityValue> measure(const Shape& now, const std::vector<AffineMap>& maps) const;
   /// Returns the flat faces of a part, largest first.
   const std::vector<FlatFace>& faces(int part) const { return forms_[static_cast<std::size_t>(part)].faces; }
 

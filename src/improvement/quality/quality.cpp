@@ -143,8 +143,9 @@ struct QualityMeter::Data {
 
   void append_forms(const Shape& now, std::vector<QualityValue>& values) const {
     values.push_back(whole.symmetry(now));
-    values.push_back(creases.measure(now));
-    for (const QualityValue& value : parts.measure(now)) values.push_back(value);
+    const std::vector<detail::AffineMap> maps = parts.maps(now);
+    values.push_back(creases.measure(now, maps));
+    for (const QualityValue& value : parts.measure(now, maps)) values.push_back(value);
     for (const QualityValue& value : whole.function(now)) values.push_back(value);
   }
 };

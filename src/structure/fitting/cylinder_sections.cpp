@@ -1,8 +1,10 @@
 #include "structure/fitting/cylinder_sections.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -18,10 +20,11 @@ namespace {
 
 /// Directions over which an outline is averaged.
 constexpr int direction_count = 48;
-/// Share of these directions in which a body of revolution reaches no farther than its radius, and the ratio
-/// to it from which on what reaches farther sticks out. The corners of a polygon of eight sides do not.
-constexpr double usual_share = 0.75;
-constexpr double sticks_out = 1.05;
+/// Sectors in each of which the outline of a body of revolution reaches its radius: polygons of eight sides
+/// have a corner in every one.
+constexpr int sector_count = 8;
+/// Ratio to the radius of most sectors from which on what reaches farther sticks out.
+constexpr double sticks_out = 1.01;
 
 using OutlineSegment = std::pair<Eigen::Vector2d, Eigen::Vector2d>;
 
@@ -46,15 +49,23 @@ class Sections {
   /// Returns the largest distance from the axis, without what sticks out on one side, such as the stub of a
   /// handle; NaN where the intersection is empty.
   double outermost(std::size_t section) const {
-    double farthest = std::numeric_limits<double>::quiet_NaN();
+    std::array<double, sector_count> farthest{};
+    const auto reach = [&](double angle, double distance) {
+      const double turn = angle / (2 * std::numbers::pi);
+      double& in_sector =
+          farthest.at(static_cast<std::size_t>((turn - std::floor(turn)) * sector_count) % sector_count);
+      in_sector = std::max(in_sector, distance);
+    };
     for (const auto& [a, b] : segments_[section])
-      farthest = std::fmax(farthest, std::fmax(a.norm(), b.norm()));
-    std::vector<double> distances = farthest_points(section);
-    if (distances.empty()) return farthest;
-    const auto usual = distances.begin() +
-                       static_cast<std::ptrdiff_t>(usual_share * static_cast<double>(distances.size() - 1));
-    std::nth_element(distances.begin(), usual, distances.end());
-    return farthest > sticks_out * *usual ? *usual : farthest;
+      for (const Eigen::Vector2d& corner : {a, b}) reach(std::atan2(corner.y(), corner.x()), corner.norm());
+    for (int k = 0; k < direction_count; ++k) reach(angle_of(k), along(section, angle_of(k)));
+    std::sort(farthest.begin(), farthest.end(), std::greater<>());
+    const auto met =
+        std::count_if(farthest.begin(), farthest.end(), [](double reached) { return reached > 0; });
+    if (segments_[section].empty()) return std::numeric_limits<double>::quiet_NaN();
+    if (met == 0) return 0;
+    const double usual = farthest.at(static_cast<std::size_t>(met - 1) / 2);
+    return farthest[0] > sticks_out * usual ? usual : farthest[0];
   }
 
   /// Returns the mean, over the directions that meet the outline, of the distance of its farthest point; NaN
@@ -93,17 +104,17 @@ class Sections {
   /// Returns the distance of the farthest point of the outline in every direction that meets it.
   std::vector<double> farthest_points(std::size_t section) const {
     std::vector<double> distances;
-    for (int k = 0; k < direction_count; ++k) {
-      const double angle = (k + 0.5) * 2 * std::numbers::pi / direction_count;
-      const double farthest = along(section, {std::cos(angle), std::sin(angle)});
-      if (farthest > 0) distances.push_back(farthest);
-    }
+    for (int k = 0; k < direction_count; ++k)
+      if (const double farthest = along(section, angle_of(k)); farthest > 0) distances.push_back(farthest);
     return distances;
   }
 
-  double along(std::size_t section, const Eigen::Vector2d& ray) const {
+  static double angle_of(int direction) { return (direction + 0.5) * 2 * std::numbers::pi / direction_count; }
+
+  /// Returns the distance of the farthest point of the outline in a direction; 0 where it is not met.
+  double along(std::size_t section, double angle) const {
     double farthest = 0;
-    const Eigen::Vector2d across(-ray.y(), ray.x());
+    const Eigen::Vector2d ray(std::cos(angle), std::sin(angle)), across(-ray.y(), ray.x());
     for (const auto& [a, b] : segments_[section]) {
       const double left = across.dot(a), right = across.dot(b);
       if ((left > 0) == (right > 0)) continue;

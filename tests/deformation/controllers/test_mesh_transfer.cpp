@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "deformation/controllers/mesh_transfer.h"
@@ -48,13 +49,39 @@ void shift(Primitive& primitive, const Eigen::RowVector3d& by) {
   std::get<Cuboid>(primitive).corners.rowwise() += by;
 }
 
+/// The smooth step from 1 at 0 to 0 at 1.
+double fall_off(double t) {
+  return t >= 1 ? 0 : 1 - 3 * t * t + 2 * t * t * t;
+}
+
 /// Share of the other part in a vertex at this distance from the border along the edges: 0.15 of the diagonal
 /// of a half is the reach, within which the weight falls from 1 by a smooth step; then both are divided by
 /// their sum.
 double share_of_other(double distance) {
-  const double t = distance / (0.15 * std::sqrt(17.0));
-  const double weight = t >= 1 ? 0 : 1 - 3 * t * t + 2 * t * t * t;
+  const double weight = fall_off(distance / (0.15 * std::sqrt(17.0)));
   return weight / (1 + weight);
+}
+
+/// The weight of a point that counts in all directions alike.
+double weight_of(const BoundPoint& bound) {
+  CHECK(bound.weight == bound.weight(0, 0) * Eigen::Matrix3d::Identity());
+  return bound.weight(0, 0);
+}
+
+/// The sheet, whose left half is a post along y and whose right half a rail that ends at its side, half-way
+/// or near its upper end. The joint slides along the post.
+StructuredShape post_and_rail(double middle_of_post = 0.5) {
+  StructuredShape rest = sheet();
+  rest.structure.parts[0].primitive =
+      cuboid_of({{-2, middle_of_post, 0}, Eigen::Matrix3d::Identity(), {2, 8, 0.5}});
+  Relation joint;
+  joint.type = RelationType::point_joint;
+  joint.parts = {0, 1};
+  joint.points = Points::Zero(1, 3);
+  joint.points << 0, 0.5, 0;
+  joint.carrier = 0;
+  rest.structure.relations = {joint};
+  return rest;
 }
 
 }  // namespace
@@ -73,8 +100,8 @@ TEST_CASE("beyond a border the share of the other part falls off by a smooth ste
     double sum = 0;
     for (const BoundPoint& bound : bound_points) {
       const bool own = x == 0 || bound.part == (x < 0 ? 0 : 1);
-      CHECK(bound.weight == Approx(own ? 1 - other : other).epsilon(1e-12));
-      sum += bound.weight;
+      CHECK(weight_of(bound) == Approx(own ? 1 - other : other).epsilon(1e-12));
+      sum += weight_of(bound);
     }
     CHECK(sum == Approx(1).epsilon(1e-15));
   }
@@ -98,33 +125,100 @@ TEST_CASE("a vertex that parts share is carried by them alike") {
   const MeshTransfer transfer(rest.shape, rig);
   REQUIRE(transfer.bound_points(0).size() == 3);
   for (const BoundPoint& bound : transfer.bound_points(0))
-    CHECK(bound.weight == Approx(1.0 / 3).epsilon(1e-14));
+    CHECK(weight_of(bound) == Approx(1.0 / 3).epsilon(1e-14));
   std::vector<Primitive> now = primitives_of(rest.structure);
   shift(now[1], {0, 0, 0.3});
   CHECK(transfer.vertices(rig, now)(0, 2) == Approx(0.1).epsilon(1e-13));
 }
 
 TEST_CASE("in smooth designs a border follows the part that does not end there") {
-  StructuredShape rest = sheet();
-  // The left half is a leg, long along y, and the right half a rail that ends at its side, half-way along the
-  // leg or near its upper end.
-  for (const double middle : {0.5, -6.5}) {
-    rest.structure.parts[0].primitive =
-        cuboid_of({{-2, middle, 0}, Eigen::Matrix3d::Identity(), {2, 8, 0.5}});
-    const Rig rig(rest.structure);
-    const MeshTransfer transfer(rest.shape, rig, Following::smooth);
-    for (int v = 0; v < 2 * (2 * steps + 1); ++v) {
-      const std::vector<BoundPoint> bound_points = transfer.bound_points(v);
-      REQUIRE(bound_points.size() == 1);
-      CHECK(bound_points.front().part == (rest.shape.vertices(v, 0) <= 0 ? 0 : 1));
-      CHECK(bound_points.front().weight == 1);
-    }
+  // With a joint that slides along the post, and without, where the places of the border on both parts tell.
+  const auto [middle, slides] = GENERATE(table<double, bool>({{0.5, true}, {0.5, false}, {-6.5, false}}));
+  StructuredShape rest = post_and_rail(middle);
+  if (!slides) rest.structure.relations.clear();
+  const Rig rig(rest.structure);
+  const MeshTransfer transfer(rest.shape, rig, Following::smooth);
+  std::vector<Primitive> now = primitives_of(rest.structure);
+  // What both parts do, the border does; a rail that gets wider leaves it as it is.
+  for (Primitive& primitive : now) shift(primitive, {0.1, 0.2, 0.3});
+  const Points shifted = transfer.vertices(rig, now);
+  now = primitives_of(rest.structure);
+  auto& corners = std::get<Cuboid>(now[1]).corners;
+  corners.col(1).array() = 0.5 + 1.5 * (corners.col(1).array() - 0.5);
+  const Points widened = transfer.vertices(rig, now);
+  for (int v = 0; v < 2 * (2 * steps + 1); ++v) {
+    const Eigen::RowVector3d at_rest = rest.shape.vertices.row(v);
+    CHECK((shifted.row(v) - at_rest - Eigen::RowVector3d(0.1, 0.2, 0.3)).norm() < 1e-14);
+    CHECK(widened(v, 1) - 0.5 == Approx((at_rest.x() <= 0 ? 1 : 1.5) * (at_rest.y() - 0.5)));
   }
-  // Two halves that meet end to end own their border together.
+}
+
+TEST_CASE("in smooth designs two halves that meet end to end own their border together") {
   const StructuredShape halves = sheet();
   const MeshTransfer both(halves.shape, Rig(halves.structure), Following::smooth);
   REQUIRE(both.bound_points(2 * steps).size() == 2);
-  CHECK(both.bound_points(2 * steps)[0].weight == 0.5);
+  CHECK(weight_of(both.bound_points(2 * steps)[0]) == 0.5);
+}
+
+TEST_CASE("a seam that slides takes the surface of its carrier along, by a smooth step along the edges") {
+  const StructuredShape rest = post_and_rail();
+  const Rig rig(rest.structure);
+  const MeshTransfer transfer(rest.shape, rig, Following::smooth);
+  std::vector<Primitive> now = primitives_of(rest.structure);
+  shift(now[1], {0, 0.1, 0});
+  const Points moved = transfer.vertices(rig, now);
+  for (int v = 0; v < 2 * (2 * steps + 1); ++v) {
+    const double x = rest.shape.vertices(v, 0), reach = 0.2 * std::sqrt(17.0);
+    const double share = x > 0 ? 1 : fall_off(-x / reach);
+    INFO("x = " << x);
+    CHECK((moved.row(v) - rest.shape.vertices.row(v) - share * Eigen::RowVector3d(0, 0.1, 0)).norm() < 1e-13);
+  }
+}
+
+TEST_CASE("what lies across the slide of a seam stays, as the rim of a cup above its handle") {
+  // From x = -0.5 on the sheet turns its face towards y, the direction of the slide, within the reach of
+  // 0.82.
+  StructuredShape rest = post_and_rail();
+  const auto x_of = [](int v) { return step * (v / 2 - steps); };
+  for (int v = 0; v < 2 * (2 * steps + 1); ++v)
+    if (x_of(v) <= -0.5) rest.shape.vertices.row(v) << x_of(v), 0, v % 2;
+  const Rig rig(rest.structure);
+  std::vector<Primitive> now = primitives_of(rest.structure);
+  shift(now[1], {0, 0.1, 0});
+  const Points moved = MeshTransfer(rest.shape, rig, Following::smooth).vertices(rig, now);
+  for (int v = 0; v < 2 * (2 * steps + 1); ++v) {
+    const double by = moved(v, 1) - rest.shape.vertices(v, 1);
+    INFO("x = " << x_of(v));
+    if (x_of(v) <= -0.625) CHECK(by == 0);
+    if (x_of(v) >= -0.25) CHECK(by > 0.05);
+  }
+}
+
+TEST_CASE("a rail that turns is trimmed to its carrier along its sides") {
+  const StructuredShape rest = post_and_rail();
+  const Rig rig(rest.structure);
+  const MeshTransfer transfer(rest.shape, rig, Following::smooth);
+  const double angle = 0.3;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::RowVector3d joint(0, 0.5, 0);
+  std::vector<Primitive> now = primitives_of(rest.structure);
+  auto& corners = std::get<Cuboid>(now[1]).corners;
+  corners = (((corners.rowwise() - joint) * turn.transpose()).rowwise() + joint).eval();
+  const Points moved = transfer.vertices(rig, now);
+  for (int v = 0; v < 2 * (2 * steps + 1); ++v) {
+    const Eigen::RowVector3d at_rest = rest.shape.vertices.row(v) - joint;
+    INFO("x = " << at_rest.x());
+    if (at_rest.x() <= 0) {
+      CHECK((moved.row(v) - joint - at_rest).norm() < 1e-14);
+      continue;
+    }
+    // In the frame of the rail its sides stay where they were, and vertices lie on them nearer to where the
+    // post would have them, within the reach of 0.82: less than the length of the seam.
+    const Eigen::RowVector3d in_rail = (moved.row(v) - joint) * turn;
+    CHECK(in_rail.y() == Approx(at_rest.y()).epsilon(1e-12));
+    const double by_post = (at_rest * turn).x(), share = fall_off(at_rest.x() / (0.2 * std::sqrt(17.0)));
+    CHECK(in_rail.x() == Approx(share * by_post + (1 - share) * at_rest.x()).epsilon(1e-12));
+  }
 }
 
 TEST_CASE("where nothing moved the mesh stays to the last bit") {
@@ -171,12 +265,15 @@ TEST_CASE("an affine map of all cuboids is one of the mesh") {
 
 TEST_CASE("a vertex is the sum of its riders, however its parts deform") {
   solids::Random random(5);
-  for (const StructuredShape& rest : {sheet(), structures::mug(12), structures::table(0)}) {
+  for (const StructuredShape& rest : {sheet(), structures::mug(12), structures::table(0), post_and_rail()}) {
+    const bool smooth = !rest.structure.relations.empty() && rest.structure.relations[0].carrier >= 0;
     const Rig rig(rest.structure);
-    const MeshTransfer transfer(rest.shape, rig);
+    const MeshTransfer transfer(rest.shape, rig, smooth ? Following::smooth : Following::free);
     std::vector<Primitive> now = primitives_of(rest.structure);
     for (Primitive& primitive : now) {
-      if (auto* cuboid = std::get_if<Cuboid>(&primitive))
+      if (smooth)
+        shift(primitive, 0.1 * random.in_cube().transpose());  // what is trimmed must not turn
+      else if (auto* cuboid = std::get_if<Cuboid>(&primitive))
         for (double& coordinate : cuboid->corners.reshaped()) coordinate += random.uniform(-0.05, 0.05);
       else
         for (double& coordinate : std::get<GeneralizedCylinder>(primitive).centres.reshaped())

@@ -281,6 +281,70 @@ TEST_CASE("A crease from a smooth ridge to a smooth hollow is the sum of both fo
         Approx(0.5 * 2 * 8 / rest.structure.diagonal));
 }
 
+TEST_CASE("Parts of one surface may turn where they meet, and nowhere else", "[quality]") {
+  // Two halves of a sheet that meet at x = 0, and the right one bent up along a line.
+  constexpr int steps = 16;
+  Points points(2 * (steps + 1), 3);
+  Triangles triangles(2 * steps, 3);
+  std::vector<std::int32_t> parts;
+  for (int i = 0; i <= steps; ++i)
+    for (int j = 0; j < 2; ++j) points.row(2 * i + j) << i - steps / 2, 4 * j, 0;
+  for (int i = 0; i < steps; ++i) {
+    triangles.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 3;
+    triangles.row(2 * i + 1) << 2 * i, 2 * i + 3, 2 * i + 1;
+    parts.insert(parts.end(), 2, i < steps / 2 ? 0 : 1);
+  }
+  Shape sheet = make_shape(points, triangles);
+  sheet.triangle_part = parts;
+  sheet.part_names = {"left", "right"};
+  const StructuredShape rest = analyse_structure(sheet);
+  REQUIRE(rest.shape.part_count() == 2);
+  const auto creases = [&](double line, double degrees) {
+    const double angle = degrees * std::numbers::pi / 180;
+    return measured(rest,
+                    mapped(rest.shape,
+                           [&](const Eigen::Vector3d& p) {
+                             const double beyond = std::max(0.0, p.x() - line);
+                             return Eigen::Vector3d(std::min(p.x(), line) + beyond * std::cos(angle), p.y(),
+                                                    beyond * std::sin(angle));
+                           }),
+                    QualityMeasure::creases);
+  };
+  const double whole = 4 / rest.structure.diagonal;
+  for (const double degrees : {20, 30, 40}) CHECK(creases(0, degrees) == 0);
+  CHECK(creases(4, 30) == Approx(whole));
+  // A step where they meet is two creases: the parts themselves do not turn.
+  const Shape step = mapped(rest.shape, [](const Eigen::Vector3d& p) {
+    return Eigen::Vector3d(p.x(), p.y(), std::clamp(p.x(), 0.0, 1.0));
+  });
+  CHECK(measured(rest, step, QualityMeasure::creases) == Approx(2 * whole));
+}
+
+TEST_CASE("Sections at a seam follow the other part, and tell nothing of their own", "[quality]") {
+  const StructuredShape whole = upright_tube();
+  // The uppermost of twenty rings of triangles belongs to another part.
+  StructuredShape rest = whole;
+  rest.shape.part_names.push_back("cap");
+  for (Eigen::Index t = 0; t < rest.shape.triangle_count(); ++t)
+    if (rest.shape.corner(t, 0).z() + rest.shape.corner(t, 1).z() + rest.shape.corner(t, 2).z() > 3 * 9.5)
+      rest.shape.triangle_part[static_cast<std::size_t>(t)] = 1;
+  rest.structure.parts.push_back(
+      {"cap", cuboid_of({{0, 0, 9.75}, Eigen::Matrix3d::Identity(), {1, 1, 0.25}}), {}});
+  const auto profile = [](const StructuredShape& structured, double height) {
+    return measured(structured,
+                    mapped(structured.shape,
+                           [&](const Eigen::Vector3d& p) {
+                             const double wider = std::abs(p.z() - height) < 0.3 ? 1.3 : 1;
+                             return Eigen::Vector3d(wider * p.x(), wider * p.y(), p.z());
+                           }),
+                    QualityMeasure::profile);
+  };
+  const double limit = QualityLimits()[QualityMeasure::profile];
+  CHECK(profile(whole, 9.5) > limit);
+  CHECK(profile(rest, 9.5) < limit);
+  CHECK(profile(rest, 5) > limit);
+}
+
 TEST_CASE("A round section that is squashed loses roundness, and a bulge is a profile", "[quality]") {
   const StructuredShape rest = upright_tube();
   const Shape oval =

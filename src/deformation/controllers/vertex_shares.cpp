@@ -1,0 +1,329 @@
+#include "deformation/controllers/vertex_shares.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <queue>
+#include <set>
+
+#include "core/index.h"
+#include "deformation/model/joint_slides.h"
+#include "deformation/model/straight_curve.h"
+#include "mesh/surface_moments.h"
+#include "stackabilization/core/tolerances.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+/// Reach of a part beyond its border with another part, fraction of the diagonal of the smaller of the two.
+constexpr double reach_of_parts = 0.15;
+/// The same in smooth designs: further away from a joint, members that move differently would bend each
+/// other.
+constexpr double smooth_reach_of_parts = 0.03;
+/// The same for a curved part that is attached to another one, as a handle: it may bend a little.
+constexpr double curved_reach_of_parts = 0.1;
+/// How far a seam takes the surface of its carrier along, the same fraction; and how far the attached part is
+/// trimmed, but not farther than the seam is long.
+constexpr double reach_of_seams = 0.2;
+/// Least lead of a part that is attached to another, see `lead_at`.
+constexpr double attached = 0.3;
+
+/// Returns a smooth weight: 1 at 0, 0 from 1 on, flat at both ends.
+double fall_off(double t) {
+  return t >= 1 ? 0 : 1 - t * t * (3 - 2 * t);
+}
+
+/// Weight of each part in a vertex.
+using Weights = std::map<int, double>;
+/// Distances of vertices along the edges.
+using Distances = std::map<int, double>;
+
+/// A connected piece of the border that a part shares with another one, as seen from the part.
+struct Seam {
+  int part = 0, other = 0;
+  std::vector<int> vertices;  ///< ascending
+  double lead = 0;            ///< of the part, see `lead_at`
+};
+
+/// Computes the weight (share) of every part in every vertex.
+class Shares {
+ public:
+  /// `smooth`: the structure of a smooth design, null for others.
+  Shares(const Shape& shape, const Structure* smooth)
+      : shape_(shape),
+        smooth_(smooth),
+        owners_(at(static_cast<int>(shape.vertex_count()))),
+        triangles_(shape.part_names.size()),
+        boxes_(triangles_.size()) {
+    for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
+      const std::int32_t part = shape.triangle_part[static_cast<std::size_t>(t)];
+      triangles_[at(part)].push_back(t);
+      for (int k = 0; k < 3; ++k) {
+        owners_[at(shape.triangles(t, k))].insert(part);
+        boxes_[at(part)].extend(shape.corner(t, k));
+      }
+    }
+  }
+
+  VertexShares all() {
+    VertexShares result;
+    std::vector<Weights>& shares = result.of_vertex;
+    shares.resize(owners_.size());
+    for (std::size_t v = 0; v < owners_.size(); ++v)
+      for (const int part : owners_[v]) shares[v][part] = 1;
+    const std::map<int, std::vector<Seam>> seams = seams_of_parts();
+    for (const auto& [part, of_part] : seams) {
+      const Edges edges = edges_of(part);
+      for (const Seam& seam : of_part) spread(seam, edges, shares);
+    }
+    for (std::size_t v = 0; v < owners_.size(); ++v) {
+      double sum = 0;
+      for (const auto& [part, share] : shares[v]) sum += share;
+      // Parts that are attached to each other in a ring own their common vertices in equal shares.
+      if (!(sum > 0))
+        for (const int part : owners_[v]) shares[v][part] = 1, sum += 1;
+      std::erase_if(shares[v], [](const auto& share) { return share.second == 0; });
+      for (auto& [part, share] : shares[v]) share /= sum;
+    }
+    if (smooth_)
+      for (const auto& [carrier, of_carrier] : seams) carry(of_carrier, shares, result.seams);
+    return result;
+  }
+
+ private:
+  using Edges = std::map<int, std::set<int>>;
+
+  /// Returns the seams of each part that shares vertices.
+  std::map<int, std::vector<Seam>> seams_of_parts() const {
+    std::map<int, std::map<int, std::set<int>>> borders;
+    for (std::size_t v = 0; v < owners_.size(); ++v)
+      for (const int part : owners_[v])
+        for (const int other : owners_[v])
+          if (other != part) borders[part][other].insert(static_cast<int>(v));
+    std::map<int, std::vector<Seam>> seams;
+    for (const auto& [part, of_part] : borders) {
+      const Edges edges = edges_of(part);
+      for (const auto& [other, border] : of_part)
+        for (std::vector<int>& piece : connected_pieces(border, edges))
+          seams[part].push_back({part, other, std::move(piece)});
+    }
+    if (!smooth_) return seams;
+    for (auto& [part, of_part] : seams)
+      for (Seam& seam : of_part)
+        seam.lead = lead_at(seam);
+    return seams;
+  }
+
+  static std::vector<std::vector<int>> connected_pieces(std::set<int> left, const Edges& edges) {
+    std::vector<std::vector<int>> pieces;
+    while (!left.empty()) {
+      std::vector<int> piece{*left.begin()};
+      left.erase(left.begin());
+      for (std::size_t k = 0; k < piece.size(); ++k)
+        for (const int next : edges.at(piece[k]))
+          if (left.erase(next) > 0) piece.push_back(next);
+      std::sort(piece.begin(), piece.end());
+      pieces.push_back(std::move(piece));
+    }
+    return pieces;
+  }
+
+  /// Extends the weight of the other part at a seam into the part. `edges`: of the part.
+  void spread(const Seam& seam, const Edges& edges, std::vector<Weights>& shares) const {
+    if (seam.lead < -attached) return;
+    const double reach = blended_reach(seam) * smaller_diagonal(seam);
+    for (const auto& [vertex, distance] : distances(edges, seam.vertices, reach)) {
+      const double weight = fall_off(distance / reach);
+      double& share = shares[at(vertex)][seam.other];
+      share = std::max(share, weight);
+      if (seam.lead > attached) shares[at(vertex)][seam.part] *= 1 - weight;
+    }
+  }
+
+  double blended_reach(const Seam& seam) const {
+    if (!smooth_) return reach_of_parts;
+    const auto* cylinder = std::get_if<GeneralizedCylinder>(&smooth_->parts[at(seam.part)].primitive);
+    const bool bends = cylinder && !is_straight(*cylinder) && seam.lead > attached;
+    return bends ? curved_reach_of_parts : smooth_reach_of_parts;
+  }
+
+  /// Lets the vertices around the seams of a carrier follow the parts that are attached there.
+  void carry(const std::vector<Seam>& of_carrier, const std::vector<Weights>& shares,
+             std::vector<CarriedSeam>& carried) const {
+    std::vector<std::pair<CarriedSeam, Distances>> seams;
+    Edges edges;
+    for (const Seam& seam : of_carrier) {
+      if (!(seam.lead < -attached)) continue;
+      if (edges.empty()) edges = edges_of(seam.part);
+      CarriedSeam one{seam.other, seam.part, middle_of(seam.vertices), Eigen::Vector3d::Zero(), {}, {}};
+      seams.emplace_back(std::move(one),
+                         distances(edges, seam.vertices, reach_of_seams * smaller_diagonal(seam)));
+    }
+    if (seams.empty()) return;
+    // Between seams, their shares are those of the interpolation of Shepard (1968).
+    std::map<int, double> nearness;
+    for (const auto& [seam, around] : seams)
+      for (const auto& [vertex, distance] : around) nearness[vertex] += shepard_weight(distance);
+    const std::map<int, Eigen::Vector3d> normals = normals_of(seams.front().first.carrier);
+    std::size_t row = 0;
+    for (const Seam& seam : of_carrier) {
+      if (!(seam.lead < -attached)) continue;
+      auto& [one, around] = seams[row++];
+      const double reach = reach_of_seams * smaller_diagonal(seam);
+      const Eigen::Matrix3d sliding =
+          Eigen::Matrix3d::Identity() -
+          held_directions(smooth_->parts[at(one.carrier)].primitive, one.point);
+      for (const auto& [vertex, distance] : around) {
+        const double near = fall_off(distance / reach);
+        // A seam slides along the surface around it: what lies across the slide, as a rim does, stays.
+        const double lies = 1 - (sliding * normals.at(vertex).stableNormalized()).squaredNorm();
+        const double own = shepard_weight(distance) / nearness.at(vertex);
+        const double share = share_of(shares[at(vertex)], one.carrier) * own * near * std::lerp(lies, 1.0, fall_off(2 * distance / reach));
+        if (share > 0) one.around.emplace_back(vertex, share);
+      }
+      trim(seam, shares, one);
+      carried.push_back(std::move(one));
+    }
+  }
+
+  /// Finds the vertices of the attached part that are trimmed to the carrier.
+  void trim(const Seam& seam, const std::vector<Weights>& shares, CarriedSeam& carried) const {
+    Eigen::AlignedBox3d box;
+    for (const int vertex : seam.vertices) box.extend(shape_.vertices.row(vertex).transpose());
+    const double reach = std::min(box.diagonal().norm(), reach_of_seams * smaller_diagonal(seam));
+    std::vector<int> near;
+    for (const auto& [vertex, distance] : distances(edges_of(carried.attached), seam.vertices, reach)) {
+      if (!(distance > 0)) continue;
+      near.push_back(vertex);
+      const double whole = share_of(shares[at(vertex)], carried.carrier), along = fall_off(distance / reach);
+      if (whole > 0) carried.around.emplace_back(vertex, whole);
+      if (along > whole) carried.trimmed.emplace_back(vertex, along - whole);
+    }
+    if (near.empty()) return;
+    std::sort(carried.around.begin(), carried.around.end());
+    carried.axis = middle_of(near) - carried.point;
+  }
+
+  Eigen::Vector3d middle_of(const std::vector<int>& vertices) const {
+    return shape_.vertices(vertices, Eigen::all).colwise().mean().transpose();
+  }
+
+  /// Returns the inverse square of a distance, finite at 0.
+  double shepard_weight(double distance) const {
+    const double least = tolerance::relative * smooth_->diagonal;
+    return 1 / std::max(distance * distance, least * least);
+  }
+
+  static double share_of(const Weights& weights, int part) {
+    const auto found = weights.find(part);
+    return found == weights.end() ? 0 : found->second;
+  }
+
+  /// Returns the sums of the area vectors of the triangles of a part around its vertices.
+  std::map<int, Eigen::Vector3d> normals_of(int part) const {
+    std::map<int, Eigen::Vector3d> normals;
+    for (const Eigen::Index t : triangles_[at(part)])
+      for (int k = 0; k < 3; ++k)
+        normals.try_emplace(shape_.triangles(t, k), Eigen::Vector3d::Zero()).first->second +=
+            area_vector(shape_, t);
+    return normals;
+  }
+
+  /// Returns by how much more the part of a seam ends there than the other one. From `attached` on it is
+  /// attached to the other and follows it there. The carrier of a joint that slides is no end.
+  double lead_at(const Seam& seam) const {
+    const Relation* nearest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Relation& relation : smooth_->relations) {
+      if (!relation.is_joint() || std::minmax(relation.parts[0], relation.parts[1]) !=
+                                      std::minmax(seam.part, seam.other))
+        continue;
+      const double distance =
+          (relation.points.rowwise() - middle_of(seam.vertices).transpose()).rowwise().norm().minCoeff();
+      if (distance < least) nearest = &relation, least = distance;
+    }
+    if (nearest && nearest->carrier >= 0) return nearest->carrier == seam.other ? 1 : -1;
+    return lead_of(place_on(seam.part, seam.vertices), place_on(seam.other, seam.vertices));
+  }
+
+  /// Where a seam lies on a part.
+  struct Place {
+    double nearness = 0;  ///< to an end: 0 in the middle, 1 at an end
+    double length = 0;    ///< along the axis of the part, share of the size of the seam
+  };
+
+  /// The seam lies nearer to the end of a part or, where it is as near to that of the other, across its axis,
+  /// and along that of the other.
+  static double lead_of(const Place& own, const Place& other) {
+    const double nearer = own.nearness - other.nearness;
+    return std::abs(nearer) > attached ? nearer : other.length - own.length;
+  }
+
+  Place place_on(int part, const std::vector<int>& seam) const {
+    const Points points = control_points(smooth_->parts[at(part)].primitive);
+    const Eigen::RowVector3d middle = points.colwise().mean();
+    const Eigen::Matrix3d spread = (points.rowwise() - middle).transpose() * (points.rowwise() - middle);
+    const Eigen::Vector3d axis = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
+    const Points places = shape_.vertices(seam, Eigen::all);
+    const Eigen::RowVector3d size = places.colwise().maxCoeff() - places.colwise().minCoeff();
+    const Eigen::VectorXd heights = (places.rowwise() - middle) * axis;
+    const Eigen::VectorXd own = (points.rowwise() - middle) * axis;
+    const double half = own.cwiseAbs().maxCoeff();
+    Place place;
+    place.nearness = std::min(std::abs(heights.mean()) / half, 1.0);
+    if (size.norm() > 0) place.length = (heights.maxCoeff() - heights.minCoeff()) / size.norm();
+    return place;
+  }
+
+  Edges edges_of(int part) const {
+    Edges edges;
+    for (const Eigen::Index t : triangles_[at(part)])
+      for (int k = 0; k < 3; ++k) {
+        const int a = shape_.triangles(t, k), b = shape_.triangles(t, (k + 1) % 3);
+        edges[a].insert(b);
+        edges[b].insert(a);
+      }
+    return edges;
+  }
+
+  double smaller_diagonal(const Seam& seam) const {
+    return std::min(boxes_[at(seam.part)].diagonal().norm(), boxes_[at(seam.other)].diagonal().norm());
+  }
+
+  /// Returns the distances along the edges from the vertices `from`, up to `most`, by the algorithm of
+  /// Dijkstra.
+  Distances distances(const Edges& edges, const std::vector<int>& from, double most) const {
+    Distances settled;
+    using Entry = std::pair<double, int>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    for (const int vertex : from) queue.emplace(0, vertex);
+    while (!queue.empty()) {
+      const auto [distance, vertex] = queue.top();
+      queue.pop();
+      if (distance >= most || !settled.emplace(vertex, distance).second) continue;
+      for (const int next : edges.at(vertex))
+        if (!settled.contains(next))
+          queue.emplace(distance + (shape_.vertices.row(next) - shape_.vertices.row(vertex)).norm(), next);
+    }
+    return settled;
+  }
+
+  const Shape& shape_;
+  const Structure* smooth_;
+  std::vector<std::set<int>> owners_;                 ///< parts whose triangles use the vertex
+  std::vector<std::vector<Eigen::Index>> triangles_;  ///< per part
+  std::vector<Eigen::AlignedBox3d> boxes_;            ///< per part
+};
+
+}  // namespace
+
+VertexShares vertex_shares(const Shape& shape, const Structure* smooth) {
+  return Shares(shape, smooth).all();
+}
+
+}  // namespace stackabilization::detail
