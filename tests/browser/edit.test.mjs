@@ -170,6 +170,10 @@ test('an editor that was killed comes back as it was', { timeout: seconds(300) }
     await page.locator('.card').first().click();
     await page.waitForFunction(() => window.editor.state.tree.current === 1);
     await page.fill('#target', '0.87');
+    // Wishes that come from the program in the meantime do not overwrite what is being typed.
+    await page.evaluate(() => window.editor.connection.send({ do: 'target', value: 0.8 }));
+    await page.waitForFunction(() => window.editor.state.wishes.target === 0.8);
+    assert.equal(await page.inputValue('#target'), '0.87');
     await page.press('#target', 'Enter');
     await page.waitForFunction(() => window.editor.state.wishes.target === 0.87);
     const [s, vertices] = await page.evaluate(() => [window.editor.state.design.measured.stackability, Array.from(window.editor.viewer.design)]);

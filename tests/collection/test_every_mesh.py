@@ -1,7 +1,8 @@
-"""All commands on every mesh of outside data: test_every_mesh.py PROGRAM [COUNT].
+"""All commands on every mesh of outside data: test_every_mesh.py PROGRAM [COUNT [SLOWDOWN]].
 
 The folders are those that STACKABILIZATION_PAPER_DATA and STACKABILIZATION_CORPORA name; with COUNT an evenly spread
-sample of so many files. Whatever is in a file, a command ends within a minute of computing on one core and within its
+sample of so many files. A program with sanitizers computes SLOWDOWN times as long, and reserves more addresses than
+there is memory. Whatever is in a file, a command ends within a minute of computing on one core and within its
 memory, with a status from 0 to 3: with a result that is JSON without NaN, or with one sentence and no result. Every
 other run is listed with its command line, and then the status of this script is 1.
 """
@@ -55,9 +56,13 @@ def spread(files, count):
     return [files[(2 * k + 1) * len(files) // (2 * count)] for k in range(count)]
 
 
+SLOWDOWN = int(sys.argv[3]) if len(sys.argv) > 3 else 1
+
+
 def limit():
-    resource.setrlimit(resource.RLIMIT_AS, (ADDRESS_SPACE, ADDRESS_SPACE))
-    resource.setrlimit(resource.RLIMIT_CPU, (CPU_SECONDS, CPU_SECONDS + 5))
+    if SLOWDOWN == 1:
+        resource.setrlimit(resource.RLIMIT_AS, (ADDRESS_SPACE, ADDRESS_SPACE))
+    resource.setrlimit(resource.RLIMIT_CPU, (SLOWDOWN * CPU_SECONDS, SLOWDOWN * CPU_SECONDS + 5))
 
 
 def refuse_constant(name):
@@ -67,11 +72,11 @@ def refuse_constant(name):
 def complaint(line, result):
     """What is wrong with this run, or None."""
     try:
-        ran = subprocess.run(line, capture_output=True, timeout=GUARD_SECONDS, preexec_fn=limit)
+        ran = subprocess.run(line, capture_output=True, timeout=SLOWDOWN * GUARD_SECONDS, preexec_fn=limit)
     except subprocess.TimeoutExpired:
-        return f"does not end within {GUARD_SECONDS} s"
+        return f"does not end within {SLOWDOWN * GUARD_SECONDS} s"
     if ran.returncode == -signal.SIGXCPU:
-        return f"computes for more than {CPU_SECONDS} s"
+        return f"computes for more than {SLOWDOWN * CPU_SECONDS} s"
     words = ran.stderr.decode(errors="replace")
     if ran.returncode not in range(4):
         return f"ends with {ran.returncode}: {words[-300:]}"

@@ -8,6 +8,7 @@ export class Measures {
     this.model = /** @type {any} */ (null);
     this.design = /** @type {any} */ (null);
     this.wishes = /** @type {any} */ (null);
+    this.typing = /** @type {HTMLInputElement | null} */ (null); // what comes from the program does not overwrite it
     const target = /** @type {HTMLInputElement} */ (element('target'));
     target.addEventListener('change', () => {
       const value = Number(target.value);
@@ -15,6 +16,10 @@ export class Measures {
       else if (this.wishes) target.value = this.wishes.target.toFixed(2);
     });
     const within = /** @type {HTMLInputElement} */ (element('within')), copies = element('copies');
+    for (const field of [target, within]) {
+      field.addEventListener('input', () => { this.typing = field; });
+      for (const end of ['change', 'blur']) field.addEventListener(end, () => { this.typing = null; });
+    }
     const sendWithin = () => send({ do: 'within', copies: this.copies, length: Number(within.value) });
     within.addEventListener('change', () => {
       if (within.value !== '') sendWithin();
@@ -36,9 +41,13 @@ export class Measures {
   /** @param {any} wishes */
   setWishes(wishes) {
     this.wishes = wishes;
-    /** @type {HTMLInputElement} */ (element('target')).value = String(Math.round(100 * wishes.target) / 100);
+    const show = (/** @type {string} */ name, /** @type {string} */ value) => {
+      const field = /** @type {HTMLInputElement} */ (element(name));
+      if (field !== this.typing) field.value = value;
+    };
     const { within } = wishes, copies = /** @type {HTMLInputElement} */ (element('copies'));
-    /** @type {HTMLInputElement} */ (element('within')).value = within ? String(within.length) : '';
+    show('target', String(Math.round(100 * wishes.target) / 100));
+    show('within', within ? String(within.length) : '');
     if (within) copies.value = String(within.copies);
     this.#update();
   }

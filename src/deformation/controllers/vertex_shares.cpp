@@ -114,8 +114,7 @@ class Shares {
     }
     if (!smooth_) return seams;
     for (auto& [part, of_part] : seams)
-      for (Seam& seam : of_part)
-        seam.lead = lead_at(seam);
+      for (Seam& seam : of_part) seam.lead = lead_at(seam);
     return seams;
   }
 
@@ -176,14 +175,14 @@ class Shares {
       auto& [one, around] = seams[row++];
       const double reach = reach_of_seams * smaller_diagonal(seam);
       const Eigen::Matrix3d sliding =
-          Eigen::Matrix3d::Identity() -
-          held_directions(smooth_->parts[at(one.carrier)].primitive, one.point);
+          Eigen::Matrix3d::Identity() - held_directions(smooth_->parts[at(one.carrier)].primitive, one.point);
       for (const auto& [vertex, distance] : around) {
         const double near = fall_off(distance / reach);
         // A seam slides along the surface around it: what lies across the slide, as a rim does, stays.
         const double lies = 1 - (sliding * normals.at(vertex).stableNormalized()).squaredNorm();
         const double own = shepard_weight(distance) / nearness.at(vertex);
-        const double share = share_of(shares[at(vertex)], one.carrier) * own * near * std::lerp(lies, 1.0, fall_off(2 * distance / reach));
+        const double share = share_of(shares[at(vertex)], one.carrier) * own * near *
+                             std::lerp(lies, 1.0, fall_off(2 * distance / reach));
         if (share > 0) one.around.emplace_back(vertex, share);
       }
       trim(seam, shares, one);
@@ -240,8 +239,8 @@ class Shares {
     const Relation* nearest = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (const Relation& relation : smooth_->relations) {
-      if (!relation.is_joint() || std::minmax(relation.parts[0], relation.parts[1]) !=
-                                      std::minmax(seam.part, seam.other))
+      if (!relation.is_joint() ||
+          std::minmax(relation.parts[0], relation.parts[1]) != std::minmax(seam.part, seam.other))
         continue;
       const double distance =
           (relation.points.rowwise() - middle_of(seam.vertices).transpose()).rowwise().norm().minCoeff();

@@ -13,7 +13,8 @@ namespace stackabilization::detail {
 /// Vertices with shares.
 using SharedVertices = std::vector<std::pair<int, double>>;
 
-/// A seam at which one part of a connected surface is attached to another one, its carrier, in smooth designs.
+/// A seam at which one part of a connected surface is attached to another one, its carrier, in smooth
+/// designs.
 struct CarriedSeam {
   int attached = 0, carrier = 0;
   Eigen::Vector3d point;  ///< mean of the vertices of the seam at rest
@@ -21,8 +22,8 @@ struct CarriedSeam {
   /// Vertices of the carrier around the seam, with the share that they make of what the attached part moves
   /// against the carrier at `point`: a joint that slides takes the surface along.
   SharedVertices around;
-  /// Vertices of the attached part near the seam, with the share in which they follow the carrier along `axis`:
-  /// the end of a leg that leans is trimmed to the top.
+  /// Vertices of the attached part near the seam, with the share in which they follow the carrier along
+  /// `axis`: the end of a leg that leans is trimmed to the top.
   SharedVertices trimmed;
 };
 
