@@ -10,8 +10,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <iterator>
-#include <map>
+#include <utility>
 #include <vector>
 
 #include "core/disjoint_sets.h"
@@ -53,47 +55,85 @@ DisjointSets facets_of(const Mesh& mesh) {
   return facets;
 }
 
-/// Successor of each corner on the boundary of a facet, including points between corners.
-using Border = std::map<Vertex, Vertex>;
+/// A side of the boundary of a facet, between two of its points, which need not be corners.
+struct Side {
+  std::size_t facet;
+  Vertex from, to;
 
-std::vector<Border> borders_of(const Mesh& mesh) {
+  auto key() const { return std::pair(facet, from.idx()); }
+};
+
+/// Returns the sides of all facets, those of one together, by their starts.
+std::vector<Side> sides_of(const Mesh& mesh) {
   DisjointSets facets = facets_of(mesh);
-  std::map<std::size_t, Border> borders;
+  std::vector<Side> sides;
   for (const Mesh::Halfedge_index side : mesh.halfedges()) {
     const std::size_t facet = facets.root(mesh.face(side));
     if (facet != facets.root(mesh.face(mesh.opposite(side))))
-      borders[facet][mesh.source(side)] = mesh.target(side);
+      sides.push_back({facet, mesh.source(side), mesh.target(side)});
   }
-  std::vector<Border> result;
-  for (auto& [facet, border] : borders) result.push_back(std::move(border));
-  return result;
+  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.key() < b.key(); });
+  return sides;
 }
 
-void put_smallest_first(std::vector<Point>& corners) {
-  std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+/// Polygons that make up a hull: rows of its corners, each with its smallest one first.
+struct Polygons {
+  std::vector<Point> corners;  ///< in lexicographic order
+  std::vector<std::vector<std::int32_t>> rows;
+};
+
+void put_smallest_first(std::vector<std::int32_t>& rows) {
+  std::rotate(rows.begin(), std::min_element(rows.begin(), rows.end()), rows.end());
 }
 
-/// The corners of a facet, the lexicographically least first.
-std::vector<Point> polygon(const Mesh& mesh, const Border& border) {
-  std::vector<Point> corners;
-  Vertex before = border.begin()->first;
-  for (std::size_t k = 0; k < border.size(); ++k) {
-    const Vertex here = border.at(before), after = border.at(here);
-    if (!CGAL::collinear(mesh.point(before), mesh.point(here), mesh.point(after)))
-      corners.push_back(mesh.point(here));
+/// Returns the corners of a facet in their order. `begin`, `end`: its sides.
+std::vector<Vertex> corners_of(const Mesh& mesh, std::vector<Side>::const_iterator begin,
+                               std::vector<Side>::const_iterator end) {
+  const auto after = [&](Vertex vertex) {
+    return std::lower_bound(begin, end, vertex, [](const Side& side, Vertex v) { return side.from < v; })->to;
+  };
+  std::vector<Vertex> corners;
+  Vertex before = begin->from;
+  for (auto side = begin; side != end; ++side) {
+    const Vertex here = after(before);
+    if (!CGAL::collinear(mesh.point(before), mesh.point(here), mesh.point(after(here))))
+      corners.push_back(here);
     before = here;
   }
-  put_smallest_first(corners);
   return corners;
 }
 
 /// Facets of a body. Quickhull visits facets in the order of their addresses. Its triangulation of flat
 /// regions, and the points on them that are not corners, differ from run to run.
-std::vector<std::vector<Point>> facets(const std::vector<Point>& points) {
+Polygons facets(const std::vector<Point>& points) {
   const Mesh mesh = quickhull(points);
-  std::vector<std::vector<Point>> polygons;
-  for (const Border& border : borders_of(mesh)) polygons.push_back(polygon(mesh, border));
-  return polygons;
+  const std::vector<Side> sides = sides_of(mesh);
+  std::vector<std::vector<Vertex>> polygons;
+  for (auto begin = sides.begin(); begin != sides.end();) {
+    const auto end =
+        std::find_if(begin, sides.end(), [&](const Side& side) { return side.facet != begin->facet; });
+    polygons.push_back(corners_of(mesh, begin, end));
+    begin = end;
+  }
+  constexpr std::int32_t no_corner = -1;
+  std::vector<std::int32_t> row_of(mesh.number_of_vertices(), no_corner);
+  std::vector<Vertex> corners;
+  for (const std::vector<Vertex>& polygon : polygons)
+    for (const Vertex corner : polygon)
+      if (std::int32_t& row = row_of[corner.idx()]; row == no_corner) row = 0, corners.push_back(corner);
+  std::sort(corners.begin(), corners.end(),
+            [&](Vertex a, Vertex b) { return mesh.point(a) < mesh.point(b); });
+  Polygons result;
+  for (const Vertex corner : corners) {
+    row_of[corner.idx()] = static_cast<std::int32_t>(result.corners.size());
+    result.corners.push_back(mesh.point(corner));
+  }
+  for (const std::vector<Vertex>& polygon : polygons) {
+    std::vector<std::int32_t>& rows = result.rows.emplace_back();
+    for (const Vertex corner : polygon) rows.push_back(row_of[corner.idx()]);
+    put_smallest_first(rows);
+  }
+  return result;
 }
 
 template <typename Projection>
@@ -109,16 +149,25 @@ std::vector<Point> flat_polygon(const std::vector<Point>& points) {
   std::vector<Point> corners = polygon_seen<CGAL::Projection_traits_xy_3<Kernel>>(points);
   if (corners.size() < 3) corners = polygon_seen<CGAL::Projection_traits_yz_3<Kernel>>(points);
   if (corners.size() < 3) corners = polygon_seen<CGAL::Projection_traits_xz_3<Kernel>>(points);
-  put_smallest_first(corners);
   return corners;
 }
 
-/// Polygons that make up the hull, each with its smallest corner first.
-std::vector<std::vector<Point>> polygons_of(const std::vector<Point>& points, int dimension) {
+Polygons single(const std::vector<Point>& polygon) {
+  Polygons result{polygon, {{}}};
+  std::sort(result.corners.begin(), result.corners.end());
+  result.corners.erase(std::unique(result.corners.begin(), result.corners.end()), result.corners.end());
+  for (const Point& corner : polygon)
+    result.rows[0].push_back(static_cast<std::int32_t>(
+        std::lower_bound(result.corners.begin(), result.corners.end(), corner) - result.corners.begin()));
+  put_smallest_first(result.rows[0]);
+  return result;
+}
+
+Polygons polygons_of(const std::vector<Point>& points, int dimension) {
   if (dimension == 3) return facets(points);
-  if (dimension == 2) return {flat_polygon(points)};
+  if (dimension == 2) return single(flat_polygon(points));
   const auto [low, high] = std::minmax_element(points.begin(), points.end());
-  return {{*low, *high}};
+  return single({*low, *high});
 }
 
 }  // namespace
@@ -126,20 +175,11 @@ std::vector<std::vector<Point>> polygons_of(const std::vector<Point>& points, in
 TriangulatedHull triangulated_hull(const Points& points) {
   TriangulatedHull hull;
   hull.dimension = affine_dimension(points);
-  const std::vector<std::vector<Point>> polygons = polygons_of(points_of(points), hull.dimension);
-  std::vector<Point> corners;
-  for (const std::vector<Point>& polygon : polygons)
-    corners.insert(corners.end(), polygon.begin(), polygon.end());
-  std::sort(corners.begin(), corners.end());
-  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-  const auto row = [&](const Point& p) {
-    return static_cast<std::int32_t>(std::lower_bound(corners.begin(), corners.end(), p) - corners.begin());
-  };
-
+  const auto [corners, polygons] = polygons_of(points_of(points), hull.dimension);
   std::vector<std::array<std::int32_t, 3>> triangles;
-  for (const std::vector<Point>& polygon : polygons)
+  for (const std::vector<std::int32_t>& polygon : polygons)
     for (std::size_t k = 2; k < polygon.size(); ++k)
-      triangles.push_back({row(polygon[0]), row(polygon[k - 1]), row(polygon[k])});
+      triangles.push_back({polygon[0], polygon[k - 1], polygon[k]});
   std::sort(triangles.begin(), triangles.end());
 
   hull.points.resize(static_cast<Eigen::Index>(corners.size()), 3);

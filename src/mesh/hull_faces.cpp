@@ -12,6 +12,7 @@
 
 #include "mesh/affine_span.h"
 #include "mesh/edge_table.h"
+#include "mesh/outer_points.h"
 #include "mesh/planar.h"
 #include "stackabilization/mesh/convex_hull.h"
 
@@ -284,12 +285,11 @@ HullFaces hull_of_distinct(const Points& points, double resolution) {
 }  // namespace
 
 HullFaces hull_faces(const Points& points, double resolution) {
-  std::vector<Eigen::Index> rows(points.rows());
-  std::iota(rows.begin(), rows.end(), 0);
-  const Points distinct = sorted_rows(points, std::move(rows));
-  const int exponent = working_exponent(distinct);
-  if (exponent == 0) return hull_of_distinct(distinct, resolution);
-  HullFaces hull = hull_of_distinct(scaled_by_power(distinct, exponent), std::ldexp(resolution, exponent));
+  const int exponent = working_exponent(points);
+  const Points scaled = scaled_by_power(points, exponent);
+  const Points distinct = sorted_rows(scaled, outer_points(scaled));
+  HullFaces hull = hull_of_distinct(distinct, std::ldexp(resolution, exponent));
+  if (exponent == 0) return hull;
   hull.points = scaled_by_power(hull.points, -exponent);
   hull.areas = hull.areas.unaryExpr([exponent](double a) { return std::ldexp(a, -2 * exponent); }).eval();
   return hull;
