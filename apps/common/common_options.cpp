@@ -21,12 +21,11 @@ const Count& threads_option() {
 void add_reading_options(CLI::App& command, ReadOptions& read) {
   const Choices<Format> formats = {{"obj", Format::obj}, {"off", Format::off},      {"ply", Format::ply},
                                    {"stl", Format::stl}, {"3mf", Format::three_mf}, {"gltf", Format::gltf}};
-  const Choices<Axis> axes = {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}};
   add_choice(command, "--format", read.format, formats,
              "Format of MODEL (default: its extension, or its content)");
   add_choice(command, "--unit", read.unit, unit_choices(),
              "Unit of the coordinates (default: what the file states)");
-  add_choice(command, "--up", read.up, axes,
+  add_choice(command, "--up", read.up, axis_choices(),
              "Axis of the file that points up; it becomes z (default: z; glTF: y)");
   const auto take_labels = [&read](const std::string& path) { read.labels = path; };
   command

@@ -135,6 +135,11 @@ const Choices<Unit>& unit_choices() {
   return units;
 }
 
+const Choices<Axis>& axis_choices() {
+  static const Choices<Axis> axes = {{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}};
+  return axes;
+}
+
 std::optional<Unit> unit_of_symbol(const std::string& symbol) {
   for (const auto& [name, unit] : unit_choices())
     if (name == symbol) return unit;

@@ -12,6 +12,7 @@
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/shape.h"
+#include "stackabilization/io/read.h"
 
 /// Values on the command line, checked as soon as they are parsed, so that the rest of the program knows them
 /// to be finite and in range. Numbers are read as the nearest doubles, whatever the locale, because
@@ -107,6 +108,8 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 
 /// Names of the units on the command line: mm, cm, m, in, ft, um.
 const Choices<Unit>& unit_choices();
+/// The axes of a file, by name.
+const Choices<Axis>& axis_choices();
 std::optional<Unit> unit_of_symbol(const std::string& symbol);
 
 /// "a|b|c", for the help.

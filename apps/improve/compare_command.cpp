@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "apps/common/command.h"
 #include "apps/common/explanation_report.h"
@@ -16,12 +17,15 @@ struct CompareCommandOptions {
   CommonOptions common;
   AnalysisArguments analysis;
   std::string after;
+  std::optional<Axis> after_up;
   std::vector<std::string> relaxed;
 };
 
 /// The changed object with the parts of the one at rest. Throws InputError unless its triangles are the same.
 Shape changed_shape(const CompareCommandOptions& options, const Model& rest) {
-  const Model after = load_other_model(options.common, options.after);
+  CommonOptions reading = options.common;
+  if (options.after_up) reading.read.up = options.after_up;
+  const Model after = load_other_model(reading, options.after);
   Shape now = rest.shape;
   if (after.shape.vertex_count() != now.vertex_count() || after.shape.triangles != now.triangles)
     throw InputError(display_name(after) + ": expected the triangles of " + display_name(rest) +
@@ -110,6 +114,8 @@ Command make_compare_command(CLI::App& program) {
   command->add_option("AFTER", options->after, "Mesh file of the same triangles with other vertices")
       ->type_name("FILE")
       ->required();
+  add_choice(*command, "--after-up", options->after_up, axis_choices(),
+             "Axis of AFTER that points up (default: as --up); improve and deform write z");
   add_relax_option(*command, options->relaxed);
   add_analysis_options(*command, options->analysis);
   return {command, [command, options] { return run_compare_command(*command, *options); }, &options->common};

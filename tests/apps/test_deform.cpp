@@ -91,6 +91,22 @@ TEST_CASE("every model makes the edits it is for") {
   CHECK(sideways["size_after"][0].get<double>() == Approx(4));
 }
 
+TEST_CASE("what was written with z up is compared with a file in which y points up") {
+  TableFolder folder;
+  Shape lying = solids::table({});
+  lying.vertices = (Points(lying.vertices.rows(), 3) << lying.vertices.col(0), lying.vertices.col(2),
+                    -lying.vertices.col(1))
+                       .finished();
+  const std::string table = folder.model("lying.obj", lying), wider = folder / "wider.obj";
+  deformed({table, "--up", "y", "--edit", "shape scale 1.05 along 1 0 0", "-o", wider});
+  const auto compared = [&](const Arguments& options) {
+    return run_program(joined({"compare", table, wider, "--up", "y", "--quiet"}, options)).status;
+  };
+  CHECK(compared({"--after-up", "z"}) == 0);
+  CHECK(compared({}) == 1);
+  CHECK(compared({"--after-up", "up"}) == 2);
+}
+
 TEST_CASE("edits are made in order, and a saved result is a new shape at rest") {
   const TableProject folder;
   const std::string both = folder / "both.obj", last = folder / "last.obj", middle = folder / "middle.json";

@@ -1,9 +1,8 @@
-#include "mesh/outer_points.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/outer_points.h"
 #include "stackabilization/mesh/convex_hull.h"
 #include "support/catch.h"
 #include "support/solids.h"
