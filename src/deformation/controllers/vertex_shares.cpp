@@ -194,18 +194,19 @@ class Shares {
   void trim(const Seam& seam, const std::vector<Weights>& shares, CarriedSeam& carried) const {
     Eigen::AlignedBox3d box;
     for (const int vertex : seam.vertices) box.extend(shape_.vertices.row(vertex).transpose());
-    const double reach = std::min(box.diagonal().norm(), reach_of_seams * smaller_diagonal(seam));
+    const double reach = std::min(box.diagonal().norm(), reach_of_seams * smaller_diagonal(seam)),
+                 blended = curved_reach_of_parts * smaller_diagonal(seam);
     std::vector<int> near;
-    for (const auto& [vertex, distance] : distances(edges_of(carried.attached), seam.vertices, reach)) {
+    for (const auto& [vertex, distance] :
+         distances(edges_of(carried.attached), seam.vertices, std::max(reach, blended))) {
       if (!(distance > 0)) continue;
-      near.push_back(vertex);
+      if (distance < reach) near.push_back(vertex);
       const double whole = share_of(shares[at(vertex)], carried.carrier), along = fall_off(distance / reach);
       if (whole > 0) carried.around.emplace_back(vertex, whole);
       if (along > whole) carried.trimmed.emplace_back(vertex, along - whole);
     }
-    if (near.empty()) return;
     std::sort(carried.around.begin(), carried.around.end());
-    carried.axis = middle_of(near) - carried.point;
+    if (!near.empty()) carried.axis = middle_of(near) - carried.point;
   }
 
   Eigen::Vector3d middle_of(const std::vector<int>& vertices) const {

@@ -175,6 +175,23 @@ TEST_CASE("a seam that slides takes the surface of its carrier along, by a smoot
   }
 }
 
+TEST_CASE("all of a curved part slides, however short its seam") {
+  StructuredShape rest = post_and_rail();
+  rest.shape.vertices.col(1) *= 0.1;
+  // An arc that rises from the sheet: it gives way to the post within 0.4, and its seam is 0.1 long.
+  GeneralizedCylinder arc = structures::arc_cylinder(3, 0.3, 0.2, 1.4, 8);
+  rest.structure.parts[1].primitive = arc;
+  const Rig rig(rest.structure);
+  const MeshTransfer transfer(rest.shape, rig, Following::smooth);
+  std::vector<Primitive> now = primitives_of(rest.structure);
+  std::get<GeneralizedCylinder>(now[1]).centres.col(1).array() += 0.1;
+  const Points moved = transfer.vertices(rig, now);
+  for (int v = 2 * steps; v < 2 * (2 * steps + 1); ++v) {
+    INFO("x = " << rest.shape.vertices(v, 0));
+    CHECK((moved.row(v) - rest.shape.vertices.row(v) - Eigen::RowVector3d(0, 0.1, 0)).norm() < 1e-12);
+  }
+}
+
 TEST_CASE("what lies across the slide of a seam stays, as the rim of a cup above its handle") {
   // From x = -0.5 on the sheet turns its face towards y, the direction of the slide, within the reach of
   // 0.82.
