@@ -39,9 +39,7 @@ MeshTransfer::MeshTransfer(const Shape& shape, const Rig& rig, Following followi
     for (std::size_t i = 0; i < seam.trimmed.size(); ++i)
       points.row(static_cast<Eigen::Index>(i)) = rest_.row(seam.trimmed[i].first);
     BoundSeam bound;
-    const Eigen::Vector3d tip = seam.point + seam.axis;
-    bound.tip = tip.transpose();
-    bound.tip_on_attached = attached.bind(tip);
+    bound.tip_on_attached = attached.bind(Eigen::Vector3d(seam.point + seam.axis));
     bound.point_on_attached = attached.bind(seam.point);
     bound.point_on_carrier = carrier.bind(seam.point);
     bound.on_attached = attached.bind(points);
@@ -53,9 +51,11 @@ MeshTransfer::MeshTransfer(const Shape& shape, const Rig& rig, Following followi
 
 Points MeshTransfer::vertices(const Rig& rig, const std::vector<Primitive>& now) const {
   Points vertices = rest_;
-  const auto rests = [&](std::size_t part) { return equal(rig.primitive_bindings[part].rest(), now[part]); };
+  std::vector<char> rests(parts_.size());
+  for (std::size_t part = 0; part < parts_.size(); ++part)
+    rests[part] = equal(rig.primitive_bindings[part].rest(), now[part]);
   for (std::size_t part = 0; part < parts_.size(); ++part) {
-    if (rests(part)) continue;
+    if (rests[part]) continue;
     const BoundPart& bound = parts_[part];
     const Points moved = rig.primitive_bindings[part].displacements(bound.bindings, now[part]);
     for (std::size_t i = 0; i < bound.vertices.size(); ++i)
@@ -64,18 +64,15 @@ Points MeshTransfer::vertices(const Rig& rig, const std::vector<Primitive>& now)
   for (const BoundSeam& bound : seams_) {
     const CarriedSeam& seam = bound.seam;
     const auto moved = [&](int part, const std::vector<PointBinding>& bindings) -> Points {
-      if (rests(at(part))) return Points::Zero(static_cast<Eigen::Index>(bindings.size()), 3);
+      if (rests[at(part)]) return Points::Zero(static_cast<Eigen::Index>(bindings.size()), 3);
       return rig.primitive_bindings[at(part)].displacements(bindings, now[at(part)]);
     };
-    if (rests(at(seam.attached)) && rests(at(seam.carrier))) continue;
-    const Eigen::RowVector3d slide = moved(seam.attached, {bound.point_on_attached}).row(0) -
-                                     moved(seam.carrier, {bound.point_on_carrier}).row(0);
+    if (rests[at(seam.attached)] && rests[at(seam.carrier)]) continue;
+    const Points ends = moved(seam.attached, {bound.point_on_attached, bound.tip_on_attached});
+    const Eigen::RowVector3d slide = ends.row(0) - moved(seam.carrier, {bound.point_on_carrier}).row(0);
     for (const auto& [vertex, share] : seam.around) vertices.row(vertex) += share * slide;
     // What is trimmed slides along the attached part, wherever that points now.
-    const Eigen::RowVector3d axis =
-        (bound.tip + moved(seam.attached, {bound.tip_on_attached}).row(0) - seam.point.transpose() -
-         moved(seam.attached, {bound.point_on_attached}).row(0))
-            .stableNormalized();
+    const Eigen::RowVector3d axis = (seam.axis.transpose() + ends.row(1) - ends.row(0)).stableNormalized();
     const Points gaps =
         (moved(seam.carrier, bound.on_carrier) - moved(seam.attached, bound.on_attached)).rowwise() + slide;
     for (std::size_t i = 0; i < seam.trimmed.size(); ++i) {

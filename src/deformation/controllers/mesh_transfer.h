@@ -40,8 +40,8 @@ class MeshTransfer {
   /// CarriedSeam, bound to both parts.
   struct BoundSeam {
     CarriedSeam seam;
-    Eigen::RowVector3d tip;  ///< of CarriedSeam::axis at rest
-    PointBinding tip_on_attached, point_on_attached, point_on_carrier;
+    PointBinding point_on_attached, point_on_carrier;
+    PointBinding tip_on_attached;                       ///< of CarriedSeam::axis
     std::vector<PointBinding> on_attached, on_carrier;  ///< of CarriedSeam::trimmed
   };
   Points rest_;

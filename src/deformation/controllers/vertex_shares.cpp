@@ -151,62 +151,86 @@ class Shares {
     return bends ? curved_reach_of_parts : smooth_reach_of_parts;
   }
 
+  /// A seam with the vertices within its reach.
+  struct SeamReach {
+    CarriedSeam carried;
+    double around = 0, trim = 0;  ///< reaches on the carrier and on the attached part, model units
+    Distances on_carrier, on_attached;
+  };
+  /// Sums of the inverse squares of the distances to all seams of a part that reach a vertex.
+  using Nearness = std::map<int, double>;
+
   /// Lets the vertices around the seams of a carrier follow the parts that are attached there.
   void carry(const std::vector<Seam>& of_carrier, const std::vector<Weights>& shares,
              std::vector<CarriedSeam>& carried) const {
-    std::vector<std::pair<CarriedSeam, Distances>> seams;
-    Edges edges;
-    for (const Seam& seam : of_carrier) {
-      if (!(seam.lead < -attached)) continue;
-      if (edges.empty()) edges = edges_of(seam.part);
-      CarriedSeam one{seam.other, seam.part, middle_of(seam.vertices), Eigen::Vector3d::Zero(), {}, {}};
-      seams.emplace_back(std::move(one),
-                         distances(edges, seam.vertices, reach_of_seams * smaller_diagonal(seam)));
-    }
-    if (seams.empty()) return;
     // Between seams, their shares are those of the interpolation of Shepard (1968).
-    std::map<int, double> nearness;
-    for (const auto& [seam, around] : seams)
-      for (const auto& [vertex, distance] : around) nearness[vertex] += shepard_weight(distance);
-    const std::map<int, Eigen::Vector3d> normals = normals_of(seams.front().first.carrier);
-    std::size_t row = 0;
+    std::vector<SeamReach> reaches;
+    Nearness near_carrier;
+    std::map<int, Nearness> near_attached;
     for (const Seam& seam : of_carrier) {
       if (!(seam.lead < -attached)) continue;
-      auto& [one, around] = seams[row++];
-      const double reach = reach_of_seams * smaller_diagonal(seam);
-      const Eigen::Matrix3d sliding =
-          Eigen::Matrix3d::Identity() - held_directions(smooth_->parts[at(one.carrier)].primitive, one.point);
-      for (const auto& [vertex, distance] : around) {
-        const double near = fall_off(distance / reach);
-        // A seam slides along the surface around it: what lies across the slide, as a rim does, stays.
-        const double lies = 1 - (sliding * normals.at(vertex).stableNormalized()).squaredNorm();
-        const double own = shepard_weight(distance) / nearness.at(vertex);
-        const double share = share_of(shares[at(vertex)], one.carrier) * own * near *
-                             std::lerp(lies, 1.0, fall_off(2 * distance / reach));
-        if (share > 0) one.around.emplace_back(vertex, share);
-      }
-      trim(seam, shares, one);
-      carried.push_back(std::move(one));
+      const SeamReach& reach = reaches.emplace_back(reach_of(seam));
+      for (const auto& [vertex, distance] : reach.on_carrier)
+        near_carrier[vertex] += shepard_weight(distance);
+      for (const auto& [vertex, distance] : reach.on_attached)
+        near_attached[seam.other][vertex] += shepard_weight(distance);
+    }
+    if (reaches.empty()) return;
+    const std::map<int, Eigen::Vector3d> normals = normals_of(reaches.front().carried.carrier);
+    for (SeamReach& reach : reaches) {
+      take_along(reach, near_carrier, normals, shares);
+      trim(reach, near_attached.at(reach.carried.attached), shares);
+      std::sort(reach.carried.around.begin(), reach.carried.around.end());
+      carried.push_back(std::move(reach.carried));
     }
   }
 
-  /// Finds the vertices of the attached part that are trimmed to the carrier.
-  void trim(const Seam& seam, const std::vector<Weights>& shares, CarriedSeam& carried) const {
+  SeamReach reach_of(const Seam& seam) const {
+    const double smaller = smaller_diagonal(seam);
     Eigen::AlignedBox3d box;
     for (const int vertex : seam.vertices) box.extend(shape_.vertices.row(vertex).transpose());
-    const double reach = std::min(box.diagonal().norm(), reach_of_seams * smaller_diagonal(seam)),
-                 blended = curved_reach_of_parts * smaller_diagonal(seam);
-    std::vector<int> near;
-    for (const auto& [vertex, distance] :
-         distances(edges_of(carried.attached), seam.vertices, std::max(reach, blended))) {
-      if (!(distance > 0)) continue;
-      if (distance < reach) near.push_back(vertex);
-      const double whole = share_of(shares[at(vertex)], carried.carrier), along = fall_off(distance / reach);
-      if (whole > 0) carried.around.emplace_back(vertex, whole);
-      if (along > whole) carried.trimmed.emplace_back(vertex, along - whole);
+    SeamReach reach;
+    reach.carried = {seam.other, seam.part, middle_of(seam.vertices), Eigen::Vector3d::Zero(), {}, {}};
+    reach.around = reach_of_seams * smaller;
+    reach.trim = std::min(box.diagonal().norm(), reach.around);
+    reach.on_carrier = distances(edges_of(seam.part), seam.vertices, reach.around);
+    reach.on_attached =
+        distances(edges_of(seam.other), seam.vertices, std::max(reach.trim, curved_reach_of_parts * smaller));
+    return reach;
+  }
+
+  /// Finds the vertices of the carrier that a seam takes along.
+  void take_along(SeamReach& reach, const Nearness& nearness, const std::map<int, Eigen::Vector3d>& normals,
+                  const std::vector<Weights>& shares) const {
+    CarriedSeam& seam = reach.carried;
+    const Eigen::Matrix3d sliding =
+        Eigen::Matrix3d::Identity() - held_directions(smooth_->parts[at(seam.carrier)].primitive, seam.point);
+    for (const auto& [vertex, distance] : reach.on_carrier) {
+      // A seam slides along the surface around it: what lies across the slide, as a rim does, stays.
+      const double lies = 1 - (sliding * normals.at(vertex).stableNormalized()).squaredNorm();
+      const double own = shepard_weight(distance) / nearness.at(vertex);
+      const double share = share_of(shares[at(vertex)], seam.carrier) * own *
+                           fall_off(distance / reach.around) *
+                           std::lerp(lies, 1.0, fall_off(2 * distance / reach.around));
+      if (share > 0) seam.around.emplace_back(vertex, share);
     }
-    std::sort(carried.around.begin(), carried.around.end());
-    if (!near.empty()) carried.axis = middle_of(near) - carried.point;
+  }
+
+  /// Finds the vertices of the attached part that are trimmed to the carrier, and lets those that follow it
+  /// slide with the seam. Those of other seams follow these.
+  void trim(SeamReach& reach, const Nearness& nearness, const std::vector<Weights>& shares) const {
+    CarriedSeam& seam = reach.carried;
+    std::vector<int> near;
+    for (const auto& [vertex, distance] : reach.on_attached) {
+      if (!(distance > 0) || owners_[at(vertex)].contains(seam.carrier)) continue;
+      if (distance < reach.trim) near.push_back(vertex);
+      const double own = shepard_weight(distance) / nearness.at(vertex);
+      const double whole = own * share_of(shares[at(vertex)], seam.carrier),
+                   along = own * fall_off(distance / reach.trim);
+      if (whole > 0) seam.around.emplace_back(vertex, whole);
+      if (along > whole) seam.trimmed.emplace_back(vertex, along - whole);
+    }
+    if (!near.empty()) seam.axis = middle_of(near) - seam.point;
   }
 
   Eigen::Vector3d middle_of(const std::vector<int>& vertices) const {

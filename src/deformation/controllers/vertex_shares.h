@@ -18,9 +18,10 @@ using SharedVertices = std::vector<std::pair<int, double>>;
 struct CarriedSeam {
   int attached = 0, carrier = 0;
   Eigen::Vector3d point;  ///< mean of the vertices of the seam at rest
-  Eigen::Vector3d axis;   ///< from there to the middle of `trimmed`, 0 if there are none
-  /// Vertices of the carrier around the seam, with the share that they make of what the attached part moves
-  /// against the carrier at `point`: a joint that slides takes the surface along.
+  Eigen::Vector3d axis;   ///< from there into the attached part; 0 where it has no other vertices nearby
+  /// Vertices around the seam, ascending, with the share that they make of what the attached part moves
+  /// against the carrier at `point`: a joint that slides takes the surface of the carrier along. Those of the
+  /// attached part are the ones that follow the carrier.
   SharedVertices around;
   /// Vertices of the attached part near the seam, with the share in which they follow the carrier along
   /// `axis`: the end of a leg that leans is trimmed to the top.

@@ -1,5 +1,8 @@
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "deformation/controllers/mesh_transfer.h"
 #include "support/catch.h"
@@ -190,6 +193,43 @@ TEST_CASE("all of a curved part slides, however short its seam") {
     INFO("x = " << rest.shape.vertices(v, 0));
     CHECK((moved.row(v) - rest.shape.vertices.row(v) - Eigen::RowVector3d(0, 0.1, 0)).norm() < 1e-12);
   }
+}
+
+TEST_CASE("a part whose border has two pieces slides once") {
+  // Rows of vertices at y = 0, 0.05 and 0.1; on the right no triangle has the one in the middle of the
+  // border.
+  StructuredShape rest = post_and_rail();
+  Shape& shape = rest.shape;
+  const auto row = [](int i, int j) { return 3 * i + j; };
+  shape.vertices.resize(3 * (2 * steps + 1), 3);
+  for (int i = 0; i <= 2 * steps; ++i)
+    for (int j = 0; j < 3; ++j) shape.vertices.row(row(i, j)) << step * (i - steps), 0.05 * j, 0;
+  std::vector<std::array<int, 3>> triangles;
+  shape.triangle_part.clear();
+  const auto add = [&](int i, std::array<int, 3> triangle) {
+    if (i >= steps && std::ranges::count(triangle, row(steps, 1)) > 0) return;
+    triangles.push_back(triangle);
+    shape.triangle_part.push_back(i < steps ? 0 : 1);
+  };
+  for (int i = 0; i < 2 * steps; ++i) {
+    add(i, {row(i, 0), row(i + 1, 0), row(i + 1, 1)});
+    add(i, {row(i, 0), row(i + 1, 1), row(i, 1)});
+    add(i, {row(i, 1), row(i + 1, 1), row(i, 2)});
+    add(i, {row(i, 2), row(i + 1, 1), row(i + 1, 2)});
+  }
+  shape.triangles.resize(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    shape.triangles.row(static_cast<Eigen::Index>(t)) << triangles[t][0], triangles[t][1], triangles[t][2];
+  rest.structure.parts[1].primitive = structures::arc_cylinder(3, 0.3, 0.2, 1.4, 8);
+  const Rig rig(rest.structure);
+  std::vector<Primitive> now = primitives_of(rest.structure);
+  std::get<GeneralizedCylinder>(now[1]).centres.col(1).array() += 0.1;
+  const Points moved = MeshTransfer(shape, rig, Following::smooth).vertices(rig, now);
+  for (int i = steps + 1; i <= 2 * steps; ++i)
+    for (int j = 0; j < 3; ++j)
+      CHECK(moved(row(i, j), 1) - shape.vertices(row(i, j), 1) == Approx(0.1).epsilon(1e-9));
+  for (const int j : {0, 2})
+    CHECK(moved(row(steps, j), 1) - shape.vertices(row(steps, j), 1) == Approx(0.1).epsilon(1e-9));
 }
 
 TEST_CASE("what lies across the slide of a seam stays, as the rim of a cup above its handle") {
