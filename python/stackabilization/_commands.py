@@ -317,16 +317,17 @@ def suggest(mesh, *, direction=None, semantics=None, boxes=None, model=None, edi
     return _results.Suggestions(answer.document, None, answer.texts["project"])
 
 
-def compare(mesh, after, *, relax=None, segmentation=None, segments=None, seeds=None, primitive=None, sections=None,
-            symmetry_tolerance=None, joint_reach=None, ctrl=None, grp=None, format=None, unit=None, up=None,
-            labels=None, threads=None, progress=None):
+def compare(mesh, after, *, after_up=None, relax=None, segmentation=None, segments=None, seeds=None, primitive=None,
+            sections=None, symmetry_tolerance=None, joint_reach=None, ctrl=None, grp=None, format=None, unit=None,
+            up=None, labels=None, threads=None, progress=None):
     """Say what a person would mind in a changed shape.
 
-    after: a mesh of the same faces with other vertices. relax: limits of quality, names or a dict from name
-    to value. Other keywords: as in `structure`.
+    after: a mesh of the same faces with other vertices. after_up: its axis that points up; default: as `up`.
+    What is made of a mesh with `up` has z up. relax: limits of quality, names or a dict from name to value.
+    Other keywords: as in `structure`.
     """
-    options = {"relax": relax, "segmentation": segmentation, "segments": segments, "seeds": seeds,
-               "primitive": primitive, "sections": sections, "symmetry_tolerance": symmetry_tolerance,
+    options = {"after_up": after_up, "relax": relax, "segmentation": segmentation, "segments": segments,
+               "seeds": seeds, "primitive": primitive, "sections": sections, "symmetry_tolerance": symmetry_tolerance,
                "joint_reach": joint_reach, "ctrl": ctrl, "grp": grp, "format": format, "unit": unit, "up": up,
                "labels": labels, "threads": threads}
     return _results.Comparison(run_command("compare", mesh, options, progress, after=after).document)

@@ -138,8 +138,8 @@ def suggest(
 ) -> Suggestions: ...
 
 def compare(
-    mesh: MeshLike, after: MeshLike, *, relax: Relaxed | None = None, segmentation: Segmentation | None = None,
-    segments: int | None = None, seeds: Path | None = None, primitive: Primitives | None = None,
+    mesh: MeshLike, after: MeshLike, *, after_up: Up | None = None, relax: Relaxed | None = None,
+    segmentation: Segmentation | None = None, segments: int | None = None, seeds: Path | None = None, primitive: Primitives | None = None,
     sections: int | None = None, symmetry_tolerance: float | None = None, joint_reach: float | None = None,
     ctrl: Path | None = None, grp: Path | None = None, format: str | None = None, unit: Unit | None = None,
     up: Up | None = None, labels: Path | None = None, threads: int | None = None, progress: Progress | None = None,

@@ -82,6 +82,19 @@ def test_a_shape_is_acceptable_beside_itself(chair):
     assert not st.compare(chair, squashed).acceptable
 
 
+def test_a_file_in_which_y_points_up_is_compared_with_one_in_which_z_does(chair, tmp_path):
+    lying, standing = tmp_path / "lying.obj", tmp_path / "standing.obj"
+    mesh = st.load(chair)
+    faces = "".join(f"f {a} {b} {c}\n" for a, b, c in mesh.faces + 1)
+    for path, axes in ((lying, [[1, 0, 0], [0, 0, 1], [0, -1, 0]]), (standing, numpy.eye(3))):
+        path.write_text("".join(f"v {x!r} {y!r} {z!r}\n" for x, y, z in (mesh.vertices @ numpy.transpose(axes)).tolist())
+                        + faces)
+    assert st.compare(lying, standing, up="y", after_up="z").acceptable
+    assert not st.compare(lying, standing, up="y").acceptable
+    with pytest.raises(st.UsageError, match="in memory"):
+        st.compare(lying, mesh, after_up="z")
+
+
 def test_designs_come_as_they_are_found(table):
     designs = st.improve(table, target=0.3, keep=["top"], effort=0.3)
     rest = st.load(table)
