@@ -56,13 +56,28 @@ int wall_at(const Cuboid& box, const Eigen::Vector3d& point) {
   return nearest;
 }
 
-/// Returns the axes of a box along which joints may slide: one of a member, two of a plate, else none.
-std::vector<int> sliding_axes(const OrientedBox& box) {
+/// Returns the middle of a face of a cuboid.
+Eigen::Vector3d middle_of(const Cuboid& cuboid, int face) {
+  const std::array<int, 4> ring = cuboid_face(face);
+  return cuboid.corners(ring, Eigen::all).colwise().mean().transpose();
+}
+
+/// Returns the mean edges of a cuboid along its three axes, one per column.
+Eigen::Matrix3d mean_edges(const Cuboid& cuboid) {
+  Eigen::Matrix3d edges = Eigen::Matrix3d::Zero();
+  for (int corner = 0; corner < 8; ++corner)
+    for (int axis = 0; axis < 3; ++axis)
+      edges.col(axis) += ((corner >> axis & 1) != 0 ? 0.25 : -0.25) * cuboid.corners.row(corner).transpose();
+  return edges;
+}
+
+/// Returns the axes of a cuboid with these edges along which joints may slide: one of a member, two of a
+/// plate, else none.
+std::vector<int> sliding_axes(const Eigen::Matrix3d& edges) {
+  const Eigen::Vector3d lengths = edges.colwise().norm();
   std::vector<int> order{0, 1, 2};
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return box.half_extents(a) > box.half_extents(b); });
-  const double longest = box.half_extents(order[0]), middle = box.half_extents(order[1]),
-               shortest = box.half_extents(order[2]);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return lengths(a) > lengths(b); });
+  const double longest = lengths(order[0]), middle = lengths(order[1]), shortest = lengths(order[2]);
   if (longest >= slender * middle) return {order[0]};
   if (middle >= slender * shortest) return {order[0], order[1]};
   return {};
@@ -168,7 +183,7 @@ std::optional<double> sliding_place_on(const Primitive& carrier, const Points& p
   const Cuboid& cuboid = std::get<Cuboid>(carrier);
   const OrientedBox box = nearest_box(cuboid);
   if (is_hollow(cuboid)) return sliding_place_on_wall(cuboid, box, points);
-  const std::vector<int> axes = sliding_axes(box);
+  const std::vector<int> axes = sliding_axes(mean_edges(cuboid));
   if (axes.empty()) return std::nullopt;
   for (const auto point : points.rowwise())
     for (const int axis : axes)
@@ -201,13 +216,12 @@ double distance_beyond(const Primitive& carrier, const Eigen::Vector3d& point) {
     return std::max(0.0, beyond);
   }
   const Cuboid& cuboid = std::get<Cuboid>(carrier);
-  const OrientedBox box = nearest_box(cuboid);
-  std::vector<int> axes = is_hollow(cuboid) ? std::vector<int>{0, 1, 2} : sliding_axes(box);
+  std::vector<int> axes = is_hollow(cuboid) ? std::vector<int>{0, 1, 2} : sliding_axes(mean_edges(cuboid));
   if (is_hollow(cuboid)) axes.erase(axes.begin() + wall_at(cuboid, point) / 2);
   double farthest = 0;
   for (const int axis : axes)
-    farthest =
-        std::max(farthest, std::abs((point - box.centre).dot(box.axes.col(axis))) - box.half_extents(axis));
+    for (const int face : {2 * axis, 2 * axis + 1})
+      farthest = std::max(farthest, normal_of(cuboid, face).dot(point - middle_of(cuboid, face)));
   return farthest;
 }
 
@@ -228,13 +242,8 @@ Eigen::Matrix3d held_directions(const Primitive& carrier, const Eigen::Vector3d&
     const Eigen::Vector3d normal = normal_of(cuboid, wall_at(cuboid, point));
     return normal * normal.transpose();
   }
-  const auto& corners = cuboid.corners;
-  Eigen::Matrix3d edges = Eigen::Matrix3d::Zero();
-  for (int corner = 0; corner < 8; ++corner)
-    for (int axis = 0; axis < 3; ++axis)
-      edges.col(axis) += ((corner >> axis & 1) != 0 ? 1 : -1) * corners.row(corner).transpose();
-  const std::vector<int> axes =
-      sliding_axes({Eigen::Vector3d::Zero(), all, edges.colwise().norm().transpose()});
+  const Eigen::Matrix3d edges = mean_edges(cuboid);
+  const std::vector<int> axes = sliding_axes(edges);
   if (axes.empty()) return all;
   if (axes.size() == 1) {
     const Eigen::Vector3d along = edges.col(axes[0]).stableNormalized();

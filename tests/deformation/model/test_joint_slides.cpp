@@ -212,6 +212,26 @@ TEST_CASE("A joint is beyond a round member past its ends", "[joints]") {
   CHECK(detail::distance_beyond(leg, {0, 0, -0.25}) == Approx(0.25));
 }
 
+TEST_CASE("A joint is beyond a plate past its own edges, not those of a box around it") {
+  // A panel, 8 wide at the bottom, 12 at the top, and 10 high: its sides are x = 4 + 0.2 z and the mirror
+  // image.
+  Cuboid panel = cuboid_of({{0, 0, 5}, Eigen::Matrix3d::Identity(), {5, 0.25, 5}});
+  for (int corner = 0; corner < 8; ++corner) panel.corners(corner, 0) *= corner < 4 ? 0.8 : 1.2;
+  const auto beyond = [&](double x, double z) { return detail::distance_beyond(panel, {x, 0.25, z}); };
+  CHECK(beyond(5.9, 10) == 0);
+  CHECK(beyond(-5.9, 10) == 0);
+  CHECK(beyond(3.9, 0) == 0);
+  CHECK(beyond(4.9, 0) == Approx(0.9 / std::hypot(1, 0.2)));
+  CHECK(beyond(-6.5, 10) == Approx(0.5 / std::hypot(1, 0.2)));
+  CHECK(beyond(0, 10.5) == Approx(0.5));
+  CHECK(beyond(0, -0.1) == Approx(0.1));
+  // A leg that leans has level ends: its foot is beyond them by its height, not by its way along the axis.
+  Cuboid leg = cuboid_of({{0, 0, 5}, Eigen::Matrix3d::Identity(), {0.5, 0.5, 5}});
+  for (int corner = 4; corner < 8; ++corner) leg.corners(corner, 0) += 10;
+  CHECK(detail::distance_beyond(leg, {0.4, 0, 0}) == 0);
+  CHECK(detail::distance_beyond(leg, {11, 0, 11}) == Approx(1));
+}
+
 TEST_CASE("A rung that moves up between legs that lean gets shorter, and the legs stay", "[joints]") {
   const StructuredShape trestle = structures::trestle();
   const int rung = structures::part_named(trestle, "rung");
