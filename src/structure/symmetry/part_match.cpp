@@ -16,6 +16,7 @@
 #include "core/extract_parts.h"
 #include "core/index.h"
 #include "mesh/surface_moments.h"
+#include "stackabilization/mesh/closed_surface.h"
 
 namespace stackabilization::detail {
 
@@ -64,12 +65,14 @@ PartSurfaces::PartSurfaces(const Shape& shape, const SymmetryOptions& options)
       whole_(symmetry_surface(shape, whole_samples)),
       part_of_(shape.triangle_part),
       parts_(shape.part_names.size()),
+      open_(parts_.size()),
       widths_(parts_.size()),
       sides_(parts_.size()) {
   const std::vector<Shape> parts = extract_parts(shape);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
     if (!(area_of(parts[k]) > 0)) return;
     parts_[k].emplace(symmetry_surface(parts[k], part_samples));
+    open_[k] = !closed_surface(parts[k]).closed;
     widths_[k] = widths(*parts_[k]);
     sides_[k] = sides(*parts_[k]);
   });
@@ -98,11 +101,11 @@ std::vector<const SymmetrySurface*> PartSurfaces::with_area() const {
   return result;
 }
 
-bool PartSurfaces::same_size(int a, int b) const {
+bool PartSurfaces::same_size(int a, int b, double tolerance) const {
   const auto same = [&](const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
     for (int k = 0; k < 3; ++k) {
-      const double allowed = options_.tolerance * std::max(size_tolerances * std::max(one(k), other(k)),
-                                                           absolute_size_tolerances * unit_);
+      const double allowed = tolerance * std::max(size_tolerances * std::max(one(k), other(k)),
+                                                  absolute_size_tolerances * unit_);
       if (std::abs(one(k) - other(k)) > allowed) return false;
     }
     return true;
@@ -111,36 +114,39 @@ bool PartSurfaces::same_size(int a, int b) const {
   return same(widths_[one], widths_[other]) || same(sides_[one], sides_[other]);
 }
 
-bool PartSurfaces::is_near(const Eigen::Vector3d& centroid, int b) const {
-  return (centroid - part(b)->centroid).norm() <= options_.tolerance * unit_;
+bool PartSurfaces::is_near(const Eigen::Vector3d& centroid, int b, double tolerance) const {
+  return (centroid - part(b)->centroid).norm() <= tolerance * unit_;
 }
 
-std::vector<int> PartSurfaces::near_image(int a, const Symmetry& symmetry) const {
+std::vector<int> PartSurfaces::near_image(int a, const Symmetry& symmetry, double slack) const {
   const SymmetrySurface* from = part(a);
   if (!from) return {};
   const Eigen::Vector3d image = isometry_of(symmetry) * from->centroid;
-  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(options_.tolerance * unit_);
+  const double tolerance = slack * options_.tolerance;
+  const Eigen::Vector3d reach = Eigen::Vector3d::Constant(tolerance * unit_);
   std::vector<int> found;
-  centroids_->tree.query(boost::geometry::index::intersects(boost::geometry::model::box<Place>(
-                             place_of(image - reach), place_of(image + reach))),
-                         boost::make_function_output_iterator([&](const Centroids::Entry& entry) {
-                           if (same_size(a, entry.second) && is_near(image, entry.second))
-                             found.push_back(entry.second);
-                         }));
+  centroids_->tree.query(
+      boost::geometry::index::intersects(
+          boost::geometry::model::box<Place>(place_of(image - reach), place_of(image + reach))),
+      boost::make_function_output_iterator([&](const Centroids::Entry& entry) {
+        if (same_size(a, entry.second, tolerance) && is_near(image, entry.second, tolerance))
+          found.push_back(entry.second);
+      }));
   std::sort(found.begin(), found.end());
   if (found.size() > max_matches) found.resize(max_matches);
   return found;
 }
 
-std::optional<double> PartSurfaces::match(int a, int b, const Symmetry& symmetry) const {
+std::optional<double> PartSurfaces::match(int a, int b, const Symmetry& symmetry, double slack) const {
   const SymmetrySurface *from = part(a), *to = part(b);
   if (!from || !to) return {};
   const Eigen::Isometry3d map = isometry_of(symmetry);
-  if (!is_near(map * from->centroid, b) || !same_size(a, b)) return {};
+  SymmetryOptions options = options_;
+  options.tolerance *= slack;
+  if (!is_near(map * from->centroid, b, options.tolerance) || !same_size(a, b, options.tolerance)) return {};
   std::vector<double> both = distances(*from, *to, map);
   for (const double distance : distances(*to, *from, map.inverse())) both.push_back(distance);
-  const Agreement found =
-      agreement(std::move(both), std::max(from->diagonal, to->diagonal) / unit_, options_);
+  const Agreement found = agreement(std::move(both), std::max(from->diagonal, to->diagonal) / unit_, options);
   if (!found.holds) return {};
   return found.residual * unit_ / diagonal_;
 }

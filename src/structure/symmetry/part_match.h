@@ -28,7 +28,8 @@ class PartSurfaces {
   /// Returns the candidates for `match` of part `a`, ascending: the parts whose centroids and widths are near
   /// those of its image. More than `max_matches` candidates are copies of each other in one place; the first
   /// ones are returned.
-  std::vector<int> near_image(int a, const Symmetry& symmetry) const;
+  /// `slack`: factor of all tolerances.
+  std::vector<int> near_image(int a, const Symmetry& symmetry, double slack = 1) const;
   static constexpr std::size_t max_matches = 16;
 
   /// Returns the residual when `symmetry` (model units) maps part `a` to part `b`, as a fraction of the
@@ -40,8 +41,11 @@ class PartSurfaces {
   ///   parts of which one lacks faces, if the sides of their minimal boxes agree. And
   /// * their surfaces agree in both directions, see `agreement`.
   ///
-  /// Tolerances of distances are fractions of the whole shape.
-  std::optional<double> match(int a, int b, const Symmetry& symmetry) const;
+  /// Tolerances of distances are fractions of the whole shape. `slack`: factor of all tolerances.
+  std::optional<double> match(int a, int b, const Symmetry& symmetry, double slack = 1) const;
+
+  /// Returns whether the surface of a part has a border, as where it is cut from another part.
+  bool is_open(int index) const { return open_[static_cast<std::size_t>(index)] != 0; }
 
   /// Part on which an image lies.
   struct Image {
@@ -56,8 +60,8 @@ class PartSurfaces {
 
  private:
   struct Centroids;
-  bool same_size(int a, int b) const;
-  bool is_near(const Eigen::Vector3d& centroid, int b) const;
+  bool same_size(int a, int b, double tolerance) const;
+  bool is_near(const Eigen::Vector3d& centroid, int b, double tolerance) const;
   std::vector<double> distances(const SymmetrySurface& from, const SymmetrySurface& to,
                                 const Eigen::Isometry3d& map) const;
 
@@ -65,6 +69,7 @@ class PartSurfaces {
   SymmetrySurface whole_;
   std::vector<std::int32_t> part_of_;  ///< per triangle of the shape
   std::vector<std::optional<SymmetrySurface>> parts_;
+  std::vector<char> open_;               ///< per part with area
   std::vector<Eigen::Vector3d> widths_;  ///< per part with area
   std::vector<Eigen::Vector3d> sides_;   ///< per part with area, of its minimal box
   std::unique_ptr<const Centroids> centroids_;

@@ -22,6 +22,9 @@ namespace {
 using detail::PartSurfaces;
 using detail::SymmetrySurface;
 
+/// Parts without a counterpart nearly match to so many tolerances.
+constexpr double near_miss = 2;
+
 constexpr double min_diagonal = 0.697, max_diagonal = 0.717;  // cosine
 
 class PartSymmetry {
@@ -70,17 +73,27 @@ class PartSymmetry {
     return {type, std::move(parts), symmetry, {}, residual};
   }
 
-  /// Returns the part that the image of `part` under `plane` matches best, or else lies on, and the residual.
-  /// -1: none.
-  std::pair<int, double> counterpart(int part, const Symmetry& plane) const {
+  /// Returns the part that the image of `part` under `plane` matches best, and the residual. -1: none.
+  std::pair<int, double> best_match(int part, const Symmetry& plane, double slack) const {
     std::pair<int, double> best{-1, 0};
-    for (const int other : parts_.near_image(part, plane))
-      if (const auto residual = parts_.match(part, other, plane);
+    for (const int other : parts_.near_image(part, plane, slack))
+      if (const auto residual = parts_.match(part, other, plane, slack);
           residual && (best.first < 0 || *residual < best.second))
         best = {other, *residual};
+    return best;
+  }
+
+  /// Returns the part that the image of `part` under `plane` matches best, or else lies on. An open part may
+  /// also nearly match an open one: the plane is one of the whole shape, but parts of one surface may be cut
+  /// differently on both sides of it.
+  std::pair<int, double> counterpart(int part, const Symmetry& plane) const {
+    const std::pair<int, double> best = best_match(part, plane, 1);
     if (best.first >= 0) return best;
-    const std::optional<PartSurfaces::Image> image = parts_.image_of(part, plane);
-    return image ? std::pair(image->part, image->residual) : best;
+    if (const std::optional<PartSurfaces::Image> image = parts_.image_of(part, plane))
+      return {image->part, image->residual};
+    if (!parts_.is_open(part)) return best;
+    const std::pair<int, double> near = best_match(part, plane, near_miss);
+    return near.first >= 0 && parts_.is_open(near.first) ? near : best;
   }
 
   std::vector<Relation> relations_under(const Symmetry& plane) const {

@@ -145,6 +145,27 @@ TEST_CASE("a thin leg has no counterpart in one that is thicker or elsewhere") {
   CHECK(table(4.3, 0.2).empty());
 }
 
+TEST_CASE("parts that are cut from others are paired where they nearly match, whole ones are not") {
+  // Images of legs miss the others by more than the tolerance, but not by twice as much.
+  const Shape top = solids::named(solids::box({-5, -3, 5}, {5, 3, 5.3}), "top");
+  const auto leg = [](double at, const std::string& name, bool cut) {
+    const Shape box = solids::box({at - 0.1, -0.1, 0}, {at + 0.1, 0.1, 5});
+    std::vector<Eigen::Index> kept;
+    for (Eigen::Index t = 0; t < box.triangle_count(); ++t)
+      if (!cut || box.corner(t, 0).z() + box.corner(t, 1).z() + box.corner(t, 2).z() < 15) kept.push_back(t);
+    return solids::named(make_shape(box.vertices, box.triangles(kept, Eigen::all)), name);
+  };
+  const auto table = [&](double at, bool left_cut, bool right_cut) {
+    const Shape shape = solids::joined({top, leg(-4, "left", left_cut), leg(at, "right", right_cut)});
+    return pairs_of(shape, relations_of(shape));
+  };
+  const double off = 0.3;
+  CHECK(table(4 + off, false, false).empty());
+  CHECK(table(4 + off, true, false).empty());
+  CHECK(table(4 + off, true, true) == Pairs{{"left", "right"}});
+  CHECK(table(4 + 3 * off, true, true).empty());
+}
+
 TEST_CASE("small parts that miss their counterpart by more than their own size tells are pairs") {
   // A trestle of 10, its feet of 0.2: the right one sits 0.05 off.
   using solids::box;
