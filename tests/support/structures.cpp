@@ -267,7 +267,7 @@ StructuredShape ladder() {
   return ladder.done();
 }
 
-StructuredShape trestle() {
+StructuredShape trestle(bool shelf) {
   Assembly trestle;
   const GeneralizedCylinder left = straight_cylinder({-4, 0, 0}, {-2, 0, 10}, 0.4, 21),
                             right = straight_cylinder({4, 0, 0}, {2, 0, 10}, 0.4, 21),
@@ -279,6 +279,12 @@ StructuredShape trestle() {
   trestle.mirror({c}, Eigen::Vector3d::UnitX());
   trestle.joint(a, c, Eigen::RowVector3d(-3.2, 0, 4));
   trestle.joint(b, c, Eigen::RowVector3d(3.2, 0, 4));
+  if (shelf) {
+    const int d = trestle.add_box("shelf", {-2.85, -0.3, 5.5}, {2.85, 0.3, 6}, 1);
+    trestle.mirror({d}, Eigen::Vector3d::UnitX());
+    trestle.joint(a, d, Eigen::RowVector3d(-2.85, 0, 5.75));
+    trestle.joint(b, d, Eigen::RowVector3d(2.85, 0, 5.75));
+  }
   return trestle.done();
 }
 

@@ -51,8 +51,8 @@ StructuredShape leg_and_apron();
 
 /// Trestle in the plane y = 0, 10 high: straight generalized cylinders "leg_left" and "leg_right" that lean
 /// towards each other, from x = -4 and 4 to -2 and 2, and "rung" between them at z = 4, with point joints on
-/// the axes of the legs. Mirror plane x = 0.
-StructuredShape trestle();
+/// the axes of the legs. Mirror plane x = 0. With `shelf`, a box "shelf" between the legs from z = 5.5 to 6.
+StructuredShape trestle(bool shelf = false);
 
 /// Boxes "slat_1" to "slat_5" along x, 20 x 1.2 x 0.5, side by side at steps of 2 along y around the z axis,
 /// on "rail_1" and "rail_2" along y at x = -8 and 8. Mirror planes x = 0 and y = 0, but where `skewed`: only

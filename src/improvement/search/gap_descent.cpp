@@ -3,11 +3,14 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include "improvement/contacts/design_contacts.h"
 #include "improvement/contacts/gap_excess.h"
+#include "improvement/requirements/failed_check.h"
 #include "stackabilization/improvement/energy.h"
 
 namespace stackabilization {
@@ -16,6 +19,11 @@ namespace {
 
 /// Least decrease of the merit that makes an edit worthwhile.
 constexpr double min_merit_gain = 0.01;
+
+/// With limits of quality, so many designs at most are held against all of them in a step, in batches. Such a
+/// check takes as long as so many designs.
+constexpr std::int64_t max_checked = 16, check_cost = 2;
+constexpr std::size_t checked_at_once = 4;
 
 /// The number of triangle pairs in a contact band grows with the width of the band and with the square of the
 /// number of triangles. Beyond this number of triangles the band is narrower.
@@ -94,18 +102,46 @@ class Pursuit {
       if (!stopped_here()) made[k] = after(edits[k]);
     });
     if (stopped_here()) return false;
-    const double before = merit(now_) - min_merit_gain;
-    std::optional<std::size_t> best;
-    for (std::size_t k = 0; k < made.size(); ++k)
-      if (made[k] && merit(*made[k]) < (best ? merit(*made[*best]) : before)) best = k;
+    const std::optional<std::size_t> best = choice(made);
     stuck_ = !best;
-    if (stuck_) return false;
+    if (stuck_ || stopped_here()) return false;
     Candidate& next = made[*best]->candidate;
     next.direction = now_.candidate.direction;
     next.reasons = now_.candidate.reasons;
     next.reasons.push_back(edits[*best].reason);
     now_ = std::move(*made[*best]);
     return true;
+  }
+
+  /// Returns how many designs may be held against all limits of quality in this step.
+  std::size_t max_checks() const {
+    if (!checker_.requirements().quality) return 0;
+    const std::int64_t left = (options_.evaluations - evaluations_) / check_cost;
+    return static_cast<std::size_t>(std::min<std::int64_t>(left, max_checked));
+  }
+
+  /// Returns the design of least merit; with limits of quality, of those worthwhile that keep all
+  /// requirements but the target, if any does.
+  std::optional<std::size_t> choice(const std::vector<std::optional<State>>& made) {
+    const double before = merit(now_) - min_merit_gain;
+    std::vector<std::pair<double, std::size_t>> worthwhile;
+    for (std::size_t k = 0; k < made.size(); ++k)
+      if (made[k] && merit(*made[k]) < before) worthwhile.emplace_back(merit(*made[k]), k);
+    if (worthwhile.empty()) return std::nullopt;
+    std::sort(worthwhile.begin(), worthwhile.end());
+    const std::size_t checked = std::min(worthwhile.size(), max_checks());
+    for (std::size_t first = 0; first < checked; first += checked_at_once) {
+      const std::size_t count = std::min(checked_at_once, checked - first);
+      std::array<bool, checked_at_once> kept{};
+      tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+        const Design& design = made[worthwhile[first + k].second]->candidate.design;
+        kept[k] = !stopped_here() && !detail::failed_but_target(checker_.check(design, direction_));
+      });
+      evaluations_ += check_cost * static_cast<std::int64_t>(count);
+      for (std::size_t k = 0; k < count; ++k)
+        if (kept[k]) return worthwhile[first + k].second;
+    }
+    return worthwhile.front().second;
   }
 
   bool stopped_here() const { return options_.cancelled && options_.cancelled(); }

@@ -20,7 +20,8 @@ struct GapDescentOptions {
   double alpha = 0.2;                      ///< weight of D in Eq. 5, for the energies reported
   ContactEditOptions edits;                ///< edits that contacts suggest
   int steps = 24;                          ///< largest number of edits added, >= 1
-  /// Largest number of designs measured, >= 0. The pursuit ends before a step that would exceed it.
+  /// Largest number of designs measured, >= 0; one that is held against all limits of quality counts as two
+  /// more. The pursuit ends before a step that would exceed it.
   std::int64_t evaluations = std::numeric_limits<std::int64_t>::max();
   std::function<bool()> cancelled = {};  ///< asked from the calling thread and from worker threads
 };
@@ -42,7 +43,8 @@ struct GapDescentResult {
 ///
 /// F falls with every pair that is separated, but not while it is not. Where no single edit separates a pair,
 /// GapMeasure::by_overlap leads through edits that each do a part of it. Each step tries the edits that all
-/// regions with f > f* suggest (contact_edits.h) and adds the one of least D + F / F_before. The pursuit ends
+/// regions with f > f* suggest (contact_edits.h) and adds the one of least D + F / F_before; with limits of
+/// quality the first one that keeps them all, of the 16 best, if any does. The pursuit ends
 /// when the target is reached, when no edit is worth its distortion, or at a limit. Its result is coarse and
 /// is meant for refinement (refinement.h). Deterministic for any number of threads.
 GapDescentResult descend_gaps(const RequirementChecker& checker, const Candidate& start,

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "improvement/contacts/gap_excess.h"
+#include "improvement/requirements/failed_check.h"
 #include "improvement/requirements/size_ratios.h"
 #include "improvement/search/gap_descent.h"
 #include "stackabilization/deformation/factory.h"
@@ -103,6 +104,32 @@ TEST_CASE("a pursuit frees every contact of one height, where one edit alone wou
   Requirements met = wanted;
   met.target = -1;
   CHECK(descend_gaps(RequirementChecker(*space, met), start).candidate.design.edits.empty());
+}
+
+TEST_CASE("with limits of quality a pursuit passes over edits that break one of the slow ones") {
+  // The rung comes down on the legs of the copy below. It has to go up by 1.2, and the step of 1.8 would take
+  // it into the shelf.
+  const auto space = deformation_model(structures::trestle(true), {.following = Following::smooth});
+  Requirements wanted = designs::frame_requirements(0.48);
+  wanted.quality.emplace();
+  const Direction up(0, 0, 1);
+  const auto pursued = [&] {
+    const RequirementChecker checker(*space, wanted);
+    GapDescentOptions options;
+    options.edits.family = EditFamily::smooth;
+    return descend_gaps(checker, at_rest(checker, up.unit()), options).candidate;
+  };
+  const auto collides = [&](const Candidate& found) -> bool {
+    Requirements usual = wanted;
+    usual.quality.emplace();
+    const auto failed = detail::failed_but_target(RequirementChecker(*space, usual).check(found.design, up));
+    return failed && failed->measure == QualityMeasure::collision;
+  };
+  const Candidate found = pursued();
+  CHECK(found.measured.value >= wanted.target);
+  CHECK_FALSE(collides(found));
+  (*wanted.quality)[QualityMeasure::collision] = 1;
+  CHECK(collides(pursued()));
 }
 
 TEST_CASE("a pair counts by the portion of its overlap that is left") {
