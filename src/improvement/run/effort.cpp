@@ -10,12 +10,15 @@ namespace stackabilization {
 
 namespace {
 
-/// Work of effort 1, and cost of a design and of a direction, in microseconds of a processor of 2 GHz. Fitted
-/// to `improve` and `search` on the shipped models (4,000 to 5,000 triangles) and on meshes of 20,000
-/// triangles. Besides the triangles the corners of the hull count, since every design needs the smallest box
-/// around its hull; those of a large one in part only.
-constexpr double work = 60e6;
-constexpr double design_cost = 1000, triangle_cost = 2.2, hull_point_cost = 160, part_cost = 400;
+/// Work of effort 1, and cost of a design, in microseconds of a processor of 2.6 GHz. Fitted to the elapsed
+/// times of `improve` with one thread on the shipped models (4,000 to 5,000 triangles) and on others of 1,000
+/// to 50,000 triangles. Besides the triangles the corners of the hull count, since every design needs the
+/// smallest box around its hull; those of a large one in part only.
+constexpr double design_work = 36e6;
+constexpr double design_cost = 500, triangle_cost = 1, hull_point_cost = 36, part_cost = 220;
+
+/// Work of effort 1, and cost of a direction. Fitted to `search`.
+constexpr double direction_work = 60e6;
 constexpr double direction_cost = 500, direction_triangles = 10000;  ///< triangles that double the cost
 
 void require_effort(double effort) {
@@ -29,7 +32,7 @@ double designs_of_effort(double effort, const RestShape& rest) {
   const auto triangles = static_cast<double>(rest.shape().triangle_count());
   const auto hull_points = static_cast<double>(std::min(rest.hull().points().rows(), large_hull));
   const auto parts = static_cast<double>(rest.shape().part_count());
-  return effort * work /
+  return effort * design_work /
          (design_cost + triangles * triangle_cost + hull_points * hull_point_cost + parts * part_cost);
 }
 
@@ -37,7 +40,8 @@ std::int64_t directions_of_effort(double effort, const Shape& shape) {
   require_effort(effort);
   constexpr auto most = std::numeric_limits<std::int64_t>::max();
   const auto triangles = static_cast<double>(shape.triangle_count());
-  const double directions = effort * work / (direction_cost * (1 + triangles / direction_triangles));
+  const double directions =
+      effort * direction_work / (direction_cost * (1 + triangles / direction_triangles));
   if (!(directions < static_cast<double>(most))) return most;
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(directions));
 }
