@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,10 +41,13 @@ struct Relation {
   Points points;
   /// Distance by which the surfaces at rest violate the relation, fraction of Structure::diagonal.
   double residual = 0;
-  /// Part on which a joint may slide: in the plane of a plate or of a wall of a hollow box, along a straight
-  /// member, or up and down the wall of a vessel. -1: it is fixed to both parts. The analysis makes fixed
-  /// joints; Following::smooth lets them slide.
+  /// Part on which points of a joint may slide: in the plane of a plate or of a wall of a hollow box, along a
+  /// straight member, or up and down the wall of a vessel. -1: they are fixed to both parts. The analysis
+  /// makes fixed joints; Following::smooth lets them slide.
   int carrier = -1;
+  /// Per row of `points`, along which axes of a carrier that is a cuboid the point slides: not towards a rim
+  /// or an end that is near. All or none on other carriers. Empty without a carrier.
+  std::vector<std::array<bool, 3>> sliding = {};
   /// How far apart the places of a joint point on its two parts may be, model units. The analysis gives
   /// joints no slack; Following::smooth does, since parts meet in an area and can turn on each other a
   /// little.
@@ -50,6 +55,10 @@ struct Relation {
 
   /// Returns whether it is a point joint or a line joint.
   bool is_joint() const { return type == RelationType::point_joint || type == RelationType::line_joint; }
+  /// Returns whether row `point` of `points` slides on the carrier.
+  bool slides(Eigen::Index point) const {
+    return !sliding.empty() && sliding[static_cast<std::size_t>(point)] != std::array<bool, 3>{};
+  }
 };
 
 /// Parts, primitives and relations of one shape at rest.

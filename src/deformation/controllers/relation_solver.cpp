@@ -80,8 +80,9 @@ Eigen::Matrix3d held_at(const Rig& rig, const Constraint& constraint, const std:
   const int carrier = *constraint.carrier;
   const BoundPoint& on_carrier = *std::find_if(constraint.bound_points.begin(), constraint.bound_points.end(),
                                                [&](const BoundPoint& b) { return b.part == carrier; });
-  return held_directions(now[at(carrier)], rig.primitive_bindings[at(carrier)].position_of(on_carrier.binding,
-                                                                                           now[at(carrier)]));
+  const Eigen::Vector3d place =
+      rig.primitive_bindings[at(carrier)].position_of(on_carrier.binding, now[at(carrier)]);
+  return held_directions(now[at(carrier)], place, constraint.ways);
 }
 
 Eigen::VectorXd gaps(const Rig& rig, const std::vector<Constraint>& constraints, const SolverState& state,
@@ -254,9 +255,12 @@ std::vector<Constraint> joint_constraints(const Rig& rig) {
     const Eigen::Matrix3d whole = Eigen::Matrix3d::Identity();
     constraint.bound_points = {{joint.parts[0], joint.bindings[0], whole},
                                {joint.parts[1], joint.bindings[1], -whole}};
-    const int carrier = rig.rest.relations[at(joint.relation)].carrier;
-    if (carrier >= 0) constraint.carrier = carrier;
-    constraint.slack = rig.rest.relations[at(joint.relation)].slack;
+    const Relation& relation = rig.rest.relations[at(joint.relation)];
+    if (relation.slides(joint.point)) {
+      constraint.carrier = relation.carrier;
+      constraint.ways = relation.sliding[at(joint.point)];
+    }
+    constraint.slack = relation.slack;
     constraints.push_back(std::move(constraint));
   }
   return constraints;

@@ -24,7 +24,8 @@ struct Constraint {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
   /// Part on which a joint may slide: only the directions in which it is held count (joint_slides.h).
   std::optional<int> carrier = {};
-  double slack = 0;  ///< length of the sum, less `target`, that counts as none; model units
+  std::array<bool, 3> ways{};  ///< see Relation::sliding; only with a carrier
+  double slack = 0;            ///< length of the sum, less `target`, that counts as none; model units
   std::optional<Eigen::Vector3d> normal;  ///< unit normal
   double height = 0;                      ///< height above the level, model units; only with a normal
   /// Row of SolverState::levels, only with a normal; without a value the level is 0.

@@ -34,12 +34,12 @@ Rig::Rig(const Structure& structure, Following following) : rest(structure), spa
     const Relation& relation = rest.relations[k];
     if (!relation.is_joint()) continue;
     const std::array<int, 2> parts = {relation.parts[0], relation.parts[1]};
-    for (Eigen::Index i = 0; i < relation.points.rows(); ++i) {
+    for (int i = 0; i < relation.points.rows(); ++i) {
       const auto bind = [&](int part) {
         return primitive_bindings[static_cast<std::size_t>(part)].bind(
             Eigen::Vector3d(relation.points.row(i).transpose()));
       };
-      joints.push_back({static_cast<int>(k), parts, {bind(parts[0]), bind(parts[1])}});
+      joints.push_back({static_cast<int>(k), i, parts, {bind(parts[0]), bind(parts[1])}});
     }
   }
   for (int c = 0; c < space.class_count(); ++c) {

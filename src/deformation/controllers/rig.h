@@ -14,6 +14,7 @@ namespace stackabilization::detail {
 /// A joint point bound to both of its parts.
 struct JointPoint {
   int relation = 0;  ///< row of Structure::relations
+  int point = 0;     ///< row of Relation::points
   std::array<int, 2> parts;
   std::array<PointBinding, 2> bindings;
 };

@@ -203,8 +203,9 @@ class Shares {
   void take_along(SeamReach& reach, const Nearness& nearness, const std::map<int, Eigen::Vector3d>& normals,
                   const std::vector<Weights>& shares) const {
     CarriedSeam& seam = reach.carried;
+    const Primitive& carrier = smooth_->parts[at(seam.carrier)].primitive;
     const Eigen::Matrix3d sliding =
-        Eigen::Matrix3d::Identity() - held_directions(smooth_->parts[at(seam.carrier)].primitive, seam.point);
+        Eigen::Matrix3d::Identity() - held_directions(carrier, seam.point, sliding_ways(carrier, seam.point));
     for (const auto& [vertex, distance] : reach.on_carrier) {
       // A seam slides along the surface around it: what lies across the slide, as a rim does, stays.
       const double lies = 1 - (sliding * normals.at(vertex).stableNormalized()).squaredNorm();
@@ -271,8 +272,14 @@ class Shares {
           (relation.points.rowwise() - middle_of(seam.vertices).transpose()).rowwise().norm().minCoeff();
       if (distance < least) nearest = &relation, least = distance;
     }
-    if (nearest && nearest->carrier >= 0) return nearest->carrier == seam.other ? 1 : -1;
+    if (nearest && slides_whole(*nearest)) return nearest->carrier == seam.other ? 1 : -1;
     return lead_of(place_on(seam.part, seam.vertices), place_on(seam.other, seam.vertices));
+  }
+
+  static bool slides_whole(const Relation& joint) {
+    for (Eigen::Index point = 0; point < joint.points.rows(); ++point)
+      if (!joint.slides(point)) return false;
+    return true;
   }
 
   /// Where a seam lies on a part.

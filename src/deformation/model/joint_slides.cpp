@@ -142,73 +142,112 @@ double distance_from_axis(const GeneralizedCylinder& disc, const Eigen::Vector3d
   return (offset - offset.dot(axis) * axis).norm();
 }
 
-/// Returns a place that is nearer to the centre than the limit.
-std::optional<double> place_within(double place, double limit) {
-  return place < limit ? std::optional(place) : std::nullopt;
+constexpr std::array<bool, 3> every_way = {true, true, true}, no_way = {false, false, false};
+
+/// How a joint point slides on a carrier.
+struct Slide {
+  std::array<bool, 3> ways = no_way;  ///< see Relation::sliding
+  double place = 1;                   ///< farthest along them: 0 in the middle of the carrier, 1 at its rim
+};
+
+Slide slide_within(double place, double limit) {
+  return {place < limit ? every_way : no_way, place};
 }
 
-/// Returns how far from the middle of a wall of a hollow box the farthest joint point is, 1 at its border.
-/// Nothing if they are at different walls, or not within one.
-std::optional<double> sliding_place_on_wall(const Cuboid& hollow, const OrientedBox& box,
-                                            const Points& points) {
-  const int wall = wall_at(hollow, points.row(0).transpose());
-  double farthest = 0;
-  for (const auto point : points.rowwise()) {
-    if (wall_at(hollow, point.transpose()) != wall) return std::nullopt;
-    const Eigen::Array3d place =
-        (box.axes.transpose() * (point.transpose() - box.centre)).array() / box.half_extents.array();
-    if (place(wall / 2) * (wall % 2 == 0 ? -1 : 1) < hollow.inner_sides(wall / 2, wall % 2) - wall_margin)
-      return std::nullopt;
-    for (int axis = 0; axis < 3; ++axis)
-      if (axis != wall / 2) farthest = std::max(farthest, std::abs(place(axis)));
+/// Returns along which of the ways a point slides: where its place, 1 at the side of the box, is within the
+/// limit. Where it is not within it along both ways of a plate, it is at an edge, and slides along the edge
+/// if it is not at a corner: within the thickness from the other edge too.
+Slide slide_along(const std::array<bool, 3>& ways, const OrientedBox& box, const Eigen::Vector3d& point,
+                  double limit) {
+  const Eigen::Array3d place =
+      (box.axes.transpose() * (point - box.centre)).array() / box.half_extents.array();
+  const double thickness = 2 * box.half_extents.minCoeff();
+  bool everywhere = true;
+  for (int axis = 0; axis < 3; ++axis)
+    everywhere = everywhere && (!ways[at(axis)] || std::abs(place(axis)) < limit);
+  Slide slide{ways, 0};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double to_side = (1 - std::abs(place(axis))) * box.half_extents(axis);
+    slide.ways[at(axis)] =
+        ways[at(axis)] && std::abs(place(axis)) < limit && (everywhere || to_side > thickness);
+    if (slide.ways[at(axis)]) slide.place = std::max(slide.place, std::abs(place(axis)));
   }
-  return place_within(farthest, end_of_member);
+  return slide;
 }
 
-/// Returns how far from the centre of the carrier the farthest joint point is, 1 at its rim or end. Nothing
-/// if the joint cannot slide on it.
-std::optional<double> sliding_place_on(const Primitive& carrier, const Points& points) {
-  double farthest = 0;
+Slide slide_on(const Primitive& carrier, const Eigen::Vector3d& point) {
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
-    const bool member = is_member(*cylinder) || is_vessel(*cylinder);
-    if (!member && !is_disc(*cylinder)) return std::nullopt;
-    const double reach = member ? chord_of(*cylinder).norm() / 2 : cylinder->radii.maxCoeff();
-    for (const auto point : points.rowwise()) {
-      const double distance = member ? distance_from_middle(*cylinder, point.transpose())
-                                     : distance_from_axis(*cylinder, point.transpose());
-      farthest = std::max(farthest, distance / reach);
-    }
-    return place_within(farthest, member ? end_of_member : rim);
+    if (is_member(*cylinder) || is_vessel(*cylinder))
+      return slide_within(distance_from_middle(*cylinder, point) / (chord_of(*cylinder).norm() / 2),
+                          end_of_member);
+    if (!is_disc(*cylinder)) return {};
+    return slide_within(distance_from_axis(*cylinder, point) / cylinder->radii.maxCoeff(), rim);
   }
   const Cuboid& cuboid = std::get<Cuboid>(carrier);
   const OrientedBox box = nearest_box(cuboid);
-  if (is_hollow(cuboid)) return sliding_place_on_wall(cuboid, box, points);
-  const std::vector<int> axes = sliding_axes(mean_edges(cuboid));
-  if (axes.empty()) return std::nullopt;
-  for (const auto point : points.rowwise())
-    for (const int axis : axes)
-      farthest = std::max(farthest, std::abs((point.transpose() - box.centre).dot(box.axes.col(axis))) /
-                                        box.half_extents(axis));
-  return place_within(farthest, axes.size() == 1 ? end_of_member : rim);
+  const std::array<bool, 3> ways = sliding_ways(cuboid, point);
+  if (is_hollow(cuboid)) {
+    const int wall = wall_at(cuboid, point), axis = wall / 2;
+    const double outwards = (wall % 2 == 0 ? -1 : 1) * box.axes.col(axis).dot(point - box.centre);
+    if (outwards < (cuboid.inner_sides(axis, wall % 2) - wall_margin) * box.half_extents(axis)) return {};
+    return slide_along(ways, box, point, end_of_member);
+  }
+  return slide_along(ways, box, point, std::count(ways.begin(), ways.end(), true) == 1 ? end_of_member : rim);
+}
+
+/// How the points of a joint slide on a part.
+struct JointSlide {
+  std::vector<std::array<bool, 3>> points;
+  std::ptrdiff_t ways = 0;  ///< of all points
+  double farthest = 0;      ///< place of a point that slides
+};
+
+JointSlide joint_slide(const Primitive& carrier, const Points& points) {
+  JointSlide joint;
+  for (const auto point : points.rowwise()) {
+    const Slide slide = slide_on(carrier, point.transpose());
+    joint.points.push_back(slide.ways);
+    if (slide.ways == no_way) continue;
+    joint.ways += std::count(slide.ways.begin(), slide.ways.end(), true);
+    joint.farthest = std::max(joint.farthest, slide.place);
+  }
+  return joint;
 }
 
 }  // namespace
+
+std::array<bool, 3> sliding_ways(const Primitive& carrier, const Eigen::Vector3d& point) {
+  const auto* cuboid = std::get_if<Cuboid>(&carrier);
+  if (!cuboid) return every_way;
+  if (is_hollow(*cuboid)) {
+    std::array<bool, 3> ways = every_way;
+    ways[at(wall_at(*cuboid, point) / 2)] = false;
+    return ways;
+  }
+  std::array<bool, 3> ways = no_way;
+  for (const int axis : sliding_axes(mean_edges(*cuboid))) ways[at(axis)] = true;
+  return ways;
+}
 
 void let_joints_yield(Structure& structure) {
   for (Relation& relation : structure.relations) {
     if (!relation.is_joint()) continue;
     relation.slack = tolerance::joint_slack * structure.diagonal;
-    double nearest = 1;
+    JointSlide freest;
     for (const int part : relation.parts) {
-      const auto place = sliding_place_on(structure.parts[at(part)].primitive, relation.points);
-      if (!place || !(*place < nearest)) continue;
-      nearest = *place;
+      JointSlide slide = joint_slide(structure.parts[at(part)].primitive, relation.points);
+      const bool freer =
+          slide.ways != freest.ways ? slide.ways > freest.ways : slide.farthest < freest.farthest;
+      if (!freer) continue;
+      freest = std::move(slide);
       relation.carrier = part;
     }
+    if (freest.ways > 0) relation.sliding = std::move(freest.points);
   }
 }
 
-double distance_beyond(const Primitive& carrier, const Eigen::Vector3d& point) {
+double distance_beyond(const Primitive& carrier, const Eigen::Vector3d& point,
+                       const std::array<bool, 3>& ways) {
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
     const double beyond = was_vessel(*cylinder) || was_member(*cylinder)
                               ? distance_from_middle(*cylinder, point) - chord_of(*cylinder).norm() / 2
@@ -216,16 +255,15 @@ double distance_beyond(const Primitive& carrier, const Eigen::Vector3d& point) {
     return std::max(0.0, beyond);
   }
   const Cuboid& cuboid = std::get<Cuboid>(carrier);
-  std::vector<int> axes = is_hollow(cuboid) ? std::vector<int>{0, 1, 2} : sliding_axes(mean_edges(cuboid));
-  if (is_hollow(cuboid)) axes.erase(axes.begin() + wall_at(cuboid, point) / 2);
   double farthest = 0;
-  for (const int axis : axes)
-    for (const int face : {2 * axis, 2 * axis + 1})
+  for (int face = 0; face < 6; ++face)
+    if (ways[at(face / 2)])
       farthest = std::max(farthest, normal_of(cuboid, face).dot(point - middle_of(cuboid, face)));
   return farthest;
 }
 
-Eigen::Matrix3d held_directions(const Primitive& carrier, const Eigen::Vector3d& point) {
+Eigen::Matrix3d held_directions(const Primitive& carrier, const Eigen::Vector3d& point,
+                                const std::array<bool, 3>& ways) {
   const Eigen::Matrix3d all = Eigen::Matrix3d::Identity();
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
     if (cylinder->closed) return all;
@@ -238,18 +276,18 @@ Eigen::Matrix3d held_directions(const Primitive& carrier, const Eigen::Vector3d&
     return was_member(*cylinder) ? Eigen::Matrix3d(all - along) : along;
   }
   const Cuboid& cuboid = std::get<Cuboid>(carrier);
-  if (is_hollow(cuboid)) {
-    const Eigen::Vector3d normal = normal_of(cuboid, wall_at(cuboid, point));
-    return normal * normal.transpose();
-  }
   const Eigen::Matrix3d edges = mean_edges(cuboid);
-  const std::vector<int> axes = sliding_axes(edges);
-  if (axes.empty()) return all;
+  std::vector<int> axes;
+  for (int axis = 0; axis < 3; ++axis)
+    if (ways[at(axis)]) axes.push_back(axis);
   if (axes.size() == 1) {
     const Eigen::Vector3d along = edges.col(axes[0]).stableNormalized();
     return all - along * along.transpose();
   }
-  const Eigen::Vector3d normal = edges.col(axes[0]).cross(edges.col(axes[1])).stableNormalized();
+  if (axes.size() != 2) return all;
+  const Eigen::Vector3d normal = is_hollow(cuboid)
+                                     ? normal_of(cuboid, wall_at(cuboid, point))
+                                     : edges.col(axes[0]).cross(edges.col(axes[1])).stableNormalized();
   return normal * normal.transpose();
 }
 

@@ -56,21 +56,22 @@ double joint_gap(const Relation& relation, const Structure& rest, const std::vec
     return distance <= relation.slack ? 0 : distance - relation.slack;
   };
   double gap = 0;
-  for (Eigen::Index i = 0; i < relation.points.rows(); ++i) {
+  for (int i = 0; i < relation.points.rows(); ++i) {
     const auto place = [&](int part) {
       const auto k = static_cast<std::size_t>(part);
       return deform_point(rest.parts[k].primitive, deformed[k], relation.points.row(i).transpose());
     };
     const Eigen::Vector3d first = place(relation.parts[0]), second = place(relation.parts[1]);
-    if (relation.carrier < 0) {
+    if (!relation.slides(i)) {
       widen(gap, beyond_slack((first - second).norm()));
       continue;
     }
     const Primitive& carrier = deformed[static_cast<std::size_t>(relation.carrier)];
     const bool on_first = relation.carrier == relation.parts[0];
-    const Eigen::Matrix3d held = detail::held_directions(carrier, on_first ? first : second);
+    const std::array<bool, 3>& ways = relation.sliding[static_cast<std::size_t>(i)];
+    const Eigen::Matrix3d held = detail::held_directions(carrier, on_first ? first : second, ways);
     widen(gap, beyond_slack((held * (first - second)).norm()));
-    widen(gap, detail::distance_beyond(carrier, on_first ? second : first));
+    widen(gap, detail::distance_beyond(carrier, on_first ? second : first, ways));
   }
   return gap;
 }

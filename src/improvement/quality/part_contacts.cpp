@@ -3,6 +3,7 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
@@ -28,6 +29,8 @@ constexpr int marks_per_part = 150;
 constexpr int marks_at_rest = 3000;
 constexpr int all_marks_at_rest = 60'000;
 constexpr std::size_t marks_per_joint = 60;
+/// Number of projections from one part to the other on the way to where they meet, even.
+constexpr std::size_t projections = 4;
 /// Largest number of pairs of parts near each other; more are not looked at.
 constexpr std::size_t max_near_pairs = 20'000;
 
@@ -73,6 +76,8 @@ class PartContacts::Surfaces {
     const Tree* const found = tree(part);
     return found ? (found->nearest(p).point - p).norm() : std::numeric_limits<double>::infinity();
   }
+  /// Returns the point of the part that is nearest to a point. Precondition: the part has area.
+  Eigen::Vector3d nearest(int part, const Eigen::Vector3d& p) const { return tree(part)->nearest(p).point; }
   /// Returns whether a point lies inside the closed surface of the part, by the parity of a ray.
   bool contains(int part, const Eigen::Vector3d& p) const {
     if (!box(part).contains(p)) return false;
@@ -241,6 +246,18 @@ double PartContacts::gap(const Surfaces& surfaces, const Shape& shape, const Joi
     for (const auto place : places.rowwise()) {
       if (solid_[at(other)] && surfaces.contains(other, place.transpose())) return 0;
       least = std::min(least, surfaces.distance(other, place.transpose()));
+    }
+  }
+  if (!(least > tolerance::quality::touching * rest_.structure.diagonal) || !std::isfinite(least))
+    return least;
+  // Where a joint slid, marks slid off it: projections to and fro lead to where the surfaces still meet.
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Points places = joint.marks[side].on(shape);
+    for (const auto place : places.rowwise()) {
+      Eigen::Vector3d point = place.transpose();
+      for (std::size_t k = 0; k < projections; ++k)
+        point = surfaces.nearest(joint.parts[k % 2 == 0 ? 1 - side : side], point);
+      least = std::min(least, surfaces.distance(joint.parts[1 - side], point));
     }
   }
   return least;

@@ -83,6 +83,7 @@ StructuredShape post_and_rail(double middle_of_post = 0.5) {
   joint.points = Points::Zero(1, 3);
   joint.points << 0, 0.5, 0;
   joint.carrier = 0;
+  joint.sliding = {{false, true, false}};
   rest.structure.relations = {joint};
   return rest;
 }

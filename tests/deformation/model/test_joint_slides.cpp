@@ -33,9 +33,23 @@ Structure joined(const Primitive& first, const Primitive& second, const Eigen::R
   return structure;
 }
 
+constexpr std::array<bool, 3> every_way = {true, true, true};
+
+/// Directions in which a joint is held far from the rim.
+Eigen::Matrix3d held(const Primitive& carrier, const Eigen::Vector3d& point) {
+  return detail::held_directions(carrier, point, detail::sliding_ways(carrier, point));
+}
+
 int carrier_of(Structure structure) {
   detail::let_joints_yield(structure);
   return structure.relations.front().carrier;
+}
+
+using Ways = std::vector<std::array<bool, 3>>;
+
+Ways ways_of(Structure structure) {
+  detail::let_joints_yield(structure);
+  return structure.relations.front().sliding;
 }
 
 const Primitive plate = box_of({0, 0, 0}, {8, 6, 0.5}), bar = box_of({0, 0, 3}, {0.5, 0.5, 6});
@@ -44,7 +58,7 @@ const Primitive plate = box_of({0, 0, 0}, {8, 6, 0.5}), bar = box_of({0, 0, 3}, 
 
 TEST_CASE("Joints slide on plates and along members, but not at rims and ends", "[joints]") {
   CHECK(carrier_of(joined(plate, bar, {1, 1, 0})) == 0);
-  CHECK(carrier_of(joined(plate, bar, {3.99, 1, 0})) == -1);  // rim of the plate, end of the bar
+  CHECK(carrier_of(joined(plate, bar, {3.99, 2.99, 0})) == -1);  // corner of the plate, end of the bar
   CHECK(carrier_of(joined(bar, box_of({2, 0, 3}, {4, 0.4, 0.4}), {0, 0, 3})) ==
         0);  // middle of the first, end of the other
   CHECK(carrier_of(joined(box_of({0, 0, 0}, {2, 2, 2}), box_of({2, 0, 0}, {2, 2, 2}), {1, 0, 0})) == -1);
@@ -76,14 +90,13 @@ TEST_CASE("A joint is held along the normal of a plate and across a member, in e
     return Primitive(cuboid);
   };
   const Eigen::Vector3d normal = turn * Eigen::Vector3d::UnitZ(), origin = Eigen::Vector3d::Zero();
-  CHECK(detail::held_directions(turned(plate), origin).isApprox(normal * normal.transpose(), 1e-12));
-  CHECK(detail::held_directions(turned(bar), origin)
-            .isApprox(Eigen::Matrix3d::Identity() - normal * normal.transpose(), 1e-12));
-  CHECK(detail::held_directions(box_of({0, 0, 0}, {1, 1, 1}), origin).isIdentity());
+  CHECK(held(turned(plate), origin).isApprox(normal * normal.transpose(), 1e-12));
+  CHECK(held(turned(bar), origin).isApprox(Eigen::Matrix3d::Identity() - normal * normal.transpose(), 1e-12));
+  CHECK(held(box_of({0, 0, 0}, {1, 1, 1}), origin).isIdentity());
   const Eigen::Vector3d top = 6 * normal;
-  CHECK(detail::held_directions(structures::straight_cylinder({0, 0, 0}, top, 0.3, 5), origin)
+  CHECK(held(structures::straight_cylinder({0, 0, 0}, top, 0.3, 5), origin)
             .isApprox(Eigen::Matrix3d::Identity() - normal * normal.transpose(), 1e-12));
-  CHECK(detail::held_directions(structures::straight_cylinder({0, 0, 0}, top, 8, 5), origin)
+  CHECK(held(structures::straight_cylinder({0, 0, 0}, top, 8, 5), origin)
             .isApprox(normal * normal.transpose(), 1e-12));
 }
 
@@ -93,14 +106,15 @@ TEST_CASE("A joint slides on the wall of a hollow box, held across it", "[joints
   CHECK(carrier_of(joined(crate, grip, {4, 0, 4})) == -1);  // solid
   crate.inner_sides << 0.9, 0.9, 0.9, 0.9, 1, 1;
   CHECK(carrier_of(joined(crate, grip, {4, 0, 4})) == 0);
-  CHECK(carrier_of(joined(crate, grip, {3.6, 0, 4})) == 0);   // the inner side of the wall
-  CHECK(carrier_of(joined(crate, grip, {3, 0, 4})) == -1);    // the room within
-  CHECK(carrier_of(joined(crate, grip, {0, 0, 0})) == -1);    // the floor
-  CHECK(carrier_of(joined(crate, grip, {4, 2.6, 4})) == -1);  // near the edge of two walls
-  CHECK(carrier_of(joined(crate, grip, {4, 0, 5.6})) == -1);  // near the rim
+  CHECK(carrier_of(joined(crate, grip, {3.6, 0, 4})) == 0);  // the inner side of the wall
+  CHECK(carrier_of(joined(crate, grip, {3, 0, 4})) == -1);   // the room within
+  CHECK(carrier_of(joined(crate, grip, {0, 0, 0})) == -1);   // the floor
+  CHECK(ways_of(joined(crate, grip, {4, 0, 4})) == Ways{{false, true, true}});
+  CHECK(ways_of(joined(crate, grip, {4, 2.6, 4})).empty());  // near the edge of two walls
+  CHECK(ways_of(joined(crate, grip, {4, 0, 5.6})).empty());  // near the rim
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
-  CHECK(detail::held_directions(crate, {4, 0, 4}).isApprox(x * x.transpose(), 1e-12));
-  CHECK(detail::held_directions(crate, {1, -3, 4}).isApprox(y * y.transpose(), 1e-12));
+  CHECK(held(crate, {4, 0, 4}).isApprox(x * x.transpose(), 1e-12));
+  CHECK(held(crate, {1, -3, 4}).isApprox(y * y.transpose(), 1e-12));
 
   Structure structure = joined(crate, grip, {4, 0, 4});
   detail::let_joints_yield(structure);
@@ -205,11 +219,52 @@ TEST_CASE("A leg leans on the slack of its joints, and all else stays", "[joints
   CHECK(gap(moved(free, 0.9 * enough)) <= tolerance::relation * rest.structure.diagonal);
 }
 
+TEST_CASE("Each point of a joint slides along the edges that it is far from", "[joints]") {
+  // A panel, 6 deep and 10 high. A shelf that is flush with its edges may move up and down, a back that runs
+  // from its top may end higher, and neither comes off the edge.
+  const Primitive panel = box_of({0, 0, 5}, {0.5, 6, 10});
+  const Primitive shelf = box_of({2.25, 0, 4}, {4, 6, 0.5}), back = box_of({2.25, 2.9, 6}, {4, 0.2, 8});
+  const auto line = [](const Primitive& first, const Primitive& second, const Eigen::RowVector3d& from,
+                       const Eigen::RowVector3d& to) {
+    Structure structure = joined(first, second, from);
+    Relation& joint = structure.relations.front();
+    joint.type = RelationType::line_joint;
+    joint.points.conservativeResize(2, 3);
+    joint.points.row(1) = to;
+    detail::let_joints_yield(structure);
+    return structure;
+  };
+  const Structure flush = line(panel, shelf, {0.25, -3, 4}, {0.25, 3, 4});
+  const std::array<bool, 3> upright = {false, false, true}, in_plane = {false, true, true}, none{};
+  CHECK(flush.relations.front().sliding == Ways{upright, upright});
+  CHECK(line(panel, shelf, {0.25, -2, 4}, {0.25, 3, 4}).relations.front().sliding == Ways{in_plane, upright});
+  const Structure hanging = line(panel, back, {0.25, 2.95, 2}, {0.25, 2.95, 10});
+  CHECK(hanging.relations.front().sliding == Ways{upright, none});
+  CHECK(hanging.relations.front().carrier == 0);
+  CHECK(line(panel, back, {0.25, 2.95, 0}, {0.25, 2.95, 10}).relations.front().carrier == -1);
+
+  // Boards that meet at a corner stay there, as far from their edges as half of their thickness.
+  const Primitive seat = box_of({2.75, 0, 9.75}, {5, 6, 0.5});
+  CHECK(line(panel, seat, {0.25, -3, 9.75}, {0.25, 3, 9.75}).relations.front().carrier == -1);
+
+  const auto residual = [&](const Structure& structure, const Eigen::Vector3d& by) {
+    Cuboid moved = std::get<Cuboid>(structure.parts[1].primitive);
+    moved.corners.rowwise() += by.transpose();
+    return relation_residuals(structure, {panel, moved}).front() + tolerance::joint_slack;
+  };
+  CHECK(residual(flush, {0, 0, 2}) == tolerance::joint_slack);
+  CHECK(residual(flush, {0, 0.5, 2}) == Approx(0.05));
+  CHECK(residual(hanging, {0, 0, 0.5}) == Approx(0.05));  // at the top
+  Cuboid shorter = std::get<Cuboid>(back);
+  for (int corner = 0; corner < 4; ++corner) shorter.corners(corner, 2) += 1.5;
+  CHECK(relation_residuals(hanging, {panel, shorter}).front() == 0);
+}
+
 TEST_CASE("A joint is beyond a round member past its ends", "[joints]") {
   const Primitive leg = structures::straight_cylinder({0, 0, 0}, {0, 0, 6}, 0.3, 13);
-  CHECK(detail::distance_beyond(leg, {0.2, 0, 5.5}) == 0);
-  CHECK(detail::distance_beyond(leg, {0.2, 0, 6.5}) == Approx(0.5));
-  CHECK(detail::distance_beyond(leg, {0, 0, -0.25}) == Approx(0.25));
+  CHECK(detail::distance_beyond(leg, {0.2, 0, 5.5}, every_way) == 0);
+  CHECK(detail::distance_beyond(leg, {0.2, 0, 6.5}, every_way) == Approx(0.5));
+  CHECK(detail::distance_beyond(leg, {0, 0, -0.25}, every_way) == Approx(0.25));
 }
 
 TEST_CASE("A joint is beyond a plate past its own edges, not those of a box around it") {
@@ -217,7 +272,9 @@ TEST_CASE("A joint is beyond a plate past its own edges, not those of a box arou
   // image.
   Cuboid panel = cuboid_of({{0, 0, 5}, Eigen::Matrix3d::Identity(), {5, 0.25, 5}});
   for (int corner = 0; corner < 8; ++corner) panel.corners(corner, 0) *= corner < 4 ? 0.8 : 1.2;
-  const auto beyond = [&](double x, double z) { return detail::distance_beyond(panel, {x, 0.25, z}); };
+  const auto beyond = [&](double x, double z) {
+    return detail::distance_beyond(panel, {x, 0.25, z}, {true, false, true});
+  };
   CHECK(beyond(5.9, 10) == 0);
   CHECK(beyond(-5.9, 10) == 0);
   CHECK(beyond(3.9, 0) == 0);
@@ -228,8 +285,8 @@ TEST_CASE("A joint is beyond a plate past its own edges, not those of a box arou
   // A leg that leans has level ends: its foot is beyond them by its height, not by its way along the axis.
   Cuboid leg = cuboid_of({{0, 0, 5}, Eigen::Matrix3d::Identity(), {0.5, 0.5, 5}});
   for (int corner = 4; corner < 8; ++corner) leg.corners(corner, 0) += 10;
-  CHECK(detail::distance_beyond(leg, {0.4, 0, 0}) == 0);
-  CHECK(detail::distance_beyond(leg, {11, 0, 11}) == Approx(1));
+  CHECK(detail::distance_beyond(leg, {0.4, 0, 0}, {false, false, true}) == 0);
+  CHECK(detail::distance_beyond(leg, {11, 0, 11}, {false, false, true}) == Approx(1));
 }
 
 TEST_CASE("A rung that moves up between legs that lean gets shorter, and the legs stay", "[joints]") {
