@@ -30,6 +30,10 @@ constexpr double dish_to_vessel = 1.22;
 /// it slides.
 constexpr double rim = 0.97, end_of_member = 0.85;
 
+/// A part is flush with the side of a plate where its joint is at most so many halves of its thickness from
+/// it.
+constexpr double flush = 1.05;
+
 /// How far within the inner side of a wall a joint may be, fraction of half the extent of the box.
 constexpr double wall_margin = 0.01;
 
@@ -154,34 +158,50 @@ Slide slide_within(double place, double limit) {
   return {place < limit ? every_way : no_way, place};
 }
 
+/// What is joined to a carrier.
+struct Joined {
+  double half = 0;  ///< of its thickness: of its thinnest side, or the mean radius
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< unit direction of a line joint; 0 of a point joint
+};
+
+double half_thickness(const Primitive& part) {
+  if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&part)) return cylinder->radii.mean();
+  return nearest_box(std::get<Cuboid>(part)).half_extents.minCoeff();
+}
+
 /// Returns along which of the ways a point slides: where its place, 1 at the side of the box, is within the
-/// limit. Where it is not within it along both ways of a plate, it is at an edge, and slides along the edge
-/// if it is not at a corner: within the thickness from the other edge too.
+/// limit, and the part that is joined there is not flush with the side, across a line joint. Where a point on
+/// a plate does not slide along both ways, it is at an edge, and slides along the edge if it is not at a
+/// corner: within the thickness of the plate from the other edge too.
 Slide slide_along(const std::array<bool, 3>& ways, const OrientedBox& box, const Eigen::Vector3d& point,
-                  double limit) {
+                  const Joined& joined, double limit) {
   const Eigen::Array3d place =
       (box.axes.transpose() * (point - box.centre)).array() / box.half_extents.array();
+  const Eigen::Array3d to_side = (1 - place.abs()) * box.half_extents.array();
   const double thickness = 2 * box.half_extents.minCoeff();
+  const auto is_away = [&](int axis) {
+    const bool lies_along = std::abs(box.axes.col(axis).dot(joined.along)) > std::sqrt(0.5);
+    return std::abs(place(axis)) < limit && (lies_along || to_side(axis) > flush * joined.half);
+  };
   bool everywhere = true;
-  for (int axis = 0; axis < 3; ++axis)
-    everywhere = everywhere && (!ways[at(axis)] || std::abs(place(axis)) < limit);
+  for (int axis = 0; axis < 3; ++axis) everywhere = everywhere && (!ways[at(axis)] || is_away(axis));
   Slide slide{ways, 0};
   for (int axis = 0; axis < 3; ++axis) {
-    const double to_side = (1 - std::abs(place(axis))) * box.half_extents(axis);
-    slide.ways[at(axis)] =
-        ways[at(axis)] && std::abs(place(axis)) < limit && (everywhere || to_side > thickness);
+    slide.ways[at(axis)] = ways[at(axis)] && is_away(axis) && (everywhere || to_side(axis) > thickness);
     if (slide.ways[at(axis)]) slide.place = std::max(slide.place, std::abs(place(axis)));
   }
   return slide;
 }
 
-Slide slide_on(const Primitive& carrier, const Eigen::Vector3d& point) {
+Slide slide_on(const Primitive& carrier, const Eigen::Vector3d& point, const Joined& joined) {
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
     if (is_member(*cylinder) || is_vessel(*cylinder))
       return slide_within(distance_from_middle(*cylinder, point) / (chord_of(*cylinder).norm() / 2),
                           end_of_member);
     if (!is_disc(*cylinder)) return {};
-    return slide_within(distance_from_axis(*cylinder, point) / cylinder->radii.maxCoeff(), rim);
+    const double reach = cylinder->radii.maxCoeff();
+    const double distance = distance_from_axis(*cylinder, point);
+    return slide_within(reach - distance > flush * joined.half ? distance / reach : 1, rim);
   }
   const Cuboid& cuboid = std::get<Cuboid>(carrier);
   const OrientedBox box = nearest_box(cuboid);
@@ -190,9 +210,10 @@ Slide slide_on(const Primitive& carrier, const Eigen::Vector3d& point) {
     const int wall = wall_at(cuboid, point), axis = wall / 2;
     const double outwards = (wall % 2 == 0 ? -1 : 1) * box.axes.col(axis).dot(point - box.centre);
     if (outwards < (cuboid.inner_sides(axis, wall % 2) - wall_margin) * box.half_extents(axis)) return {};
-    return slide_along(ways, box, point, end_of_member);
+    return slide_along(ways, box, point, joined, end_of_member);
   }
-  return slide_along(ways, box, point, std::count(ways.begin(), ways.end(), true) == 1 ? end_of_member : rim);
+  return slide_along(ways, box, point, joined,
+                     std::count(ways.begin(), ways.end(), true) == 1 ? end_of_member : rim);
 }
 
 /// How the points of a joint slide on a part.
@@ -202,10 +223,12 @@ struct JointSlide {
   double farthest = 0;      ///< place of a point that slides
 };
 
-JointSlide joint_slide(const Primitive& carrier, const Points& points) {
+JointSlide joint_slide(const Primitive& carrier, const Primitive& other, const Points& points) {
   JointSlide joint;
+  const Joined joined = {half_thickness(other),
+                         (points.row(points.rows() - 1) - points.row(0)).transpose().stableNormalized()};
   for (const auto point : points.rowwise()) {
-    const Slide slide = slide_on(carrier, point.transpose());
+    const Slide slide = slide_on(carrier, point.transpose(), joined);
     joint.points.push_back(slide.ways);
     if (slide.ways == no_way) continue;
     joint.ways += std::count(slide.ways.begin(), slide.ways.end(), true);
@@ -235,7 +258,9 @@ void let_joints_yield(Structure& structure) {
     relation.slack = tolerance::joint_slack * structure.diagonal;
     JointSlide freest;
     for (const int part : relation.parts) {
-      JointSlide slide = joint_slide(structure.parts[at(part)].primitive, relation.points);
+      const int other = relation.parts.front() + relation.parts.back() - part;
+      JointSlide slide = joint_slide(structure.parts[at(part)].primitive,
+                                     structure.parts[at(other)].primitive, relation.points);
       const bool freer =
           slide.ways != freest.ways ? slide.ways > freest.ways : slide.farthest < freest.farthest;
       if (!freer) continue;

@@ -260,6 +260,23 @@ TEST_CASE("Each point of a joint slides along the edges that it is far from", "[
   CHECK(relation_residuals(hanging, {panel, shorter}).front() == 0);
 }
 
+TEST_CASE("A leg that is flush with the side of a top stays flush", "[joints]") {
+  // Half of the leg's thickness is 0.25.
+  const auto leg_at = [](double x, double y) {
+    return ways_of(joined(plate, box_of({x, y, -3}, {0.5, 0.5, 5.5}), {x, y, -0.25}));
+  };
+  CHECK(leg_at(3.6, 1) == Ways{{true, true, false}});
+  CHECK(leg_at(3.75, 1) == Ways{{false, true, false}});
+  CHECK(leg_at(-3.75, -2.75).empty());
+  const Primitive disc = structures::straight_cylinder({0, 0, 0}, {0, 0, 0.5}, 3, 4);
+  const auto round_leg_at = [&](double x) {
+    const Primitive leg = structures::straight_cylinder({x, 0, -6}, {x, 0, 0}, 0.3, 13);
+    return carrier_of(joined(disc, leg, {x, 0, 0}));
+  };
+  CHECK(round_leg_at(2.6) == 0);
+  CHECK(round_leg_at(2.7) == -1);
+}
+
 TEST_CASE("A joint is beyond a round member past its ends", "[joints]") {
   const Primitive leg = structures::straight_cylinder({0, 0, 0}, {0, 0, 6}, 0.3, 13);
   CHECK(detail::distance_beyond(leg, {0.2, 0, 5.5}, every_way) == 0);
