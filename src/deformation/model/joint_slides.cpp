@@ -151,11 +151,13 @@ constexpr std::array<bool, 3> every_way = {true, true, true}, no_way = {false, f
 /// How a joint point slides on a carrier.
 struct Slide {
   std::array<bool, 3> ways = no_way;  ///< see Relation::sliding
-  double place = 1;                   ///< farthest along them: 0 in the middle of the carrier, 1 at its rim
+  int freedom = 0;   ///< 2 along all ways of the carrier, 1 along an edge of it, 0 not at all
+  double place = 1;  ///< farthest along the ways: 0 in the middle of the carrier, 1 at its rim
 };
 
 Slide slide_within(double place, double limit) {
-  return {place < limit ? every_way : no_way, place};
+  if (!(place < limit)) return {};
+  return {every_way, 2, place};
 }
 
 /// What is joined to a carrier.
@@ -185,10 +187,12 @@ Slide slide_along(const std::array<bool, 3>& ways, const OrientedBox& box, const
   };
   bool everywhere = true;
   for (int axis = 0; axis < 3; ++axis) everywhere = everywhere && (!ways[at(axis)] || is_away(axis));
-  Slide slide{ways, 0};
+  Slide slide{no_way, 0, 0};
   for (int axis = 0; axis < 3; ++axis) {
-    slide.ways[at(axis)] = ways[at(axis)] && is_away(axis) && (everywhere || to_side(axis) > thickness);
-    if (slide.ways[at(axis)]) slide.place = std::max(slide.place, std::abs(place(axis)));
+    if (!ways[at(axis)] || !is_away(axis) || !(everywhere || to_side(axis) > thickness)) continue;
+    slide.ways[at(axis)] = true;
+    slide.freedom = everywhere ? 2 : 1;
+    slide.place = std::max(slide.place, std::abs(place(axis)));
   }
   return slide;
 }
@@ -219,8 +223,8 @@ Slide slide_on(const Primitive& carrier, const Eigen::Vector3d& point, const Joi
 /// How the points of a joint slide on a part.
 struct JointSlide {
   std::vector<std::array<bool, 3>> points;
-  std::ptrdiff_t ways = 0;  ///< of all points
-  double farthest = 0;      ///< place of a point that slides
+  int freedom = 0;      ///< of all points
+  double farthest = 0;  ///< place of a point that slides
 };
 
 JointSlide joint_slide(const Primitive& carrier, const Primitive& other, const Points& points) {
@@ -230,9 +234,8 @@ JointSlide joint_slide(const Primitive& carrier, const Primitive& other, const P
   for (const auto point : points.rowwise()) {
     const Slide slide = slide_on(carrier, point.transpose(), joined);
     joint.points.push_back(slide.ways);
-    if (slide.ways == no_way) continue;
-    joint.ways += std::count(slide.ways.begin(), slide.ways.end(), true);
-    joint.farthest = std::max(joint.farthest, slide.place);
+    joint.freedom += slide.freedom;
+    if (slide.freedom > 0) joint.farthest = std::max(joint.farthest, slide.place);
   }
   return joint;
 }
@@ -262,12 +265,12 @@ void let_joints_yield(Structure& structure) {
       JointSlide slide = joint_slide(structure.parts[at(part)].primitive,
                                      structure.parts[at(other)].primitive, relation.points);
       const bool freer =
-          slide.ways != freest.ways ? slide.ways > freest.ways : slide.farthest < freest.farthest;
+          slide.freedom != freest.freedom ? slide.freedom > freest.freedom : slide.farthest < freest.farthest;
       if (!freer) continue;
       freest = std::move(slide);
       relation.carrier = part;
     }
-    if (freest.ways > 0) relation.sliding = std::move(freest.points);
+    if (freest.freedom > 0) relation.sliding = std::move(freest.points);
   }
 }
 

@@ -13,9 +13,10 @@ namespace stackabilization::detail {
 /// least 3 times as long as wide) along it, on the wall of a hollow box (Cuboid::inner_sides) in its plane,
 /// on that of a straight vessel (GeneralizedCylinder::inner_radii; at least 1.5 times as deep as its mean
 /// radius) up and down. Points at the rim of a plate, or within 15 % of half the length from the end of a
-/// member or the border of a wall, stay there: a shelf that is flush with the edge of a panel moves up and
-/// down the edge. The part carries the joint on which its points have more ways to go, else the one with the
-/// joint farther from its rim or end.
+/// member or the border of a wall, stay there, as do those of parts that are flush with a side: a shelf that
+/// is flush with the edge of a panel moves up and down the edge. The part carries the joint on which its
+/// points slide along all ways rather than along an edge or not at all, else the one with the joint farther
+/// from its rim or end.
 void let_joints_yield(Structure& structure);
 
 /// Returns the axes of a carrier that is a cuboid along which joints far from its rim slide; every one of

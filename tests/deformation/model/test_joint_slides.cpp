@@ -243,6 +243,12 @@ TEST_CASE("Each point of a joint slides along the edges that it is far from", "[
   CHECK(hanging.relations.front().carrier == 0);
   CHECK(line(panel, back, {0.25, 2.95, 0}, {0.25, 2.95, 10}).relations.front().carrier == -1);
 
+  // What slides along an edge of one part and anywhere on the other is carried by the other; else the joint
+  // is carried where it is nearest to the middle: a shelf moves up a post, not the post within the shelf.
+  CHECK(line(shelf, panel, {0.25, -2, 4}, {0.25, 2, 4}).relations.front().carrier == 1);
+  const Primitive post = box_of({2, 2, 5}, {0.4, 0.4, 10});
+  CHECK(carrier_of(joined(box_of({0, 0, 5}, {6, 6, 0.3}), post, {2, 2, 5})) == 1);
+
   // Boards that meet at a corner stay there, as far from their edges as half of their thickness.
   const Primitive seat = box_of({2.75, 0, 9.75}, {5, 6, 0.5});
   CHECK(line(panel, seat, {0.25, -3, 9.75}, {0.25, 3, 9.75}).relations.front().carrier == -1);
