@@ -197,6 +197,8 @@ Slide slide_along(const std::array<bool, 3>& ways, const OrientedBox& box, const
   return slide;
 }
 
+/// Returns how a point slides on a carrier: not where it is at the rim of a plate, near the end of a member
+/// or the border of a wall, or flush.
 Slide slide_on(const Primitive& carrier, const Eigen::Vector3d& point, const Joined& joined) {
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
     if (is_member(*cylinder) || is_vessel(*cylinder))
@@ -259,6 +261,8 @@ void let_joints_yield(Structure& structure) {
   for (Relation& relation : structure.relations) {
     if (!relation.is_joint()) continue;
     relation.slack = tolerance::joint_slack * structure.diagonal;
+    relation.carrier = -1;
+    relation.sliding.clear();
     JointSlide freest;
     for (const int part : relation.parts) {
       const int other = relation.parts.front() + relation.parts.back() - part;

@@ -56,7 +56,7 @@ double joint_gap(const Relation& relation, const Structure& rest, const std::vec
     return distance <= relation.slack ? 0 : distance - relation.slack;
   };
   double gap = 0;
-  for (int i = 0; i < relation.points.rows(); ++i) {
+  for (Eigen::Index i = 0; i < relation.points.rows(); ++i) {
     const auto place = [&](int part) {
       const auto k = static_cast<std::size_t>(part);
       return deform_point(rest.parts[k].primitive, deformed[k], relation.points.row(i).transpose());

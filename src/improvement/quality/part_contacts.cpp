@@ -3,7 +3,6 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
@@ -76,6 +75,7 @@ class PartContacts::Surfaces {
     const Tree* const found = tree(part);
     return found ? (found->nearest(p).point - p).norm() : std::numeric_limits<double>::infinity();
   }
+  bool has_area(int part) const { return tree(part) != nullptr; }
   /// Returns the point of the part that is nearest to a point. Precondition: the part has area.
   Eigen::Vector3d nearest(int part, const Eigen::Vector3d& p) const { return tree(part)->nearest(p).point; }
   /// Returns whether a point lies inside the closed surface of the part, by the parity of a ray.
@@ -248,7 +248,8 @@ double PartContacts::gap(const Surfaces& surfaces, const Shape& shape, const Joi
       least = std::min(least, surfaces.distance(other, place.transpose()));
     }
   }
-  if (!(least > tolerance::quality::touching * rest_.structure.diagonal) || !std::isfinite(least))
+  if (!(least > tolerance::quality::touching * rest_.structure.diagonal) ||
+      !surfaces.has_area(joint.parts[0]) || !surfaces.has_area(joint.parts[1]))
     return least;
   // Where a joint slid, marks slid off it: projections to and fro lead to where the surfaces still meet.
   for (std::size_t side = 0; side < 2; ++side) {

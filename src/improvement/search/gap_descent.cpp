@@ -20,10 +20,12 @@ namespace {
 /// Least decrease of the merit that makes an edit worthwhile.
 constexpr double min_merit_gain = 0.01;
 
-/// With limits of quality, so many designs at most are held against all of them in a step, in batches. Such a
-/// check takes as long as so many designs.
-constexpr std::int64_t max_checked = 16, check_cost = 2;
+/// With limits of quality: largest number of designs that are held against all of them in a step, and how
+/// many of them at once, whatever the number of threads.
+constexpr std::int64_t max_checked = 16;
 constexpr std::size_t checked_at_once = 4;
+/// Number of designs that are made and measured in the time of such a check.
+constexpr std::int64_t check_cost = 2;
 
 /// The number of triangle pairs in a contact band grows with the width of the band and with the square of the
 /// number of triangles. Beyond this number of triangles the band is narrower.

@@ -399,6 +399,15 @@ TEST_CASE("A thin shelf that slides along a narrower post stays joined to it", "
   CHECK(measured(rest, apart, QualityMeasure::joints) == Approx(0.3 / diagonal));
 }
 
+TEST_CASE("A part that collapsed to a line away from its neighbour floats", "[quality]") {
+  const StructuredShape rest = joined_boxes();
+  Shape line = rest.shape;
+  for (Eigen::Index t = 0; t < line.triangle_count(); ++t)
+    if (line.triangle_part[static_cast<std::size_t>(t)] == 1)
+      for (int k = 0; k < 3; ++k) line.vertices.row(line.triangles(t, k)) << 6, 0.5, line.corner(t, k).z();
+  CHECK(measured(rest, line, QualityMeasure::joints) == Approx(2 / rest.structure.diagonal));
+}
+
 TEST_CASE("A bar taken from its neighbour floats, one pushed into it pierces", "[quality]") {
   const StructuredShape rest = joined_boxes();
   const double diagonal = rest.structure.diagonal;
