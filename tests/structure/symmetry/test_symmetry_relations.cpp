@@ -159,11 +159,11 @@ TEST_CASE("parts that are cut from others are paired where they nearly match, wh
     const Shape shape = solids::joined({top, leg(-4, "left", left_cut), leg(at, "right", right_cut)});
     return pairs_of(shape, relations_of(shape));
   };
-  const double off = 0.3;
+  const double off = 0.5;
   CHECK(table(4 + off, false, false).empty());
   CHECK(table(4 + off, true, false).empty());
   CHECK(table(4 + off, true, true) == Pairs{{"left", "right"}});
-  CHECK(table(4 + 3 * off, true, true).empty());
+  CHECK(table(4 + 2 * off, true, true).empty());
 }
 
 TEST_CASE("small parts that miss their counterpart by more than their own size tells are pairs") {
