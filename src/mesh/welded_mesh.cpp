@@ -1,6 +1,9 @@
 #include "mesh/welded_mesh.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <map>
 
 #include "core/disjoint_sets.h"
 #include "core/index.h"
@@ -18,6 +21,18 @@ double WeldedMesh::area(Eigen::Index triangle) const {
   const Eigen::Vector3d a = points.row(triangles(triangle, 0));
   const Eigen::Vector3d b = points.row(triangles(triangle, 1)), c = points.row(triangles(triangle, 2));
   return area_vector(a, b, c).norm();
+}
+
+std::vector<std::int32_t> WeldedMesh::first_copies() const {
+  std::map<std::array<std::int32_t, 3>, std::int32_t> known;
+  std::vector<std::int32_t> first;
+  first.reserve(static_cast<std::size_t>(triangles.rows()));
+  for (std::int32_t t = 0; t < triangles.rows(); ++t) {
+    std::array<std::int32_t, 3> corners{triangles(t, 0), triangles(t, 1), triangles(t, 2)};
+    std::sort(corners.begin(), corners.end());
+    first.push_back(known.try_emplace(corners, t).first->second);
+  }
+  return first;
 }
 
 WeldedMesh weld(const Shape& shape, Weld which) {

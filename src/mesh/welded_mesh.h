@@ -22,6 +22,9 @@ struct WeldedMesh {
   bool has_equal_corners(Eigen::Index triangle) const;
   /// Computes the area of the triangle, model units squared.
   double area(Eigen::Index triangle) const;
+  /// Returns for every triangle the first one with the same corners, in any order: itself, unless it is a
+  /// copy.
+  std::vector<std::int32_t> first_copies() const;
 };
 
 /// Scope of welding: all vertices of equal coordinates, or only those of triangles of the same part.

@@ -96,3 +96,11 @@ TEST_CASE("components hang together by points, numbered by their first triangles
   const Shape touching = concatenate(solids::box({1, 1, 1}), solids::box({1, 1, 1}, {3, 3, 3}));
   for (const std::int32_t c : connected_components(weld(touching))) CHECK(c == 0);
 }
+
+TEST_CASE("a copy is a triangle with the corners of an earlier one, in any order") {
+  Points points(5, 3);
+  points << 0, 0, 0, 1, 0, 0, 0, 1, 0, -0.0, 0, 0, 0, 0, 1;
+  Triangles triangles(5, 3);
+  triangles << 0, 1, 2, 2, 1, 4, 2, 1, 3, 0, 1, 4, 1, 2, 0;
+  CHECK(weld(make_shape(points, triangles)).first_copies() == std::vector<std::int32_t>{0, 1, 0, 3, 0});
+}

@@ -70,13 +70,9 @@ class Inspector {
     findings_.components = 1 + *std::max_element(component.begin(), component.end());
     findings_.degenerate_faces =
         shape_.triangle_count() - static_cast<std::int64_t>(triangles_with_area(shape_).size());
-    std::vector<std::array<std::int32_t, 3>> sorted;
-    for (const auto row : mesh_.triangles.rowwise()) {
-      sorted.push_back({row(0), row(1), row(2)});
-      std::sort(sorted.back().begin(), sorted.back().end());
-    }
-    std::sort(sorted.begin(), sorted.end());
-    findings_.duplicate_faces = sorted.end() - std::unique(sorted.begin(), sorted.end());
+    const std::vector<std::int32_t> first = mesh_.first_copies();
+    for (std::size_t face = 0; face < first.size(); ++face)
+      findings_.duplicate_faces += static_cast<std::size_t>(first[face]) != face;
   }
 
   void count_edges() {

@@ -16,6 +16,7 @@
 
 #include "core/disjoint_sets.h"
 #include "mesh/surface_index.h"
+#include "mesh/welded_mesh.h"
 #include "stackabilization/structure/fitting.h"
 #include "structure/fitting/part_box.h"
 #include "structure/segmentation/components.h"
@@ -51,6 +52,13 @@ double misfit(const Shape& part, const Pieces& pieces) {
     errors(p) = relative_misfit(fit_primitive(piece).fit) * diagonal;
   });
   return std::sqrt((areas * errors.square()).sum() / areas.sum());
+}
+
+/// Returns whether the curve of a primitive is closed, as that of a frame of two legs and two rails is. Its
+/// corners are round: the curve is smooth.
+bool is_ring(const Primitive& primitive) {
+  const auto* cylinder = std::get_if<GeneralizedCylinder>(&primitive);
+  return cylinder && cylinder->closed;
 }
 
 /// Returns whether a curve turns at a few corners, as that of a frame does, and not evenly.
@@ -94,13 +102,15 @@ Pieces without_smooth_borders(const SurfaceGraph& graph, const Pieces& pieces, d
 
 /// A part with what copying a cut from one side to the other needs.
 struct CutPart {
-  explicit CutPart(const Shape& part) : shape(part), graph(surface_graph(part)), index(part) {
+  explicit CutPart(const Shape& part)
+      : shape(part), graph(surface_graph(part)), index(part), shells(connected_components(weld(part))) {
     link_shells(graph, part, ContactRule().reach * graph.diagonal);
   }
 
   const Shape& shape;
   SurfaceGraph graph;
   SurfaceIndex index;
+  std::vector<std::int32_t> shells;  ///< per triangle
 };
 
 /// Barycentric coordinates of the places of a triangle at which its image is looked up. Several, since a
@@ -117,11 +127,33 @@ constexpr std::array<std::array<double, 3>, 7> places = {{{1. / 3, 1. / 3, 1. / 
 /// centres alone.
 constexpr double short_side = 0.01;
 
+/// Share of the area of a shell that is little.
+constexpr double little = 0.2;
+
 double longest_side(const Shape& shape, Eigen::Index triangle) {
   double longest = 0;
   for (int k = 0; k < 3; ++k)
     longest = std::max(longest, (shape.corner(triangle, (k + 1) % 3) - shape.corner(triangle, k)).norm());
   return longest;
+}
+
+/// Gives what little of a piece lies on another shell than most of the piece to the piece that this shell
+/// mostly is. Shells that touch, or nearly, are at the same place, where an image alone does not tell them
+/// apart.
+Pieces with_whole_shells(const CutPart& part, Pieces pieces) {
+  const std::int32_t shells = *std::max_element(part.shells.begin(), part.shells.end()) + 1;
+  if (shells == 1) return pieces;
+  Eigen::MatrixXd area = Eigen::MatrixXd::Zero(shells, piece_count(pieces));
+  for (std::size_t t = 0; t < pieces.size(); ++t)
+    area(part.shells[t], pieces[t]) += part.graph.areas(static_cast<Eigen::Index>(t));
+  const Eigen::VectorXd of_shell = area.rowwise().sum(), of_piece = area.colwise().sum();
+  for (std::size_t t = 0; t < pieces.size(); ++t) {
+    const std::int32_t shell = part.shells[t];
+    const double here = area(shell, pieces[t]);
+    if (here < little * of_shell(shell) && here < of_piece(pieces[t]) / 2)
+      area.row(shell).maxCoeff(&pieces[t]);
+  }
+  return pieces;
 }
 
 /// Returns the piece of `from` that most places of the image of every triangle of `to` lie on.
@@ -141,7 +173,7 @@ Pieces image(const CutPart& to, const CutPart& from, const Pieces& pieces, const
                   return one.second < other.second;
                 })->first;
   });
-  return result;
+  return with_whole_shells(to, std::move(result));
 }
 
 /// Returns for every piece the one that its image overlaps most, if that is so the other way round as well,
@@ -192,7 +224,7 @@ std::vector<std::int32_t> members(const Shape& part, const CutIntoPieces& cut, c
   if (!(graph.areas.sum() > 0)) return one_piece;
   const FittedPrimitive whole = fit_primitive(part);
   const bool frame = has_corners(whole.primitive, rule);
-  if (!frame && relative_misfit(whole.fit) < rule.misfit) return one_piece;
+  if (!frame && !is_ring(whole.primitive) && relative_misfit(whole.fit) < rule.misfit) return one_piece;
   Pieces pieces = without_smooth_borders(graph, cut(part), rule.min_concave);
   const std::int32_t count = piece_count(pieces);
   if (count < 2 || count > rule.max_members) return one_piece;

@@ -12,7 +12,7 @@ namespace stackabilization::detail {
 /// Conditions for cutting a part into members.
 struct MemberRule {
   /// Error of the part's own primitive from which on the part may be cut, fraction of the diagonal of its
-  /// oriented box.
+  /// oriented box. Rings and frames with corners may always be.
   double misfit = 0.03;
   /// Largest error of the primitives of the members together, fraction of that of the part's own primitive.
   double gain = 0.5;

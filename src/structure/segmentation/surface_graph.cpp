@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <span>
 
 #include "core/angles.h"
@@ -25,12 +26,14 @@ class GraphBuilder {
   explicit GraphBuilder(const Shape& shape)
       : shape_(shape),
         mesh_(weld(shape)),
-        edges_(mesh_.triangles),
+        first_copies_(mesh_.first_copies()),
+        edges_(collapse_copies()),
         joined_(static_cast<std::size_t>(shape.triangle_count())) {}
 
   SurfaceGraph run() {
     measure();
     turn_outward();
+    link_copies();
     link_across_edges();
     link_across_points();
     graph_.links_of.resize(static_cast<std::size_t>(shape_.triangle_count()));
@@ -42,8 +45,10 @@ class GraphBuilder {
   }
 
  private:
+  const Triangles& collapse_copies();
   void measure();
   void turn_outward();
+  void link_copies();
   void link_across_edges();
   void link_across_points();
   void link(std::int32_t a, std::int32_t b, double length, double bend) {
@@ -53,11 +58,18 @@ class GraphBuilder {
   double bend(const TriangleSide& a, const TriangleSide& b) const;
 
   const Shape& shape_;
-  WeldedMesh mesh_;
+  WeldedMesh mesh_;  ///< copies are collapsed, so that they have no edges
+  std::vector<std::int32_t> first_copies_;
   EdgeTable edges_;
   DisjointSets joined_;
   SurfaceGraph graph_;
 };
+
+const Triangles& GraphBuilder::collapse_copies() {
+  for (std::int32_t t = 0; t < mesh_.triangles.rows(); ++t)
+    if (first_copies_[at(t)] != t) mesh_.triangles.row(t).setConstant(mesh_.triangles(t, 0));
+  return mesh_.triangles;
+}
 
 /// Normals are those of the half-edge mesh, where neighbours agree.
 void GraphBuilder::measure() {
@@ -109,6 +121,18 @@ void GraphBuilder::turn_outward() {
     if (volume(piece(t)) < 0) graph_.normals.row(t) *= -1;
 }
 
+void GraphBuilder::link_copies() {
+  for (std::int32_t t = 0; t < shape_.triangle_count(); ++t) {
+    const std::int32_t first = first_copies_[at(t)];
+    if (first == t) continue;
+    graph_.areas(t) = graph_.areas(first);
+    graph_.normals.row(t) = graph_.normals.row(first);
+    double perimeter = 0;
+    for (int k = 0; k < 3; ++k) perimeter += (shape_.corner(t, (k + 1) % 3) - shape_.corner(t, k)).norm();
+    link(first, t, perimeter, 0);
+  }
+}
+
 double GraphBuilder::bend(const TriangleSide& a, const TriangleSide& b) const {
   const Eigen::Vector3d n = graph_.normals.row(a.triangle), m = graph_.normals.row(b.triangle);
   if (n.isZero(0) || m.isZero(0)) return 0;
@@ -145,6 +169,51 @@ void GraphBuilder::link_across_points() {
     }
 }
 
+/// A connected piece of surface.
+struct Shell {
+  std::vector<std::int32_t> rows;  ///< triangles
+  double area = 0;
+  Eigen::AlignedBox3d box;
+  std::optional<SurfaceIndex> index;  ///< none without area
+};
+
+/// Where a triangle comes nearest to another shell.
+struct ShellContact {
+  double distance = std::numeric_limits<double>::infinity();
+  std::int32_t from = -1, onto = -1;
+};
+
+/// Returns the shells of a shape, the largest first, and equal ones by their first triangles.
+std::vector<Shell> shells_by_area(const SurfaceGraph& graph, const Shape& shape) {
+  const std::vector<std::int32_t> shell = connected_components(weld(shape));
+  std::vector<Shell> shells(static_cast<std::size_t>(*std::max_element(shell.begin(), shell.end())) + 1);
+  for (std::size_t t = 0; t < shell.size(); ++t) {
+    Shell& of = shells[static_cast<std::size_t>(shell[t])];
+    const auto row = static_cast<std::int32_t>(t);
+    of.rows.push_back(row);
+    of.area += graph.areas(row);
+    for (int k = 0; k < 3; ++k) of.box.extend(shape.corner(row, k));
+  }
+  if (shells.size() == 1) return shells;
+  for (Shell& one : shells)
+    if (one.area > 0) one.index.emplace(extracted(shape, one.rows));
+  std::stable_sort(shells.begin(), shells.end(),
+                   [](const Shell& a, const Shell& b) { return a.area > b.area; });
+  return shells;
+}
+
+/// Returns where `point`, of triangle `from`, comes nearest to one of `others`, to the first one of equals.
+ShellContact nearest_contact(std::int32_t from, const Eigen::Vector3d& point, std::span<const Shell> others) {
+  ShellContact nearest;
+  for (const Shell& other : others) {
+    if (!other.index || other.box.exteriorDistance(point) >= nearest.distance) continue;
+    const SurfacePoint found = other.index->nearest(point);
+    if (found.distance < nearest.distance)
+      nearest = {found.distance, from, other.rows[static_cast<std::size_t>(found.triangle)]};
+  }
+  return nearest;
+}
+
 }  // namespace
 
 SurfaceGraph surface_graph(const Shape& shape) {
@@ -173,40 +242,22 @@ Shape extracted(const Shape& shape, const std::vector<std::int32_t>& rows) {
 }
 
 void link_shells(SurfaceGraph& graph, const Shape& shape, double reach) {
-  const std::vector<std::int32_t> shell = connected_components(weld(shape));
-  const auto count = static_cast<std::size_t>(*std::max_element(shell.begin(), shell.end())) + 1;
-  if (count == 1) return;
-  std::vector<double> area(count, 0);
-  for (std::size_t t = 0; t < shell.size(); ++t)
-    area[static_cast<std::size_t>(shell[t])] += graph.areas(static_cast<Eigen::Index>(t));
-  const auto largest = static_cast<std::int32_t>(std::max_element(area.begin(), area.end()) - area.begin());
-  if (!(area[static_cast<std::size_t>(largest)] > 0)) return;
-  std::vector<std::int32_t> host;
-  for (std::size_t t = 0; t < shell.size(); ++t)
-    if (shell[t] == largest) host.push_back(static_cast<std::int32_t>(t));
-
-  struct Contact {
-    double distance = std::numeric_limits<double>::infinity();
-    std::int32_t from = -1, onto = -1;
-  };
-  const SurfaceIndex index(extracted(shape, host));
-  const auto add = [&](const Contact& contact) {
+  const std::vector<Shell> shells = shells_by_area(graph, shape);
+  const auto add = [&](const ShellContact& contact) {
     for (const std::int32_t end : {contact.from, contact.onto})
       graph.links_of[static_cast<std::size_t>(end)].push_back(static_cast<std::int32_t>(graph.links.size()));
     graph.links.push_back({contact.from, contact.onto, std::sqrt(graph.areas(contact.from)), 0});
   };
-  std::vector<Contact> nearest(count);
-  for (std::size_t t = 0; t < shell.size(); ++t) {
-    if (shell[t] == largest) continue;
-    const SurfacePoint found = index.nearest(graph.centres.row(static_cast<Eigen::Index>(t)).transpose());
-    const Contact contact{found.distance, static_cast<std::int32_t>(t),
-                          host[static_cast<std::size_t>(found.triangle)]};
-    Contact& best = nearest[static_cast<std::size_t>(shell[t])];
-    if (contact.distance < best.distance) best = contact;
-    if (contact.distance <= reach) add(contact);
+  for (std::size_t s = 1; s < shells.size(); ++s) {
+    ShellContact nearest;
+    for (const std::int32_t t : shells[s].rows) {
+      const ShellContact contact =
+          nearest_contact(t, graph.centres.row(t).transpose(), std::span(shells).first(s));
+      if (contact.distance < nearest.distance) nearest = contact;
+      if (contact.distance <= reach) add(contact);
+    }
+    if (nearest.from >= 0 && nearest.distance > reach) add(nearest);
   }
-  for (const Contact& contact : nearest)
-    if (contact.from >= 0 && contact.distance > reach) add(contact);
 }
 
 }  // namespace stackabilization::detail

@@ -39,11 +39,13 @@ struct SurfaceGraph {
 
 /// Builds the graph of all triangles, including degenerate ones. Triangles that are connected through common
 /// points are connected in the graph: through edges first, and through points where no edge connects them.
-/// Each piece of surface is oriented such that its volume, seen from its centre, is positive.
+/// Each piece of surface is oriented such that its volume, seen from its centre, is positive. The surface is
+/// that of the first copies: a further triangle with the same corners, such as the back of a surface that was
+/// drawn on both sides, belongs to its first copy and has the same normal.
 SurfaceGraph surface_graph(const Shape& shape);
 
-/// Links the shells of a graph in space. Each shell is linked to the largest shell: at all places within
-/// `reach` (model units) of it, or at its nearest triangle when there is no such place.
+/// Links the shells of a graph in space. Each shell is linked to the larger shells: at all places within
+/// `reach` (model units) of one of them, or at its nearest triangle when there is no such place.
 void link_shells(SurfaceGraph& graph, const Shape& shape, double reach);
 
 /// Returns the triangles `rows` of `shape`, in their order, as a shape of one part.

@@ -13,6 +13,7 @@ namespace {
 
 Shape named(Shape shape, const std::string& name) {
   shape.part_names = {name};
+  std::fill(shape.triangle_part.begin(), shape.triangle_part.end(), 0);
   return shape;
 }
 
@@ -20,6 +21,28 @@ Shape named(Shape shape, const std::string& name) {
 Shape bench() {
   return concatenate(named(solids::subdivided(solids::subdivided(solids::u_shape(10, 1))), "frame"),
                      named(solids::box({0, 0, 10}, {10, 4, 10.5}), "seat"));
+}
+
+/// The side of a chair, one part of the file: a post, a leg and two rails between them, each a solid of its
+/// own. The rails end `deep` inside the leg.
+Shape side(double x, double deep, const std::string& name) {
+  const auto bar = [&](double low_y, double low_z, double high_y, double high_z, double width) {
+    return solids::subdivided(solids::box({x - width / 2, low_y, low_z}, {x + width / 2, high_y, high_z}));
+  };
+  return named(
+      concatenate(concatenate(bar(0, 0, 0.9, 16, 0.9), bar(7.4, 0, 8.3, 8.2, 0.9)),
+                  concatenate(bar(0.9, 6.8, 7.4 + deep, 8.2, 0.6), bar(0.9, 2, 7.4 + deep, 2.6, 0.6))),
+      name);
+}
+
+/// Every triangle twice, as programs that draw surfaces on both sides write them.
+Shape on_both_sides(const Shape& shape) {
+  Shape back = shape;
+  back.triangles.col(1).swap(back.triangles.col(2));
+  Shape both = concatenate(shape, back);
+  both.part_names.resize(static_cast<std::size_t>(shape.part_count()));
+  for (std::int32_t& part : both.triangle_part) part %= static_cast<std::int32_t>(shape.part_count());
+  return both;
 }
 
 }  // namespace
@@ -49,4 +72,40 @@ TEST_CASE("Parts that one primitive represents are not cut", "[members]") {
     const Shape shape = concatenate(named(part, "one"), named(solids::box({90, 90, 90}), "other"));
     CHECK(segment(shape).part_names == shape.part_names);
   }
+}
+
+TEST_CASE("A ring of solids is cut into these, alike on both sides although its rails are not", "[members]") {
+  const Shape before = concatenate(concatenate(side(-3.5, 0, "left"), side(3.5, 0.05, "right")),
+                                   named(solids::box({-4, 0, 8.2}, {4, 8.3, 8.5}), "seat"));
+  const Shape after = segment(before);
+  REQUIRE(after.part_count() == 9);
+  std::vector<int> counts(9);
+  for (const std::int32_t part : after.triangle_part) ++counts[static_cast<std::size_t>(part)];
+  CHECK(counts == std::vector<int>{48, 48, 48, 48, 48, 48, 48, 48, 12});
+  for (int part = 0; part < 8; ++part) {  // a box each
+    const Shape member = extract_part(after, part);
+    double volume = 1;
+    for (const Eigen::Vector3d& axis :
+         {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()})
+      volume *= range_along(member, axis).length();
+    CHECK(solids::signed_volume(member) == Approx(volume).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("A square ring is cut into its four bars, however well one curve follows it", "[members]") {
+  using solids::box;
+  const Shape ring =
+      named(concatenate(concatenate(box({0, 0, 0}, {0.6, 0.6, 8}), box({0, 7.4, 0}, {0.6, 8, 8})),
+                        concatenate(box({0, 0.6, 0}, {0.6, 7.4, 0.6}), box({0, 0.6, 7.4}, {0.6, 7.4, 8}))),
+            "ring");
+  const Shape after = segment(concatenate(ring, named(box({-4, 0, 8}, {4, 8, 8.3}), "seat")));
+  CHECK(after.part_names == std::vector<std::string>{"ring.1", "ring.2", "ring.3", "ring.4", "seat"});
+}
+
+TEST_CASE("Surfaces that are drawn on both sides are cut as those drawn once", "[members]") {
+  const Shape once = segment(bench()), twice = segment(on_both_sides(bench()));
+  CHECK(twice.part_names == once.part_names);
+  std::vector<std::int32_t> expected = once.triangle_part;
+  expected.insert(expected.end(), once.triangle_part.begin(), once.triangle_part.end());
+  CHECK(twice.triangle_part == expected);
 }

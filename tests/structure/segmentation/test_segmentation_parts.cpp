@@ -228,6 +228,25 @@ TEST_CASE("the shape diameter tells thick from thin") {
   CHECK(z.high == Approx(6.8).margin(0.4));
 }
 
+TEST_CASE("a shell hangs on the larger shell that is nearest, not on the largest of all") {
+  // A patch on the side of a leg, under a top that is larger and farther away.
+  const Shape top = solids::box({0, 0, 10}, {9, 9, 11}), leg = solids::box({1, 1, 0}, {2, 2, 9});
+  Points corners(3, 3);
+  corners << 1, 1.2, 1, 1, 1.8, 1, 1, 1.5, 1.5;
+  const Shape patch = make_shape(corners, Triangles(Eigen::RowVector3i(0, 1, 2)));
+  const Shape shape = concatenate(concatenate(top, leg), patch);
+  detail::SurfaceGraph graph = detail::surface_graph(shape);
+  const std::size_t within = graph.links.size();
+  detail::link_shells(graph, shape, 0.01);
+  REQUIRE(graph.links.size() == within + 2);
+  const auto between = [](const detail::SurfaceLink& link) {
+    const auto shell = [](std::int32_t triangle) { return triangle / 12; };  // 0 top, 1 leg, 2 patch
+    return std::minmax({shell(link.a), shell(link.b)});
+  };
+  CHECK(between(graph.links[within]) == std::minmax({0, 1}));
+  CHECK(between(graph.links[within + 1]) == std::minmax({1, 2}));
+}
+
 TEST_CASE("a sheet, a soup and sheets on one edge end with every triangle in a part") {
   Points points(5, 3);
   points << 0, 0, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, -1, -1, 0;
