@@ -61,12 +61,13 @@ std::vector<FoundSymmetry> find_symmetries(const Shape& shape, const SymmetryOpt
 ///   square widths, or the sides of their minimal boxes where one of them lacks faces) within ten tolerances.
 ///   Two parts without such a match, whose ends may be cut off differently, are counterparts as well when
 ///   nine tenths of the image of each lie on the other to a tenth of the tolerance, and all of it on the
-///   shape.
+///   shape. A part without a counterpart is its own one when it matches itself at twice the tolerance, and
+///   two open parts are when they match at that.
 /// * A part of revolution without a counterpart, whose ends no reflection exchanges, has two self-symmetries
 ///   with perpendicular planes through its axis, those of the whole shape first, and its revolution
 ///   (`SymmetryKind::revolution`).
-/// * Any other part without a symmetry of the whole shape gets its own reflections in planes through its
-///   centre and along its box.
+/// * Any other part of a shape without a reflection gets its own reflections in planes through its centre and
+///   along its box.
 ///
 /// `symmetries`: model units, any order; a user may have edited them. Rotations are ignored. Residuals are
 /// root mean square distances of the surfaces. Throws as `find_symmetries` does.

@@ -83,17 +83,18 @@ class PartSymmetry {
     return best;
   }
 
-  /// Returns the part that the image of `part` under `plane` matches best, or else lies on. An open part may
-  /// also nearly match an open one: the plane is one of the whole shape, but parts of one surface may be cut
-  /// differently on both sides of it.
+  /// Returns the part that the image of `part` under `plane` matches best, or else lies on. A part may also
+  /// nearly match itself: the plane is one of the whole shape, but a board is often a little off its middle.
+  /// An open part may nearly match an open one: parts of one surface may be cut differently on both sides.
   std::pair<int, double> counterpart(int part, const Symmetry& plane) const {
     const std::pair<int, double> best = best_match(part, plane, 1);
     if (best.first >= 0) return best;
     if (const std::optional<PartSurfaces::Image> image = parts_.image_of(part, plane))
       return {image->part, image->residual};
-    if (!parts_.is_open(part)) return best;
     const std::pair<int, double> near = best_match(part, plane, near_miss);
-    return near.first >= 0 && parts_.is_open(near.first) ? near : best;
+    const bool alike =
+        near.first == part || (near.first >= 0 && parts_.is_open(part) && parts_.is_open(near.first));
+    return alike ? near : best;
   }
 
   std::vector<Relation> relations_under(const Symmetry& plane) const {
@@ -159,11 +160,12 @@ class PartSymmetry {
     return planes;
   }
 
-  /// Returns the self-symmetries of a part without counterparts.
+  /// Returns the self-symmetries of a part without counterparts. Planes of its own are for shapes that have
+  /// none: a part of a symmetric shape follows its neighbours, which would not follow its planes.
   std::vector<Relation> own_relations(int part) const {
     if (!parts_.part(part) || has(part, RelationType::symmetry)) return {};
     std::vector<Relation> relations = revolution(part);
-    if (relations.empty() && !has(part, RelationType::self_symmetry)) relations = own_planes(part);
+    if (relations.empty() && planes_.empty()) relations = own_planes(part);
     return relations;
   }
 
@@ -201,8 +203,7 @@ class PartSymmetry {
     return relations;
   }
 
-  /// Returns the reflections in planes through the centre of a part and along its own box, for a part that no
-  /// symmetry of the whole shape maps.
+  /// Returns the reflections in planes through the centre of a part and along its own box.
   std::vector<Relation> own_planes(int part) const {
     const SymmetrySurface& surface = *parts_.part(part);
     std::vector<Symmetry> planes;
@@ -215,22 +216,9 @@ class PartSymmetry {
     }
     std::vector<Relation> relations;
     for (const Symmetry& plane : detail::canonical_reflections(surface, {&surface}, planes))
-      if (const auto residual = parts_.match(part, part, plane);
-          residual && !lies_beside_common(plane, surface))
+      if (const auto residual = parts_.match(part, part, plane))
         relations.push_back(related({part}, plane, *residual));
     return relations;
-  }
-
-  /// Returns whether a symmetry plane of the whole shape cuts the part next to, but not in, its own plane.
-  /// The part then keeps no plane of its own: its joints on both sides are symmetric about the plane of the
-  /// whole shape.
-  bool lies_beside_common(const Symmetry& own, const SymmetrySurface& surface) const {
-    const double half =
-        surface.diagonal * (own.axis.transpose() * surface.box.axes).cwiseAbs() * surface.box.half_extents;
-    return std::any_of(planes_.begin(), planes_.end(), [&](const Symmetry& common) {
-      return std::abs(common.axis.dot(own.axis)) > tolerance::parallel &&
-             std::abs(common.axis.dot(own.point - common.point)) < half;
-    });
   }
 
   SymmetryOptions options_;
