@@ -96,11 +96,15 @@ Shape cut_components(const Shape& shape, const std::vector<std::int32_t>& compon
 }
 
 /// Returns the pieces of a part that is cut into its components, and each of these by fitting primitives.
+/// Pieces too small for a part, such as the cap of a foot, join the nearest one.
 std::vector<std::int32_t> pieces_of(const Shape& part, SegmentationOptions options) {
   const std::vector<std::int32_t> component = detail::merged_components(part);
   if (detail::is_rod_lattice(part, component)) return std::vector<std::int32_t>(component.size(), 0);
   options.method = SegmentationMethod::primitives;
-  return cut_components(part, component, options).triangle_part;
+  detail::SurfaceGraph graph = detail::surface_graph(part);
+  detail::link_shells(graph, part, detail::ContactRule().reach * graph.diagonal);
+  return detail::merge_small_segments(graph, cut_components(part, component, options).triangle_part,
+                                      options.min_part_area * graph.areas.sum());
 }
 
 /// Cuts the parts of several members. Member k of "leg" is called "leg.k".

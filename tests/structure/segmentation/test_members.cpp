@@ -102,6 +102,21 @@ TEST_CASE("A square ring is cut into its four bars, however well one curve follo
   CHECK(after.part_names == std::vector<std::string>{"ring.1", "ring.2", "ring.3", "ring.4", "seat"});
 }
 
+TEST_CASE("A cap that is too small for a part belongs to the member that it is nearest to", "[members]") {
+  // Below the left leg, and outside of its convex hull.
+  const Shape cap = solids::box({-3.7, 7.6, -0.2}, {-3.3, 8, -0.1});
+  const Shape left = side(-3.5, 0, "left");
+  const Shape rest =
+      concatenate(side(3.5, 0, "right"), named(solids::box({-4, 0, 8.2}, {4, 8.3, 8.5}), "seat"));
+  const Shape without = segment(concatenate(left, rest));
+  const Shape with = segment(concatenate(named(concatenate(left, cap), "left"), rest));
+  REQUIRE(without.part_count() == 9);
+  CHECK(with.part_names == without.part_names);
+  const std::size_t count = left.triangle_part.size();
+  const std::int32_t leg = with.triangle_part[count / 4];  // after the post
+  for (std::size_t t = count; t < count + cap.triangle_part.size(); ++t) CHECK(with.triangle_part[t] == leg);
+}
+
 TEST_CASE("Surfaces that are drawn on both sides are cut as those drawn once", "[members]") {
   const Shape once = segment(bench()), twice = segment(on_both_sides(bench()));
   CHECK(twice.part_names == once.part_names);
