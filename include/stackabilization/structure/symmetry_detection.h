@@ -54,15 +54,16 @@ std::vector<FoundSymmetry> find_symmetries(const Shape& shape, const SymmetryOpt
 ///   cycle of four pairs. It takes a plane at another angle in two cases: when the plane gives a part its
 ///   first counterpart (three legs, five legs), or when it alone makes parts equal (six legs) and its angle
 ///   is not 45 degrees. It rotates such a plane so that the plane generates a finite group with the others.
-///   Of a revolution, it takes two perpendicular planes through the axis.
+///   Of a revolution, it takes two perpendicular planes through the axis. Of four planes at 45 degrees it
+///   takes the two others where these make equal all that the first two do, and more.
 /// * A part has a counterpart, or is its own counterpart, when the image of the part matches within the
 ///   tolerance. The match compares the distance of the centroids and the root mean square distance of the
 ///   surfaces in both directions, as fractions of the whole shape, and the sizes of the parts (root mean
 ///   square widths, or the sides of their minimal boxes where one of them lacks faces) within ten tolerances.
 ///   Two parts without such a match, whose ends may be cut off differently, are counterparts as well when
 ///   nine tenths of the image of each lie on the other to a tenth of the tolerance, and all of it on the
-///   shape. A part without a counterpart is its own one when it matches itself at twice the tolerance, and
-///   two open parts are when they match at that.
+///   shape. Parts without such a counterpart are counterparts, or their own, when they match at twice the
+///   tolerance.
 /// * A part of revolution without a counterpart, whose ends no reflection exchanges, has two self-symmetries
 ///   with perpendicular planes through its axis, those of the whole shape first, and its revolution
 ///   (`SymmetryKind::revolution`).

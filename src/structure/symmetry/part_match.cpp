@@ -16,7 +16,6 @@
 #include "core/extract_parts.h"
 #include "core/index.h"
 #include "mesh/surface_moments.h"
-#include "stackabilization/mesh/closed_surface.h"
 
 namespace stackabilization::detail {
 
@@ -65,14 +64,12 @@ PartSurfaces::PartSurfaces(const Shape& shape, const SymmetryOptions& options)
       whole_(symmetry_surface(shape, whole_samples)),
       part_of_(shape.triangle_part),
       parts_(shape.part_names.size()),
-      open_(parts_.size()),
       widths_(parts_.size()),
       sides_(parts_.size()) {
   const std::vector<Shape> parts = extract_parts(shape);
   tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t k) {
     if (!(area_of(parts[k]) > 0)) return;
     parts_[k].emplace(symmetry_surface(parts[k], part_samples));
-    open_[k] = !closed_surface(parts[k]).closed;
     widths_[k] = widths(*parts_[k]);
     sides_[k] = sides(*parts_[k]);
   });

@@ -44,9 +44,6 @@ class PartSurfaces {
   /// Tolerances of distances are fractions of the whole shape. `slack`: factor of all tolerances.
   std::optional<double> match(int a, int b, const Symmetry& symmetry, double slack = 1) const;
 
-  /// Returns whether the surface of a part has a border, as where it is cut from another part.
-  bool is_open(int index) const { return open_[static_cast<std::size_t>(index)] != 0; }
-
   /// Part on which an image lies.
   struct Image {
     int part;         ///< row of Shape::part_names
@@ -69,7 +66,6 @@ class PartSurfaces {
   SymmetrySurface whole_;
   std::vector<std::int32_t> part_of_;  ///< per triangle of the shape
   std::vector<std::optional<SymmetrySurface>> parts_;
-  std::vector<char> open_;               ///< per part with area
   std::vector<Eigen::Vector3d> widths_;  ///< per part with area
   std::vector<Eigen::Vector3d> sides_;   ///< per part with area, of its minimal box
   std::unique_ptr<const Centroids> centroids_;

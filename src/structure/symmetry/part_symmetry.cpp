@@ -22,7 +22,7 @@ namespace {
 using detail::PartSurfaces;
 using detail::SymmetrySurface;
 
-/// Parts without a counterpart nearly match to so many tolerances.
+/// Parts without a counterpart nearly match at so many tolerances.
 constexpr double near_miss = 2;
 
 constexpr double min_diagonal = 0.697, max_diagonal = 0.717;  // cosine
@@ -41,7 +41,9 @@ class PartSymmetry {
 
   std::vector<Relation> run() {
     planes_ = detail::canonical_reflections(parts_.whole(), parts_.with_area(), candidates_);
-    for (const Symmetry& plane : planes_) append(relations_under(plane));
+    std::vector<std::vector<Relation>> under = relations_under(planes_);
+    turn_by_half_a_right_angle(under);
+    for (const std::vector<Relation>& of_plane : under) append(of_plane);
     add_oblique_planes();
     std::vector<std::vector<Relation>> own(static_cast<std::size_t>(parts_.count()));
     tbb::parallel_for(0, parts_.count(),
@@ -83,18 +85,14 @@ class PartSymmetry {
     return best;
   }
 
-  /// Returns the part that the image of `part` under `plane` matches best, or else lies on. A part may also
-  /// nearly match itself: the plane is one of the whole shape, but a board is often a little off its middle.
-  /// An open part may nearly match an open one: parts of one surface may be cut differently on both sides.
+  /// Returns the part that the image of `part` under `plane` matches best, or else lies on, or else nearly
+  /// matches: the plane is one of the whole shape, but a leg or a board is often a little off its place.
   std::pair<int, double> counterpart(int part, const Symmetry& plane) const {
     const std::pair<int, double> best = best_match(part, plane, 1);
     if (best.first >= 0) return best;
     if (const std::optional<PartSurfaces::Image> image = parts_.image_of(part, plane))
       return {image->part, image->residual};
-    const std::pair<int, double> near = best_match(part, plane, near_miss);
-    const bool alike =
-        near.first == part || (near.first >= 0 && parts_.is_open(part) && parts_.is_open(near.first));
-    return alike ? near : best;
+    return best_match(part, plane, near_miss);
   }
 
   std::vector<Relation> relations_under(const Symmetry& plane) const {
@@ -111,6 +109,43 @@ class PartSymmetry {
         relations.push_back(related({part, other}, plane, residual));
     }
     return relations;
+  }
+
+  std::vector<std::vector<Relation>> relations_under(const std::vector<Symmetry>& planes) const {
+    std::vector<std::vector<Relation>> relations;
+    for (const Symmetry& plane : planes) relations.push_back(relations_under(plane));
+    return relations;
+  }
+
+  /// Takes the planes between the selected ones where all that those make equal is equal under these, and
+  /// more. The four legs of a round stool are two pairs under the planes through the legs, a cycle under
+  /// those between them.
+  void turn_by_half_a_right_angle(std::vector<std::vector<Relation>>& relations) {
+    std::vector<Symmetry> between;
+    for (const Symmetry& candidate : candidates_)
+      if (meets_any_at(min_diagonal, max_diagonal, candidate)) between.push_back(candidate);
+    if (between.size() < 2) return;
+    for (const Symmetry& plane : planes_)
+      if (std::all_of(between.begin(), between.end(), [&](const Symmetry& other) {
+            return std::abs(plane.axis.dot(other.axis)) < detail::nearly_across;
+          }))
+        between.push_back(plane);
+    std::vector<Symmetry> turned = detail::canonical_reflections(parts_.whole(), parts_.with_area(), between);
+    if (turned.size() != planes_.size()) return;
+    std::vector<std::vector<Relation>> more = relations_under(turned);
+    DisjointSets selected = orbits(relations), other = orbits(more);
+    for (std::size_t part = 0; part < static_cast<std::size_t>(parts_.count()); ++part)
+      if (other.root(part) != other.root(selected.root(part))) return;
+    if (other.count() == selected.count()) return;
+    planes_ = std::move(turned);
+    relations = std::move(more);
+  }
+
+  DisjointSets orbits(const std::vector<std::vector<Relation>>& relations) const {
+    DisjointSets sets(static_cast<std::size_t>(parts_.count()));
+    for (const std::vector<Relation>& of_plane : relations)
+      for (const Relation& relation : of_plane) join(sets, relation);
+    return sets;
   }
 
   /// Adds planes at other angles. Three legs, five legs: planes that are not orthogonal to the selected

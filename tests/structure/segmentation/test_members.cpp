@@ -85,9 +85,8 @@ TEST_CASE("A ring of solids is cut into these, alike on both sides although its 
   for (int part = 0; part < 8; ++part) {  // a box each
     const Shape member = extract_part(after, part);
     double volume = 1;
-    for (const Eigen::Vector3d& axis :
-         {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()})
-      volume *= range_along(member, axis).length();
+    for (int axis = 0; axis < 3; ++axis)
+      volume *= range_along(member, Eigen::Vector3d(Eigen::Vector3d::Unit(axis))).length();
     CHECK(solids::signed_volume(member) == Approx(volume).epsilon(1e-12));
   }
 }
