@@ -63,7 +63,7 @@ std::vector<FoundSymmetry> find_symmetries(const Shape& shape, const SymmetryOpt
 ///   Two parts without such a match, whose ends may be cut off differently, are counterparts as well when
 ///   nine tenths of the image of each lie on the other to a tenth of the tolerance, and all of it on the
 ///   shape. Parts without such a counterpart are counterparts, or their own, when they match at twice the
-///   tolerance.
+///   tolerance of distances.
 /// * A part of revolution without a counterpart, whose ends no reflection exchanges, has two self-symmetries
 ///   with perpendicular planes through its axis, those of the whole shape first, and its revolution
 ///   (`SymmetryKind::revolution`).

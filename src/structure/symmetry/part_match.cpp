@@ -98,11 +98,11 @@ std::vector<const SymmetrySurface*> PartSurfaces::with_area() const {
   return result;
 }
 
-bool PartSurfaces::same_size(int a, int b, double tolerance) const {
+bool PartSurfaces::same_size(int a, int b) const {
   const auto same = [&](const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
     for (int k = 0; k < 3; ++k) {
-      const double allowed = tolerance * std::max(size_tolerances * std::max(one(k), other(k)),
-                                                  absolute_size_tolerances * unit_);
+      const double allowed = options_.tolerance * std::max(size_tolerances * std::max(one(k), other(k)),
+                                                           absolute_size_tolerances * unit_);
       if (std::abs(one(k) - other(k)) > allowed) return false;
     }
     return true;
@@ -122,13 +122,12 @@ std::vector<int> PartSurfaces::near_image(int a, const Symmetry& symmetry, doubl
   const double tolerance = slack * options_.tolerance;
   const Eigen::Vector3d reach = Eigen::Vector3d::Constant(tolerance * unit_);
   std::vector<int> found;
-  centroids_->tree.query(
-      boost::geometry::index::intersects(
-          boost::geometry::model::box<Place>(place_of(image - reach), place_of(image + reach))),
-      boost::make_function_output_iterator([&](const Centroids::Entry& entry) {
-        if (same_size(a, entry.second, tolerance) && is_near(image, entry.second, tolerance))
-          found.push_back(entry.second);
-      }));
+  centroids_->tree.query(boost::geometry::index::intersects(boost::geometry::model::box<Place>(
+                             place_of(image - reach), place_of(image + reach))),
+                         boost::make_function_output_iterator([&](const Centroids::Entry& entry) {
+                           if (same_size(a, entry.second) && is_near(image, entry.second, tolerance))
+                             found.push_back(entry.second);
+                         }));
   std::sort(found.begin(), found.end());
   if (found.size() > max_matches) found.resize(max_matches);
   return found;
@@ -140,7 +139,7 @@ std::optional<double> PartSurfaces::match(int a, int b, const Symmetry& symmetry
   const Eigen::Isometry3d map = isometry_of(symmetry);
   SymmetryOptions options = options_;
   options.tolerance *= slack;
-  if (!is_near(map * from->centroid, b, options.tolerance) || !same_size(a, b, options.tolerance)) return {};
+  if (!is_near(map * from->centroid, b, options.tolerance) || !same_size(a, b)) return {};
   std::vector<double> both = distances(*from, *to, map);
   for (const double distance : distances(*to, *from, map.inverse())) both.push_back(distance);
   const Agreement found = agreement(std::move(both), std::max(from->diagonal, to->diagonal) / unit_, options);

@@ -28,7 +28,8 @@ class PartSurfaces {
   /// Returns the candidates for `match` of part `a`, ascending: the parts whose centroids and widths are near
   /// those of its image. More than `max_matches` candidates are copies of each other in one place; the first
   /// ones are returned.
-  /// `slack`: factor of all tolerances.
+  /// `slack`: factor of the tolerances of
+  /// places and surfaces, not of sizes.
   std::vector<int> near_image(int a, const Symmetry& symmetry, double slack = 1) const;
   static constexpr std::size_t max_matches = 16;
 
@@ -41,7 +42,8 @@ class PartSurfaces {
   ///   parts of which one lacks faces, if the sides of their minimal boxes agree. And
   /// * their surfaces agree in both directions, see `agreement`.
   ///
-  /// Tolerances of distances are fractions of the whole shape. `slack`: factor of all tolerances.
+  /// Tolerances of distances are fractions of the whole shape. `slack`: factor of the tolerances of
+  /// places and surfaces, not of sizes.
   std::optional<double> match(int a, int b, const Symmetry& symmetry, double slack = 1) const;
 
   /// Part on which an image lies.
@@ -57,7 +59,7 @@ class PartSurfaces {
 
  private:
   struct Centroids;
-  bool same_size(int a, int b, double tolerance) const;
+  bool same_size(int a, int b) const;
   bool is_near(const Eigen::Vector3d& centroid, int b, double tolerance) const;
   std::vector<double> distances(const SymmetrySurface& from, const SymmetrySurface& to,
                                 const Eigen::Isometry3d& map) const;

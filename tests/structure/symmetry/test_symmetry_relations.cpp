@@ -148,21 +148,22 @@ TEST_CASE("a thin leg has no counterpart in one that is thicker or elsewhere") {
 TEST_CASE("a leg that is a little off its place has a counterpart, whole or cut from another part") {
   // Images of legs miss the others by more than the tolerance, but not by twice as much.
   const Shape top = solids::named(solids::box({-5, -3, 5}, {5, 3, 5.3}), "top");
-  const auto leg = [](double at, const std::string& name, bool cut) {
-    const Shape box = solids::box({at - 0.1, -0.1, 0}, {at + 0.1, 0.1, 5});
+  const auto leg = [](double at, double width, const std::string& name, bool cut) {
+    const Shape box = solids::box({at - width / 2, -width / 2, 0}, {at + width / 2, width / 2, 5});
     std::vector<Eigen::Index> kept;
     for (Eigen::Index t = 0; t < box.triangle_count(); ++t)
       if (!cut || box.corner(t, 0).z() + box.corner(t, 1).z() + box.corner(t, 2).z() < 15) kept.push_back(t);
     return solids::named(make_shape(box.vertices, box.triangles(kept, Eigen::all)), name);
   };
-  const auto table = [&](double at, bool cut) {
-    const Shape shape = solids::joined({top, leg(-4, "left", cut), leg(at, "right", cut)});
+  const auto table = [&](double at, double width, bool cut) {
+    const Shape shape = solids::joined({top, leg(-4, 0.2, "left", cut), leg(at, width, "right", cut)});
     return pairs_of(shape, relations_of(shape));
   };
   const double off = 0.5;
   for (const bool cut : {false, true}) {
-    CHECK(table(4 + off, cut) == Pairs{{"left", "right"}});
-    CHECK(table(4 + 2 * off, cut).empty());
+    CHECK(table(4 + off, 0.2, cut) == Pairs{{"left", "right"}});
+    CHECK(table(4 + 2 * off, 0.2, cut).empty());
+    CHECK(table(4 + off, 0.25, cut).empty());  // not its size
   }
 }
 
