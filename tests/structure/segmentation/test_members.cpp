@@ -6,6 +6,7 @@
 #include "stackabilization/structure/segmentation.h"
 #include "support/catch.h"
 #include "support/solids.h"
+#include "support/variants.h"
 
 using namespace stackabilization;
 
