@@ -169,12 +169,15 @@ void GraphBuilder::link_across_points() {
     }
 }
 
+/// Shells hang on so many of the largest ones. In a soup of triangles every shell is one.
+constexpr std::size_t max_hosts = 64;
+
 /// A connected piece of surface.
 struct Shell {
   std::vector<std::int32_t> rows;  ///< triangles
   double area = 0;
   Eigen::AlignedBox3d box;
-  std::optional<SurfaceIndex> index;  ///< none without area
+  std::optional<SurfaceIndex> index;  ///< none without area, and of small ones
 };
 
 /// Where a triangle comes nearest to another shell.
@@ -195,10 +198,10 @@ std::vector<Shell> shells_by_area(const SurfaceGraph& graph, const Shape& shape)
     for (int k = 0; k < 3; ++k) of.box.extend(shape.corner(row, k));
   }
   if (shells.size() == 1) return shells;
-  for (Shell& one : shells)
-    if (one.area > 0) one.index.emplace(extracted(shape, one.rows));
   std::stable_sort(shells.begin(), shells.end(),
                    [](const Shell& a, const Shell& b) { return a.area > b.area; });
+  for (std::size_t s = 0; s < std::min(shells.size(), max_hosts); ++s)
+    if (shells[s].area > 0) shells[s].index.emplace(extracted(shape, shells[s].rows));
   return shells;
 }
 
@@ -249,10 +252,10 @@ void link_shells(SurfaceGraph& graph, const Shape& shape, double reach) {
     graph.links.push_back({contact.from, contact.onto, std::sqrt(graph.areas(contact.from)), 0});
   };
   for (std::size_t s = 1; s < shells.size(); ++s) {
+    const std::span<const Shell> hosts = std::span(shells).first(std::min(s, max_hosts));
     ShellContact nearest;
     for (const std::int32_t t : shells[s].rows) {
-      const ShellContact contact =
-          nearest_contact(t, graph.centres.row(t).transpose(), std::span(shells).first(s));
+      const ShellContact contact = nearest_contact(t, graph.centres.row(t).transpose(), hosts);
       if (contact.distance < nearest.distance) nearest = contact;
       if (contact.distance <= reach) add(contact);
     }

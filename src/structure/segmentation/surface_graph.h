@@ -44,8 +44,9 @@ struct SurfaceGraph {
 /// drawn on both sides, belongs to its first copy and has the same normal.
 SurfaceGraph surface_graph(const Shape& shape);
 
-/// Links the shells of a graph in space. Each shell is linked to the larger shells: at all places within
-/// `reach` (model units) of one of them, or at its nearest triangle when there is no such place.
+/// Links the shells of a graph in space. Each shell is linked to the larger shells, of which 64 count: at all
+/// places within `reach` (model units) of one of them, or at its nearest triangle when there is no such
+/// place.
 void link_shells(SurfaceGraph& graph, const Shape& shape, double reach);
 
 /// Returns the triangles `rows` of `shape`, in their order, as a shape of one part.
