@@ -27,9 +27,7 @@ class PartSurfaces {
 
   /// Returns the candidates for `match` of part `a`, ascending: the parts whose centroids and widths are near
   /// those of its image. More than `max_matches` candidates are copies of each other in one place; the first
-  /// ones are returned.
-  /// `slack`: factor of the tolerances of
-  /// places and surfaces, not of sizes.
+  /// ones are returned. `slack`: factor of the tolerance of places, not of sizes.
   std::vector<int> near_image(int a, const Symmetry& symmetry, double slack = 1) const;
   static constexpr std::size_t max_matches = 16;
 
@@ -43,7 +41,7 @@ class PartSurfaces {
   /// * their surfaces agree in both directions, see `agreement`.
   ///
   /// Tolerances of distances are fractions of the whole shape. `slack`: factor of the tolerances of
-  /// places and surfaces, not of sizes.
+  /// places and of surfaces, not of sizes.
   std::optional<double> match(int a, int b, const Symmetry& symmetry, double slack = 1) const;
 
   /// Part on which an image lies.
