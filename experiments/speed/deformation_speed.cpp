@@ -4,17 +4,19 @@
 //     deformation_speed MODEL... [--triangles N] [--edits N] [--seed N] [-o FOLDER]
 //
 // One row per model, on one core: milliseconds of the analysis (segmentation, primitives with skeletons,
-// symmetries, joints) of the model as given; then, on its mesh subdivided to at least N triangles (default
-// 10,000), milliseconds to prepare the controllers, and median and largest milliseconds of an accepted edit -
-// moves, turns and scalings of a few per cent of random handles, each from rest - in two shares: propagation
-// and solve, and the transfer to the mesh. edit_ms and transfer_ms are medians of each, total_ms and
-// slowest_ms median and largest of their sum. drag_ms and slowest_drag_ms are the same of the same edits as
-// steps of a drag in an editing session, refused ones included: the largest part of the edit that all limits
-// allow, S of the design, and its measures of quality.
+// symmetries, joints) of the model as given; then, on its mesh with the longest edges cut until it has N
+// triangles (default 10,000), milliseconds to prepare the controllers, and median and largest milliseconds of
+// an accepted edit - moves, turns and scalings of a few per cent of random handles, each from rest - in two
+// shares: propagation and solve, and the transfer to the mesh. edit_ms and transfer_ms are medians of each,
+// total_ms and slowest_ms median and largest of their sum. drag_ms and slowest_drag_ms are the same of the
+// same edits as steps of a drag in an editing session, refused ones included: the largest part of the edit
+// that all limits allow, S of the design, and its measures of quality.
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
+#include <vector>
 
 #include "common/clock.h"
 #include "common/experiment.h"
@@ -35,30 +37,58 @@ struct Options {
   unsigned seed = 1;
 };
 
-/// Every triangle cut in four at its edge midpoints, which neighbours share.
-Shape refine(const Shape& shape) {
-  std::map<std::pair<int, int>, int> midpoints;
-  std::vector<Eigen::RowVector3d> added;
-  Shape fine = shape;
-  fine.triangles.resize(4 * shape.triangle_count(), 3);
-  fine.triangle_part.clear();
-  const auto midpoint = [&](int a, int b) {
-    const auto [entry, is_new] = midpoints.try_emplace(
-        std::minmax(a, b), static_cast<int>(shape.vertex_count() + static_cast<Eigen::Index>(added.size())));
-    if (is_new) added.emplace_back((shape.vertices.row(a) + shape.vertices.row(b)) / 2);
-    return entry->second;
-  };
-  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t) {
-    const int a = shape.triangles(t, 0), b = shape.triangles(t, 1), c = shape.triangles(t, 2);
-    const int ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
-    fine.triangles.middleRows<4>(4 * t) << a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca;
-    for (int k = 0; k < 4; ++k)
-      fine.triangle_part.push_back(shape.triangle_part[static_cast<std::size_t>(t)]);
+using EdgeTriangles = std::map<std::pair<int, int>, std::vector<Eigen::Index>>;
+
+EdgeTriangles edges_of(const Shape& shape) {
+  EdgeTriangles edges;
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    for (int k = 0; k < 3; ++k)
+      edges[std::minmax(shape.triangles(t, k), shape.triangles(t, (k + 1) % 3))].push_back(t);
+  return edges;
+}
+
+/// Cuts a triangle in two at the middle of one of its edges. Appends one half.
+void cut(Shape& shape, Eigen::Index triangle, const std::pair<int, int>& edge, int middle) {
+  Eigen::RowVector3i one = shape.triangles.row(triangle), other = one;
+  for (int k = 0; k < 3; ++k) {
+    if (one[k] == edge.first) one[k] = middle;
+    if (other[k] == edge.second) other[k] = middle;
   }
-  fine.vertices.conservativeResize(shape.vertex_count() + static_cast<Eigen::Index>(added.size()), 3);
-  for (std::size_t i = 0; i < added.size(); ++i)
-    fine.vertices.row(shape.vertex_count() + static_cast<Eigen::Index>(i)) = added[i];
-  return fine;
+  shape.triangles.row(triangle) = one;
+  shape.triangles.conservativeResize(shape.triangles.rows() + 1, 3);
+  shape.triangles.bottomRows<1>() = other;
+  shape.triangle_part.push_back(shape.triangle_part[static_cast<std::size_t>(triangle)]);
+}
+
+/// Cuts edges at their middles, the longest ones first, until a shape has so many triangles. In each round a
+/// triangle is cut once at most.
+Shape refine(Shape shape, Eigen::Index triangles) {
+  while (shape.triangle_count() < triangles) {
+    const EdgeTriangles edges = edges_of(shape);
+    std::vector<std::pair<double, EdgeTriangles::const_iterator>> longest;
+    for (auto edge = edges.begin(); edge != edges.end(); ++edge)
+      longest.emplace_back(
+          -(shape.vertices.row(edge->first.first) - shape.vertices.row(edge->first.second)).norm(), edge);
+    std::stable_sort(longest.begin(), longest.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<bool> was_cut(static_cast<std::size_t>(shape.triangle_count()));
+    for (const auto& [length, edge] : longest) {
+      if (shape.triangle_count() >= triangles) break;
+      const auto& [ends, around] = *edge;
+      if (std::any_of(around.begin(), around.end(),
+                      [&](Eigen::Index t) { return was_cut[static_cast<std::size_t>(t)]; }))
+        continue;
+      const Eigen::RowVector3d middle =
+          (shape.vertices.row(ends.first) + shape.vertices.row(ends.second)) / 2;
+      shape.vertices.conservativeResize(shape.vertex_count() + 1, 3);
+      shape.vertices.bottomRows<1>() = middle;
+      for (const Eigen::Index t : around) {
+        was_cut[static_cast<std::size_t>(t)] = true;
+        cut(shape, t, ends, static_cast<int>(shape.vertex_count()) - 1);
+      }
+    }
+  }
+  return shape;
 }
 
 Eigen::Vector3d random_axis(Random& random) {
@@ -126,7 +156,7 @@ void add_row(const ModelFile& file, const Shape& shape, const std::string& hash,
   double start = now();
   StructuredShape structured = analyse_structure(shape);
   const double analysis_ms = 1e3 * (now() - start);
-  while (structured.shape.triangle_count() < options.triangles) structured.shape = refine(structured.shape);
+  structured.shape = refine(std::move(structured.shape), options.triangles);
   const std::int64_t triangles = structured.shape.triangle_count();
   const auto parts = static_cast<std::int64_t>(structured.structure.parts.size());
   const auto relations = static_cast<std::int64_t>(structured.structure.relations.size());
@@ -163,7 +193,7 @@ int main(int argc, char** argv) {
       Inputs::models, Threads::one);
   Options options;
   experiment.app()
-      .add_option("--triangles", options.triangles, "subdivide until a mesh has this many")
+      .add_option("--triangles", options.triangles, "cut edges until a mesh has this many")
       ->check(CLI::Range(1, 1 << 24));
   experiment.app()
       .add_option("--edits", options.edits, "random edits per model")

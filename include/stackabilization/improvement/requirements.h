@@ -121,6 +121,11 @@ class RequirementChecker {
   /// * quality: one check per measure that has a limit, and is in the scope.
   Assessment check(const Design& design, const Direction& direction,
                    QualityScope scope = QualityScope::all) const;
+  /// Returns the first check that `check` finds failed, but for those of the target. Nothing: the design is
+  /// acceptable, and may only stack too little. Copies are separated only where a requirement of their
+  /// contacts needs it, and S is not measured: cheap beside `check`.
+  std::optional<Check> obstacle(const Design& design, const Direction& direction,
+                                QualityScope scope = QualityScope::all) const;
 
  private:
   struct Data;

@@ -124,11 +124,12 @@ void EditingSession::Implementation::run(const TakeEdit& command) {
   const std::vector<Edit> edits = history().nodes[static_cast<std::size_t>(command.node)].edits;
   expect_row(command.edit, edits.size(), "edit");
   const Edit& edit = edits[static_cast<std::size_t>(command.edit)];
-  const TriedEdit tried = try_edit(from_current(), edit);
+  const EditedFrom from = from_current();
+  const TriedEdit tried = try_edit(from, edit);
   if (!tried.made)
     throw UsageError("this edit cannot be made here: " +
                      describe(*tried.obstacle, workspace_->space().rest().structure));
-  keep_edit(edit, *tried.made);
+  keep_edit(edit, measured(from, tried.made));
 }
 
 }  // namespace stackabilization::editing

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "improvement/requirements/failed_check.h"
-
 namespace stackabilization::editing {
 
 Edit scaled(Edit edit, double amount) {
@@ -25,6 +23,10 @@ namespace {
 constexpr int bisections = 6;        ///< of the part of an edit that can be made: 1/64 of what is left
 constexpr int samples_per_side = 8;  ///< of a range
 
+double stackability_of(const EditedFrom& from, const Design& design) {
+  return from.workspace->checker().measure(design.shape, from.direction).value;
+}
+
 /// Samples one side of a range, from the design outwards. Returns the end of the range, and what is there.
 std::pair<double, std::optional<Obstacle>> sample_side(const EditedFrom& from, HandleRange& range,
                                                        double sign, const std::function<bool()>& cancelled) {
@@ -34,7 +36,7 @@ std::pair<double, std::optional<Obstacle>> sample_side(const EditedFrom& from, H
     const Edit whole = scaled(range.edit, sign);
     const TriedEdit tried = try_edit(from, scaled(whole, amount));
     if (tried.made) {
-      range.samples.push_back({sign * amount, tried.made->assessment.measured.value});
+      range.samples.push_back({sign * amount, stackability_of(from, *tried.made)});
       reached = amount;
       continue;
     }
@@ -48,6 +50,10 @@ std::pair<double, std::optional<Obstacle>> sample_side(const EditedFrom& from, H
 
 }  // namespace
 
+MeasuredDesign measured(const EditedFrom& from, std::shared_ptr<const Design> design) {
+  return from.workspace->measured(std::move(design), from.direction, from.at_rest, from.scope);
+}
+
 TriedEdit try_edit(const EditedFrom& from, const Edit& edit) {
   TriedEdit tried;
   DeformationResult outcome =
@@ -56,41 +62,38 @@ TriedEdit try_edit(const EditedFrom& from, const Edit& edit) {
     tried.obstacle = *outcome.refusal;
     return tried;
   }
-  MeasuredDesign made = from.workspace->measured(std::make_shared<const Design>(std::move(outcome.design)),
-                                                 from.direction, from.at_rest, from.scope);
-  tried.obstacle = detail::failed_but_target(made.assessment);
-  if (!tried.obstacle) tried.made = std::move(made);
+  tried.obstacle = from.workspace->checker().obstacle(outcome.design, from.direction, from.scope);
+  if (!tried.obstacle) tried.made = std::make_shared<const Design>(std::move(outcome.design));
   return tried;
 }
 
 LargestEdit largest_part(const EditedFrom& from, const Edit& edit, double known) {
   LargestEdit result;
   TriedEdit whole = try_edit(from, edit);
-  if (whole.made) return {std::move(*whole.made), 1, std::nullopt};
+  if (whole.made) return {measured(from, std::move(whole.made)), 1, std::nullopt};
   result.obstacle = whole.obstacle;
+  std::shared_ptr<const Design> made = from.design;
   double low = 0, high = 1;
   for (int k = 0; k <= bisections; ++k) {
     const double amount = k == 0 && known > 0 && known < 1 ? known : (low + high) / 2;
     TriedEdit tried = try_edit(from, scaled(edit, amount));
     if (tried.made) {
       low = amount;
-      result.made = std::move(*tried.made);
+      made = std::move(tried.made);
     } else {
       high = amount;
       result.obstacle = tried.obstacle;
     }
   }
   result.amount = low;
-  if (!result.made.design)
-    result.made = from.workspace->measured(from.design, from.direction, from.at_rest, from.scope);
+  result.made = measured(from, std::move(made));
   return result;
 }
 
 HandleRange handle_range(const EditedFrom& from, const Edit& edit, const std::function<bool()>& cancelled) {
   HandleRange range;
   range.edit = edit;
-  const MeasuredDesign now = from.workspace->measured(from.design, from.direction, from.at_rest, from.scope);
-  range.samples.push_back({0, now.assessment.measured.value});
+  range.samples.push_back({0, stackability_of(from, *from.design)});
   std::tie(range.low, range.below) = sample_side(from, range, -1, cancelled);
   std::tie(range.high, range.above) = sample_side(from, range, 1, cancelled);
   std::sort(range.samples.begin(), range.samples.end(),

@@ -19,10 +19,14 @@ struct EditedFrom {
 
 /// A design with an edit, or what stands against it.
 struct TriedEdit {
-  std::optional<MeasuredDesign> made;  ///< set if the edit can be made within all limits of `scope`
+  std::shared_ptr<const Design> made;  ///< not null if the edit can be made within all limits of `scope`
   std::optional<Obstacle> obstacle;    ///< otherwise
 };
 
+/// Measures a design with the scope of `from`.
+MeasuredDesign measured(const EditedFrom& from, std::shared_ptr<const Design> design);
+
+/// Tries an edit. S is not measured.
 TriedEdit try_edit(const EditedFrom& from, const Edit& edit);
 
 /// The largest part of an edit that can be made.

@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <atomic>
 
-#include "improvement/requirements/failed_check.h"
-
 namespace stackabilization::detail {
 
 namespace {
@@ -72,7 +70,7 @@ std::optional<EditTrial> EditTrials::tried(const std::vector<ContactRegion>& reg
       break;
     }
     const DeformationResult outcome = space_.edited(design_.design, edits[k].edit, constraints);
-    if (const auto check = failed_but_target(checker.check(outcome.design, direction))) {
+    if (const auto check = checker.obstacle(outcome.design, direction)) {
       refusals[k] = without_amounts(*check);
       continue;
     }

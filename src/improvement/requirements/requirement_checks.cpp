@@ -69,17 +69,25 @@ RequirementChecks::RequirementChecks(const DeformationModel& space, const Requir
   if (requirements.quality) meter_.emplace(space.rest());
 }
 
-std::vector<Check> RequirementChecks::of(const CheckedDesign& checked, QualityScope scope) const {
-  std::vector<Check> checks = {reached(checked.assessment.measured)};
-  if (requirements_.keep_height) checks.push_back(height(checked));
-  checks.push_back(relations(checked));
-  if (requirements_.min_size_ratio > 0) checks.push_back(proportions(checked));
-  if (requirements_.box_tolerance) checks.push_back(box(checked));
-  if (!staying_.empty()) checks.push_back(parts(checked));
-  if (requirements_.min_thickness) checks.push_back(thickness(checked));
-  if (requirements_.min_draft_degrees) checks.push_back(draft(checked));
-  if (requirements_.standing_copies) checks.push_back(standing(checked));
-  for (const Check& check : quality(checked.design, scope)) checks.push_back(check);
+std::vector<Check> RequirementChecks::of_one_copy(const Design& design, const Direction& direction) const {
+  std::vector<Check> checks;
+  if (requirements_.keep_height) checks.push_back(height(design.shape, direction));
+  checks.push_back(relations(design));
+  if (requirements_.min_size_ratio > 0) checks.push_back(proportions(design));
+  if (requirements_.box_tolerance) checks.push_back(box(design.shape));
+  if (!staying_.empty()) checks.push_back(parts(design));
+  if (requirements_.min_thickness) checks.push_back(thickness(design.shape));
+  return checks;
+}
+
+bool RequirementChecks::need_contacts() const {
+  return requirements_.min_draft_degrees || requirements_.standing_copies;
+}
+
+std::vector<Check> RequirementChecks::of_contacts(const StackedDesign& stacked) const {
+  std::vector<Check> checks;
+  if (requirements_.min_draft_degrees) checks.push_back(draft(stacked));
+  if (requirements_.standing_copies) checks.push_back(standing(stacked));
   return checks;
 }
 
@@ -107,15 +115,15 @@ Check RequirementChecks::reached(const Stackability& measured) const {
   return {CheckKind::room, length, room, length <= room};
 }
 
-Check RequirementChecks::height(const CheckedDesign& checked) const {
-  const Eigen::Vector3d axis = checked.direction.unit();
+Check RequirementChecks::height(const Shape& shape, const Direction& direction) const {
+  const Eigen::Vector3d axis = direction.unit();
   const double rest = range_along(space_.rest().shape, axis).length();
-  const double change = std::abs(range_along(checked.design.shape, axis).length() - rest) / rest;
+  const double change = std::abs(range_along(shape, axis).length() - rest) / rest;
   return {CheckKind::height, change, tolerance::relative, change <= tolerance::relative};
 }
 
-Check RequirementChecks::relations(const CheckedDesign& checked) const {
-  const std::vector<double> residuals = space_.relation_residuals(checked.design);
+Check RequirementChecks::relations(const Design& design) const {
+  const std::vector<double> residuals = space_.relation_residuals(design);
   // The triangles of a mesh are hardly ever as symmetric as its shape.
   Check check{CheckKind::relations, 0,
               space_.capabilities().edits_primitives ? tolerance::relation : tolerance::visible};
@@ -128,20 +136,20 @@ Check RequirementChecks::relations(const CheckedDesign& checked) const {
   return check;
 }
 
-Check RequirementChecks::proportions(const CheckedDesign& checked) const {
-  const SizeRatio least = min_size_ratio(space_.rest(), checked.design);
+Check RequirementChecks::proportions(const Design& design) const {
+  const SizeRatio least = min_size_ratio(space_.rest(), design);
   Check check{CheckKind::proportions, least.ratio, requirements_.min_size_ratio};
   check.passed = least.ratio >= check.demanded - tolerance::relative;
   check.where = least.part;
   return check;
 }
 
-Check RequirementChecks::box(const CheckedDesign& checked) const {
+Check RequirementChecks::box(const Shape& shape) const {
   Check check{CheckKind::box, 0, *requirements_.box_tolerance};
   for (int axis = 0; axis < 3; ++axis) {
     const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis);
     const double rest = range_along(space_.rest().shape, along).length();
-    const double change = std::abs(range_along(checked.design.shape, along).length() - rest) / rest;
+    const double change = std::abs(range_along(shape, along).length() - rest) / rest;
     if (change <= check.value) continue;
     check.value = change;
     check.where = axis;
@@ -161,10 +169,10 @@ double RequirementChecks::displacement(const StayingPart& staying, const Design&
   return farthest / rest.structure.diagonal;
 }
 
-Check RequirementChecks::parts(const CheckedDesign& checked) const {
+Check RequirementChecks::parts(const Design& design) const {
   Check check{CheckKind::parts, 0, tolerance::relative};
   for (const StayingPart& staying : staying_) {
-    const double moved = displacement(staying, checked.design);
+    const double moved = displacement(staying, design);
     if (moved <= check.value) continue;
     check.value = moved;
     check.where = staying.part;
@@ -173,19 +181,19 @@ Check RequirementChecks::parts(const CheckedDesign& checked) const {
   return check;
 }
 
-Check RequirementChecks::thickness(const CheckedDesign& checked) const {
+Check RequirementChecks::thickness(const Shape& shape) const {
   const double least = *requirements_.min_thickness;
   Check check{CheckKind::thickness, 0, least, true};
   // `worst`: least excess over the required thickness, which decides. `thinnest`: least thickness, which is
   // reported.
   double worst = std::numeric_limits<double>::infinity(), thinnest = worst;
   for (const ThicknessProbe& probe : probes_) {
-    const double measured = stackabilization::thickness(probe, checked.design.shape);
+    const double measured = stackabilization::thickness(probe, shape);
     const double excess = measured - std::min(least, probe.at_rest);
     thinnest = std::min(thinnest, measured);
     if (excess >= worst) continue;
     worst = excess;
-    check.where = checked.design.shape.triangle_part[static_cast<std::size_t>(probe.near_triangle)];
+    check.where = shape.triangle_part[static_cast<std::size_t>(probe.near_triangle)];
   }
   if (probes_.empty()) return check;
   check.value = thinnest;
@@ -193,31 +201,29 @@ Check RequirementChecks::thickness(const CheckedDesign& checked) const {
   return check;
 }
 
-Check RequirementChecks::draft(const CheckedDesign& checked) const {
+Check RequirementChecks::draft(const StackedDesign& stacked) const {
   const double least = *requirements_.min_draft_degrees;
-  const Shape& shape = checked.design.shape;
+  const Shape& shape = stacked.design.shape;
   Check check{CheckKind::draft, 90, least, true};
-  if (!checked.assessment.separation.blocked) return check;
+  if (!stacked.separation.blocked) return check;
   ContactOptions options;
   options.semantics = requirements_.measure.semantics;
   check.value = contact_draft_degrees(
-      shape,
-      contact_regions({shape, checked.tree, checked.direction, checked.assessment.separation}, options)
-          .regions,
-      checked.direction);
+      shape, contact_regions({shape, stacked.tree, stacked.direction, stacked.separation}, options).regions,
+      stacked.direction);
   check.passed = check.value >= least * (1 - tolerance::relative);
   return check;
 }
 
-Check RequirementChecks::standing(const CheckedDesign& checked) const {
+Check RequirementChecks::standing(const StackedDesign& stacked) const {
   Check check{CheckKind::standing, 0, requirements_.min_tipping_degrees};
-  if (!checked.assessment.separation.blocked) return check;
+  if (!stacked.separation.blocked) return check;
   StaticStabilityOptions options;
   options.copies = *requirements_.standing_copies;
   options.semantics = requirements_.measure.semantics;
-  options.up = upright(checked.direction);
+  options.up = upright(stacked.direction);
   const StaticStability stack =
-      stackabilization::static_stability(checked.design.shape, checked.direction, options);
+      stackabilization::static_stability(stacked.design.shape, stacked.direction, options);
   check.value = stack.tipping_degrees;
   check.passed = stack.stands && stack.tipping_degrees >= check.demanded * (1 - tolerance::relative);
   check.where = stack.weakest_copy;

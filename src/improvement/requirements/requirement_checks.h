@@ -8,12 +8,12 @@
 
 namespace stackabilization::detail {
 
-/// A design stacked along r, with the measures already made.
-struct CheckedDesign {
+/// A design stacked along r.
+struct StackedDesign {
   const Design& design;
   const SeparationTree& tree;
   const Direction& direction;
-  const Assessment& assessment;  ///< its checks are still empty
+  const Separation& separation;  ///< exact, of two copies without clearance and play
 };
 
 /// Checks of a RequirementChecker, with everything that depends on the shape at rest alone.
@@ -23,8 +23,15 @@ class RequirementChecks {
   /// outlive this object.
   RequirementChecks(const DeformationModel& space, const Requirements& requirements, std::vector<int> stay);
 
-  /// Makes all required checks, in the order of CheckKind.
-  std::vector<Check> of(const CheckedDesign& checked, QualityScope scope) const;
+  /// Checks the target or the room.
+  Check reached(const Stackability& measured) const;
+  /// Makes the required checks that need one copy alone, in the order of CheckKind; quality is not among
+  /// them.
+  std::vector<Check> of_one_copy(const Design& design, const Direction& direction) const;
+  /// Returns whether a check of contacts is required.
+  bool need_contacts() const;
+  /// Makes the required checks of contacts, in the order of CheckKind.
+  std::vector<Check> of_contacts(const StackedDesign& stacked) const;
   /// Checks the quality alone; nothing if it is not looked at.
   std::vector<Check> quality(const Design& design, QualityScope scope) const;
 
@@ -37,15 +44,14 @@ class RequirementChecks {
     bool by_primitive = false;
   };
 
-  Check reached(const Stackability& measured) const;
-  Check height(const CheckedDesign& checked) const;
-  Check relations(const CheckedDesign& checked) const;
-  Check proportions(const CheckedDesign& checked) const;
-  Check box(const CheckedDesign& checked) const;
-  Check parts(const CheckedDesign& checked) const;
-  Check thickness(const CheckedDesign& checked) const;
-  Check draft(const CheckedDesign& checked) const;
-  Check standing(const CheckedDesign& checked) const;
+  Check height(const Shape& shape, const Direction& direction) const;
+  Check relations(const Design& design) const;
+  Check proportions(const Design& design) const;
+  Check box(const Shape& shape) const;
+  Check parts(const Design& design) const;
+  Check thickness(const Shape& shape) const;
+  Check draft(const StackedDesign& stacked) const;
+  Check standing(const StackedDesign& stacked) const;
   double displacement(const StayingPart& staying, const Design& design) const;
 
   const DeformationModel& space_;

@@ -67,6 +67,12 @@ Requirements validated(Requirements requirements, const StructuredShape& rest) {
   return requirements;
 }
 
+std::optional<Check> first_failed(const std::vector<Check>& checks) {
+  const auto failed =
+      std::find_if(checks.begin(), checks.end(), [](const Check& check) { return !check.passed; });
+  return failed == checks.end() ? std::nullopt : std::optional(*failed);
+}
+
 }  // namespace
 
 void validate(const Requirements& requirements, const StructuredShape& rest) {
@@ -180,9 +186,7 @@ std::optional<Obstacle> RequirementChecker::form_obstacle(const Design& design) 
     if (size_ratio.ratio < data_->requirements.min_size_ratio)
       return Refusal{.cause = RefusalCause::proportions, .part = size_ratio.part};
   }
-  for (const Check& check : data_->checks.quality(design, QualityScope::parts))
-    if (!check.passed) return check;
-  return std::nullopt;
+  return first_failed(data_->checks.quality(design, QualityScope::parts));
 }
 
 Assessment RequirementChecker::check(const Design& design, const Direction& direction,
@@ -194,8 +198,29 @@ Assessment RequirementChecker::check(const Design& design, const Direction& dire
   Assessment assessment;
   assessment.measured = exact.stackability;
   assessment.separation = exact.separation;
-  assessment.checks = data_->checks.of({design, tree, direction, assessment}, scope);
+  assessment.checks = {data_->checks.reached(assessment.measured)};
+  const auto add = [&](const std::vector<Check>& checks) {
+    assessment.checks.insert(assessment.checks.end(), checks.begin(), checks.end());
+  };
+  add(data_->checks.of_one_copy(design, direction));
+  add(data_->checks.of_contacts({design, tree, direction, assessment.separation}));
+  add(data_->checks.quality(design, scope));
   return assessment;
+}
+
+std::optional<Check> RequirementChecker::obstacle(const Design& design, const Direction& direction,
+                                                  QualityScope scope) const {
+  detail::require_match(design, data_->primitives, data_->space.rest().shape.vertex_count());
+  validate(design.shape);
+  if (const auto failed = first_failed(data_->checks.of_one_copy(design, direction))) return failed;
+  if (data_->checks.need_contacts()) {
+    const SeparationTree tree(design.shape);
+    const Separation separated =
+        separation(tree, tree, direction, {data_->requirements.measure.semantics, std::nullopt});
+    if (const auto failed = first_failed(data_->checks.of_contacts({design, tree, direction, separated})))
+      return failed;
+  }
+  return first_failed(data_->checks.quality(design, scope));
 }
 
 }  // namespace stackabilization

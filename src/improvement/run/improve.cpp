@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "improvement/requirements/failed_check.h"
 #include "improvement/run/refinement_phase.h"
 #include "improvement/run/work_budget.h"
 #include "improvement/search/gap_descent.h"
@@ -220,7 +219,7 @@ class ImprovementRun {
   void keep_acceptable(std::vector<Candidate>& nearest) const {
     if (!refines_ || !checker_.requirements().quality) return;
     const auto first = std::find_if(nearest.begin(), nearest.end(), [this](const Candidate& candidate) {
-      return !detail::failed_but_target(checker_.check(candidate.design, Direction(candidate.direction)));
+      return !checker_.obstacle(candidate.design, Direction(candidate.direction));
     });
     nearest.erase(nearest.begin(), first);
     const Candidate rest =

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "improvement/requirements/failed_check.h"
-
 namespace stackabilization::detail {
 
 namespace {
@@ -142,8 +140,7 @@ void RefinementPhase::keep(Candidate candidate) {
 
 void RefinementPhase::note_nearest(Candidate candidate) {
   if (nearest_ && !more_stackable(candidate, *nearest_)) return;
-  if (checker_.requirements().quality &&
-      failed_but_target(checker_.check(candidate.design, Direction(candidate.direction))))
+  if (checker_.requirements().quality && checker_.obstacle(candidate.design, Direction(candidate.direction)))
     return;
   nearest_ = std::move(candidate);
 }

@@ -5,8 +5,6 @@
 #include <iterator>
 #include <optional>
 
-#include "improvement/requirements/failed_check.h"
-
 namespace stackabilization::detail {
 
 namespace {
@@ -224,8 +222,7 @@ std::vector<Candidate> BestFirstSearch::nearest() {
     if (!is_new && !looking) continue;
     shown.push_back(std::move(signatures));
     Candidate near = candidate(id);
-    const bool passes =
-        looking && !failed_but_target(checker().check(near.design, Direction(near.direction)));
+    const bool passes = looking && !checker().obstacle(near.design, Direction(near.direction));
     checked += looking ? 1 : 0;
     acceptable |= passes;
     if (passes || (is_new && std::ssize(nearest) < max_nearest)) nearest.push_back(std::move(near));

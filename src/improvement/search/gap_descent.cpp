@@ -10,7 +10,6 @@
 
 #include "improvement/contacts/design_contacts.h"
 #include "improvement/contacts/gap_excess.h"
-#include "improvement/requirements/failed_check.h"
 #include "stackabilization/improvement/energy.h"
 
 namespace stackabilization {
@@ -137,7 +136,7 @@ class Pursuit {
       std::array<bool, checked_at_once> kept{};
       tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
         const Design& design = made[worthwhile[first + k].second]->candidate.design;
-        kept[k] = !stopped_here() && !detail::failed_but_target(checker_.check(design, direction_));
+        kept[k] = !stopped_here() && !checker_.obstacle(design, direction_);
       });
       evaluations_ += check_cost * static_cast<std::int64_t>(count);
       for (std::size_t k = 0; k < count; ++k)

@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,19 @@ StructuredShape bar_of_two() {
   return bar;
 }
 
+std::optional<Check> first_failed_but_target(const std::vector<Check>& checks) {
+  for (const Check& check : checks)
+    if (!check.passed && !check.is_of_target()) return check;
+  return std::nullopt;
+}
+
+/// Returns the check of one kind, after a look whether the first obstacle is the first check that failed.
 Check check_of(const DeformationModel& space, const Requirements& requirements, const Design& design,
                CheckKind kind) {
-  for (const Check& check : RequirementChecker(space, requirements).check(design, upwards).checks)
+  const RequirementChecker checker(space, requirements);
+  const std::vector<Check> checks = checker.check(design, upwards).checks;
+  CHECK(checker.obstacle(design, upwards) == first_failed_but_target(checks));
+  for (const Check& check : checks)
     if (check.kind == kind) return check;
   FAIL("there is no check of the " + name_of(Check{kind}));
   return {};
@@ -290,6 +301,36 @@ TEST_CASE("A stack stands up to the tilt at which it topples", "[requirements]")
   CHECK_FALSE(check_of(space, requirements, space.at_rest(), CheckKind::standing).passed);
   requirements.standing_copies = 1;
   CHECK(check_of(space, requirements, space.at_rest(), CheckKind::standing).passed);
+}
+
+TEST_CASE("The obstacle is the first check that failed, but for the target", "[requirements]") {
+  const Still space(structures::box_alone({2, 2, 4}));
+  Requirements requirements = frame_requirements(0.99);
+  const auto obstacle = [&](const Design& design, QualityScope scope = QualityScope::all) {
+    return RequirementChecker(space, requirements).obstacle(design, upwards, scope);
+  };
+  CHECK_FALSE(RequirementChecker(space, requirements).check(space.at_rest(), upwards).passed());
+  CHECK_FALSE(obstacle(space.at_rest()));
+  requirements.standing_copies = 2;
+  requirements.min_tipping_degrees = 89;
+  REQUIRE(obstacle(space.at_rest()));
+  CHECK(obstacle(space.at_rest())->kind == CheckKind::standing);
+  requirements.quality.emplace();
+  const Design wider = scaled(space.at_rest(), {4, 1, 1});  // beyond what quality allows, too
+  CHECK(obstacle(wider)->kind == CheckKind::standing);
+  CHECK(obstacle(scaled(space.at_rest(), {1, 1, 1.1}))->kind == CheckKind::height);
+  requirements.standing_copies.reset();
+  requirements.min_tipping_degrees = 0;
+  requirements.min_size_ratio = 0;
+  for (const QualityScope scope : {QualityScope::all, QualityScope::parts}) {
+    const std::optional<Check> first = obstacle(wider, scope);
+    REQUIRE(first);
+    CHECK(first->kind == CheckKind::quality);
+    CHECK(first == first_failed_but_target(
+                       RequirementChecker(space, requirements).check(wider, upwards, scope).checks));
+  }
+  CHECK_THROWS_AS(RequirementChecker(space, requirements).obstacle(Still(two_cubes()).at_rest(), upwards),
+                  UsageError);
 }
 
 TEST_CASE("Checks come in order, and only those that were asked for", "[requirements]") {

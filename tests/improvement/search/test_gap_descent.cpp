@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "improvement/contacts/gap_excess.h"
-#include "improvement/requirements/failed_check.h"
 #include "improvement/requirements/size_ratios.h"
 #include "improvement/search/gap_descent.h"
 #include "stackabilization/deformation/factory.h"
@@ -122,7 +121,7 @@ TEST_CASE("with limits of quality a pursuit passes over edits that break one of 
   const auto collides = [&](const Candidate& found) -> bool {
     Requirements usual = wanted;
     usual.quality.emplace();
-    const auto failed = detail::failed_but_target(RequirementChecker(*space, usual).check(found.design, up));
+    const auto failed = RequirementChecker(*space, usual).obstacle(found.design, up);
     return failed && failed->measure == QualityMeasure::collision;
   };
   const Candidate found = pursued();
