@@ -100,6 +100,43 @@ Pieces without_smooth_borders(const SurfaceGraph& graph, const Pieces& pieces, d
   return result;
 }
 
+/// Joins each piece that is a face of a neighbour to it. The vector area of a closed surface is zero: that of
+/// a face is nearly as large as its area, and takes most of itself away from that of the other piece.
+Pieces with_their_faces(const SurfaceGraph& graph, const Pieces& pieces, const MemberRule& rule) {
+  const std::int32_t count = piece_count(pieces);
+  Eigen::Matrix3Xd vector_areas = Eigen::Matrix3Xd::Zero(3, count);
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(count);
+  for (std::size_t t = 0; t < pieces.size(); ++t) {
+    const auto row = static_cast<Eigen::Index>(t);
+    areas(pieces[t]) += graph.areas(row);
+    vector_areas.col(pieces[t]) += graph.areas(row) * graph.normals.row(row).transpose();
+  }
+  std::vector<std::pair<double, std::int32_t>> closed(static_cast<std::size_t>(count), {0, -1});
+  const auto close = [&](std::int32_t face, std::int32_t other) {
+    const double alone = vector_areas.col(face).norm();
+    if (alone < rule.one_sided * areas(face)) return;
+    const double share =
+        (vector_areas.col(other).norm() - (vector_areas.col(face) + vector_areas.col(other)).norm()) / alone;
+    if (share >= rule.closes)
+      closed[static_cast<std::size_t>(face)] =
+          std::max(closed[static_cast<std::size_t>(face)], std::pair(share, other));
+  };
+  for (const SurfaceLink& link : graph.links) {
+    const std::int32_t a = pieces[static_cast<std::size_t>(link.a)],
+                       b = pieces[static_cast<std::size_t>(link.b)];
+    if (a == b) continue;
+    close(a, b);
+    close(b, a);
+  }
+  DisjointSets sets(closed.size());
+  for (std::size_t p = 0; p < closed.size(); ++p)
+    if (closed[p].second >= 0) sets.join(p, static_cast<std::size_t>(closed[p].second));
+  const std::vector<std::int32_t> numbers = sets.numbers();
+  Pieces result;
+  for (const std::int32_t piece : pieces) result.push_back(numbers[static_cast<std::size_t>(piece)]);
+  return result;
+}
+
 /// A part with what copying a cut from one side to the other needs.
 struct CutPart {
   explicit CutPart(const Shape& part)
@@ -225,7 +262,7 @@ std::vector<std::int32_t> members(const Shape& part, const CutIntoPieces& cut, c
   const FittedPrimitive whole = fit_primitive(part);
   const bool frame = has_corners(whole.primitive, rule);
   if (!frame && !is_ring(whole.primitive) && relative_misfit(whole.fit) < rule.misfit) return one_piece;
-  Pieces pieces = without_smooth_borders(graph, cut(part), rule.min_concave);
+  Pieces pieces = with_their_faces(graph, without_smooth_borders(graph, cut(part), rule.min_concave), rule);
   const std::int32_t count = piece_count(pieces);
   if (count < 2 || count > rule.max_members) return one_piece;
   const double gain = frame ? rule.gain_of_frames : rule.gain;

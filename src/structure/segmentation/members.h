@@ -25,6 +25,9 @@ struct MemberRule {
   /// Least share of the border of two members across which the surface is concave: a curved backrest is not
   /// cut where it bends evenly.
   double min_concave = 0.1;
+  /// Least vector area of a piece that is a face of another one, fraction of its area; and least part of it
+  /// by which it makes the vector area of the other one smaller. A face is no member.
+  double one_sided = 0.9, closes = 0.5;
   int max_members = 16;  ///< a part of more members, such as a lattice, is not cut
   /// Largest diagonal of a part that is not cut since it is small, such as a castor; fraction of that of the
   /// whole shape.

@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stackabilization/core/part_names.h"
 #include "stackabilization/structure/segmentation.h"
+#include "structure/segmentation/members.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/variants.h"
@@ -34,6 +37,19 @@ Shape side(double x, double deep, const std::string& name) {
       concatenate(concatenate(bar(0, 0, 0.9, 16, 0.9), bar(7.4, 0, 8.3, 8.2, 0.9)),
                   concatenate(bar(0.9, 6.8, 7.4 + deep, 8.2, 0.6), bar(0.9, 2, 7.4 + deep, 2.6, 0.6))),
       name);
+}
+
+/// Returns the triangles of a shape whose centres are `wanted`, as one part.
+template <typename Wanted>
+Shape triangles_where(const Shape& shape, const Wanted& wanted) {
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index t = 0; t < shape.triangle_count(); ++t)
+    if (wanted(Eigen::RowVector3d((shape.corner(t, 0) + shape.corner(t, 1) + shape.corner(t, 2)) / 3)))
+      rows.push_back(t);
+  Shape chosen = shape;
+  chosen.triangles = shape.triangles(rows, Eigen::all);
+  chosen.triangle_part.assign(rows.size(), 0);
+  return chosen;
 }
 
 /// Every triangle twice, as programs that draw surfaces on both sides write them.
@@ -115,6 +131,51 @@ TEST_CASE("A cap that is too small for a part belongs to the member that it is n
   const std::size_t count = left.triangle_part.size();
   const std::int32_t leg = with.triangle_part[count / 4];  // after the post
   for (std::size_t t = count; t < count + cap.triangle_part.size(); ++t) CHECK(with.triangle_part[t] == leg);
+}
+
+TEST_CASE("A face that closes a bar belongs to it, one that closes nothing is a member", "[members]") {
+  using solids::box;
+  // A gate: its rail lacks the front, a face with other vertices along its sides. A flag stands on a post.
+  const Shape posts = concatenate(box({0, 0, 0}, {1, 1, 10}), box({9, 0, 0}, {10, 1, 10}));
+  const Shape rail = box({1, 0.2, 1}, {9, 0.8, 2});
+  const auto is_front = [](const Eigen::RowVector3d& centre) { return centre.y() < 0.2 + 1e-9; };
+  const Shape open_rail = triangles_where(rail, [&](const auto& centre) { return !is_front(centre); });
+  const Shape front = triangles_where(solids::subdivided(solids::subdivided(rail)), is_front);
+  const Shape flag = triangles_where(solids::subdivided(box({0, 0, 10}, {1, 1, 14})),
+                                     [](const auto& centre) { return centre.x() > 1 - 1e-9; });
+  const std::vector<Shape> pieces = {posts, open_rail, front, flag};
+  Shape gate = posts;
+  std::vector<std::int32_t> cut(posts.triangle_part.size() / 2, 0);
+  cut.resize(posts.triangle_part.size(), 1);
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    gate = concatenate(gate, pieces[k]);
+    cut.resize(gate.triangle_part.size(), static_cast<std::int32_t>(k) + 1);
+  }
+  gate = named(std::move(gate), "gate");
+  const std::vector<std::int32_t> found = detail::members(gate, [&](const Shape& part) {
+    REQUIRE(part.triangle_count() == gate.triangle_count());
+    return cut;
+  });
+  std::vector<std::int32_t> expected = cut;
+  for (std::int32_t& piece : expected) piece -= piece > 2 ? 1 : 0;
+  CHECK(found == expected);
+}
+
+TEST_CASE("Bars that meet at a mitre close each other, and stay two members", "[members]") {
+  const auto opened = [](Shape bar, const Eigen::RowVector3d& end) {
+    return triangles_where(
+        bar, [&](const Eigen::RowVector3d& centre) { return (centre - end).cwiseAbs().minCoeff() > 1e-9; });
+  };
+  Shape lying = opened(solids::box({0, 0, 0}, {10, 1, 1}), {10, 9, 9});
+  for (auto corner : lying.vertices.rowwise())
+    if (corner.x() == 10 && corner.z() == 1) corner.x() = 9;
+  Shape standing = opened(solids::box({9, 0, 0}, {10, 1, 10}), {8, 8, 0});
+  for (auto corner : standing.vertices.rowwise())
+    if (corner.x() == 9 && corner.z() == 0) corner.z() = 1;
+  const Shape angle = named(concatenate(lying, standing), "angle");
+  std::vector<std::int32_t> cut(lying.triangle_part.size(), 0);
+  cut.resize(angle.triangle_part.size(), 1);
+  CHECK(detail::members(angle, [&](const Shape&) { return cut; }) == cut);
 }
 
 TEST_CASE("Surfaces that are drawn on both sides are cut as those drawn once", "[members]") {
