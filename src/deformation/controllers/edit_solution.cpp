@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <variant>
 
 #include "core/index.h"
 #include "deformation/controllers/corrections.h"
@@ -39,6 +40,17 @@ constexpr double farthest_aside = 0.5;
 
 bool changes_nothing(const PartEdit& edit) {
   return edit.changes.isZero(0) && edit.rotation.vec().isZero(0);
+}
+
+/// Returns how much a primitive that moved differs from one that moved as a whole: the largest distance of
+/// control points, and change of radii.
+double distance_aside(const Primitive& before, const Primitive& after, const Eigen::Vector3d& by) {
+  const Points moved = control_points(after) - control_points(before);
+  double farthest = (moved.rowwise() - by.transpose()).rowwise().norm().maxCoeff();
+  if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&before))
+    farthest = std::max(farthest,
+                        (std::get<GeneralizedCylinder>(after).radii - cylinder->radii).cwiseAbs().maxCoeff());
+  return farthest;
 }
 
 class EditSolution {
@@ -159,9 +171,8 @@ class EditSolution {
     corrections.keep_straight(state_.controls);
     const std::vector<Constraint> constraints = given_constraints();
     state_ = solve_relations(rig_, corrections, constraints, std::move(state_));
-    const Points moved = control_points(rig_.space.primitive(edit_.part, state_.controls[at(class_)])) -
-                         control_points(task_.now[at(edit_.part)]);
-    const double aside = (moved.rowwise() - by.transpose()).rowwise().norm().maxCoeff();
+    const double aside = distance_aside(task_.now[at(edit_.part)],
+                                        rig_.space.primitive(edit_.part, state_.controls[at(class_)]), by);
     const bool closed = largest_gap(rig_, constraints, state_) <= tolerance::relation * diagonal(),
                near = aside <= farthest_aside * by.norm();
     if (closed && near && remains_at_most(settled_remainder, current_vertices())) return true;

@@ -29,6 +29,14 @@ constexpr double dish_to_vessel = 1.22;
 /// from the centre. What belongs at an end, such as a castor under an arm of a base, leaves the end bare when
 /// it slides.
 constexpr double rim = 0.97, end_of_member = 0.85;
+/// Nor is a joint at the end of a slender member when it is more than so many half widths of the member from
+/// it, as a stretcher a hand above the feet.
+constexpr double half_widths_from_end = 3;
+
+/// Returns the fraction of the way from the middle of a member beyond which a joint is at its end.
+double end_of(double half_length, double half_width) {
+  return std::max(end_of_member, 1 - half_widths_from_end * half_width / half_length);
+}
 
 /// A part is flush with the side of a plate where its joint is at most so many halves of its thickness from
 /// it.
@@ -201,9 +209,11 @@ Slide slide_along(const std::array<bool, 3>& ways, const OrientedBox& box, const
 /// or the border of a wall, or flush.
 Slide slide_on(const Primitive& carrier, const Eigen::Vector3d& point, const Joined& joined) {
   if (const auto* cylinder = std::get_if<GeneralizedCylinder>(&carrier)) {
-    if (is_member(*cylinder) || is_vessel(*cylinder))
-      return slide_within(distance_from_middle(*cylinder, point) / (chord_of(*cylinder).norm() / 2),
-                          end_of_member);
+    if (is_member(*cylinder) || is_vessel(*cylinder)) {
+      const double half_length = chord_of(*cylinder).norm() / 2;
+      return slide_within(distance_from_middle(*cylinder, point) / half_length,
+                          end_of(half_length, cylinder->radii.maxCoeff()));
+    }
     if (!is_disc(*cylinder)) return {};
     const double reach = cylinder->radii.maxCoeff();
     const double distance = distance_from_axis(*cylinder, point);
@@ -218,8 +228,10 @@ Slide slide_on(const Primitive& carrier, const Eigen::Vector3d& point, const Joi
     if (outwards < (cuboid.inner_sides(axis, wall % 2) - wall_margin) * box.half_extents(axis)) return {};
     return slide_along(ways, box, point, joined, end_of_member);
   }
-  return slide_along(ways, box, point, joined,
-                     std::count(ways.begin(), ways.end(), true) == 1 ? end_of_member : rim);
+  if (std::count(ways.begin(), ways.end(), true) != 1) return slide_along(ways, box, point, joined, rim);
+  Eigen::Vector3d halves = box.half_extents;
+  std::sort(halves.data(), halves.data() + 3);
+  return slide_along(ways, box, point, joined, end_of(halves(2), halves(1)));
 }
 
 /// How the points of a joint slide on a part.

@@ -10,6 +10,7 @@
 #include "stackabilization/io/read.h"
 #include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
+#include "support/solids.h"
 #include "support/structures.h"
 
 using namespace stackabilization;
@@ -74,6 +75,12 @@ TEST_CASE("Joints slide on plates and along members, but not at rims and ends", 
     CHECK(carrier_of(joined(member, arm, {0, 0, 5.5})) == 0);
     CHECK(carrier_of(joined(member, arm, {0, 0, 5.6})) == -1);
     CHECK(carrier_of(joined(member, arm, {0, 0, 0.4})) == -1);
+  }
+  // The end of a slender one is three half widths long.
+  const Primitive slender = structures::straight_cylinder({0, 0, 0}, {0, 0, 6}, 0.1, 13);
+  for (const Primitive& member : {slender, box_of({0, 0, 3}, {0.2, 0.1, 6})}) {
+    CHECK(carrier_of(joined(member, arm, {0, 0, 0.31})) == 0);
+    CHECK(carrier_of(joined(member, arm, {0, 0, 0.29})) == -1);
   }
   CHECK(carrier_of(joined(structures::straight_cylinder({0, 0, 0}, {0, 0, 5.9}, 1, 13), arm, {0, 0, 3})) ==
         -1);
@@ -363,6 +370,23 @@ TEST_CASE("A rung that would have to tilt far to give way moves as it is, and th
   for (Eigen::Index i = 0; i < before.rows(); ++i)
     CHECK((after.row(i) - before.row(i) - Eigen::RowVector3d(0.1, 0, 0)).norm() < 1e-12);
   for (const double residual : smooth.relation_residuals(aside.design)) CHECK(residual <= 1e-6);
+}
+
+TEST_CASE("A bar that lifts off the end of a post does not become thicker to stay on it", "[joints]") {
+  Structure structure = joined(structures::straight_cylinder({0, 0, 0}, {0, 0, 6}, 0.3, 13),
+                               structures::straight_cylinder({-4, 0, 6.2}, {4, 0, 6.2}, 0.2, 17), {0, 0, 6});
+  StructuredShape gallows{
+      concatenate(solids::cylinder(0.3, 6, 24), solids::box({-4, -0.2, 6}, {4, 0.2, 6.4})),
+      std::move(structure)};
+  gallows.shape.part_names = {"first", "second"};
+  const ControllerModel smooth(gallows, {}, Following::smooth);
+  const DeformationResult up = smooth.edited(smooth.at_rest(), {{HandleKind::part, 1, 0}, Move{{0, 0, 0.5}}});
+  REQUIRE_FALSE(up.refusal);
+  const auto& before = std::get<GeneralizedCylinder>(gallows.structure.parts[1].primitive);
+  const auto& after = std::get<GeneralizedCylinder>(up.design.primitives[1]);
+  CHECK((after.radii - before.radii).cwiseAbs().maxCoeff() <= 0.25 * 0.5);
+  CHECK((after.centres - before.centres).rowwise().norm().maxCoeff() == Approx(0.5));
+  for (const double residual : smooth.relation_residuals(up.design)) CHECK(residual <= 1e-6);
 }
 
 TEST_CASE("Joints that slide hold after an edit", "[joints]") {
