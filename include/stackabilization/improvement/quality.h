@@ -30,6 +30,7 @@ enum class QualityMeasure {
   size,               ///< smallest ratio of a size of a part to that at rest, or its inverse
   small_part,         ///< ratio of smallest to largest stretch of a part too small to be deformed
   thickness,          ///< smallest ratio of a thickness to that at rest
+  lean,               ///< increase of the lean of a leg or post beyond 15 degrees, degrees
   seat,               ///< smallest ratio of area or height of a seat or table top to that at rest
   tilt,               ///< change of the tilt of a seat or table top, degrees
   height,             ///< change of the height, of the height
@@ -37,7 +38,7 @@ enum class QualityMeasure {
 };
 
 /// Number of measures.
-inline constexpr std::size_t quality_measure_count = 19;
+inline constexpr std::size_t quality_measure_count = 20;
 
 /// Returns the name of a measure: that of its enumerator with "-" for "_".
 std::string name_of(QualityMeasure measure);

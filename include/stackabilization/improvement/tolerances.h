@@ -82,6 +82,11 @@ inline constexpr double seat_height = 0.05;
 /// Height of the slab at the bottom whose vertices are feet, fraction of the height.
 inline constexpr double foot_slab = 0.01;
 
+/// Lean of a leg or post at rest, at most, radians: what leans more is a brace or a rung.
+inline constexpr double max_lean_of_leg = std::numbers::pi / 4;
+/// Lean of a leg or post that nobody minds, degrees.
+inline constexpr double free_lean = 15;
+
 /// Diagonal of a small part, at most, fraction of the diagonal of the object.
 inline constexpr double small_part = 0.08;
 
@@ -101,6 +106,7 @@ inline constexpr double max_parallelism = 2;        ///< default limit, degrees
 inline constexpr double min_size = 0.8;             ///< default limit, of rest
 inline constexpr double min_small_part = 0.95;      ///< default limit, of rest
 inline constexpr double min_thickness = 0.9;        ///< default limit, of rest
+inline constexpr double max_lean = 15;              ///< default limit, degrees
 inline constexpr double min_seat = 0.9;             ///< default limit, of rest
 inline constexpr double max_tilt = 2;               ///< default limit, degrees
 inline constexpr double max_height = 0.001;         ///< default limit, of the height

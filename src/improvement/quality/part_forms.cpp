@@ -34,8 +34,8 @@ Eigen::VectorXd singular_values(const Eigen::MatrixXd& matrix) {
 
 }  // namespace
 
-PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded)
-    : visible_(tolerance::visible * bounding_diagonal(rest.shape)) {
+PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded, const Eigen::Vector3d& up)
+    : up_(up), visible_(tolerance::visible * bounding_diagonal(rest.shape)) {
   const Shape& shape = rest.shape;
   const std::vector<std::vector<std::int32_t>> rows = triangles_of_parts(shape);
   for (std::size_t part = 0; part < rows.size(); ++part) {
@@ -46,6 +46,10 @@ PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded)
       for (int k = 0; k < 3; ++k) box.extend(shape.corner(t, k));
     form.small =
         !box.isEmpty() && box.diagonal().norm() < tolerance::quality::small_part * rest.structure.diagonal;
+    if (form.line && form.line->is_straight() && !form.small)
+      if (const double lean = lean_of(form.line->direction());
+          lean <= tolerance::quality::max_lean_of_leg * degrees_per_radian)
+        form.lean = std::max(lean, tolerance::quality::free_lean);
     form.faces = flat_faces(shape, welded, rows[part], tolerance::quality::face_share);
     form.parallel = parallel_faces(shape, form.faces);
     forms_.push_back(std::move(form));
@@ -65,6 +69,10 @@ PartForms::PartForms(const StructuredShape& rest, const WeldedMesh& welded)
       probes_.push_back(std::move(probe));
   }
   for (std::size_t part = 0; part < forms_.size(); ++part) forms_[part].hollow = walls[part] > 0;
+}
+
+double PartForms::lean_of(const Eigen::Vector3d& line) const {
+  return angle_between_lines(line, up_) * degrees_per_radian;
 }
 
 /// Returns the stretches of a part: along and across a straight one, so that leaning is none; along the main
@@ -115,7 +123,7 @@ std::vector<QualityValue> PartForms::measure(const Shape& now, const std::vector
   for (const QualityMeasure measure :
        {QualityMeasure::straightness, QualityMeasure::bending, QualityMeasure::section,
         QualityMeasure::profile, QualityMeasure::flatness, QualityMeasure::parallelism, QualityMeasure::size,
-        QualityMeasure::small_part, QualityMeasure::thickness})
+        QualityMeasure::small_part, QualityMeasure::thickness, QualityMeasure::lean})
     values.push_back({measure, ideal_value(measure)});
   QualityValue &size = values[6], &small_part = values[7], &thinnest = values[8];
   for (int part = 0; part < static_cast<int>(forms_.size()); ++part) {
@@ -128,6 +136,7 @@ std::vector<QualityValue> PartForms::measure(const Shape& now, const std::vector
     const auto [least, most] = std::minmax_element(stretched.begin(), stretched.end());
     worsen(size, std::min(*least, 1 / *most), part);
     if (form.small) worsen(small_part, *least / *most, part);
+    if (form.lean) worsen(values[9], lean_of(change.direction) - *form.lean, part);
     if (form.line && !form.small) {
       worsen(values[0], change.straightness, part);
       if (!form.hollow) worsen(thinnest, change.width, part);

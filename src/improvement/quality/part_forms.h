@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "improvement/quality/flat_faces.h"
@@ -11,15 +13,15 @@
 namespace stackabilization::detail {
 
 /// The form of each part by itself: the measures straightness, bending, section, profile, flatness,
-/// parallelism, size, small_part and thickness.
+/// parallelism, size, small_part, thickness and lean.
 class PartForms {
  public:
-  /// Prepares what depends on the object at rest.
-  PartForms(const StructuredShape& rest, const WeldedMesh& welded);
+  /// Prepares what depends on the object at rest. `up`: unit.
+  PartForms(const StructuredShape& rest, const WeldedMesh& welded, const Eigen::Vector3d& up);
 
   /// Returns the best affine map of each part; the identity for a part without area.
   std::vector<AffineMap> maps(const Shape& now) const;
-  /// Takes the nine measures, in their order. `maps`: those of `now`.
+  /// Takes the ten measures, in their order. `maps`: those of `now`.
   std::vector<QualityValue> measure(const Shape& now, const std::vector<AffineMap>& maps) const;
   /// Returns the flat faces of a part, largest first.
   const std::vector<FlatFace>& faces(int part) const { return forms_[static_cast<std::size_t>(part)].faces; }
@@ -27,7 +29,8 @@ class PartForms {
  private:
   struct Form : PartForm {
     bool small = false;
-    bool hollow = false;  ///< most probes of thickness cross a wall, not the part
+    std::optional<double> lean;  ///< of a leg or post: at rest or what nobody minds, degrees
+    bool hollow = false;         ///< most probes of thickness cross a wall, not the part
     std::vector<FlatFace> faces;
     std::vector<ParallelFaces> parallel;
   };
@@ -35,6 +38,10 @@ class PartForms {
   static std::vector<double> stretches(const Form& form, const AffineMap& map, double length);
   void measure_faces(const Shape& now, int part, std::vector<QualityValue>& values) const;
 
+  /// Returns the angle between a line and up, degrees.
+  double lean_of(const Eigen::Vector3d& line) const;
+
+  Eigen::Vector3d up_;
   double visible_ = 0;       ///< displacement that a person sees, model units
   std::vector<Form> forms_;  ///< per part
   std::vector<ThicknessProbe> probes_;

@@ -44,6 +44,7 @@ constexpr std::array<MeasureWords, quality_measure_count> measure_words = {{
     {"size", "of rest", true, limits::min_size},
     {"small-part", "of rest", true, limits::min_small_part},
     {"thickness", "of rest", true, limits::min_thickness},
+    {"lean", "degrees", false, limits::max_lean},
     {"seat", "of rest", true, limits::min_seat},
     {"tilt", "degrees", false, limits::max_tilt},
     {"height", "of the height", false, limits::max_height},
@@ -125,7 +126,7 @@ struct QualityMeter::Data {
         welded(detail::weld(rest.shape)),
         contacts(rest),
         creases(rest.shape, welded, rest.structure.diagonal),
-        parts(rest, welded),
+        parts(rest, welded, Direction(up).unit()),
         whole(rest, welded, parts, Direction(up).unit()) {}
 
   StructuredShape rest;

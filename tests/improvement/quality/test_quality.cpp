@@ -500,6 +500,28 @@ TEST_CASE("A foot off the ground, and a top that is lower, smaller or tilted", "
   CHECK(measured(rest, tilted, QualityMeasure::tilt) == Approx(degrees));
 }
 
+TEST_CASE("Posts lean more than at rest and than 15 degrees", "[quality]") {
+  const auto leaning = [](double degrees) {
+    const double slope = std::tan(degrees * std::numbers::pi / 180);
+    return [slope](const Eigen::Vector3d& p) { return Eigen::Vector3d(p.x() + slope * p.z(), p.y(), p.z()); };
+  };
+  const Shape post = solids::subdivided(solids::box({-0.5, -0.5, 0}, {0.5, 0.5, 8}));
+  const auto lean = [&](double rest, double now) {
+    return measured(analyse_structure(mapped(post, leaning(rest))), mapped(post, leaning(now)),
+                    QualityMeasure::lean);
+  };
+  CHECK(lean(0, 14.9) == 0);
+  CHECK(lean(0, 20) == Approx(5).epsilon(1e-3));
+  CHECK(lean(0, -31) == Approx(16).epsilon(1e-3));
+  CHECK(lean(20, 30) == Approx(10).epsilon(1e-3));
+  CHECK(lean(20, 10) == 0);
+  CHECK(lean(20, -20) == Approx(0).margin(1e-6));
+  // A brace is no post, nor is a block.
+  CHECK(lean(50, 60) == 0);
+  const Shape block = solids::subdivided(solids::box({-4, -4, 0}, {4, 4, 8}));
+  CHECK(measured(analyse_structure(block), mapped(block, leaning(30)), QualityMeasure::lean) == 0);
+}
+
 TEST_CASE("Limits are relaxed by name, and shares of them are fractions", "[quality]") {
   for (std::size_t k = 0; k < quality_measure_count; ++k) {
     const auto measure = static_cast<QualityMeasure>(k);
