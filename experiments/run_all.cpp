@@ -63,6 +63,7 @@ const std::vector<Entry>& entries() {
   static const std::vector<Entry> all = {
       {"envelope_accuracy", {}, {}, {"--directions", "3", "--fine-directions", "0"}},
       {"direction_search", {}, {}, {"--largest", "1000", "--seeds", "1", "--max-cells", "100"}},
+      {"place_accuracy", {}, {}, {"--cells", "30"}},
       {"minimal_translation", {.threads = false}, {}, {"--directions", "10", "--slow-directions", "1"}},
       {"scaling",
        {.models = false, .paper_data = false},

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "apps/run_program.h"
 #include "support/catch.h"
@@ -24,9 +25,9 @@ bool says(const Outcome& outcome, const std::string& program, const std::string&
          std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1;
 }
 
-const std::vector<std::string> with_models = {"deformation_models", "deformation_speed",
-                                              "design_quality",     "direction_search",
-                                              "envelope_accuracy",  "minimal_translation"};
+const std::vector<std::string> with_models = {
+    "deformation_models", "deformation_speed",   "design_quality", "direction_search",
+    "envelope_accuracy",  "minimal_translation", "place_accuracy"};
 
 /// Options with which a program is done in no time.
 std::vector<std::string> quick(const std::string& program) {
@@ -39,6 +40,7 @@ std::vector<std::string> quick(const std::string& program) {
       {"direction_search", {"--largest", "100", "--seeds", "1"}},
       {"envelope_accuracy", {"--directions", "2", "--fine-directions", "0"}},
       {"minimal_translation", {"--directions", "2", "--slow-directions", "1"}},
+      {"place_accuracy", {"--cells", "4"}},
       {"scaling",
        {"--largest-triangles", "2048", "--largest-parts", "8", "--directions", "2", "--finest-spacing",
         "0.32"}},
@@ -139,10 +141,41 @@ TEST_CASE("a broken model is named, and the others still have their rows") {
 TEST_CASE("a flat model is named too, although only its shape is at fault") {
   const TemporaryFolder folder;
   const std::string flat = folder.file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-  for (const std::string program : {"deformation_models", "direction_search", "envelope_accuracy"}) {
+  for (const std::string program :
+       {"deformation_models", "direction_search", "envelope_accuracy", "place_accuracy"}) {
     const Outcome outcome = run(program, quick(program) + std::vector<std::string>{flat});
     CHECK(outcome.status == 3);
     CHECK(says(outcome, program, "flat.obj"));
+  }
+}
+
+TEST_CASE("height maps of a ramp miss half a cell or an eighth, and are never too high") {
+  const TemporaryFolder folder;
+  Shape ramp = solids::box({1, 1, 1});
+  for (auto corner : ramp.vertices.rowwise())
+    if (corner.z() == 1) corner.z() += corner.x();
+  const Outcome outcome =
+      run("place_accuracy", {folder.model("ramp.obj", ramp), "--cells", "10", "--reach", "0.15"});
+  REQUIRE(outcome.status == 0);
+  const std::map<std::string, double> misses = {{"centre", 0.025}, {"extremes", 0.00625}};
+  for (const auto& [look, miss] : misses) {
+    const std::size_t at = outcome.out.find("10," + look + ",");
+    REQUIRE(at != std::string::npos);
+    std::istringstream cells(outcome.out.substr(at, outcome.out.find('\n', at) - at));
+    std::vector<std::string> found;
+    for (std::string cell; std::getline(cells, cell, ',');) found.push_back(cell);
+    REQUIRE(found.size() >= 12);
+    const auto value = [&](std::size_t k) { return std::stod(found[k]); };
+    CHECK(value(2) == 9);                      // places
+    CHECK(value(3) == (miss > 0.01 ? 1 : 0));  // share that is too low
+    CHECK(value(4) == Approx(miss));           // deepest
+    CHECK(value(5) == 0);                      // too high
+    CHECK(value(6) == Approx(miss));           // median
+    // A cell downhill: 1.9 of the height of 2; or all of the reach.
+    for (const std::size_t k : {7, 8}) CHECK(value(k) == Approx(0.95));
+    CHECK(value(9) == Approx(0.925));
+    CHECK(value(10) <= 0.925);
+    CHECK(value(10) >= 0.924);
   }
 }
 

@@ -102,16 +102,21 @@ class PlaceBounds::Side {
     const double finest = finest_part * std::max(start.width(), start.height());
     std::priority_queue<Part> parts;
     parts.push(examined(start));
+    take(parts.top(), best);
+    if (best.low >= enough) return;
     for (int step = 0; step < max_steps && !parts.empty();) {
       Part part = parts.top();
       parts.pop();
       for (; step < max_steps && part.high >= enough; ++step) {
-        take(part, best);
-        if (best.low >= enough) return;
         if (std::max(part.box.width(), part.box.height()) <= finest) break;
         std::array<Part, 4> next;
         std::size_t i = 0;
-        for (const PlanarBox& quarter : quarters(part.box)) next[i++] = examined(quarter);
+        for (const PlanarBox& quarter : quarters(part.box)) {
+          next[i] = examined(quarter);
+          // The most promising one may lie at the border and show nothing, as at the top of a ramp.
+          take(next[i++], best);
+        }
+        if (best.low >= enough) return;
         std::sort(next.begin(), next.end());
         for (i = 0; i < 3; ++i)
           if (next[i].high >= enough) parts.push(next[i]);

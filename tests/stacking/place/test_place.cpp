@@ -112,6 +112,20 @@ TEST_CASE("a cone finds the middle of a pit, to its depth in closed form") {
   }
 }
 
+TEST_CASE("a plate on a ramp goes downhill, proven by what lies inside of the upper edge") {
+  Shape ramp = solids::box({0, 0, 0}, {4, 4, 1});
+  for (auto corner : ramp.vertices.rowwise())
+    if (corner.z() == 1) corner.z() += corner.x() / 4;
+  PlaceOptions options = within(1e-3);
+  options.region = {{1.5, 1.5}, {2.5, 1.5}, {2.5, 2.5}, {1.5, 2.5}};
+  const BestPlace best = best_place(ramp, solids::box({0, 0, 5}, {4, 4, 6}), up, options);
+  // Its right side is at 3.5 at best.
+  CHECK(best.drop.height == Approx(1 + 3.5 / 4));
+  CHECK(best.drop.place.x == 1.5);
+  CHECK(best.proven);
+  CHECK(best.cells < 1000);
+}
+
 TEST_CASE("a ball in a bowl rests at its bottom: no place of a grid is below the bound") {
   const Shape ball = solids::sphere(1, 1), bowl = pit(0.3, 0.2);
   const BestPlace best = best_place(bowl, ball, up, within(0.02));
