@@ -1,8 +1,8 @@
 // Question: how wrong are the height maps by which robots pack, and is the best place as low as any of a
 // grid?
 //
-//     place_accuracy [--cells N,...] [--reach SHARE] [--accuracy SHARE] [--paper-data FOLDER] [-o FOLDER]
-//     [MODEL...]
+//     place_accuracy [--cells N,...] [--reach SHARE] [--accuracy SHARE] [--max-cells N] [--paper-data FOLDER]
+//     [-o FOLDER] [MODEL...]
 //
 // A copy of each model comes down along z onto another one, at the places of a grid around the middle: up to
 // --reach of its longer side aside (default 0.1), one cell apart. A height map has N cells along the longer
@@ -15,11 +15,12 @@
 // other by more than a hundredth (share of the places), `deepest` and `too_high`, the largest errors, and
 // their `median`, either way; `by_map` is the exact height at the place that the map finds best, `of_grid`
 // the least exact height of the grid, `best` that of the search over all places, with its `bound`. Exit
-// status 1 if a grid has a lower place than the search found.
+// status 1 if a grid has a place that is lower than that of the search by more than --accuracy.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -42,6 +43,7 @@ const Direction upwards(0, 0, 1);
 struct Settings {
   std::vector<int> cells = {30, 300};
   double reach = 0.1, accuracy = 0.001;
+  std::int64_t max_cells = 20'000;
 };
 
 /// A height that counts as too low, fraction of the height of the model.
@@ -167,6 +169,7 @@ void measure(const Experiment& experiment, const Settings& settings, Report& rep
                      throw InputError(file.path.string() + ": the model is flat along z or across it");
                    PlaceOptions options = model.places(settings.reach * model.side);
                    options.accuracy = settings.accuracy * model.height;
+                   options.max_cells = settings.max_cells;
                    const Stopwatch watch;
                    const BestPlace best = best_place(shape, shape, upwards, options);
                    const double best_cpu_ms = 1e3 * watch.processor_seconds();
@@ -202,5 +205,8 @@ int main(int argc, char** argv) {
   experiment.app()
       .add_option("--accuracy", settings.accuracy, "of the best place, share of the height")
       ->check(CLI::Range(1e-6, 1.0));
+  experiment.app()
+      .add_option("--max-cells", settings.max_cells, "cells of places to examine at most")
+      ->check(CLI::Range(1, 1 << 24));
   return experiment.run(argc, argv, [&](Report& report) { measure(experiment, settings, report); });
 }
