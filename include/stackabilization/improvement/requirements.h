@@ -123,7 +123,8 @@ class RequirementChecker {
                    QualityScope scope = QualityScope::all) const;
   /// Returns the first check that `check` finds failed, but for those of the target. Nothing: the design is
   /// acceptable, and may only stack too little. Copies are separated only where a requirement of their
-  /// contacts needs it, and S is not measured: cheap beside `check`.
+  /// contacts needs it, and S is not measured: cheap beside `check`. Throws as `check`, but for a shape
+  /// without volume.
   std::optional<Check> obstacle(const Design& design, const Direction& direction,
                                 QualityScope scope = QualityScope::all) const;
 

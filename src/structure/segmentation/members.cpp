@@ -76,6 +76,14 @@ bool has_corners(const Primitive& primitive, const MemberRule& rule) {
   return std::accumulate(turns.begin(), quarter, 0.0) >= rule.turn_at_corners * whole;
 }
 
+/// Returns the pieces with those of one set as one, numbered anew.
+Pieces joined(const Pieces& pieces, DisjointSets& sets) {
+  const std::vector<std::int32_t> numbers = sets.numbers();
+  Pieces result;
+  for (const std::int32_t piece : pieces) result.push_back(numbers[static_cast<std::size_t>(piece)]);
+  return result;
+}
+
 /// Joins neighbouring pieces whose border is nowhere concave, or hardly.
 Pieces without_smooth_borders(const SurfaceGraph& graph, const Pieces& pieces, double min_concave) {
   struct Concavity {
@@ -94,10 +102,7 @@ Pieces without_smooth_borders(const SurfaceGraph& graph, const Pieces& pieces, d
   for (const auto& [pair, border] : borders)
     if (border.length > 0 && border.concave < min_concave * border.length)
       sets.join(static_cast<std::size_t>(pair.first), static_cast<std::size_t>(pair.second));
-  const std::vector<std::int32_t> numbers = sets.numbers();
-  Pieces result;
-  for (const std::int32_t piece : pieces) result.push_back(numbers[static_cast<std::size_t>(piece)]);
-  return result;
+  return joined(pieces, sets);
 }
 
 /// Joins each piece that is a face of a neighbour to it. The vector area of a closed surface is zero: that of
@@ -131,10 +136,7 @@ Pieces with_their_faces(const SurfaceGraph& graph, const Pieces& pieces, const M
   DisjointSets sets(closed.size());
   for (std::size_t p = 0; p < closed.size(); ++p)
     if (closed[p].second >= 0) sets.join(p, static_cast<std::size_t>(closed[p].second));
-  const std::vector<std::int32_t> numbers = sets.numbers();
-  Pieces result;
-  for (const std::int32_t piece : pieces) result.push_back(numbers[static_cast<std::size_t>(piece)]);
-  return result;
+  return joined(pieces, sets);
 }
 
 /// A part with what copying a cut from one side to the other needs.
