@@ -10,6 +10,7 @@
 #include "apps/common/progress.h"
 #include "apps/common/rendering.h"
 #include "apps/common/values.h"
+#include "stackabilization/core/number_text.h"
 #include "stackabilization/stacking/search.h"
 
 namespace stackabilization::apps {
@@ -29,6 +30,9 @@ struct SearchCommandOptions {
 
 /// Local optima that the text names; the JSON has all.
 constexpr std::size_t listed_optima = 5;
+/// Cells of the proof that no option asks for. Nearly every model is proven with fewer, in less time than the
+/// search takes.
+constexpr std::int64_t unasked_cells = 10'000;
 
 SearchOptions search_options(const SearchCommandOptions& options) {
   SearchOptions search;
@@ -38,11 +42,13 @@ SearchOptions search_options(const SearchCommandOptions& options) {
     search.cone = {options.direction.value_or(Eigen::Vector3d::UnitZ()),
                    *options.cone_degrees * std::numbers::pi / 180};
   search.plane_normal = options.plane;
-  refuse_option(options.certify && options.stackability.boxes != BoxModel::oriented, "--certify",
-                "knows a bound for --boxes oriented only");
-  refuse_option(options.max_cells && !options.certify, "--max-cells", "needs --certify");
-  search.certify = options.certify;
-  if (options.max_cells) search.max_cells = *options.max_cells;
+  const bool bounded = options.stackability.boxes == BoxModel::oriented;
+  refuse_option(options.certify && !bounded, "--certify", "knows a bound for --boxes oriented only");
+  refuse_option(options.max_cells && !bounded, "--max-cells", "knows a bound for --boxes oriented only");
+  refuse_option(options.certify && options.max_cells == 0, "--certify", "needs cells: give --max-cells more");
+  if (!bounded || options.max_cells == 0) return search;
+  search.certify = options.certify.value_or(tolerance::direction_bound);
+  search.max_cells = options.max_cells.value_or(options.certify ? search.max_cells : unasked_cells);
   return search;
 }
 
@@ -68,23 +74,20 @@ double rounded_up(double bound) {
 }
 
 /// What is known of all directions.
-void add_bound(TextTable& table, const std::optional<DirectionBound>& bound) {
-  if (!bound) {
-    table.add("Proof", "none", "--certify 0.001 proves that no direction is better by more");
-    return;
-  }
-  table.add(
-      bound->proven ? "Proven" : "Bound", stackability_text(rounded_up(bound->bound)),
-      std::string(bound->proven ? "nowhere above this; " : "nowhere above, but not as close as asked for; ") +
-          counted(bound->cells, "cell") + " of directions examined, " + std::to_string(bound->open) +
-          " left open");
+void add_bound(TextTable& table, const DirectionBound& bound) {
+  const std::string cells =
+      counted(bound.cells, "cell") + " of directions examined, " + std::to_string(bound.open) + " left open";
+  table.add(bound.proven ? "Proven" : "Bound", stackability_text(rounded_up(bound.bound)),
+            bound.proven ? "nowhere above this; " + cells
+                         : "nowhere above, but more than " + shortest_text(bound.accuracy) + " above S; " +
+                               cells + ": more --max-cells close the gap");
 }
 
 std::string search_text(const SearchResult& result) {
   TextTable table;
   table.add("Directions tried", std::to_string(result.evaluated),
             std::to_string(result.abandoned) + " of them given up, too far below the best");
-  add_bound(table, result.bound);
+  if (result.bound) add_bound(table, *result.bound);
   for (std::size_t i = 1; i < std::min(result.optima.size(), listed_optima); ++i)
     table.add(i == 1 ? "Also good" : "", stackability_text(result.optima[i].stackability),
               "along " + vector_text(result.optima[i].direction));
@@ -115,7 +118,7 @@ int run_search_command(const CLI::App& command, const SearchCommandOptions& opti
       exact_digits(measurement.values.value) + " " + vector_text(measurement.values.direction) + "\n";
   deliver(options.common, document,
           options.common.quiet ? essential : measurement_text(measurement, model) + search_text(result));
-  return result.bound && !result.bound->proven ? status_no : status_done;
+  return options.certify && !result.bound->proven ? status_no : status_done;
 }
 
 }  // namespace
@@ -134,15 +137,19 @@ Command make_search_command(CLI::App& program) {
              options->cone_degrees);
   add_direction(*command, "--direction", options->direction, "Axis of the cone (default: 0 0 1)");
   add_direction(*command, "--plane", options->plane, "Look only in the plane with this normal");
-  add_number(
+  add_number(*command,
+             {"--certify",
+              "Prove that no direction has an S larger by more than this (default: 0.001; status 1 where a "
+              "proof that "
+              "was asked for fails)",
+              0, 1, true},
+             options->certify);
+  add_count(
       *command,
-      {"--certify", "Prove that no direction has an S larger by more than this (status 1 where that fails)",
-       0, 1, true},
-      options->certify);
-  add_count(*command,
-            {"--max-cells", "Cells of directions to examine at most for that (default: 200000)", 1,
-             max_cells_limit},
-            options->max_cells);
+      {"--max-cells",
+       "Cells of directions to examine at most for that (default: 10000, with --certify 200000; 0: no proof)",
+       0, max_cells_limit},
+      options->max_cells);
   command
       ->add_option("--picture", options->picture,
                    "Draw the best direction's envelopes and contacts (.png or .svg)")

@@ -104,9 +104,10 @@ def search(mesh, *, cone_degrees=None, direction=None, plane=None, certify=None,
 
     cone_degrees: look only within this angle around `direction` (default: everywhere, 0, 0, 1).
     plane: look only in the plane with this normal.
-    certify: prove that no direction has an S larger by more than this, in (0, 1] (default: no proof). The result's
+    certify: prove that no direction has an S larger by more than this, in (0, 1] (default: 0.001). The result's
     `bound` holds whether or not it comes that close (`proven`). max_cells: cells of directions to examine at most for
-    that (default: 200000). semantics, boxes: as in `measure`; certify is for oriented boxes.
+    that (default: 10000, with certify 200000; 0: no proof). semantics, boxes: as in `measure`; a bound is known for
+    oriented boxes only.
     format, unit, up, labels: how a file is read, see `load`. threads: at most so many (default: all).
     progress: called as progress(step, fraction).
     """

@@ -332,6 +332,25 @@ TEST_CASE("search proves that no direction is better, or says how far it came") 
   CHECK(early.json()["open_cells"].get<int>() > 0);
   const Outcome text = run_program({"search", box, "--certify", "0.05"});
   CHECK(text.out.find("nowhere above this") != std::string::npos);
-  CHECK(run_program({"search", box}).out.find("--certify 0.001") != std::string::npos);
-  CHECK(!run_program({"search", box, "--json", "-"}).json().contains("bound"));
+}
+
+TEST_CASE("search says how high S may be elsewhere without being asked, and fails for no proof then") {
+  const TemporaryFolder folder;
+  const std::string box = folder.model("box.off", solids::box({1, 2, 3}));
+  const json result = run_program({"search", box, "--json", "-"}).json();
+  CHECK(result["proven"] == true);
+  CHECK(result["accuracy"] == 1e-3);
+  CHECK(result["bound"].get<double>() <= result["stackability"].get<double>() + 1e-3);
+  CHECK(result["cells"].get<int>() <= 10000);
+
+  const Outcome early = run_program({"search", box, "--max-cells", "1"});
+  CHECK(early.status == 0);
+  CHECK(early.out.find("more than 0.001 above S") != std::string::npos);
+  CHECK(early.out.find("nowhere above this") == std::string::npos);
+  const Outcome counted = run_program({"search", box, "--max-cells", "1", "--json", "-"});
+  CHECK(counted.json()["proven"] == false);
+  CHECK(counted.json()["bound"].get<double>() > result["bound"].get<double>());
+
+  CHECK(!run_program({"search", box, "--max-cells", "0", "--json", "-"}).json().contains("bound"));
+  CHECK(!run_program({"search", box, "--boxes", "frame", "--json", "-"}).json().contains("bound"));
 }

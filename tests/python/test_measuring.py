@@ -127,7 +127,9 @@ def test_a_search_proves_that_no_direction_is_better():
     assert found.stackability == pytest.approx(0, abs=1e-9) and 0 <= found.bound <= 0.05 and found.accuracy == 0.05
     early = st.search((corners, hull), certify=0.05, max_cells=1)
     assert early.proven is False and found.bound <= early.bound <= 1 and early.open_cells > 0
-    assert st.search((corners, hull)).bound is None
+    unasked = st.search((corners, hull))
+    assert unasked.proven and unasked.accuracy == 0.001 and unasked.bound <= unasked.stackability + 0.001
+    assert st.search((corners, hull), max_cells=0).bound is None
     with pytest.raises(st.UsageError, match="certify"):
         st.search((corners, hull), certify=0.05, boxes="frame")
 
