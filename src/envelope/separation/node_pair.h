@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -10,12 +11,20 @@
 
 namespace stackabilization::detail {
 
+/// Number of axes besides that of the height along which two nodes bound their height difference: two of the
+/// file and the diagonals.
+inline constexpr int oblique_count = 2 + diagonal_count;
+
 /// A node seen along a direction: ranges of its projection and heights, and its slab in those coordinates,
 ///   slab_low <= n_x x + n_y y + slope H <= slab_high.
+/// For each of eight axes m, the points p of the node have m.p / m.(sx, sy, sign) in an oblique range. This
+/// number grows along a column as H does, so each range bounds the height difference of two nodes as their
+/// heights do. Together, they clip a line along r to the Minkowski difference of the two bounding volumes.
 struct ProjectedNode {
   double x_low, x_high, y_low, y_high, h_low, h_high;
   double n_x, n_y, slope, inverse_slope;  ///< inverse_slope is 0 where the slab is too steep to bound heights
   double slab_low, slab_high;
+  std::array<double, oblique_count> oblique_low, oblique_high;  ///< infinite where m is nearly across r
 
   ProjectedNode() = default;
   ProjectedNode(const TreeNode& node, const Projection& projection) {
@@ -35,10 +44,37 @@ struct ProjectedNode {
     inverse_slope = std::abs(slope) > steepest ? 1 / slope : 0;
     slab_low = node.slab_low;
     slab_high = node.slab_high;
+    std::array<double, 3> ray;
+    ray[shear.i] = shear.sx;
+    ray[shear.j] = shear.sy;
+    ray[shear.k] = shear.sign;
+    for (int diagonal = 0; diagonal < diagonal_count; ++diagonal)
+      set_oblique(diagonal, node.diagonal_low[diagonal], node.diagonal_high[diagonal],
+                  along_diagonal(ray.data(), diagonal), projection.magnitude);
+    set_oblique(diagonal_count, node.low[shear.i], node.high[shear.i], shear.sx, projection.magnitude);
+    set_oblique(diagonal_count + 1, node.low[shear.j], node.high[shear.j], shear.sy, projection.magnitude);
   }
 
   /// Smallest |slope| of a slab that bounds heights: smaller slopes would amplify rounding errors.
   static constexpr double steepest = 1.0 / 256;
+
+ private:
+  /// Sets the range of an axis m from low <= m.p <= high; `rise` is m.(sx, sy, sign).
+  ///
+  /// The margin covers what a difference of two ranges may be off by, over |rise|: the rise by 4 unit
+  /// roundoffs, times a height difference of at most 2 magnitudes; each of two offsets, of at most 2
+  /// magnitudes, by the rounding of the reciprocal, of the product and of the margin; the difference, of at
+  /// most 4 magnitudes, by its own. That is 24 unit roundoffs of the magnitude, and two margins have 32.
+  void set_oblique(int axis, double low, double high, double rise, double magnitude) {
+    if (std::abs(rise) <= steepest) {
+      oblique_low[axis] = -infinity;
+      oblique_high[axis] = infinity;
+      return;
+    }
+    const double inverse = 1 / rise, margin = 16 * unit_roundoff * magnitude * std::abs(inverse);
+    oblique_low[axis] = std::min(low * inverse, high * inverse) - margin;
+    oblique_high[axis] = std::max(low * inverse, high * inverse) + margin;
+  }
 };
 
 /// The projected nodes of a tree, computed on first use.
@@ -81,6 +117,18 @@ struct CommonRectangle {
   }
 };
 
+/// What the oblique ranges of two nodes leave of the height differences (upper minus lower) in a column.
+struct ObliqueDifference {
+  double low = -infinity, high = infinity;
+
+  ObliqueDifference(const ProjectedNode& upper, const ProjectedNode& lower) {
+    for (int axis = 0; axis < oblique_count; ++axis) {
+      low = std::max(low, upper.oblique_low[axis] - lower.oblique_high[axis]);
+      high = std::min(high, upper.oblique_high[axis] - lower.oblique_low[axis]);
+    }
+  }
+};
+
 /// Range of heights of a node over a rectangle; empty when its slab has no point over it.
 struct HeightRange {
   double low, high;
@@ -116,6 +164,10 @@ class NodePairBound {
     const CommonRectangle common(upper, lower);
     const DoubleDouble boxes = exact_difference(upper.h_high, lower.h_low);
     if (common.empty || boxes <= floor) return none;
+    const ObliqueDifference oblique(upper, lower);
+    if (DoubleDouble{oblique.high, 0} <= floor) return none;
+    // Differences of heights are rounded, but by less than the margins of the oblique ranges.
+    if (std::max(oblique.low, upper.h_low - lower.h_high) > std::min(oblique.high, boxes.high)) return none;
     const HeightRange above(upper, common, rounding_), beneath(lower, common, rounding_);
     if (above.empty || beneath.empty) return none;
     double planes = above.high - beneath.low;
@@ -132,7 +184,8 @@ class NodePairBound {
                                std::abs(tilt_x) * common.half_width + std::abs(tilt_y) * common.half_height);
     }
     planes += plane_rounding_ * std::max({1.0, std::abs(upper.inverse_slope), std::abs(lower.inverse_slope)});
-    return planes < boxes.high ? DoubleDouble{planes, 0} : boxes;
+    const double high = std::min(planes, oblique.high);
+    return high < boxes.high ? DoubleDouble{high, 0} : boxes;
   }
 
  private:

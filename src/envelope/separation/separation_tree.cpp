@@ -30,7 +30,7 @@ struct Place {
 };
 
 /// Builds the tree top down by median splits, in parallel, into nodes whose places depend on the counts
-/// alone, so that the result is the same for any number of threads. Boxes and slabs are fitted on the way
+/// alone, so that the result is the same for any number of threads. Bounding volumes are fitted on the way
 /// back.
 class TreeBuilder {
  public:
@@ -92,29 +92,43 @@ class TreeBuilder {
     return facing;
   }
 
-  /// The triangles of a leaf and its box.
+  /// The triangles of a leaf, its box and its diagonals.
   Eigen::Vector3d fill(TreeNode& node, std::int32_t first, std::int32_t last) {
-    node.low.fill(std::numeric_limits<double>::infinity());
-    node.high.fill(-std::numeric_limits<double>::infinity());
+    node.low.fill(infinity);
+    node.high.fill(-infinity);
+    node.diagonal_low.fill(infinity);
+    node.diagonal_high.fill(-infinity);
     Eigen::Vector3d facing = Eigen::Vector3d::Zero();
     for (std::int32_t t = first; t < last; ++t) {
       const TreeTriangle& triangle = data_.triangles[t] = triangles_[places_[t].triangle];
-      for (const auto& corner : triangle.corners) include(node, corner, corner);
+      for (const auto& corner : triangle.corners) include(node, corner);
       facing = joined(facing, area_normal(triangle));
     }
+    for (double& low : node.diagonal_low) low -= rounding_;
+    for (double& high : node.diagonal_high) high += rounding_;
     return facing;
   }
 
   static void unite(TreeNode& node, const TreeNode& left, const TreeNode& right) {
-    node.low = left.low;
-    node.high = left.high;
-    include(node, right.low, right.high);
+    for (int axis = 0; axis < 3; ++axis) {
+      node.low[axis] = std::min(left.low[axis], right.low[axis]);
+      node.high[axis] = std::max(left.high[axis], right.high[axis]);
+    }
+    for (int diagonal = 0; diagonal < diagonal_count; ++diagonal) {
+      node.diagonal_low[diagonal] = std::min(left.diagonal_low[diagonal], right.diagonal_low[diagonal]);
+      node.diagonal_high[diagonal] = std::max(left.diagonal_high[diagonal], right.diagonal_high[diagonal]);
+    }
   }
 
-  static void include(TreeNode& node, const std::array<double, 3>& low, const std::array<double, 3>& high) {
+  static void include(TreeNode& node, const std::array<double, 3>& point) {
     for (int axis = 0; axis < 3; ++axis) {
-      node.low[axis] = std::min(node.low[axis], low[axis]);
-      node.high[axis] = std::max(node.high[axis], high[axis]);
+      node.low[axis] = std::min(node.low[axis], point[axis]);
+      node.high[axis] = std::max(node.high[axis], point[axis]);
+    }
+    for (int diagonal = 0; diagonal < diagonal_count; ++diagonal) {
+      const double offset = along_diagonal(point.data(), diagonal);
+      node.diagonal_low[diagonal] = std::min(node.diagonal_low[diagonal], offset);
+      node.diagonal_high[diagonal] = std::max(node.diagonal_high[diagonal], offset);
     }
   }
 
@@ -129,7 +143,7 @@ class TreeBuilder {
     if (last - first > largest_slab) return;
     const Eigen::Vector3d axis = facing.stableNormalized();
     if (!axis.allFinite() || axis.isZero(0)) return;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
+    double low = infinity, high = -infinity;
     for (std::int32_t t = first; t < last; ++t)
       for (const auto& corner : data_.triangles[t].corners) {
         const double offset = axis[0] * corner[0] + axis[1] * corner[1] + axis[2] * corner[2];
@@ -167,7 +181,7 @@ class TreeBuilder {
 
   const std::vector<TreeTriangle>& triangles_;
   SeparationTree::Data& data_;
-  double rounding_;            ///< of an offset from the origin along a unit vector
+  double rounding_;            ///< of an offset from the origin along a unit vector or a diagonal
   std::vector<Place> places_;  ///< in tree order
 };
 
@@ -249,7 +263,7 @@ SeparationTree SeparationTree::translated(const Eigen::Vector3d& shift) const {
   if (!shift.allFinite()) throw UsageError("a tree is translated by a finite vector");
   auto moved = std::make_unique<Data>(*data_);
   const std::array<double, 3> origin = std::exchange(moved->origin, {});
-  // Rounded additions are monotonic, so the box of moved corners is the moved box.
+  // Rounded additions are monotonic, so the box of moved corners is the moved box; other bounds get a margin.
   const auto move = [&](std::array<double, 3>& point) {
     for (int axis = 0; axis < 3; ++axis) point[axis] = (point[axis] + origin[axis]) + shift[axis];
   };
@@ -268,6 +282,11 @@ SeparationTree SeparationTree::translated(const Eigen::Vector3d& shift) const {
     for (int axis = 0; axis < 3; ++axis) offset += node.normal[axis] * (origin[axis] + shift[axis]);
     node.slab_low += offset - rounding;
     node.slab_high += offset + rounding;
+    for (int diagonal = 0; diagonal < diagonal_count; ++diagonal) {
+      const double along = along_diagonal(origin.data(), diagonal) + along_diagonal(shift.data(), diagonal);
+      node.diagonal_low[diagonal] += along - rounding;
+      node.diagonal_high[diagonal] += along + rounding;
+    }
   }
   return SeparationTree(std::move(moved));
 }

@@ -25,14 +25,26 @@ struct TriangleCopy {
   }
 };
 
-/// Bounding volume of a node: an axis-aligned box plus one slab, slab_low <= normal . p <= slab_high.
-/// `normal` is zero when there is no slab. Leaves have count > 0.
+/// Number of the diagonals of the faces of a cube: (1, 1, 0), (0, 1, 1), (1, 0, 1), (1, -1, 0), (0, 1, -1)
+/// and (-1, 0, 1), in this order.
+inline constexpr int diagonal_count = 6;
+
+/// Computes d . p for one of the diagonals d, with one rounding. `p`: three coordinates.
+inline double along_diagonal(const double* p, int diagonal) {
+  const int i = diagonal % 3, j = (diagonal + 1) % 3;
+  return diagonal < 3 ? p[i] + p[j] : p[i] - p[j];
+}
+
+/// Bounding volume of a node: an axis-aligned box with its edges cut off by the diagonals, and one slab,
+/// slab_low <= normal . p <= slab_high. `normal` is zero when there is no slab. Leaves have count > 0.
+/// Source: the 18-DOP of Klosowski et al. 1998, but for the slab.
 struct TreeNode {
   std::array<double, 3> low, high;  ///< corners of the box, relative to the origin of the tree
-  std::array<double, 3> normal;     ///< unit normal of the slab, or zero
-  double slab_low, slab_high;       ///< bounds of normal . p, rounded outwards
-  std::int32_t first;               ///< leaf: first triangle; inner: left child, the right one follows it
-  std::int32_t count;               ///< leaf: number of triangles; inner: 0
+  std::array<double, diagonal_count> diagonal_low, diagonal_high;  ///< bounds of d . p, rounded outwards
+  std::array<double, 3> normal;                                    ///< unit normal of the slab, or zero
+  double slab_low, slab_high;                                      ///< bounds of normal . p, rounded outwards
+  std::int32_t first;  ///< leaf: first triangle; inner: left child, the right one follows it
+  std::int32_t count;  ///< leaf: number of triangles; inner: 0
 };
 
 /// Largest number of triangles in a leaf.

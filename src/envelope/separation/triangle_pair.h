@@ -10,11 +10,13 @@ namespace stackabilization::detail {
 /// A shear with the rounding errors of its coordinates for all points of the two shapes of a query.
 struct Projection {
   Shear shear;
+  double magnitude;         ///< largest absolute coordinate of what is projected
   double x_error, y_error;  ///< bounds on |computed - exact| of projected coordinates
   ContactSemantics semantics;
 
-  Projection(const Direction& direction, double magnitude, ContactSemantics s)
+  Projection(const Direction& direction, double largest_coordinate, ContactSemantics s)
       : shear(direction),
+        magnitude(largest_coordinate),
         x_error(shear.x_error(magnitude)),
         y_error(shear.y_error(magnitude)),
         semantics(s) {}

@@ -69,6 +69,13 @@ Vector3d point_below_oblique(Random& random, double x_low, double x_high) {
   return {on_grid(x, 54), on_grid(y, 55), on_grid(z, 52)};
 }
 
+std::array<Vector3d, 8> box_corners(const Vector3d& low, const Vector3d& high) {
+  std::array<Vector3d, 8> corners;
+  for (std::size_t c = 0; c < 8; ++c)
+    for (int axis = 0; axis < 3; ++axis) corners[c][axis] = (c >> axis & 1) != 0 ? high[axis] : low[axis];
+  return corners;
+}
+
 /// The bound is not below the height difference, which is exact.
 bool holds(const DoubleDouble& bound, const Rational& height) {
   return bound.high != -infinity && Rational(bound.high) + Rational(bound.low) >= height;
@@ -135,7 +142,42 @@ TEST_CASE("two nodes with one column along an oblique direction in common are no
   }
 }
 
-TEST_CASE("the slabs of a tree hold the corners of its triangles exactly, moved or not") {
+TEST_CASE("boards that a direction crosses obliquely are bounded by how far they reach along it") {
+  // Along (0.5, 0, 1) a board that is 0.1 thick along x is above itself by 0.2 at most, whatever its height.
+  // Along (0.5, -0.5, 1), so is one that is cut from a block by |x - y| <= 0.1.
+  const std::array straight = box_corners({0, 0, 0}, {0.1, 1, 1});
+  const std::array diagonal{Vector3d(0.1, 0, 0), Vector3d(0, 0.1, 0), Vector3d(1, 0.9, 0),
+                            Vector3d(0.9, 1, 0), Vector3d(0.1, 0, 1), Vector3d(0, 0.1, 1),
+                            Vector3d(1, 0.9, 1), Vector3d(0.9, 1, 1)};
+  const auto highest = [](const auto& corners, const Direction& direction) {
+    const Projection projection(direction, 1, ContactSemantics::solid);
+    const ProjectedNode node(node_around(corners, Vector3d::Zero()), projection);
+    return NodePairBound(1)(node, node, anything).high;
+  };
+  for (const double sign : {1.0, -1.0}) {
+    CHECK(highest(straight, Direction(sign * 0.5, 0, 1)) == Approx(0.2).margin(1e-12));
+    CHECK(highest(straight, Direction(0, sign * 0.5, 1)) == Approx(1).margin(1e-12));
+    CHECK(highest(straight, Direction(sign, 0, 0.5)) == Approx(0.1).margin(1e-12));
+    CHECK(highest(diagonal, Direction(sign * 0.5, -sign * 0.5, 1)) == Approx(0.2).margin(1e-12));
+    CHECK(highest(diagonal, Direction(sign * 0.5, sign * 0.5, 1)) == Approx(1).margin(1e-12));
+  }
+}
+
+TEST_CASE("boxes that a direction passes one after the other have no column in common") {
+  // Along (0.5, 0.5, 1), x lets the other box be above this one by 0.2 to 0.6. So does y of the first, and
+  // that of the second by 0.8 to 1.2, although the rectangles of both overlap that of this box.
+  const std::array below = box_corners({0, 0, 0}, {0.1, 0.1, 1});
+  const Projection projection(Direction(0.5, 0.5, 1), 2, ContactSemantics::closed);
+  const auto bound_above = [&](const auto& corners) {
+    return NodePairBound(2)(ProjectedNode(node_around(corners, Vector3d::Zero()), projection),
+                            ProjectedNode(node_around(below, Vector3d::Zero()), projection), anything)
+        .high;
+  };
+  CHECK(bound_above(box_corners({0.2, 0.2, 0}, {0.3, 0.3, 1})) == Approx(0.6).margin(1e-12));
+  CHECK(bound_above(box_corners({0.2, 0.5, 0}, {0.3, 0.6, 1})) == -infinity);
+}
+
+TEST_CASE("the slabs and diagonals of a tree hold the corners of its triangles exactly, moved or not") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     solids::Soup soup;
     soup.seed = seed;
@@ -152,6 +194,11 @@ TEST_CASE("the slabs of a tree hold the corners of its triangles exactly, moved 
             const Rational offset = dot(node.normal, {corner[0], corner[1], corner[2]});
             REQUIRE(offset >= Rational(node.slab_low));
             REQUIRE(offset <= Rational(node.slab_high));
+            for (int diagonal = 0; diagonal < diagonal_count; ++diagonal) {
+              const Rational along = dot(direction_of(diagonal), {corner[0], corner[1], corner[2]});
+              REQUIRE(along >= Rational(node.diagonal_low[diagonal]));
+              REQUIRE(along <= Rational(node.diagonal_high[diagonal]));
+            }
           }
   }
 }
