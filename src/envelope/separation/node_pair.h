@@ -77,26 +77,37 @@ struct ProjectedNode {
   }
 };
 
-/// The projected nodes of a tree, computed on first use.
+/// The projected nodes of a tree, computed on first use. Memory is taken page by page: a query of a million
+/// triangles sees a few hundred nodes.
 class ProjectedNodes {
  public:
   explicit ProjectedNodes(const std::vector<TreeNode>& nodes)
-      : nodes_(nodes),
-        projected_(std::make_unique_for_overwrite<ProjectedNode[]>(nodes.size())),
-        known_(nodes.size(), 0) {}
+      : nodes_(nodes), pages_((nodes.size() + page_size - 1) / page_size) {}
 
   const ProjectedNode& get(std::int32_t index, const Projection& projection) {
-    if (!known_[index]) {
-      projected_[index] = ProjectedNode(nodes_[index], projection);
-      known_[index] = 1;
+    std::unique_ptr<Page>& page = pages_[index / page_size];
+    if (!page) {
+      page = std::make_unique_for_overwrite<Page>();
+      page->known.fill(false);
     }
-    return projected_[index];
+    ProjectedNode& node = page->nodes[index % page_size];
+    bool& known = page->known[index % page_size];
+    if (!known) {
+      node = ProjectedNode(nodes_[index], projection);
+      known = true;
+    }
+    return node;
   }
 
  private:
+  static constexpr std::size_t page_size = 256;
+  struct Page {
+    std::array<ProjectedNode, page_size> nodes;
+    std::array<bool, page_size> known;
+  };
+
   const std::vector<TreeNode>& nodes_;
-  std::unique_ptr<ProjectedNode[]> projected_;
-  std::vector<char> known_;
+  std::vector<std::unique_ptr<Page>> pages_;
 };
 
 inline const std::vector<TreeNode> no_nodes;
