@@ -38,7 +38,7 @@ std::string lean_text(const Stackability& measured, int copies, Unit unit) {
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   const double lean = std::acos(std::clamp(up.dot(measured.direction.normalized()), -1.0, 1.0)),
                drift = measured.stack_drift(copies);
-  if (lean > tolerance::max_lean || drift <= seen_drift * measured.stack_height(copies)) return "";
+  if (lean > tolerance::max_stack_lean || drift <= seen_drift * measured.stack_height(copies)) return "";
   return " The stack leans by " + significant_text(lean * 180 / std::numbers::pi, 2) +
          " degrees: the last copy stands " + quantity(drift, unit) + " beside the first.";
 }

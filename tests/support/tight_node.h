@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "envelope/separation/separation_tree.h"
 #include "envelope/separation/shear.h"
@@ -43,8 +44,8 @@ TreeNode node_around(const Points& points, const Eigen::Vector3d& normal) {
   TreeNode node{};
   node.low.fill(detail::infinity);
   node.high.fill(-detail::infinity);
-  node.diagonal_low.fill(detail::infinity);
-  node.diagonal_high.fill(-detail::infinity);
+  node.diagonal_low.fill(std::numeric_limits<float>::infinity());
+  node.diagonal_high.fill(-std::numeric_limits<float>::infinity());
   node.normal = {normal.x(), normal.y(), normal.z()};
   node.slab_low = detail::infinity;
   node.slab_high = -detail::infinity;
@@ -55,8 +56,8 @@ TreeNode node_around(const Points& points, const Eigen::Vector3d& normal) {
     }
     for (int diagonal = 0; diagonal < diagonal_count; ++diagonal) {
       const Rational along = dot(direction_of(diagonal), point);
-      node.diagonal_low[diagonal] = std::min(node.diagonal_low[diagonal], rounded_down(along));
-      node.diagonal_high[diagonal] = std::max(node.diagonal_high[diagonal], rounded_up(along));
+      node.diagonal_low[diagonal] = std::min(node.diagonal_low[diagonal], single_below(rounded_down(along)));
+      node.diagonal_high[diagonal] = std::max(node.diagonal_high[diagonal], single_above(rounded_up(along)));
     }
     const Rational offset = dot(node.normal, point);
     node.slab_low = std::min(node.slab_low, rounded_down(offset));

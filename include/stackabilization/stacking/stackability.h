@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -101,6 +102,9 @@ class StackabilitySolver {
   ExactStackability measure_exact(const Direction& direction) const;
   /// Computes the same as `measure`, but returns nothing as soon as S is certainly below `threshold`.
   std::optional<Stackability> measure_if_above(const Direction& direction, double threshold) const;
+  /// Computes the same, and how many pairs of nodes of the separation tree that took.
+  std::optional<Stackability> measure_if_above(const Direction& direction, double threshold,
+                                               std::int64_t& node_pairs) const;
 
  private:
   struct Data;

@@ -96,16 +96,29 @@ class TreeBuilder {
   Eigen::Vector3d fill(TreeNode& node, std::int32_t first, std::int32_t last) {
     node.low.fill(infinity);
     node.high.fill(-infinity);
-    node.diagonal_low.fill(infinity);
-    node.diagonal_high.fill(-infinity);
+    std::array<double, diagonal_count> diagonal_low, diagonal_high;
+    diagonal_low.fill(infinity);
+    diagonal_high.fill(-infinity);
     Eigen::Vector3d facing = Eigen::Vector3d::Zero();
     for (std::int32_t t = first; t < last; ++t) {
       const TreeTriangle& triangle = data_.triangles[t] = triangles_[places_[t].triangle];
-      for (const auto& corner : triangle.corners) include(node, corner);
+      for (const auto& corner : triangle.corners) {
+        for (int axis = 0; axis < 3; ++axis) {
+          node.low[axis] = std::min(node.low[axis], corner[axis]);
+          node.high[axis] = std::max(node.high[axis], corner[axis]);
+        }
+        for (int diagonal = 0; diagonal < diagonal_count; ++diagonal) {
+          const double offset = along_diagonal(corner.data(), diagonal);
+          diagonal_low[diagonal] = std::min(diagonal_low[diagonal], offset);
+          diagonal_high[diagonal] = std::max(diagonal_high[diagonal], offset);
+        }
+      }
       facing = joined(facing, area_normal(triangle));
     }
-    for (double& low : node.diagonal_low) low -= rounding_;
-    for (double& high : node.diagonal_high) high += rounding_;
+    for (int diagonal = 0; diagonal < diagonal_count; ++diagonal) {
+      node.diagonal_low[diagonal] = single_below(diagonal_low[diagonal] - rounding_);
+      node.diagonal_high[diagonal] = single_above(diagonal_high[diagonal] + rounding_);
+    }
     return facing;
   }
 
@@ -117,18 +130,6 @@ class TreeBuilder {
     for (int diagonal = 0; diagonal < diagonal_count; ++diagonal) {
       node.diagonal_low[diagonal] = std::min(left.diagonal_low[diagonal], right.diagonal_low[diagonal]);
       node.diagonal_high[diagonal] = std::max(left.diagonal_high[diagonal], right.diagonal_high[diagonal]);
-    }
-  }
-
-  static void include(TreeNode& node, const std::array<double, 3>& point) {
-    for (int axis = 0; axis < 3; ++axis) {
-      node.low[axis] = std::min(node.low[axis], point[axis]);
-      node.high[axis] = std::max(node.high[axis], point[axis]);
-    }
-    for (int diagonal = 0; diagonal < diagonal_count; ++diagonal) {
-      const double offset = along_diagonal(point.data(), diagonal);
-      node.diagonal_low[diagonal] = std::min(node.diagonal_low[diagonal], offset);
-      node.diagonal_high[diagonal] = std::max(node.diagonal_high[diagonal], offset);
     }
   }
 
@@ -284,8 +285,8 @@ SeparationTree SeparationTree::translated(const Eigen::Vector3d& shift) const {
     node.slab_high += offset + rounding;
     for (int diagonal = 0; diagonal < diagonal_count; ++diagonal) {
       const double along = along_diagonal(origin.data(), diagonal) + along_diagonal(shift.data(), diagonal);
-      node.diagonal_low[diagonal] += along - rounding;
-      node.diagonal_high[diagonal] += along + rounding;
+      node.diagonal_low[diagonal] = single_below(node.diagonal_low[diagonal] + along - rounding);
+      node.diagonal_high[diagonal] = single_above(node.diagonal_high[diagonal] + along + rounding);
     }
   }
   return SeparationTree(std::move(moved));

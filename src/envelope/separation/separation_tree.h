@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "stackabilization/envelope/separation.h"
@@ -35,16 +37,31 @@ inline double along_diagonal(const double* p, int diagonal) {
   return diagonal < 3 ? p[i] + p[j] : p[i] - p[j];
 }
 
+/// Returns a number of single precision that is not above `value`, close to it.
+inline float single_below(double value) {
+  constexpr float most = std::numeric_limits<float>::max(), infinite = std::numeric_limits<float>::infinity();
+  if (value >= most) return most;
+  if (value < -most) return -infinite;
+  const auto nearest = static_cast<float>(value);
+  return nearest > value ? std::nextafter(nearest, -infinite) : nearest;
+}
+
+/// Returns a number of single precision that is not below `value`, close to it.
+inline float single_above(double value) {
+  return -single_below(-value);
+}
+
 /// Bounding volume of a node: an axis-aligned box with its edges cut off by the diagonals, and one slab,
 /// slab_low <= normal . p <= slab_high. `normal` is zero when there is no slab. Leaves have count > 0.
 /// Source: the 18-DOP of Klosowski et al. 1998, but for the slab.
 struct TreeNode {
   std::array<double, 3> low, high;  ///< corners of the box, relative to the origin of the tree
-  std::array<double, diagonal_count> diagonal_low, diagonal_high;  ///< bounds of d . p, rounded outwards
-  std::array<double, 3> normal;                                    ///< unit normal of the slab, or zero
-  double slab_low, slab_high;                                      ///< bounds of normal . p, rounded outwards
-  std::int32_t first;  ///< leaf: first triangle; inner: left child, the right one follows it
-  std::int32_t count;  ///< leaf: number of triangles; inner: 0
+  /// Bounds of d . p, rounded outwards to single precision: half the memory, and tight enough.
+  std::array<float, diagonal_count> diagonal_low, diagonal_high;
+  std::array<double, 3> normal;  ///< unit normal of the slab, or zero
+  double slab_low, slab_high;    ///< bounds of normal . p, rounded outwards
+  std::int32_t first;            ///< leaf: first triangle; inner: left child, the right one follows it
+  std::int32_t count;            ///< leaf: number of triangles; inner: 0
 };
 
 /// Largest number of triangles in a leaf.

@@ -42,7 +42,7 @@ double primitive_displacement(const Primitive& rest, const Primitive& now) {
 /// the direction is up.
 std::optional<Eigen::Vector3d> upright(const Direction& direction) {
   const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  if (angle_between(direction.vector(), up) > tolerance::max_lean) return std::nullopt;
+  if (angle_between(direction.vector(), up) > tolerance::max_stack_lean) return std::nullopt;
   return up;
 }
 

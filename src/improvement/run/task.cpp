@@ -65,7 +65,7 @@ ImprovementTask::ImprovementTask(StructuredShape rest, Requirements requirements
     directions_ = {up.direction};
     if (free_) {
       SearchOptions search;
-      if (requirements.quality) search.cone = DirectionCone{up.direction, tolerance::max_lean};
+      if (requirements.quality) search.cone = DirectionCone{up.direction, tolerance::max_stack_lean};
       search.max_directions = directions_of_effort(directions_share * options.effort, rest.shape);
       search.progress = options.progress;
       search.cancelled = options.cancelled;

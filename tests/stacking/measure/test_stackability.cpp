@@ -148,6 +148,12 @@ TEST_CASE("a measurement is given up only below its threshold") {
           CHECK(found->value == Approx(value).margin(1e-12));
           CHECK_FALSE(solver.measure_if_above(Direction(r), value + below));
         }
+        std::int64_t pairs = -1;
+        CHECK(solver.measure_if_above(Direction(r), -std::numeric_limits<double>::infinity(), pairs)->value ==
+              value);
+        CHECK(pairs == separation_enclosure(solver.tree(), solver.tree(), Direction(r)).work.node_pairs);
+        CHECK_FALSE(solver.measure_if_above(Direction(r), 2, pairs));
+        CHECK(pairs == 0);  // S is at most 1
       }
     }
 }
