@@ -26,12 +26,28 @@ class EdgeOnTriangles {
     return state == State::yes;
   }
 
+  /// Decides all triangles, and so which nodes of their tree have no others.
+  void decide_nodes(const std::vector<TreeNode>& nodes) {
+    whole_nodes_.assign(nodes.size(), 1);
+    for (std::size_t n = nodes.size(); n-- > 0;) {  // children come after their parent
+      const TreeNode& node = nodes[n];
+      if (node.count == 0) whole_nodes_[n] = whole_nodes_[node.first] & whole_nodes_[node.first + 1];
+      for (std::int32_t t = node.first; t < node.first + node.count; ++t)
+        if (!contains(t, ProjectedTriangle(triangles_[t], projection_))) whole_nodes_[n] = 0;
+    }
+  }
+
+  bool nodes_decided() const { return !whole_nodes_.empty(); }
+  /// Whether all triangles of a node are edge-on, as far as the nodes are decided.
+  bool contains_node(std::int32_t node) const { return nodes_decided() && whole_nodes_[node] != 0; }
+
  private:
   enum class State : char { unknown, yes, no };
 
   const std::vector<TreeTriangle>& triangles_;
   const Projection& projection_;
   std::vector<State> states_;
+  std::vector<char> whole_nodes_;
 };
 
 }  // namespace stackabilization::detail

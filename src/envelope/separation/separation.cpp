@@ -142,6 +142,8 @@ class SeparationQuery {
 
   /// The pair of nodes with its bound: -inf where nothing above the cut is in it.
   Task bounded(std::int32_t a, std::int32_t b) {
+    if (upper_edge_on_.contains_node(a) || lower_edge_on().contains_node(b))
+      return {{-infinity, 0}, a, b, false};
     return {node_bound_(upper_node(a), lower_node(b), cut_), a, b, false};
   }
 
@@ -214,20 +216,27 @@ class SeparationQuery {
   }
 
   void test_triangles(const TreeNode& upper, const TreeNode& lower) {
-    work_.triangle_pairs += upper.count * lower.count;
     std::array<ProjectedTriangle, leaf_size> lower_triangles;
     for (std::int32_t b = 0; b < lower.count; ++b)
       lower_triangles[b] = ProjectedTriangle(lower_.triangles[lower.first + b], projection_);
     for (std::int32_t a = upper.first; a < upper.first + upper.count; ++a) {
       const ProjectedTriangle upper_triangle(upper_.triangles[a], projection_);
       for (std::int32_t b = 0; b < lower.count; ++b) {
+        ++work_.triangle_pairs;
         const PairBounds bounds = bound_pair(upper_triangle, lower_triangles[b], projection_, cut_);
         if (!(bounds.low <= floor_)) raise_floor(bounds.low, false);
-        if (hopeless(bounds.high) || upper_edge_on_.contains(a, upper_triangle) ||
+        if (hopeless(bounds.high)) continue;
+        if (upper_edge_on_.contains(a, upper_triangle) ||
             lower_edge_on().contains(lower.first + b, lower_triangles[b]))
-          continue;
-        push({bounds.high, a, lower.first + b, true});
+          ++edge_on_pairs_;
+        else
+          push({bounds.high, a, lower.first + b, true});
       }
+    }
+    // Where that many pairs were in vain, the surface is mostly along r: deciding all of it costs no more.
+    if (edge_on_pairs_ > upper_.triangles.size() && !upper_edge_on_.nodes_decided()) {
+      upper_edge_on_.decide_nodes(upper_.nodes);
+      if (&upper_ != &lower_) lower_edge_on_.decide_nodes(lower_.nodes);
     }
   }
 
@@ -262,6 +271,7 @@ class SeparationQuery {
   SeparationWork work_;
   ProjectedNodes upper_nodes_, lower_nodes_;  ///< the second is empty where both shapes are one
   EdgeOnTriangles upper_edge_on_, lower_edge_on_;
+  std::size_t edge_on_pairs_ = 0;  ///< pairs of triangles left out since one of them is edge-on
   std::optional<Rational> best_;
   std::int32_t best_upper_ = -1, best_lower_ = -1;  ///< in tree order
 };

@@ -233,6 +233,27 @@ TEST_CASE("each triangle of a wall along r is found edge-on once, not with each 
   CHECK(found.work.exact_pairs == 0);
 }
 
+TEST_CASE("walls along r are left out of the search once many of them were met in vain") {
+  const Shape tube = oval_tube(20, 50), half = oval_tube(10, 50);
+  const SeparationTree tree(tube), other(half);
+  for (const SeparationTree* above : {&tree, &other}) {
+    const Separation found = separation(tree, *above, upwards);
+    CHECK_FALSE(found.blocked);
+    CHECK(found.work.triangle_pairs < 8 * tube.triangle_count());  // a column has 80 pairs per triangle
+  }
+
+  // Two flat triangles beside the tube, one above the other by a half: all that counts.
+  Shape with_plates = tube;
+  const auto corners = static_cast<int>(tube.vertex_count()), faces = static_cast<int>(tube.triangle_count());
+  with_plates.vertices.conservativeResize(corners + 6, 3);
+  with_plates.triangles.conservativeResize(faces + 2, 3);
+  with_plates.vertices.bottomRows(6) << 5, 0, 0, 6, 0, 0, 5, 1, 0, 5, 0, 0.5, 6, 0, 0.5, 5, 1, 0.5;
+  with_plates.triangles.bottomRows(2) << corners, corners + 1, corners + 2, corners + 3, corners + 4,
+      corners + 5;
+  CHECK(exact_f_max(make_shape(with_plates.vertices, with_plates.triangles), upwards,
+                    ContactSemantics::solid) == Rational(0.5));
+}
+
 TEST_CASE("points and segments block in closed semantics") {
   Points vertices(6, 3);
   vertices << 0, 0, 3, 0, 0, 3, 0, 0, 3, -1, -1, 0, 2, -1, 0, -1, 2, 0;
