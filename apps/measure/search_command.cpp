@@ -137,13 +137,13 @@ Command make_search_command(CLI::App& program) {
              options->cone_degrees);
   add_direction(*command, "--direction", options->direction, "Axis of the cone (default: 0 0 1)");
   add_direction(*command, "--plane", options->plane, "Look only in the plane with this normal");
-  add_number(*command,
-             {"--certify",
-              "Prove that no direction has an S larger by more than this (default: 0.001; status 1 where a "
-              "proof that "
-              "was asked for fails)",
-              0, 1, true},
-             options->certify);
+  add_number(
+      *command,
+      {"--certify",
+       "Prove that no direction has an S larger by more than this (default: 0.001; status 1 where such "
+       "a proof was asked for and fails)",
+       0, 1, true},
+      options->certify);
   add_count(
       *command,
       {"--max-cells",

@@ -79,6 +79,7 @@ class SeparationQuery {
         abandoned_ = true;
         return;
       }
+      if (stack_.empty() && hopeless(tasks_.front().high)) return;
       const Task task = next();
       if (!hopeless(task.high)) work_on(task);
     }
