@@ -120,6 +120,14 @@ std::string choice_names(const Choices<Value>& choices) {
   return names;
 }
 
+/// Returns the name of a value, empty where it has none.
+template <class Value>
+std::string choice_name(const Choices<Value>& choices, Value value) {
+  for (const auto& [name, known] : choices)
+    if (known == value) return name;
+  return {};
+}
+
 /// Adds an option that takes one of the names of `choices` into `target` (a Value or std::optional of it).
 template <class Value, class Target>
 void add_choice(CLI::App& command, const std::string& name, Target& target, const Choices<Value>& choices,

@@ -20,8 +20,13 @@ namespace {
 
 /// Places along the longer side of a map, where no step is given.
 constexpr double default_map_places = 32;
+/// Cells that bound an integral take a hundred times the work of those that bound a height.
+constexpr std::int64_t default_gap_cells = 2000;
 
 enum class PlaceChoice { given, best };
+
+const Choices<PlaceGoal> goals = {
+    {"height", PlaceGoal::height}, {"gap", PlaceGoal::gap}, {"volume", PlaceGoal::volume}};
 
 struct DropCommandOptions {
   CommonOptions common;
@@ -29,6 +34,8 @@ struct DropCommandOptions {
   std::optional<Eigen::Vector3d> direction;
   ContactSemantics semantics = ContactSemantics::solid;
   PlaceChoice place = PlaceChoice::given;
+  std::optional<PlaceGoal> goal;
+  std::optional<double> overlap;
   bool turn = false;
   std::vector<Eigen::Vector2d> region;
   std::optional<Length> eps, step;
@@ -52,6 +59,8 @@ void check(const DropCommandOptions& options) {
   refuse_option(options.common.model == "-" && options.onto == "-", "--onto",
                 "and MODEL cannot both be standard input");
   const bool best = options.place == PlaceChoice::best;
+  refuse_option(options.goal && !best, "--least", "needs --place best");
+  refuse_option(options.overlap && options.goal != PlaceGoal::gap, "--overlap", "needs --least gap");
   refuse_option(options.turn && !best, "--turn", "needs --place best");
   refuse_option(options.eps && !best, "--eps", "needs --place best");
   refuse_option(options.max_cells && !best, "--max-cells", "needs --place best");
@@ -66,12 +75,18 @@ void check(const DropCommandOptions& options) {
 PlaceOptions place_options(const DropCommandOptions& options, const Scene& scene) {
   PlaceOptions place;
   place.semantics = options.semantics;
+  place.goal = options.goal.value_or(PlaceGoal::height);
+  if (options.overlap) place.min_overlap = *options.overlap;
   place.region = options.region;
   place.turn = options.turn;
-  if (options.max_cells) place.max_cells = *options.max_cells;
+  if (options.max_cells)
+    place.max_cells = *options.max_cells;
+  else if (place.goal != PlaceGoal::height)
+    place.max_cells = default_gap_cells;
   const double extent = std::max(HullSupport(scene.item.shape).extent(scene.direction),
                                  HullSupport(scene.base.shape).extent(scene.direction));
-  place.accuracy = options.eps ? options.eps->in(scene.item.shape.unit) : tolerance::place_height * extent;
+  const double share = place.goal == PlaceGoal::height ? tolerance::place_height : tolerance::place_gap;
+  place.accuracy = options.eps ? options.eps->in(scene.item.shape.unit) : share * extent;
   if (!(place.accuracy > 0)) throw UsageError("--eps is needed: both shapes are flat along the direction");
   return place;
 }
@@ -94,16 +109,63 @@ void add_drop(Json& document, const Scene& scene, const Drop& drop) {
   document["witness"] = drop.on_floor ? Json(nullptr) : to_json(drop.separation.witness);
 }
 
-void add_proof(Json& document, const std::optional<BestPlace>& best, double accuracy) {
-  if (!best) return;
-  document["bound"] = best->bound;
-  document["eps"] = accuracy;
-  document["proven"] = best->proven;
-  document["cells"] = best->cells;
-  document["open_cells"] = best->open;
+/// The best place, with the options that it was searched with.
+struct Choice {
+  PlaceOptions options;
+  BestPlace best;
+
+  /// Returns the range of the space below MODEL, model units cubed.
+  Range volume() const {
+    return {best.value.low * best.footprint.low, best.value.high * best.footprint.high};
+  }
+};
+
+Json range_json(const Range& range) {
+  return {{"low", range.low}, {"high", range.high}};
 }
 
-std::string drop_text(const Scene& scene, const Drop& drop, const std::optional<BestPlace>& best) {
+void add_proof(Json& document, const std::optional<Choice>& choice) {
+  if (!choice) return;
+  const BestPlace& best = choice->best;
+  const PlaceGoal goal = choice->options.goal;
+  document["least"] = choice_name(goals, goal);
+  if (goal == PlaceGoal::gap) document["mean_gap"] = range_json(best.value);
+  if (goal == PlaceGoal::gap) document["min_overlap"] = choice->options.min_overlap;
+  if (goal == PlaceGoal::volume) {
+    document["mean_depth"] = range_json(best.value);
+    document["footprint"] = range_json(best.footprint);
+    document["volume"] = range_json(choice->volume());
+  }
+  document["bound"] = best.bound;
+  document["eps"] = choice->options.accuracy;
+  document["proven"] = best.proven;
+  document["cells"] = best.cells;
+  document["open_cells"] = best.open;
+}
+
+void add_choice_lines(TextTable& table, const std::optional<Choice>& choice, Unit unit) {
+  if (!choice) return;
+  const BestPlace& best = choice->best;
+  const auto range_text = [unit](const Range& range, int power) {
+    return quantity(range.low, unit, power) + " to " + quantity(range.high, unit, power);
+  };
+  std::string less = "nowhere lower";
+  if (choice->options.goal == PlaceGoal::gap) {
+    table.add("Mean gap", range_text(best.value, 1), "where one lies above the other");
+    less = "nowhere a smaller mean gap";
+  }
+  if (choice->options.goal == PlaceGoal::volume) {
+    table.add("Space below", range_text(choice->volume(), 3),
+              "on average " + range_text(best.value, 1) + " deep");
+    less = "nowhere less deep on average";
+  }
+  table.add(best.proven ? "Proven" : "Bound", quantity(best.bound, unit),
+            less + (best.proven ? " than this; " : ", but not as close as asked for; ") +
+                counted(best.cells, "cell") + " of places examined, " + std::to_string(best.open) +
+                " left open");
+}
+
+std::string drop_text(const Scene& scene, const Drop& drop, const std::optional<Choice>& choice) {
   const Unit unit = scene.item.shape.unit;
   TextTable table;
   add_model_line(table, scene.item);
@@ -111,12 +173,7 @@ std::string drop_text(const Scene& scene, const Drop& drop, const std::optional<
   table.add("Height", quantity(drop.height, unit),
             drop.on_floor ? "of its lowest point above the floor: it stands there"
                           : "of its lowest point above that of what it rests on");
-  if (best)
-    table.add(best->proven ? "Proven" : "Bound", quantity(best->bound, unit),
-              std::string(best->proven ? "nowhere lower than this; "
-                                       : "nowhere lower, but not as close as asked for; ") +
-                  counted(best->cells, "cell") + " of places examined, " + std::to_string(best->open) +
-                  " left open");
+  add_choice_lines(table, choice, unit);
   table.add(
       "Place", quantity(drop.place.x, unit) + ", " + quantity(drop.place.y, unit),
       "centre of its box across the direction" +
@@ -134,11 +191,12 @@ std::string drop_text(const Scene& scene, const Drop& drop, const std::optional<
 }
 
 std::vector<std::string> picture_notes(const Scene& scene, const Drop& drop,
-                                       const std::optional<BestPlace>& best) {
+                                       const std::optional<Choice>& choice) {
   const Unit unit = scene.item.shape.unit;
+  const bool lowest = choice && choice->options.goal == PlaceGoal::height;
   return {"lowest point " + quantity(drop.height, unit) + " above " +
           (drop.on_floor ? "the floor, where it stands" : "that of what it rests on") +
-          (best ? "; nowhere lower than " + quantity(best->bound, unit) : std::string())};
+          (lowest ? "; nowhere lower than " + quantity(choice->best.bound, unit) : std::string())};
 }
 
 std::string csv_text(const DropMap& map) {
@@ -173,14 +231,15 @@ int run_drop_command(const CLI::App& command, const DropCommandOptions& options)
   const Scene scene{load_model(options.common), load_other_model(options.common, options.onto), direction};
   check_same_unit(scene.item, scene.base, "--onto");
   const PlaceOptions place = place_options(options, scene);
-  std::optional<BestPlace> best;
+  std::optional<Choice> choice;
   if (options.place == PlaceChoice::best)
-    best = with_progress("Placing", options.common.caller, place, [&](const PlaceOptions& searching) {
-      return best_place(scene.base.shape, scene.item.shape, direction, searching);
-    });
-  const Drop drop = best ? best->drop
-                         : drop_at(scene.base.shape, scene.item.shape, direction,
-                                   given_place(scene.item.shape, direction), options.semantics);
+    choice = {place,
+              with_progress("Placing", options.common.caller, place, [&](const PlaceOptions& searching) {
+                return best_place(scene.base.shape, scene.item.shape, direction, searching);
+              })};
+  const Drop drop = choice ? choice->best.drop
+                           : drop_at(scene.base.shape, scene.item.shape, direction,
+                                     given_place(scene.item.shape, direction), options.semantics);
   const RigidTransform lift{Eigen::Matrix3d::Identity(), drop.lift.to_double() * direction.vector()};
   const Shape dropped = transformed(scene.item.shape, composed(lift, drop.transform));
   if (options.needs_map()) {
@@ -189,7 +248,7 @@ int run_drop_command(const CLI::App& command, const DropCommandOptions& options)
     if (options.picture)
       write_drop_picture({*options.picture, title_of(scene.item) + " on " + title_of(scene.base)},
                          {scene.base.shape, dropped, drop.place, std::move(map), direction,
-                          picture_notes(scene, drop, best)});
+                          picture_notes(scene, drop, choice)});
   }
   if (options.output)
     write_mesh_output(options.common, *options.output, concatenate(scene.base.shape, dropped));
@@ -198,12 +257,12 @@ int run_drop_command(const CLI::App& command, const DropCommandOptions& options)
   document["direction"] = to_json(direction.vector());
   document["semantics"] = name_of(options.semantics);
   add_drop(document, scene, drop);
-  add_proof(document, best, place.accuracy);
+  add_proof(document, choice);
   add_document_tail(document, options.common, scene.item, watch);
   const std::string text =
-      options.common.quiet ? exact_digits(drop.height) + "\n" : drop_text(scene, drop, best);
+      options.common.quiet ? exact_digits(drop.height) + "\n" : drop_text(scene, drop, choice);
   deliver(options.common, document, options.map == "-" ? "" : text);
-  return best && !best->proven ? status_no : status_done;
+  return choice && !choice->best.proven ? status_no : status_done;
 }
 
 void add_region(CLI::App& command, std::vector<Eigen::Vector2d>& region) {
@@ -241,15 +300,28 @@ Command make_drop_command(CLI::App& program) {
       *command, "--place", options->place, places,
       "given: across the direction where its file puts it; best: where it comes to rest lowest, with a "
       "proof (default: given)");
+  add_choice(
+      *command, "--least", options->goal, goals,
+      "What the best place has the least of: its height, the mean gap between the two, or the volume of "
+      "the empty space below MODEL (default: height)");
+  add_fraction(
+      *command, "--overlap", options->overlap,
+      "For --least gap: area in which one lies above the other, share of the smaller one's, at least "
+      "(default: 0.5)");
   command->add_flag("--turn", options->turn, "It may turn about the direction, too");
   add_region(*command, options->region);
-  add_length(
+  add_length(*command,
+             {"--eps",
+              "How close the proof comes to the height or the mean gap or depth found (default: 1/1024 of "
+              "the higher "
+              "extent, 1/64 for --least gap and volume)",
+              true},
+             options->eps);
+  add_count(
       *command,
-      {"--eps", "How close the proof comes to the height found (default: 1/1024 of the higher extent)", true},
-      options->eps);
-  add_count(*command,
-            {"--max-cells", "Cells of places to examine at most (default: 200000)", 1, max_cells_limit},
-            options->max_cells);
+      {"--max-cells", "Cells of places to examine at most (default: 200000, 2000 for --least gap and volume)",
+       1, max_cells_limit},
+      options->max_cells);
   add_mesh_output(*command, options->common, options->output, "both");
   command->add_option("--map", options->map, "Write the height at every place of a grid (CSV; - is stdout)")
       ->type_name("FILE");

@@ -170,11 +170,15 @@ def gap(mesh, above, *, direction=None, semantics=None, format=None, unit=None, 
     return _results.Gap(run_command("gap", mesh, options, above=above).document)
 
 
-def drop(mesh, *, onto, place=None, turn=False, corner=None, eps=None, max_cells=None, map=False, step=None,
-         direction=None, semantics=None, format=None, unit=None, up=None, labels=None, threads=None, progress=None):
-    """Let a mesh come down onto another one, at its place or where it comes to rest lowest; a Drop.
+def drop(mesh, *, onto, place=None, least=None, overlap=None, turn=False, corner=None, eps=None, max_cells=None,
+         map=False, step=None, direction=None, semantics=None, format=None, unit=None, up=None, labels=None,
+         threads=None, progress=None):
+    """Let a mesh come down onto another one, at its place or at the best one; a Drop.
 
     onto: what it falls on. place: 'given' (default), or 'best', with a proof; turn: it may turn, too.
+    least: what the best place has the least of: 'height' (default), 'gap', the mean distance of the two where one lies
+    above the other, or 'volume', the empty space below. overlap: with 'gap', area in which one lies above the other,
+    at least, as a share of the smaller one's (default: 0.5).
     corner: corners (x, y) of a polygon that its centre stays in. eps: how close the proof comes, model units or
     a text such as '1mm'; max_cells: cells of places to examine at most.
     map: have the height at every place of a grid, too, as `heights`; step: distance between these places, model units
@@ -183,9 +187,10 @@ def drop(mesh, *, onto, place=None, turn=False, corner=None, eps=None, max_cells
     format, unit, up, labels: how a file is read, see `load`. threads: at most so many (default: all).
     progress: called as progress(step, fraction).
     """
-    options = {"onto": onto, "place": place, "turn": turn, "corner": corner, "eps": eps, "max_cells": max_cells,
-               "map": "table" if map else None, "step": step, "direction": direction, "semantics": semantics,
-               "format": format, "unit": unit, "up": up, "labels": labels, "threads": threads}
+    options = {"onto": onto, "place": place, "least": least, "overlap": overlap, "turn": turn, "corner": corner,
+               "eps": eps, "max_cells": max_cells, "map": "table" if map else None, "step": step,
+               "direction": direction, "semantics": semantics, "format": format, "unit": unit, "up": up,
+               "labels": labels, "threads": threads}
     answer = run_command("drop", mesh, options, progress)
     return _results.Drop(answer.document, _table_of(answer.texts["table"]) if map else None)
 

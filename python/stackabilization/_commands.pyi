@@ -85,7 +85,8 @@ def draft(
 ) -> Draft: ...
 
 def drop(
-    mesh: MeshLike, *, onto: MeshLike, place: Literal["given", "best"] | None = None, turn: bool = False,
+    mesh: MeshLike, *, onto: MeshLike, place: Literal["given", "best"] | None = None,
+    least: Literal["height", "gap", "volume"] | None = None, overlap: float | None = None, turn: bool = False,
     corner: Sequence[Sequence[float]] | None = None, eps: Length | None = None, max_cells: int | None = None,
     map: bool = False, step: Length | None = None, direction: Vector | None = None, semantics: Semantics | None = None,
     format: str | None = None, unit: Unit | None = None, up: Up | None = None, labels: Path | None = None,

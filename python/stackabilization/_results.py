@@ -607,11 +607,15 @@ class Drop(OfModel):
     lift: float = field("From the height of its coordinates, model units.")
     exact_lift: fractions.Fraction = field("The same in units of the direction.", convert=fraction)
     witness: "Witness | None" = field("What touches; None on the floor.", convert=Witness)
-    bound: "float | None" = field("No place is lower; None without a search.")
-    proven: "bool | None" = field("Is the bound within eps of the height?")
+    least: "str | None" = field("What the best place has the least of: 'height', 'gap' or 'volume'.")
+    mean_gap: "dict | None" = field("low and high: a range that holds it, model units; None but for 'gap'.", convert=copied)
+    mean_depth: "dict | None" = field("The same of the space below; None but for 'volume'.", convert=copied)
+    volume: "dict | None" = field("low and high of the space below, model units cubed.", convert=copied)
+    bound: "float | None" = field("No place has a smaller height, mean gap or mean depth; None without a search.")
+    proven: "bool | None" = field("Is the bound within eps of what was found?")
     eps: "float | None" = field("How close the proof had to come, model units.")
     cells: "int | None" = field("Cells of places examined.")
-    open_cells: "int | None" = field("Of these, cells that may hold a lower place.")
+    open_cells: "int | None" = field("Of these, cells that may hold a better place.")
 
     @property
     def heights(self) -> "Floats | None":

@@ -40,6 +40,39 @@ TEST_CASE("a cube drops at its place, and at the best one onto the lower half of
   CHECK(high["height"] == 2);
 }
 
+TEST_CASE(
+    "a plate longer than a step leaves the least space on its whole length, and the least gap on half of "
+    "it") {
+  const StepFolder folder;
+  // Over x from 1 to 4 it rests on the higher half, with 1 of 3 above the lower one, 1 deep.
+  const std::string plate = folder.model("plate.obj", solids::box({0, 0, 7}, {3, 2, 8}));
+  const auto placed = [&](const std::string& least) {
+    return run_program(
+               {"drop", plate, "--onto", folder.step, "--place", "best", "--least", least, "--json", "-"})
+        .json();
+  };
+  const json volume = placed("volume");
+  CHECK(volume["least"] == "volume");
+  CHECK(volume["height"] == 2);
+  CHECK(volume["footprint"]["low"].get<double>() <= 6);
+  CHECK(volume["footprint"]["high"].get<double>() == Approx(6).epsilon(1e-3));
+  CHECK(volume["volume"]["low"].get<double>() <= 2 + 1e-9);
+  CHECK(volume["volume"]["high"].get<double>() >= 2 - 1e-9);
+  CHECK(volume["mean_depth"]["high"].get<double>() == Approx(1.0 / 3).margin(0.01));
+  CHECK(volume["bound"].get<double>() <= 1.0 / 3 + 1e-9);
+  CHECK(volume["proven"] == true);
+  const json gap = placed("gap");
+  CHECK(gap["mean_gap"]["high"].get<double>() == Approx(1.0 / 3).margin(0.01));
+  CHECK(gap["min_overlap"] == 0.5);
+  // Beyond the end nothing is below.
+  const json beyond =
+      run_program({"drop", plate, "--onto", folder.step, "--place", "best", "--least", "gap", "--corner",
+                   "2.5", "1", "--corner", "3.5", "1", "--corner", "3.5", "1.1", "--json", "-"})
+          .json();
+  CHECK(beyond["mean_gap"]["high"].get<double>() <= 0.01);
+  CHECK(beyond["place"]["x"].get<double>() >= 3.5 - 0.02);
+}
+
 TEST_CASE("too few cells are not enough for a proof: status 1, and a bound that holds") {
   const StepFolder folder;
   const Outcome few = run_program({"drop", folder.cube, "--onto", folder.step, "--place", "best", "--turn",
@@ -63,6 +96,14 @@ TEST_CASE("a drop is refused where options or units do not fit") {
   check_refused(folder, {"drop", folder.cube, "--onto", folder.step, "--turn"}, 2, "needs --place best");
   check_refused(folder, {"drop", folder.cube, "--onto", folder.step, "--place", "best", "--corner", "1", "2"},
                 2, "three times at least");
+  check_refused(folder, {"drop", folder.cube, "--onto", folder.step, "--least", "gap"}, 2,
+                "needs --place best");
+  check_refused(folder, {"drop", folder.cube, "--onto", folder.step, "--place", "best", "--overlap", "0.3"},
+                2, "needs --least gap");
+  check_refused(folder,
+                {"drop", folder.cube, "--onto", folder.step, "--place", "best", "--least", "gap", "--corner",
+                 "9", "9", "--corner", "9", "10", "--corner", "10", "9"},
+                2, "as much overlap");
   check_refused(folder, {"drop", folder.cube, "--onto", folder.step, "--step", "1"}, 2, "needs --map");
   check_refused(folder, {"drop", folder.cube, "--onto", folder / "missing.obj"}, 3, "missing.obj");
   Shape other = solids::box({1, 1, 1});

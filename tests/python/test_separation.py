@@ -120,6 +120,18 @@ def test_a_box_drops_to_the_bottom_of_what_it_fits_in():
     assert st.drop(item, onto=floor).on_floor and st.drop(item, onto=floor).bound is None
 
 
+def test_a_plate_finds_the_place_with_the_least_space_or_gap_below_it():
+    # A step, 1 and 2 high: over 1 of 3 of the plate there is a gap of 1, in the best case.
+    step = tuple(numpy.concatenate(parts) for parts in zip(box((0, 0, 0), (2, 2, 1)), box((2, 0, 0), (4, 2, 2))))
+    step[1][12:] += 8
+    plate = box((0, 0, 7), (3, 2, 8))
+    space = st.drop(plate, onto=step, place="best", least="volume")
+    gap = st.drop(plate, onto=step, place="best", least="gap", overlap=0.9)
+    assert space.proven and space.mean_depth["low"] <= 1 / 3 <= space.mean_depth["high"] + 1e-9
+    assert space.volume["low"] <= 2 + 1e-9 and space.bound <= 1 / 3 + 1e-9 and space.mean_gap is None
+    assert gap.mean_gap["high"] == pytest.approx(1 / 3, abs=0.02) and gap.mean_depth is None
+
+
 def test_the_map_of_a_drop_has_the_height_at_each_place():
     mound = (numpy.array([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0], [1, 2, 3.0]]),
              [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4], [0, 2, 1], [0, 3, 2]])

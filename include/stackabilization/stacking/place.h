@@ -45,43 +45,64 @@ struct Drop {
 Drop drop_at(const Shape& base, const Shape& shape, const Direction& direction, const Place& place,
              ContactSemantics semantics = ContactSemantics::solid);
 
+/// What the best place has the least of, in model units.
+enum class PlaceGoal {
+  height,  ///< height of the lowest point of the shape above that of the base
+  gap,     ///< mean distance along r between the two, over the area across r where one lies above the other
+  volume,  ///< empty space below the shape, down to the base, or to the floor where there is no base;
+           ///< divided by the area of the shape seen along r, which is its mean depth
+};
+
 /// Places to choose from, and how well the choice is to be proven.
 struct PlaceOptions {
   ContactSemantics semantics = ContactSemantics::solid;  ///< what counts as a collision
+  PlaceGoal goal = PlaceGoal::height;                    ///< what the best place has the least of
+  /// For PlaceGoal::gap: least area across r where one lies above the other, fraction of the smaller one of
+  /// their areas seen along r, in [0, 1].
+  double min_overlap = 0.5;
   /// Corners, in order, of a simple polygon that the centre stays in, border included; coordinates along u
   /// and v, model units. Empty: along u and along v, the box of the shape stays within the box of the base,
   /// or where it is longer, around it.
   std::vector<Eigen::Vector2d> region;
   bool turn = false;  ///< whether the shape may turn about r by any angle
-  /// Largest distance between the height found and the proven bound, model units, > 0.
+  /// Largest distance between the value of the goal found and the proven bound, model units, > 0.
   double accuracy = 0;
   std::int64_t max_cells = 200'000;           ///< limit of the cells examined, >= 1
   std::function<bool()> cancelled = {};       ///< asked from the calling thread; true ends the search early
   std::function<void(double)> progress = {};  ///< called from the calling thread with a fraction in [0, 1]
 };
 
-/// The lowest place found, and what is proven.
+/// The best place found, and what is proven.
 struct BestPlace {
-  Drop drop;               ///< at the lowest place found
-  double bound = 0;        ///< no place of the region has a smaller height, model units
-  bool proven = false;     ///< height - bound <= accuracy
+  Drop drop;  ///< at the best place found
+  /// Of the goal at that place, model units: a certified range. Of the height, both ends are `drop.height`.
+  Range value{0, 0};
+  double bound = 0;  ///< no place of the region has a smaller value, model units
+  /// Area of the shape seen along r, model units squared: a certified range; 0 for the height.
+  Range footprint{0, 0};
+  bool proven = false;     ///< value.high - bound <= accuracy
   std::int64_t cells = 0;  ///< cells of places that were examined
-  std::int64_t open = 0;   ///< of these, cells that may hold a height below height - accuracy
+  std::int64_t open = 0;   ///< of these, cells that may hold a value below value.high - accuracy
   bool cancelled = false;  ///< whether the search was ended early
 };
 
-/// Searches the place where `shape` comes to rest lowest on `base`, with a proof.
+/// Searches the place where `shape` rests on `base` with the least height, mean gap or space below, with a
+/// proof.
 ///
 /// Branch and bound over cells of places (x, y and, with `turn`, yaw). The heights at places are exact. The
 /// lower bound of a cell holds for all its places: it compares the upper envelope of one shape over a
 /// rectangle with the lower envelope of the other one over all places that a point of it can have there.
-/// Rounding is allowed for, so the bound holds for exact arithmetic. Where `closed` semantics lift the shape
-/// higher, the bound stays that of `solid`.
+/// Mean gap and space are sums over such rectangles, with what is certain of each, for lifts below which no
+/// place of the cell has any. Rounding is allowed for, so the bound holds for exact arithmetic. Where
+/// `closed` semantics lift the shape higher, the bound stays that of `solid`.
 ///
-/// Heights equal to rounding count as equal; of equally low places the first one wins, in the order: given
-/// place, centre of the base, places flush with its box, others. Deterministic for any number of threads.
+/// Values equal to rounding count as equal, mean gaps and spaces equal to a quarter of the accuracy may; of
+/// equally good places the first one wins, in the order: given place, centre of the base, places flush with
+/// its box, others. Deterministic for any number of threads.
 ///
-/// Throws InputError when `validate` fails for either shape, and UsageError for options out of range.
+/// Throws InputError when `validate` fails for either shape, or when the shape has no area seen along r and
+/// the goal needs one, and UsageError for options out of range, or when no place with enough overlap was
+/// found.
 BestPlace best_place(const Shape& base, const Shape& shape, const Direction& direction,
                      const PlaceOptions& options);
 

@@ -27,6 +27,9 @@ inline constexpr double direction_cell = 1e-7;
 /// Default of the largest difference between the height of a place and its bound, fraction of the extent of
 /// the higher one of the two shapes along the direction.
 inline constexpr double place_height = 0x1p-10;
+/// The same for a mean gap, and for the mean depth of the space below a shape: integrals, whose ranges take
+/// many times the work.
+inline constexpr double place_gap = 0x1p-6;
 
 /// Distance from a surface at which a point is beside it, fraction of the diagonal of the shape.
 inline constexpr double beside_surface = 1e-7;

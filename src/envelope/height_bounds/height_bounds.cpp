@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <queue>
 #include <utility>
 
 #include "core/disjoint_sets.h"
 #include "core/index.h"
 #include "envelope/separation/shear.h"
+#include "stackabilization/core/tolerances.h"
 
 namespace stackabilization::detail {
 namespace {
@@ -42,6 +44,7 @@ HeightBounds::HeightBounds(ProjectedMesh mesh) : error_(mesh.error) {
   cross_error_ = 4 * error_ + 16 * unit_roundoff * size_;
   make_faces(mesh);
   make_patches(mesh);
+  open_components(mesh);
   Node root;
   root.box = {low.x() - error_, high.x() + error_, low.y() - error_, high.y() + error_};
   for (std::size_t f = 0; f < faces_.size(); ++f) root.faces.push_back(static_cast<std::int32_t>(f));
@@ -63,6 +66,7 @@ void HeightBounds::make_faces(const ProjectedMesh& mesh) {
     double ax = face.x[1] - face.x[0], ay = face.y[1] - face.y[0];
     double bx = face.x[2] - face.x[0], by = face.y[2] - face.y[0];
     double area = ax * by - ay * bx;
+    face.side = area < 0 ? Side::from_below : Side::from_above;
     if (area < 0) {
       std::swap(face.x[1], face.x[2]);
       std::swap(face.y[1], face.y[2]);
@@ -135,11 +139,48 @@ void HeightBounds::make_patches(const ProjectedMesh& mesh) {
     }
 }
 
+/// Marks the triangles of components that are not closed.
+void HeightBounds::open_components(const ProjectedMesh& mesh) {
+  const EdgeTable& edges = *mesh.edges;
+  DisjointSets components(faces_.size());
+  std::vector<std::int32_t> open_at;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    int surplus = 0;
+    for (const TriangleSide& side : edges[e]) {
+      components.join(at(edges[e].front().triangle), at(side.triangle));
+      surplus += side.forward ? 1 : -1;
+    }
+    if (surplus != 0) open_at.push_back(edges[e].front().triangle);
+  }
+  std::vector<bool> is_open(faces_.size(), false);
+  for (const std::int32_t triangle : open_at) is_open[components.root(at(triangle))] = true;
+  for (std::size_t f = 0; f < faces_.size(); ++f)
+    if (is_open[components.root(f)]) faces_[f].side = Side::open;
+}
+
 HeightBound HeightBounds::over(const PlanarBox& rectangle, const Eigen::Vector2d& slope) {
   if (!rectangle.meets(box())) return {};
   HeightBound bound = over(0, rectangle, slope);
   if (!box().contains(rectangle)) bound.low = -infinity;
   return bound;
+}
+
+Range HeightBounds::covered_area(int rectangles) {
+  Range area{0, 0};
+  std::queue<PlanarBox> open;
+  open.push(box());
+  for (; !open.empty(); open.pop()) {
+    const PlanarBox& next = open.front();
+    const HeightBound bound = over(next);
+    if (!bound.possibly_covered()) continue;
+    const bool certain = bound.certainly_covered();
+    if (certain) area.low += next.width() * next.height();
+    if (certain || --rectangles < 0)
+      area.high += next.width() * next.height();
+    else
+      for (const PlanarBox& quarter : next.quarters()) open.push(quarter);
+  }
+  return {area.low * (1 - tolerance::relative), area.high * (1 + tolerance::relative)};
 }
 
 HeightBound HeightBounds::over(std::int32_t index, const PlanarBox& rectangle, const Eigen::Vector2d& slope) {
@@ -155,7 +196,8 @@ HeightBound HeightBounds::over(std::int32_t index, const PlanarBox& rectangle, c
   for (std::int32_t child = first; child < first + 4; ++child) {
     if (!rectangle.meets(nodes_[at(child)].box)) continue;
     const HeightBound part = over(child, rectangle, slope);
-    bound = {std::min(bound.low, part.low), std::max(bound.high, part.high)};
+    bound = {std::min(bound.low, part.low), std::max(bound.high, part.high),
+             std::min(bound.covered_low, part.covered_low)};
   }
   return bound;
 }
@@ -167,7 +209,7 @@ HeightBound HeightBounds::sheared(const HeightBound& bound, const PlanarBox& box
   const double middle = slope.x() * (box.x_low + box.x_high) / 2 + slope.y() * (box.y_low + box.y_high) / 2;
   const double spread = (std::abs(slope.x()) * box.width() + std::abs(slope.y()) * box.height()) / 2 +
                         8 * unit_roundoff * size_ * steepness;
-  return {bound.low - middle - spread, bound.high - middle + spread};
+  return {bound.low - middle - spread, bound.high - middle + spread, bound.covered_low - middle - spread};
 }
 
 Eigen::Vector2d HeightBounds::slope_at(double x, double y) const {
@@ -223,6 +265,8 @@ HeightBound HeightBounds::direct(const Node& node, const PlanarBox& rectangle, c
     const Border& border = borders_[at(b)];
     if (meets(border, rectangle)) state(border.patch).bordered = true;
   }
+  std::array<double, 3> low_of_side;
+  low_of_side.fill(infinity);
   for (const std::int32_t f : node.faces) {
     const Face& face = faces_[at(f)];
     const Overlap met = overlap(face, rectangle);
@@ -230,6 +274,8 @@ HeightBound HeightBounds::direct(const Node& node, const PlanarBox& rectangle, c
     const HeightBound bound = plane_bound(face, rectangle, slope);
     result.high = std::max(result.high, bound.high);
     if (face.patch < 0) continue;
+    double& low = low_of_side[static_cast<std::size_t>(face.side)];
+    low = std::min(low, bound.low);
     PatchState& patch = state(face.patch);
     patch.low = std::min(patch.low, bound.low);
     patch.touched = patch.touched || met == Overlap::certain;
@@ -239,17 +285,17 @@ HeightBound HeightBounds::direct(const Node& node, const PlanarBox& rectangle, c
     const PatchState& patch = patches_[at(faces_[at(f)].patch)];
     if (patch.call == call_ && patch.touched && !patch.bordered) result.low = std::max(result.low, patch.low);
   }
+  // A point that a closed component covers is covered from both sides.
+  const auto& [above, below, open] = low_of_side;
+  const double closed = above == infinity || below == infinity ? infinity : std::max(above, below);
+  result.covered_low = std::max(result.low, std::min(closed, open));
   return result;
 }
 
 void HeightBounds::split(std::int32_t index) {
   if (nodes_[at(index)].first_child >= 0) return;
   const auto first = static_cast<std::int32_t>(nodes_.size());
-  const PlanarBox box = nodes_[at(index)].box;
-  const double x = box.x_low / 2 + box.x_high / 2, y = box.y_low / 2 + box.y_high / 2;
-  for (const PlanarBox& quarter :
-       {PlanarBox{box.x_low, x, box.y_low, y}, PlanarBox{x, box.x_high, box.y_low, y},
-        PlanarBox{box.x_low, x, y, box.y_high}, PlanarBox{x, box.x_high, y, box.y_high}}) {
+  for (const PlanarBox& quarter : nodes_[at(index)].box.quarters()) {
     Node child;
     child.box = quarter;
     child.depth = nodes_[at(index)].depth + 1;
@@ -300,7 +346,7 @@ HeightBound HeightBounds::plane_bound(const Face& face, const PlanarBox& box,
   const auto [x_low, x_high] = std::minmax({face.x[0], face.x[1], face.x[2]});
   const auto [y_low, y_high] = std::minmax({face.y[0], face.y[1], face.y[2]});
   PlanarBox part = common(box, {x_low - error_, x_high + error_, y_low - error_, y_high + error_});
-  const HeightBound range = sheared({face.h_low, face.h_high}, part, slope);
+  const HeightBound range = sheared({face.h_low, face.h_high, face.h_low}, part, slope);
   if (face.plane_error == infinity) return range;
   const double x = (part.x_low + part.x_high) / 2, y = (part.y_low + part.y_high) / 2;
   const double middle = face.base_height + face.slope_x * (x - face.x[0]) + face.slope_y * (y - face.y[0]) -
@@ -308,7 +354,8 @@ HeightBound HeightBounds::plane_bound(const Face& face, const PlanarBox& box,
   const double spread = std::abs(face.slope_x - slope.x()) * part.width() / 2 +
                         std::abs(face.slope_y - slope.y()) * part.height() / 2 + face.plane_error +
                         8 * unit_roundoff * size_ * (std::abs(slope.x()) + std::abs(slope.y()));
-  return {std::max(range.low, middle - spread), std::min(range.high, middle + spread)};
+  return {std::max(range.low, middle - spread), std::min(range.high, middle + spread),
+          std::max(range.low, middle - spread)};
 }
 
 }  // namespace stackabilization::detail

@@ -1,10 +1,8 @@
 #include "stackabilization/stacking/place.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <queue>
@@ -13,7 +11,9 @@
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
 #include "stacking/place/local_frame.h"
+#include "stacking/place/local_lift.h"
 #include "stacking/place/place_bounds.h"
+#include "stacking/place/place_gap.h"
 #include "stacking/place/place_region.h"
 
 namespace stackabilization {
@@ -21,73 +21,34 @@ namespace stackabilization {
 namespace {
 
 using detail::CellBound;
+using detail::LocalLift;
 using detail::LocalPlace;
 using detail::PlaceCell;
 using detail::PlanarBox;
+using detail::Touch;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Turned trees that are kept.
-constexpr std::size_t max_trees = 64;
 /// Halvings of the step at the end, and trials per step size: from the accuracy down to rounding.
 constexpr int last_halvings = 30;
 constexpr int trials_per_step = 4;
-
-/// A lift, and the points across r that touch; those of the shape before it is turned and moved.
-struct Touch {
-  double lift = 0;
-  bool on_floor = true;
-  Eigen::Vector2d of_shape = Eigen::Vector2d::Zero(), of_base = Eigen::Vector2d::Zero();
-};
-
-/// Lifts of the local coordinates along the third axis, exact for these, rounded.
-class LocalLift {
- public:
-  LocalLift(const detail::LocalShapes& shapes, ContactSemantics semantics)
-      : shapes_(shapes), semantics_(semantics), base_(shapes.base) {
-    const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-    floor_ = range_along(shapes.base, up).low - range_along(shapes.shape, up).low;
-  }
-
-  /// Returns the lift at which the shape stands on the floor.
-  double floor() const { return floor_; }
-
-  Touch operator()(const LocalPlace& place) {
-    const SeparationTree moved = turned(place.yaw).translated({place.x, place.y, 0});
-    const Separation found = separation(base_, moved, Direction(0, 0, 1), {semantics_, std::nullopt});
-    if (!found.blocked || found.length < floor_) return {floor_};
-    const Eigen::Vector2d touching = found.witness.lower_point.head<2>() - Eigen::Vector2d(place.x, place.y);
-    return {found.length, false, Eigen::Rotation2Dd(-place.yaw) * touching,
-            found.witness.upper_point.head<2>()};
-  }
-
- private:
-  const SeparationTree& turned(double yaw) {
-    if (const auto known = trees_.find(yaw); known != trees_.end()) return known->second;
-    if (trees_.size() == max_trees) trees_.clear();
-    const Line axis;
-    const RigidTransform turn = rotation_about(axis, yaw * 180 / std::numbers::pi);
-    return trees_.emplace(yaw, SeparationTree(transformed(shapes_.shape, turn))).first->second;
-  }
-
-  const detail::LocalShapes& shapes_;
-  ContactSemantics semantics_;
-  SeparationTree base_;
-  double floor_ = 0;
-  std::map<double, SeparationTree> trees_;
-};
+/// Width of the range of a mean gap or a mean depth at a place, and what another place is better by, fraction
+/// of the accuracy.
+constexpr double share_at_place = 0.25;
 
 /// A cell that is not closed, with what is known of it.
 struct OpenCell {
   PlaceCell cell;
-  CellBound bound;
+  CellBound lift;
+  double low = 0;           ///< of the goal
   std::int64_t number = 0;  ///< in the order of creation
 
   /// Heap order: the lowest bound first, then the first one made.
   friend bool operator<(const OpenCell& a, const OpenCell& b) {
-    return a.bound.low != b.bound.low ? a.bound.low > b.bound.low : a.number > b.number;
+    return a.low != b.low ? a.low > b.low : a.number > b.number;
   }
 };
 
+/// The search; values of the goal are lifts for PlaceGoal::height.
 class PlaceSearch {
  public:
   PlaceSearch(const detail::LocalShapes& shapes, const PlaceOptions& options)
@@ -99,39 +60,60 @@ class PlaceSearch {
         radius_(shapes.shape.vertices.leftCols<2>().rowwise().norm().maxCoeff()) {
     const detail::Outline base(shapes.base);
     starts_ = {{shapes.centre.x(), shapes.centre.y(), 0}, {base.centre().x(), base.centre().y(), 0}};
+    least_ = lift_.floor();
+    if (options.goal == PlaceGoal::height) return;
+    footprint_ = bounds_.area_of_shape();
+    if (!(footprint_.low > 0))
+      throw InputError("the shape has no area seen along the direction, so nothing lies below it");
+    Range area = footprint_;
+    if (options.goal == PlaceGoal::gap)
+      area = {options.min_overlap * std::min(footprint_.high, bounds_.area_of_base().high), infinity};
+    gap_.emplace(bounds_, options.goal, range_along(shapes.base, Eigen::Vector3d::UnitZ()).low, area);
+    least_ = 0;
   }
 
   void run() {
     try_starts();
-    for (const PlaceCell& cell : first_cells()) examine(cell, {});
+    for (const PlaceCell& cell : first_cells()) examine(cell, {{}, least_});
     while (!open_.empty() && !ended()) {
       const OpenCell next = open_.top();
-      if (next.bound.low >= enough()) break;
+      if (next.low >= enough()) break;
       open_.pop();
       split(next);
-      report(next.bound.low);
+      report(next.low);
     }
-    descend();
+    if (!gap_) descend();
   }
 
-  const LocalPlace& best_place() const { return best_; }
-  /// Returns the lift that no place has less of.
-  double bound() const {
-    const double open = open_.empty() ? infinity : open_.top().bound.low;
-    return std::max(lift_.floor(), std::min({best_lift_, closed_low_, open}));
+  /// Returns nothing where no place has enough overlap.
+  std::optional<LocalPlace> best_place() const {
+    return best_.high < infinity ? std::optional(best_place_) : std::nullopt;
   }
+  Range best() const { return best_; }
+  /// Returns the value that no place has less of.
+  double bound() const {
+    const double open = open_.empty() ? infinity : open_.top().low;
+    return std::max(least_, std::min({best_.high, closed_low_, open}));
+  }
+  const Range& footprint() const { return footprint_; }
   std::int64_t cells() const { return cells_; }
   std::int64_t open_cells() const {
     auto left = open_;
     std::int64_t count = 0;
-    for (; !left.empty() && left.top().bound.low < enough(); left.pop()) ++count;
+    for (; !left.empty() && left.top().low < enough(); left.pop()) ++count;
     return count;
   }
   bool cancelled() const { return cancelled_; }
   double floor() const { return lift_.floor(); }
 
  private:
-  double enough() const { return best_lift_ - options_.accuracy; }
+  /// What is known of a cell.
+  struct Known {
+    CellBound lift;
+    double low;  ///< of the goal
+  };
+
+  double enough() const { return best_.high - options_.accuracy; }
 
   bool ended() {
     if (cells_ >= options_.max_cells) return true;
@@ -141,27 +123,37 @@ class PlaceSearch {
 
   /// Cells are halved until the bound is close: a logarithm of what is left.
   void report(double low) const {
-    if (!options_.progress) return;
-    const double gap = std::max(best_lift_ - std::max(low, lift_.floor()), options_.accuracy);
-    const double first = std::max(best_lift_ - lift_.floor(), options_.accuracy);
+    if (!options_.progress || best_.high == infinity) return;
+    const double gap = std::max(best_.high - std::max(low, least_), options_.accuracy);
+    const double first = std::max(best_.high - least_, options_.accuracy);
     options_.progress(first > options_.accuracy ? std::log(first / gap) / std::log(first / options_.accuracy)
                                                 : 1);
   }
 
   Touch try_place(const LocalPlace& place) {
     const Touch touch = lift_(place);
-    if (touch.lift < best_lift_ - rounding_) {
-      best_lift_ = touch.lift;
-      best_ = place;
-    }
+    if (!gap_) take(place, {touch.lift, touch.lift});
     return touch;
+  }
+
+  void take(const LocalPlace& place, const Range& value) {
+    if (value.high >= best_.high - rounding_) return;
+    best_ = value;
+    best_place_ = place;
+  }
+
+  void take_gap(const LocalPlace& place, double lift) {
+    const double step = share_at_place * options_.accuracy;
+    take(place, gap_->at(place, lift, step, best_.high - std::max(step, rounding_)));
   }
 
   /// The given place, the middle of the base, and the corners and the middle of the region.
   void try_starts() {
     const auto try_if_allowed = [this](const LocalPlace& place) {
       const PlaceCell cell{{place.x, place.x, place.y, place.y}, place.yaw, 0};
-      if (region_.place_in(cell)) try_place(place);
+      if (!region_.place_in(cell)) return;
+      const Touch touch = try_place(place);
+      if (gap_) take_gap(place, touch.lift);
     };
     for (const LocalPlace& start : starts_) try_if_allowed(start);
     for (const double quarter : {0.0, 0.5, -0.5, 1.0}) {
@@ -201,31 +193,66 @@ class PlaceSearch {
     } else {
       first.box.y_high = second.box.y_low = box.y_low / 2 + box.y_high / 2;
     }
-    examine(first, open.bound);
-    examine(second, open.bound);
+    examine(first, {open.lift, open.low});
+    examine(second, {open.lift, open.low});
   }
 
-  /// Closes a cell whose bound is high enough. Of others it tries a place, whose contact may show more.
-  void examine(const PlaceCell& cell, const CellBound& around) {
+  /// Closes a cell whose bound is high enough. Of others it tries a place.
+  void examine(const PlaceCell& cell, const Known& around) {
     if (region_.excludes(cell)) return;
     ++cells_;
-    CellBound best{std::max(around.low, lift_.floor()), {}};
-    const auto take = [&](const CellBound& bound) {
-      if (bound.low > best.low) best = bound;
-      return best.low >= enough();
-    };
-    bool closed = around.witness && take(bounds_.bound(cell, *around.witness));
-    if (!closed) {
-      const auto place = region_.place_in(cell);
-      const Touch touch = place ? try_place(*place) : Touch{};
-      closed = best.low >= enough() ||
-               (!touch.on_floor && take(bounds_.bound_near(cell, touch.of_shape, touch.of_base)));
-    }
-    closed = closed || take(bounds_.search(cell, enough())) || is_point(cell);
-    if (closed)
-      closed_low_ = std::min(closed_low_, best.low);
+    const auto place = region_.place_in(cell);
+    Known known{{std::max(around.lift.low, lift_.floor()), {}}, around.low};
+    const bool closed =
+        gap_ ? bound_gap(cell, around, place, known) : bound_height(cell, around, place, known);
+    if (closed || is_point(cell))
+      closed_low_ = std::min(closed_low_, known.low);
     else
-      open_.push({cell, best, cells_});
+      open_.push({cell, known.lift, known.low, cells_});
+  }
+
+  /// Returns whether the bound is high enough. The contact at the place that is tried may show more.
+  bool bound_height(const PlaceCell& cell, const Known& around, const std::optional<LocalPlace>& place,
+                    Known& known) {
+    const auto raise = [&](const CellBound& bound) {
+      if (bound.low > known.lift.low) known.lift = bound;
+      known.low = known.lift.low;
+      return known.low >= enough();
+    };
+    bool closed = around.lift.witness && raise(bounds_.bound(cell, *around.lift.witness));
+    if (!closed) {
+      const Touch touch = place ? try_place(*place) : Touch{};
+      closed = raise(known.lift) ||
+               (!touch.on_floor && raise(bounds_.bound_near(cell, touch.of_shape, touch.of_base)));
+    }
+    return closed || raise(bounds_.search(cell, enough()));
+  }
+
+  /// The same for mean gap and volume. They need the lift as high as it can be shown to be: nearly what the
+  /// centre and the corners of the cell have, at least.
+  bool bound_gap(const PlaceCell& cell, const Known& around, const std::optional<LocalPlace>& place,
+                 Known& known) {
+    const auto raise = [&](const CellBound& bound) {
+      if (bound.low > known.lift.low) known.lift = bound;
+    };
+    if (around.lift.witness) raise(bounds_.bound(cell, *around.lift.witness));
+    Touch lowest{infinity};
+    const PlanarBox& box = cell.box;
+    for (const LocalPlace& corner :
+         {LocalPlace{box.x_low / 2 + box.x_high / 2, box.y_low / 2 + box.y_high / 2, cell.yaw},
+          LocalPlace{box.x_low, box.y_low, cell.yaw}, LocalPlace{box.x_high, box.y_low, cell.yaw},
+          LocalPlace{box.x_low, box.y_high, cell.yaw}, LocalPlace{box.x_high, box.y_high, cell.yaw}})
+      if (const Touch touch = lift_(corner); touch.lift < lowest.lift) lowest = touch;
+    if (!lowest.on_floor) raise(bounds_.bound_near(cell, lowest.of_shape, lowest.of_base));
+    const double wanted = lowest.lift - share_at_place * options_.accuracy;
+    if (known.lift.low < wanted) raise(bounds_.search(cell, wanted));
+    if (!known.lift.witness) known.lift.witness = around.lift.witness;
+    known.low = std::max(known.low, gap_->low(cell, bounds_.lift(cell, known.lift), enough()));
+    if (known.low < enough() && place) {
+      const double lift = lift_(*place).lift;
+      if (gap_->estimate(*place, lift) < best_.high) take_gap(*place, lift);
+    }
+    return known.low >= enough();
   }
 
   /// Returns whether halves of the cell would hold the same places up to rounding.
@@ -236,11 +263,11 @@ class PlaceSearch {
   /// From the best place on to the bottom next to it, by steps across and turns that are halved.
   void descend() {
     double step = std::max(options_.accuracy, rounding_);
-    for (int level = 0; level < last_halvings && step > rounding_ && best_lift_ > bound() + rounding_;
+    for (int level = 0; level < last_halvings && step > rounding_ && best_.high > bound() + rounding_;
          ++level) {
       for (int trial = 0; trial < trials_per_step; ++trial) {
-        const double before = best_lift_;
-        const LocalPlace from = best_;
+        const double before = best_.high;
+        const LocalPlace from = best_place_;
         const double turn = options_.turn && radius_ > 0 ? step / radius_ : 0;
         for (const LocalPlace& place :
              {LocalPlace{from.x + step, from.y, from.yaw}, LocalPlace{from.x - step, from.y, from.yaw},
@@ -251,7 +278,7 @@ class PlaceSearch {
               region_.place_in(cell))
             try_place(place);
         }
-        if (best_lift_ >= before) break;
+        if (best_.high >= before) break;
       }
       step /= 2;
     }
@@ -263,8 +290,11 @@ class PlaceSearch {
   detail::PlaceBounds bounds_;
   double rounding_, radius_;
   std::vector<LocalPlace> starts_;
-  LocalPlace best_;
-  double best_lift_ = infinity;
+  std::optional<detail::PlaceGap> gap_;  ///< unless the goal is the height
+  Range footprint_{0, 0};
+  double least_ = 0;  ///< value that no place has less of, whatever the shapes
+  LocalPlace best_place_;
+  Range best_{infinity, infinity};
   double closed_low_ = infinity;  ///< lowest bound of the closed cells
   std::priority_queue<OpenCell> open_;
   std::int64_t cells_ = 0;
@@ -279,16 +309,26 @@ BestPlace best_place(const Shape& base, const Shape& shape, const Direction& dir
   validate(shape);
   if (!(options.accuracy > 0)) throw UsageError("the accuracy of a place must be a positive length");
   if (options.max_cells < 1) throw UsageError("a search for a place examines at least one cell");
+  if (!(options.min_overlap >= 0 && options.min_overlap <= 1))
+    throw UsageError("the least overlap must be a share between 0 and 1");
   const detail::LocalShapes shapes(base, shape, direction);
   PlaceSearch search(shapes, options);
   search.run();
-  const LocalPlace& found = search.best_place();
+  const std::optional<LocalPlace> found = search.best_place();
+  if (!found) throw UsageError("at no place that was tried is there as much overlap as the mean gap needs");
   BestPlace best;
   best.drop =
-      drop_at(base, shape, direction, {found.x, found.y, reduced_degrees(found.yaw * 180 / std::numbers::pi)},
-              options.semantics);
-  best.bound = std::min(search.bound() - search.floor(), best.drop.height);
-  best.proven = best.drop.height - best.bound <= options.accuracy;
+      drop_at(base, shape, direction,
+              {found->x, found->y, reduced_degrees(found->yaw * 180 / std::numbers::pi)}, options.semantics);
+  if (options.goal == PlaceGoal::height) {
+    best.value = {best.drop.height, best.drop.height};
+    best.bound = std::min(search.bound() - search.floor(), best.drop.height);
+  } else {
+    best.value = search.best();
+    best.bound = search.bound();
+    best.footprint = search.footprint();
+  }
+  best.proven = best.value.high - best.bound <= options.accuracy;
   best.cells = search.cells();
   best.open = search.open_cells();
   best.cancelled = search.cancelled();

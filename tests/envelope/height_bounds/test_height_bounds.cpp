@@ -49,7 +49,39 @@ TEST_CASE("a flat top bounds its height from both sides, also across its triangl
   // Beyond the border nothing is below; beside it there is nothing at all.
   CHECK(box.bounds.over({1, 2.25, 1, 1.5}).low == -nothing);
   CHECK(box.bounds.over({1, 2.25, 1, 1.5}).high == Approx(1).margin(1e-12));
+  CHECK(box.bounds.over({1, 2.25, 1, 1.5}).covered_low >= 0);
+  CHECK(box.bounds.over({3, 4, 0, 1}).covered_low == nothing);
   CHECK(box.bounds.over({3, 4, 0, 1}).high == -nothing);
+}
+
+TEST_CASE(
+    "at a border the lowest covered point is that of the top of a solid, and of any sheet of an open "
+    "surface") {
+  // A solid one 1 high, and beside it, not touching, one 3 high.
+  Bounded solids_beside(concatenate(solids::box({0, 0, 0}, {1, 1, 1}), solids::box({1.25, 0, 0}, {2, 1, 3})));
+  CHECK(solids_beside.bounds.over({0.75, 1.125, 0.25, 0.75}).covered_low == Approx(1).margin(1e-12));
+  CHECK(solids_beside.bounds.over({1.125, 1.5, 0.25, 0.75}).covered_low == Approx(3).margin(1e-12));
+  CHECK(solids_beside.bounds.over({0.75, 1.5, 0.25, 0.75}).covered_low == Approx(1).margin(1e-12));
+  // A sheet at 1 that faces up, and one at 0, further right, that faces down.
+  Points points(8, 3);
+  points << 0, 0, 1, 1, 0, 1, 1, 1, 1, 0, 1, 1, 0.9, 0, 0, 2, 0, 0, 2, 1, 0, 0.9, 1, 0;
+  Triangles rows(4, 3);
+  rows << 0, 1, 2, 0, 2, 3, 4, 6, 5, 4, 7, 6;
+  Bounded sheets(make_shape(points, rows));
+  CHECK(sheets.bounds.over({0.5, 1.5, 0.25, 0.75}).covered_low == Approx(0).margin(1e-12));
+  CHECK(sheets.bounds.over({-0.5, 0.5, 0.25, 0.75}).covered_low == Approx(1).margin(1e-12));
+}
+
+TEST_CASE("the area of a projection is within its bounds, which more rectangles narrow") {
+  Bounded ring(solids::torus({}));
+  const Range rough = ring.bounds.covered_area(64), fine = ring.bounds.covered_area(4096);
+  CHECK(rough.low <= fine.low);
+  CHECK(fine.high <= rough.high);
+  Bounded bar(solids::extruded_profile({{-1, 0}, {1, 0}, {0, 1}}, 2));
+  const Range exact = bar.bounds.covered_area(4096);
+  CHECK(exact.low <= 4);
+  CHECK(exact.high >= 4);
+  CHECK(exact.length() < 0.1);
 }
 
 TEST_CASE("along the slope of a surface the bounds do not depend on the size of the rectangle") {
@@ -133,6 +165,10 @@ TEST_CASE("bounds over random rectangles hold for the envelope at random points"
         const double u = field.upper(k, 0);
         CHECK(u >= level.low - 1e-12);
         CHECK(u <= level.high + 1e-12);
+        if (field.covered(k, 0)) {
+          CHECK(u >= level.covered_low - 1e-12);
+          CHECK(u - slope.dot(p) >= tilted.covered_low - 1e-12);
+        }
         if (level.low > -nothing) {
           ++covered;
           CHECK(u - slope.dot(p) >= tilted.low - 1e-12);
