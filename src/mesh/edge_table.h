@@ -28,7 +28,8 @@ class EdgeTable {
     keep   ///< they contribute the sides with different ends
   };
 
-  /// Sorts the sides of all triangles; O(m log m). Precondition: vertex indices are not negative.
+  /// Sorts the sides of all triangles; linear in these and in the largest vertex index, where each vertex has
+  /// few triangles. Precondition: vertex indices are not negative.
   explicit EdgeTable(const Eigen::Ref<const Triangles>& triangles, Collapsed collapsed = Collapsed::skip);
 
   /// Returns the number of edges.
@@ -41,6 +42,8 @@ class EdgeTable {
   const std::vector<TriangleSide>& sides() const { return sides_; }
 
  private:
+  void sort_sides(std::int32_t vertices);
+
   std::vector<TriangleSide> sides_;
   std::vector<std::size_t> first_;  ///< per edge, the row of its first side; then the number of sides
 };

@@ -45,6 +45,17 @@ TEST_CASE("The hull of the outer points is the hull of all, and few are left of 
   CHECK(outer.triangles == all.triangles);
 }
 
+TEST_CASE(
+    "Many points are sifted by hulls within hulls, far from the origin too, and none of the hull is lost") {
+  const int kind = GENERATE(range(0, 3));
+  const Points points = cloud(kind, 60'000).rowwise() + Eigen::RowVector3d(3e4, -2e5, 1e3);
+  const std::vector<Eigen::Index> rows = outer_points(points);
+  CHECK(rows.size() < 30'000);
+  const TriangulatedHull all = triangulated_hull(points), outer = triangulated_hull(listed(points, rows));
+  CHECK(outer.points == all.points);
+  CHECK(outer.triangles == all.triangles);
+}
+
 TEST_CASE("No point on the surface of a body is left out, however fine its mesh") {
   const Shape ball = solids::sphere(1, 4);
   CHECK(outer_points(ball.vertices).size() == static_cast<std::size_t>(ball.vertex_count()));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "envelope/separation/node_pair.h"
 
@@ -11,6 +12,35 @@ namespace stackabilization::detail {
 namespace {
 
 using NodePair = std::pair<std::int32_t, std::int32_t>;
+
+/// The projected nodes of a tree that were seen last. A descent sees most nodes a few times in a row; to keep
+/// all of them would take more memory than the tree.
+class RecentNodes {
+ public:
+  RecentNodes(const std::vector<TreeNode>& nodes, const Projection& projection)
+      : nodes_(nodes),
+        projection_(projection),
+        indices_(std::min(nodes.size(), max_kept), -1),
+        projected_(indices_.size()) {}
+
+  /// Returns a node; valid until the next call.
+  const ProjectedNode& operator[](std::int32_t index) {
+    const std::size_t slot = static_cast<std::size_t>(index) % indices_.size();
+    if (indices_[slot] != index) {
+      projected_[slot] = ProjectedNode(nodes_[index], projection_);
+      indices_[slot] = index;
+    }
+    return projected_[slot];
+  }
+
+ private:
+  static constexpr std::size_t max_kept = 1 << 14;
+
+  const std::vector<TreeNode>& nodes_;
+  const Projection& projection_;
+  std::vector<std::int32_t> indices_;
+  std::vector<ProjectedNode> projected_;
+};
 
 /// Finds the pairs by descending two trees against each other, as long as there are not too many.
 class PairSearch {
@@ -21,8 +51,8 @@ class PairSearch {
         lower_(lower),
         projection_(projection),
         bound_(std::max(upper.magnitude, lower.magnitude)),
-        upper_nodes_(upper.nodes),
-        lower_nodes_(&upper == &lower ? no_nodes : lower.nodes),
+        upper_nodes_(upper.nodes, projection),
+        lower_nodes_(lower.nodes, projection),
         cut_{std::nextafter(floor, -infinity), 0},
         max_pairs_(max_pairs) {}
 
@@ -33,7 +63,7 @@ class PairSearch {
       if (visited > nodes_per_pair * max_pairs_) return false;
       const auto [a, b] = open.back();
       open.pop_back();
-      if (bound_(upper_nodes_.get(a, projection_), lower_node(b), cut_) <= cut_) continue;
+      if (bound_(upper_nodes_[a], lower_nodes_[b], cut_) <= cut_) continue;
       const TreeNode &upper = upper_.nodes[a], &lower = lower_.nodes[b];
       if (upper.count > 0 && lower.count > 0) {
         if (!collect(upper, lower)) return false;
@@ -54,10 +84,6 @@ class PairSearch {
   }
 
  private:
-  const ProjectedNode& lower_node(std::int32_t index) {
-    return (&upper_ == &lower_ ? upper_nodes_ : lower_nodes_).get(index, projection_);
-  }
-
   bool collect(const TreeNode& upper, const TreeNode& lower) {
     for (std::int32_t a = upper.first; a < upper.first + upper.count; ++a)
       for (std::int32_t b = lower.first; b < lower.first + lower.count; ++b)
@@ -96,8 +122,8 @@ class PairSearch {
   const SeparationTree::Data& lower_;
   const Projection& projection_;
   NodePairBound bound_;
-  ProjectedNodes upper_nodes_, lower_nodes_;  ///< the second is empty where both trees are one
-  DoubleDouble cut_;                          ///< just below the floor
+  RecentNodes upper_nodes_, lower_nodes_;
+  DoubleDouble cut_;  ///< just below the floor
   std::int64_t max_pairs_;
   std::vector<ContactPair> pairs_;
 };
