@@ -12,13 +12,12 @@
 #include "stackabilization/stacking/place.h"
 #include "stacking/place/place_gap.h"
 #include "support/catch.h"
+#include "support/directions.h"
 #include "support/solids.h"
 
 using namespace stackabilization;
 
 namespace {
-
-const Direction upwardswards(0, 0, 1);
 
 PlaceOptions least(PlaceGoal goal, double accuracy) {
   PlaceOptions options;
