@@ -312,9 +312,8 @@ Command make_drop_command(CLI::App& program) {
   add_region(*command, options->region);
   add_length(*command,
              {"--eps",
-              "How close the proof comes to the height or the mean gap or depth found (default: 1/1024 of "
-              "the higher "
-              "extent, 1/64 for --least gap and volume)",
+              "How close the proof comes to the height, mean gap or mean depth found (default: 1/1024 of the "
+              "higher extent, 1/64 for --least gap and volume)",
               true},
              options->eps);
   add_count(

@@ -18,6 +18,7 @@ constexpr int samples_across = 32;
 /// Rectangles narrower than this fraction of the places of a cell are not cut further: the bounds over them
 /// are those of the places.
 constexpr double finest_of_cell = 0.25;
+/// The same, as a fraction of the shape, where there is one place.
 constexpr double finest_of_shape = 1.0 / (1 << 20);
 
 constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -6,10 +6,12 @@
 
 #include "stackabilization/core/errors.h"
 #include "stackabilization/stacking/place.h"
+#include "stacking/place/upright_boxes.h"
 #include "support/catch.h"
 #include "support/solids.h"
 
 using namespace stackabilization;
+using solids::UprightBox;
 
 namespace {
 
@@ -140,34 +142,15 @@ TEST_CASE("boxes in general position: the lowest place is that of the Minkowski 
   // whose rectangles meet: constant between the lines where two sides meet. So the cells between these lines
   // give all heights.
   std::mt19937 random(11);
-  std::uniform_real_distribution<double> unit(0, 1);
   for (int round = 0; round < 6; ++round) {
-    struct Block {
-      Eigen::Vector3d low, high;
-    };
-    const auto blocks = [&](int count, double width) {
-      std::vector<Block> result;
-      for (int i = 0; i < count; ++i) {
-        const Eigen::Vector3d low(width * unit(random), width * unit(random), unit(random));
-        result.push_back(
-            {low, low + Eigen::Vector3d(0.2 + unit(random), 0.2 + unit(random), 0.2 + unit(random))});
-      }
-      return result;
-    };
-    const auto shape_of = [](const std::vector<Block>& list) {
-      Shape shape = solids::box(list[0].low, list[0].high);
-      for (std::size_t i = 1; i < list.size(); ++i)
-        shape = concatenate(shape, solids::box(list[i].low, list[i].high));
-      return shape;
-    };
-    std::vector<Block> ground = blocks(6, 3);
+    std::vector<UprightBox> ground = solids::random_boxes(6, 3, random);
     ground.push_back({{-1, -1, -1}, {5, 5, 0}});
-    const std::vector<Block> item = blocks(3, 1);
-    const Shape base = shape_of(ground), shape = shape_of(item);
+    const std::vector<UprightBox> item = solids::random_boxes(3, 1, random);
+    const Shape base = solids::shape_of(ground), shape = solids::shape_of(item);
     const Place given = given_place(shape, up);
     std::vector<double> xs, ys;
-    for (const Block& a : ground)
-      for (const Block& b : item) {
+    for (const UprightBox& a : ground)
+      for (const UprightBox& b : item) {
         xs.insert(xs.end(), {a.low.x() - b.high.x(), a.high.x() - b.low.x()});
         ys.insert(ys.end(), {a.low.y() - b.high.y(), a.high.y() - b.low.y()});
       }
@@ -176,7 +159,7 @@ TEST_CASE("boxes in general position: the lowest place is that of the Minkowski 
     PlaceOptions options = within(1e-3);
     options.region = {{0.5, 0.5}, {3, 0.5}, {3, 3}, {0.5, 3}};
     double lowest = std::numeric_limits<double>::infinity(), bottom = lowest;
-    for (const Block& b : item) bottom = std::min(bottom, b.low.z());
+    for (const UprightBox& b : item) bottom = std::min(bottom, b.low.z());
     for (std::size_t i = 0; i + 1 < xs.size(); ++i)
       for (std::size_t j = 0; j + 1 < ys.size(); ++j) {
         // A piece of the cell must lie in the region.
@@ -185,8 +168,8 @@ TEST_CASE("boxes in general position: the lowest place is that of the Minkowski 
         if (x_low >= x_high || y_low >= y_high) continue;
         const double x = (x_low + x_high) / 2, y = (y_low + y_high) / 2;
         double lift = -1 - bottom;
-        for (const Block& a : ground)
-          for (const Block& b : item)
+        for (const UprightBox& a : ground)
+          for (const UprightBox& b : item)
             if (a.low.x() < b.high.x() + x && b.low.x() + x < a.high.x() && a.low.y() < b.high.y() + y &&
                 b.low.y() + y < a.high.y())
               lift = std::max(lift, a.high.z() - b.low.z());
