@@ -10,6 +10,7 @@
 #include "apps/common/progress.h"
 #include "apps/common/rendering.h"
 #include "apps/common/values.h"
+#include "stackabilization/core/errors.h"
 #include "stackabilization/mesh/convex_hull.h"
 #include "stackabilization/stacking/place.h"
 #include "stackabilization/stacking/tolerances.h"
@@ -223,6 +224,16 @@ DropMap map_of(const DropCommandOptions& options, const Scene& scene, const Plac
   });
 }
 
+BestPlace searched(const DropCommandOptions& options, const Scene& scene, const PlaceOptions& place) {
+  try {
+    return with_progress("Placing", options.common.caller, place, [&](const PlaceOptions& searching) {
+      return best_place(scene.base.shape, scene.item.shape, scene.direction, searching);
+    });
+  } catch (const InputError& error) {
+    throw InputError(display_name(scene.item) + ": " + error.what());
+  }
+}
+
 int run_drop_command(const CLI::App& command, const DropCommandOptions& options) {
   const Stopwatch watch;
   check(options);
@@ -232,11 +243,7 @@ int run_drop_command(const CLI::App& command, const DropCommandOptions& options)
   check_same_unit(scene.item, scene.base, "--onto");
   const PlaceOptions place = place_options(options, scene);
   std::optional<Choice> choice;
-  if (options.place == PlaceChoice::best)
-    choice = {place,
-              with_progress("Placing", options.common.caller, place, [&](const PlaceOptions& searching) {
-                return best_place(scene.base.shape, scene.item.shape, direction, searching);
-              })};
+  if (options.place == PlaceChoice::best) choice = {place, searched(options, scene, place)};
   const Drop drop = choice ? choice->best.drop
                            : drop_at(scene.base.shape, scene.item.shape, direction,
                                      given_place(scene.item.shape, direction), options.semantics);

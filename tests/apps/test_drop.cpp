@@ -103,7 +103,13 @@ TEST_CASE("a drop is refused where options or units do not fit") {
   check_refused(folder,
                 {"drop", folder.cube, "--onto", folder.step, "--place", "best", "--least", "gap", "--corner",
                  "9", "9", "--corner", "9", "10", "--corner", "10", "9"},
-                2, "as much overlap");
+                2, "over as large an area");
+  Shape wall = solids::box({1, 1, 1});
+  wall.vertices.col(0).setZero();
+  check_refused(
+      folder,
+      {"drop", folder.model("wall.obj", wall), "--onto", folder.step, "--place", "best", "--least", "volume"},
+      3, "wall.obj: the shape has no area");
   check_refused(folder, {"drop", folder.cube, "--onto", folder.step, "--step", "1"}, 2, "needs --map");
   check_refused(folder, {"drop", folder.cube, "--onto", folder / "missing.obj"}, 3, "missing.obj");
   Shape other = solids::box({1, 1, 1});

@@ -315,7 +315,10 @@ BestPlace best_place(const Shape& base, const Shape& shape, const Direction& dir
   PlaceSearch search(shapes, options);
   search.run();
   const std::optional<LocalPlace> found = search.best_place();
-  if (!found) throw UsageError("at no place that was tried is there as much overlap as the mean gap needs");
+  if (!found)
+    throw UsageError(
+        "at no place that was tried does one lie above the other over as large an area as the mean gap is to "
+        "have");
   BestPlace best;
   best.drop =
       drop_at(base, shape, direction,
