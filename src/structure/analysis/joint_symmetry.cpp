@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -96,6 +97,7 @@ class JointSymmetry {
       rows_[image.parts].push_back(target);
     }
     if (joints_[target].type != image.type) {
+      if (linked_.count(target) > 0) return;  // what its image is, is settled
       joints_[target].type = image.type;
       joints_[target].points = image.points;
     }
@@ -105,17 +107,20 @@ class JointSymmetry {
                   .points = {}};
     if (target != row) link.parts.push_back(static_cast<int>(target));
     links_.push_back(link);
+    linked_.insert({row, target});
   }
 
+  /// Returns the nearest joint that is meant to be `image`: one of its type, where there is one.
   std::optional<std::size_t> nearest(const Relation& image) const {
     std::optional<std::size_t> best;
-    double least = same_joint * structure_.diagonal;
+    std::pair least{true, same_joint * structure_.diagonal};
     const auto rows = rows_.find(image.parts);
     if (rows == rows_.end()) return best;
     for (const std::size_t k : rows->second) {
       const double apart = distance(joints_[k].points, image.points);
-      if (apart >= least) continue;
-      least = apart;
+      const std::pair miss{joints_[k].type != image.type, apart};
+      if (apart >= same_joint * structure_.diagonal || miss >= least) continue;
+      least = miss;
       best = k;
     }
     return best;
@@ -145,6 +150,7 @@ class JointSymmetry {
   std::vector<std::vector<std::size_t>> actions_on_;           ///< rows of the actions per part, ascending
   std::map<std::vector<int>, std::vector<std::size_t>> rows_;  ///< of the joints, per parts, ascending
   std::vector<Relation> links_;                                ///< symmetries between rows of `joints_`
+  std::set<std::size_t> linked_;                               ///< rows of `joints_` that they relate
 };
 
 }  // namespace

@@ -52,6 +52,22 @@ TEST_CASE("an image that nobody found is added, one of the other type takes the 
   }
 }
 
+TEST_CASE(
+    "a line whose image was found as two points has one line for its image, and every joint its points") {
+  Relation line = point(0, 1, {-3, 0, 4});
+  line.type = RelationType::line_joint;
+  line.points = (Points(2, 3) << -3, -0.1, 4, -3, 0.1, 4).finished();
+  const Relation near = point(0, 2, {3, -0.01, 4}), far = point(0, 2, {3, 0.02, 4});
+  for (const std::vector<Relation>& found : {std::vector{line, near, far}, std::vector{near, far, line}}) {
+    int lines_right = 0;
+    for (const Relation& joint : detail::symmetric_joints(found, bench())) {
+      CHECK(joint.points.rows() == (joint.type == RelationType::line_joint ? 2 : 1));
+      if (joint.type == RelationType::line_joint && joint.parts[1] == 2) ++lines_right;
+    }
+    CHECK(lines_right == (found[0].type == RelationType::line_joint ? 1 : 0));
+  }
+}
+
 TEST_CASE("joints of parts that no symmetry moves stay as they are") {
   Structure structure = bench();
   structure.relations.resize(1);
