@@ -143,10 +143,15 @@ class Parser {
 
   Operation operation() {
     const std::string verb = next_ < words_.size() ? words_[next_] : "";
-    if (verb != "move" && verb != "rotate" && verb != "scale" && verb != "taper")
-      fail("expected move, rotate, scale or taper, " + found());
+    if (verb != "move" && verb != "rotate" && verb != "scale" && verb != "taper" && verb != "lean")
+      fail("expected move, rotate, scale, taper or lean, " + found());
     ++next_;
     if (verb == "move") return Move{vector("move")};
+    if (verb == "lean") {
+      const Eigen::Vector3d by = vector("lean");
+      expect("towards");
+      return Lean{by, vector("towards")};
+    }
     const double amount = number(verb);
     if (verb == "rotate") {
       expect("about");
@@ -259,6 +264,8 @@ std::string edit_text(const Edit& edit, const std::vector<std::string>& part_nam
   if (const auto* taper = std::get_if<Taper>(&edit.operation))
     return handle + " taper " + exact_digits(taper->factor) + " towards " + vector_text(taper->axis) +
            (taper->along ? " along " + vector_text(*taper->along) : std::string());
+  if (const auto* lean = std::get_if<Lean>(&edit.operation))
+    return handle + " lean " + vector_text(lean->by) + " towards " + vector_text(lean->axis);
   const Scale& scale = std::get<Scale>(edit.operation);
   return handle + " scale " + exact_digits(scale.factor) +
          (scale.along ? " along " + vector_text(*scale.along) : std::string()) + how;

@@ -12,6 +12,7 @@
 ///     HANDLE rotate DEGREES about X Y Z    about the handle's centre
 ///     HANDLE scale FACTOR [along X Y Z]    about the handle's centre
 ///     shape taper FACTOR towards X Y Z [along X Y Z]    widths at the end that is highest along the axis
+///     PART lean X Y Z towards X Y Z        moves the end of the part that is highest along the axis
 ///
 /// The word `linearly` may end moves and scalings of cross-sections (Falloff).
 ///

@@ -275,7 +275,8 @@ def deform(mesh, *, edit, model=None, follow=None, direction=None, keep_extent=N
     mesh: a mesh, a project file, or a Structure, which is not analysed anew.
     edit: a text such as 'seat scale 1.1 along 1 0 0', or several, made in order: a handle (PART,
     PART/face=-z, PART/corner=0, PART/section=3, point=7, wire=2, shape) and 'move X Y Z',
-    'rotate DEGREES about X Y Z' or 'scale FACTOR [along X Y Z]'.
+    'rotate DEGREES about X Y Z', 'scale FACTOR [along X Y Z]' or
+    'lean X Y Z towards X Y Z' of a part.
     model: what moves the mesh: 'controllers' (default), 'surface', 'iwires' or 'gap-scaling'; follow: 'free'
     (default) or 'smooth', how other parts follow with controllers; direction: of gap scaling.
     keep_extent: direction along which the extent is kept; extent_ends: 'free' (default) or 'fixed'.

@@ -191,7 +191,7 @@ TEST_CASE("wrong uses of deform and structure end with 2 and name the mistake") 
   const std::vector<std::pair<Arguments, std::string>> cases = {
       {{"deform", project}, "expected --edit"},
       {{"deform", project, "--edit", "top shove 0 0 1"},
-       "expected move, rotate, scale or taper, found 'shove'"},
+       "expected move, rotate, scale, taper or lean, found 'shove'"},
       {{"deform", project, "--edit", "lid move 0 0 1"}, "there is no part 'lid'"},
       {{"deform", project, "--edit", "top/face=up move 0 0 1"}, "'up'"},
       {{"deform", project, "--edit", "top/section=1 move 0 0 1"}, "section"},

@@ -55,7 +55,8 @@ TEST_CASE("quotes hold names with blanks and names that read as something else")
 TEST_CASE("operations carry their numbers exactly, angles in degrees") {
   const Edit move = parse_edit("  body \t move 0.1 -2 1e-3 ", parts);
   CHECK(std::get<Move>(move.operation).by == Eigen::Vector3d(0.1, -2, 1e-3));
-  for (const char* text : {"shape taper 0.9 towards 0 0 -1", "shape taper 1.25 towards 0 0 1 along 1 0 0"})
+  for (const char* text : {"shape taper 0.9 towards 0 0 -1", "shape taper 1.25 towards 0 0 1 along 1 0 0",
+                           "body lean 0.1 -0.25 0 towards 0 0 -1"})
     CHECK(edit_text(parse_edit(text, parts), parts) == text);
   const Edit turn = parse_edit("leg_1 rotate 90 about 0 0 2", parts);
   CHECK(std::get<Rotate>(turn.operation).radians == Approx(std::numbers::pi / 2).epsilon(1e-15));
@@ -110,8 +111,8 @@ TEST_CASE("an edit that is printed is parsed as itself") {
 TEST_CASE("a mistake is named by its word and by what was expected") {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"", "found nothing"},
-      {"body", "expected move, rotate, scale or taper, found the end"},
-      {"body shove 1 0 0", "expected move, rotate, scale or taper, found 'shove'"},
+      {"body", "expected move, rotate, scale, taper or lean, found the end"},
+      {"body shove 1 0 0", "expected move, rotate, scale, taper or lean, found 'shove'"},
       {"leg_9 move 1 0 0",
        "expected a part, shape, point=N or wire=N, and there is no part 'leg_9', only 'leg_1', "},
       {"left leg move 1 0 0", "there is no part 'left'"},

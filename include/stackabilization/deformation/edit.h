@@ -79,8 +79,17 @@ struct Taper {
   std::optional<Eigen::Vector3d> along;
 };
 
+/// Leaning of a part: each of its control points moves by the fraction of `by` at which it lies along `axis`,
+/// from 0 at the lowest one to 1 at the highest. Heights along `axis` do not change, nor do radii: a frame of
+/// bent tube leans, and its tube stays round. Only for parts, with controllers.
+struct Lean {
+  Eigen::Vector3d by =
+      Eigen::Vector3d::Zero();  ///< across `axis` within tolerance::relative, file axes, model units
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();  ///< axis, of any length that a Direction accepts
+};
+
 /// Operation that an edit applies to its handle.
-using Operation = std::variant<Move, Rotate, Scale, Taper>;
+using Operation = std::variant<Move, Rotate, Scale, Taper, Lean>;
 
 /// How the effect of a move or scaling of a cross-section decreases along its generalized cylinder.
 enum class Falloff {
@@ -107,7 +116,8 @@ struct Edit {
 void validate(const Edit& edit);
 
 /// Checks an edit of a shape whose bounding box has the given diagonal, model units. Throws UsageError under
-/// the conditions of `validate(edit)`, and for a move longer than edit_limits::max_move times the diagonal.
+/// the conditions of `validate(edit)`, and for a move or leaning by more than edit_limits::max_move times the
+/// diagonal.
 void validate(const Edit& edit, double diagonal);
 
 /// Returns whether `falloff` changes the effect of the edit, provided that its cross-section is one of an

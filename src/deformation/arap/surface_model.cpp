@@ -169,6 +169,7 @@ Targets SurfaceModel::targets(const std::vector<Edit>& edits) const {
     validate(edit, diagonal_);
     if (std::holds_alternative<Taper>(edit.operation))
       throw UsageError("only controllers can taper the shape");
+    if (std::holds_alternative<Lean>(edit.operation)) throw UsageError("only controllers can lean parts");
     const Scale* scale = std::get_if<Scale>(&edit.operation);
     if (scale && scale->along && edit.handle.kind != HandleKind::part &&
         edit.handle.kind != HandleKind::shape)

@@ -62,6 +62,7 @@ class EditTargetSolver {
     const double turn = wanted.rotation.angularDistance(state_.rotation);
     if (miss > tolerance::relative) return missed(RefusalCause::symmetry, miss);
     if (turn > tolerance::relation) return missed(RefusalCause::symmetry_of_turn, turn);
+    if (edit_.leans) held_ = held(all_rows());
     return std::nullopt;
   }
 
@@ -72,8 +73,12 @@ class EditTargetSolver {
     const double miss = (handle_rows(change) - edit_.changes).cwiseAbs().maxCoeff() / rig_.rest.diagonal;
     if (miss > tolerance::relative) return missed(RefusalCause::symmetry, miss);
     state_.values += change;
-    held_ = held(handle_rows(Eigen::MatrixXd::Identity(state_.values.size(), state_.values.size())));
+    held_ = held(all_rows());
     return std::nullopt;
+  }
+
+  Eigen::MatrixXd all_rows() const {
+    return handle_rows(Eigen::MatrixXd::Identity(state_.values.size(), state_.values.size()));
   }
 
   /// Returns the columns of the kernel W W^T of the linear falloff that belong to the handle. W holds three
@@ -93,15 +98,18 @@ class EditTargetSolver {
   }
 
   /// Returns the rows that corrections must not change: all rows of the prescribed values. With fixed ends of
-  /// an extent, a move across it leaves the heights free, since a leaning foot must give way to stay on the
-  /// ground: then only the components across the extent.
+  /// an extent, a move or leaning across it leaves the heights free, since a leaning foot must give way to
+  /// stay on the ground: then only the components across the extent, and the radii.
   Eigen::MatrixXd held(const Eigen::MatrixXd& rows) const {
-    const auto points = static_cast<Eigen::Index>(edit_.values.size()) / 3;
+    const Eigen::Index points =
+        edit_.leans ? control_points(now_).rows() : static_cast<Eigen::Index>(edit_.values.size()) / 3;
     if (!constraints_.keep_extent || constraints_.extent_ends != ExtentEnds::fixed ||
-        3 * points != rows.rows())
+        (!edit_.leans && 3 * points != rows.rows()))
       return rows;
     const Frame frame = frame_of(*constraints_.keep_extent);
-    Eigen::MatrixXd across(2 * points, rows.cols());
+    const Eigen::Index radii = rows.rows() - 3 * points;
+    Eigen::MatrixXd across(2 * points + radii, rows.cols());
+    across.bottomRows(radii) = rows.bottomRows(radii);
     for (Eigen::Index k = 0; k < points; ++k) {
       const auto first = static_cast<std::size_t>(3 * k);
       const bool is_point =

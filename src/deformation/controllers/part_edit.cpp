@@ -83,16 +83,25 @@ struct PlacedOperation {
   Eigen::Vector3d centre;
 };
 
+/// Returns how a leaning moves points, n x 3.
+Points leaning(const Points& points, const Lean& lean) {
+  Eigen::VectorXd shares = points * lean.axis.normalized();
+  const double low = shares.minCoeff(), range = shares.maxCoeff() - low;
+  if (!(range > 0)) return Points::Zero(points.rows(), 3);
+  shares = (shares.array() - low) / range;
+  return shares * lean.by.transpose();
+}
+
 void prescribe_points(PartEdit& edit, const Primitive& now, const std::vector<int>& held,
                       const PlacedOperation& placed) {
   const Points points = control_points(now);
   const Eigen::Matrix3d linear = linear_map(placed.operation);
-  const auto* move = std::get_if<Move>(&placed.operation);
-  for (const int i : held) {
-    const Eigen::Vector3d offset = points.row(i).transpose() - placed.centre;
-    const Eigen::Vector3d change = move ? move->by : Eigen::Vector3d(linear * offset - offset);
-    for (int k = 0; k < 3; ++k) prescribe(edit, 3 * i + k, change(k));
-  }
+  Points changes =
+      (points.rowwise() - placed.centre.transpose()) * (linear - Eigen::Matrix3d::Identity()).transpose();
+  if (const auto* move = std::get_if<Move>(&placed.operation)) changes.rowwise() = move->by.transpose();
+  if (const auto* lean = std::get_if<Lean>(&placed.operation)) changes = leaning(points, *lean);
+  for (const int i : held)
+    for (int k = 0; k < 3; ++k) prescribe(edit, 3 * i + k, changes(i, k));
 }
 
 /// Returns whether a bar of constant section would be bent to this curve: a handle, a frame.
@@ -104,6 +113,7 @@ PartEdit of_whole(const Primitive& now, const Operation& operation, int part, co
                   Following following) {
   PartEdit result;
   result.part = part;
+  result.leans = std::holds_alternative<Lean>(operation);
   prescribe_points(result, now, all_points(now), {operation, centre});
   const auto* cylinder = std::get_if<GeneralizedCylinder>(&now);
   if (cylinder == nullptr) return result;

@@ -23,6 +23,7 @@ struct PartEdit {
       Eigen::Quaterniond::Identity();  ///< rotation of a whole generalized cylinder by the edit
   /// Cross-section from which the change decreases linearly (Falloff::linear).
   std::optional<int> linear_from;
+  bool leans = false;  ///< whether it is a leaning, which leaves heights free where an extent is kept
 };
 
 /// Returns the handles of one primitive: the part, then faces and corners, or cross-sections.
@@ -40,11 +41,11 @@ Eigen::Vector3d shape_centre(const std::vector<Primitive>& primitives);
 Eigen::VectorXd radius_factors(const GeneralizedCylinder& cylinder, const Eigen::Matrix3d& linear);
 
 /// Computes the control values that an edit prescribes for a part, with the degrees of freedom of section 4.1
-/// of the paper. A whole part moves, rotates and scales, by an affine map of its control points. Its radii
-/// change such that the areas of the cross-sections change as under that map (circles stay circles). With
-/// Following::smooth, a bent bar that is scaled along an axis keeps its radii. A face moves, rotates, and
-/// scales within its plane. A corner moves. A cross-section moves or changes its radius. Throws UsageError
-/// for other handles and operations.
+/// of the paper. A whole part moves, rotates, scales and leans, by an affine map of its control points. Its
+/// radii change such that the areas of the cross-sections change as under that map (circles stay circles).
+/// With Following::smooth, a bent bar that is scaled along an axis keeps its radii. A face moves, rotates,
+/// and scales within its plane. A corner moves. A cross-section moves or changes its radius. Throws
+/// UsageError for other handles and operations.
 PartEdit edit_handle(const Primitive& now, const Edit& edit, const std::string& part_name,
                      Following following);
 

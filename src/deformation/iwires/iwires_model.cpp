@@ -132,6 +132,7 @@ struct IWiresModel::Data {
     check(edit.handle);
     if (std::holds_alternative<Taper>(edit.operation))
       throw UsageError("only controllers can taper the shape");
+    if (std::holds_alternative<Lean>(edit.operation)) throw UsageError("only controllers can lean parts");
     if (const auto* scale = std::get_if<Scale>(&edit.operation); scale && scale->along)
       if (edit.handle.kind == HandleKind::wire)
         throw UsageError("wires are scaled in all directions: only the shape can be scaled along one");

@@ -116,6 +116,15 @@ void check(const Taper& taper) {
   check_number(std::abs(cosine) <= tolerance::relative, "a taper needs a direction across its axis", cosine);
 }
 
+void check(const Lean& lean) {
+  if (!lean.by.allFinite()) throw UsageError("a leaning needs a finite translation, found " + text(lean.by));
+  check_axis(lean.axis, "a leaning");
+  if (lean.by.isZero(0)) return;
+  const double cosine = lean.by.stableNormalized().dot(lean.axis.normalized());
+  check_number(std::abs(cosine) <= tolerance::relative, "a leaning needs a translation across its axis",
+               cosine);
+}
+
 }  // namespace
 
 const std::vector<std::string>& handle_kind_names() {
@@ -132,6 +141,9 @@ void validate(const Edit& edit) {
   } else if (const auto* taper = std::get_if<Taper>(&edit.operation)) {
     if (edit.handle.kind != HandleKind::shape) throw UsageError("only the shape can be tapered");
     check(*taper);
+  } else if (const auto* lean = std::get_if<Lean>(&edit.operation)) {
+    if (edit.handle.kind != HandleKind::part) throw UsageError("only parts can lean");
+    check(*lean);
   } else {
     check(std::get<Scale>(edit.operation));
   }
@@ -140,11 +152,14 @@ void validate(const Edit& edit) {
 void validate(const Edit& edit, double diagonal) {
   validate(edit);
   const auto* move = std::get_if<Move>(&edit.operation);
-  if (move == nullptr) return;
+  const auto* lean = std::get_if<Lean>(&edit.operation);
+  if (move == nullptr && lean == nullptr) return;
+  const Eigen::Vector3d& by = move ? move->by : lean->by;
   const double most = edit_limits::max_move * diagonal;
-  if (!(move->by.stableNorm() <= most))
-    throw UsageError("a move goes at most " + text(edit_limits::max_move) +
-                     " times the diagonal of the shape, that is " + text(most) + ", found " + text(move->by));
+  if (!(by.stableNorm() <= most))
+    throw UsageError(std::string(move ? "a move" : "a leaning") + " goes at most " +
+                     text(edit_limits::max_move) + " times the diagonal of the shape, that is " + text(most) +
+                     ", found " + text(by));
 }
 
 void validate(const DeformationConstraints& constraints, const Shape& rest) {
@@ -185,6 +200,8 @@ std::string describe(const Edit& edit, const std::vector<std::string>& part_name
   if (const auto* taper = std::get_if<Taper>(&edit.operation))
     return "taper " + name + " by " + text(taper->factor) + " towards " + text(taper->axis) +
            (taper->along ? " along " + text(*taper->along) : "");
+  if (const auto* lean = std::get_if<Lean>(&edit.operation))
+    return "lean " + name + " by " + text(lean->by) + " towards " + text(lean->axis);
   const Scale& scale = std::get<Scale>(edit.operation);
   return "scale " + name + " by " + text(scale.factor) + (scale.along ? " along " + text(*scale.along) : "") +
          how;

@@ -13,6 +13,8 @@ Edit scaled(Edit edit, double amount) {
     rotate->radians *= amount;
   else if (auto* taper = std::get_if<Taper>(&edit.operation))
     taper->factor = std::pow(taper->factor, amount);
+  else if (auto* lean = std::get_if<Lean>(&edit.operation))
+    lean->by *= amount;
   else
     std::get<Scale>(edit.operation).factor = std::pow(std::get<Scale>(edit.operation).factor, amount);
   return edit;

@@ -81,6 +81,10 @@ class ContactEditor {
 
   void look_at(const ContactSide& side) {
     for (const ContactHandle& handle : contact_handles(situation_, side, frame_, options_)) {
+      if (handle.leans()) {
+        move_sideways(side, handle);
+        continue;
+      }
       move_along(side, handle);
       if (handle.of_plate) {
         if (handle.role == Role::end) move_edge(side, handle);
@@ -130,6 +134,10 @@ class ContactEditor {
       return false;
     if (const auto* move = std::get_if<Move>(&a.operation))
       return (move->by - std::get<Move>(b.operation).by).norm() <= tolerance::relative * diagonal_;
+    if (const auto* lean = std::get_if<Lean>(&a.operation)) {
+      const Lean& before = std::get<Lean>(b.operation);
+      return lean->axis == before.axis && (lean->by - before.by).norm() <= tolerance::relative * diagonal_;
+    }
     const Scale &one = std::get<Scale>(a.operation), &other = std::get<Scale>(b.operation);
     return std::abs(one.factor - other.factor) <= tolerance::relative &&
            one.along.has_value() == other.along.has_value() &&
@@ -181,6 +189,7 @@ class ContactEditor {
     for (const ContactWay& way : ways_out(side, frame_, tolerance::same_symmetry * diagonal_)) {
       const auto allowed = symmetry_.allowed_move(side.part, handle.centre, way.along);
       if (!allowed) continue;
+      if (handle.leans() && std::abs(allowed->dot(frame_.w)) > tolerance::relative) continue;
       const double step = options_.move_step * extent(way.along);
       std::vector<double> chosen = sizes(step, std::nullopt);
       if (extended_ && side.other != side.part) {
@@ -192,8 +201,11 @@ class ContactEditor {
         else if (out >= min_steps * step && out <= max_steps * step)
           chosen = with_reserve(sizes(step, out), out);
       }
-      for (const double size : chosen)
-        add(side, handle, Move{size * *allowed}, way.effect, handle.falloff == Falloff::linear);
+      for (const double size : chosen) {
+        const Eigen::Vector3d by = size / handle.lean_share * *allowed;
+        add(side, handle, handle.leans() ? Operation(Lean{by, handle.lean_axis}) : Move{by}, way.effect,
+            handle.leans() || handle.falloff == Falloff::linear);
+      }
     }
   }
 

@@ -18,6 +18,8 @@ namespace {
 constexpr double near_corner = 0.5;
 /// A cuboid is a plate if it is thinner than this fraction of its other sides.
 constexpr double plate_thickness = 0.25;
+/// A bent part leans if it rises by at least this fraction of its size.
+constexpr double min_rise = 0.25;
 
 Eigen::Vector3d mean(const Points& points) {
   return points.colwise().mean().transpose();
@@ -133,6 +135,24 @@ ContactHandle end_of(const GeneralizedCylinder& cylinder, int part, int section)
   return end;
 }
 
+/// Returns the handle of a part that leans as a whole, with its end near the contact: a frame of bent tube.
+/// None for a part that lies flat.
+std::optional<ContactHandle> leaning_whole(const GeneralizedCylinder& cylinder, const ContactSide& side,
+                                           const ContactFrame& frame) {
+  const int nearest = nearest_row(cylinder.centres, side.centre);
+  const Eigen::VectorXd heights = cylinder.centres * frame.w;
+  const Range range{heights.minCoeff(), heights.maxCoeff()};
+  const Points around = cylinder.centres.rowwise() - cylinder.centres.row(nearest);
+  if (!(range.length() >= min_rise * around.rowwise().norm().maxCoeff())) return std::nullopt;
+  ContactHandle lean = section_of(cylinder, side.part, nearest);
+  lean.handle = {HandleKind::part, side.part, 0};
+  lean.role = ContactHandle::Role::whole;
+  const double share = (heights(nearest) - range.low) / range.length();
+  lean.lean_axis = share < 0.5 ? Eigen::Vector3d(-frame.w) : frame.w;
+  lean.lean_share = std::max(share, 1 - share);
+  return lean;
+}
+
 /// `is_round_body`: see `round_body`. Its nearer end also moves along w where no other section may.
 void add_cylinder_handles(std::vector<ContactHandle>& handles, const GeneralizedCylinder& cylinder,
                           bool is_round_body, const ContactSide& side, const ContactEditOptions& options) {
@@ -239,6 +259,9 @@ std::vector<ContactHandle> contact_handles(const ContactSituation& situation, co
     add_cylinder_handles(handles, std::get<GeneralizedCylinder>(primitive),
                          round_body(situation.design.primitives, frame) == side.part, side, options);
   if (options.family == EditFamily::paper) return handles;
+  const auto* cylinder = std::get_if<GeneralizedCylinder>(&primitive);
+  if (options.family == EditFamily::smooth && cylinder && !is_straight(*cylinder))
+    if (auto lean = leaning_whole(*cylinder, side, frame)) handles.push_back(std::move(*lean));
   ContactHandle whole;
   whole.handle = {HandleKind::part, side.part, 0};
   whole.role = ContactHandle::Role::whole;

@@ -27,6 +27,12 @@ struct ContactHandle {
   Points points;
   double radius = 0;                                 ///< radius of a cross-section around `centre`; else 0
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit normal of a cross-section or face; else 0
+  /// Unit axis of a part that leans as a whole, to the end near the contact; else 0. The other members then
+  /// describe its nearest cross-section.
+  Eigen::Vector3d lean_axis = Eigen::Vector3d::Zero();
+  double lean_share = 1;  ///< fraction of a leaning by which that cross-section moves
+
+  bool leans() const { return !lean_axis.isZero(0); }
 
   /// Returns the interval that the handle covers along the unit vector `axis`, model units.
   Range range(const Eigen::Vector3d& axis) const;

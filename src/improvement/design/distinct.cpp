@@ -47,6 +47,7 @@ EditSignature SolutionDiversity::signature(const Edit& edit) const {
   signature.operation = static_cast<int>(edit.operation.index());
   signature.falloff = static_cast<int>(edit.falloff);
   if (const auto* move = std::get_if<Move>(&edit.operation)) set_direction(signature, move->by);
+  if (const auto* lean = std::get_if<Lean>(&edit.operation)) set_direction(signature, lean->by);
   if (const auto* turn = std::get_if<Rotate>(&edit.operation)) set_direction(signature, turn->axis);
   if (const auto* scale = std::get_if<Scale>(&edit.operation)) signature.x = scale->factor > 1 ? 1 : -1;
   if (const auto* taper = std::get_if<Taper>(&edit.operation)) {

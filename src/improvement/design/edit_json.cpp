@@ -1,5 +1,6 @@
 #include "improvement/design/edit_json.h"
 
+#include <algorithm>
 #include <array>
 #include <limits>
 
@@ -69,6 +70,11 @@ Operation operation_from_json(const JsonNode& node) {
     if (taper.has("along")) operation.along = taper["along"].numbers(3);
     return operation;
   }
+  if (node.has("lean")) {
+    const JsonNode lean = node["lean"];
+    lean.expect_keys({"by", "axis"});
+    return Lean{lean["by"].numbers(3), lean["axis"].numbers(3)};
+  }
   const JsonNode scale = node["scale"];
   scale.expect_keys({"factor", "along"}, 1);
   Scale operation{scale["factor"].number(), {}};
@@ -95,6 +101,8 @@ Json to_json(const Edit& edit, const std::vector<std::string>& part_names) {
   } else if (const auto* taper = std::get_if<Taper>(&edit.operation)) {
     json["taper"] = {{"factor", taper->factor}, {"axis", to_json(taper->axis)}};
     if (taper->along) json["taper"]["along"] = to_json(*taper->along);
+  } else if (const auto* lean = std::get_if<Lean>(&edit.operation)) {
+    json["lean"] = {{"by", to_json(lean->by)}, {"axis", to_json(lean->axis)}};
   } else {
     const Scale& scale = std::get<Scale>(edit.operation);
     json["scale"] = {{"factor", scale.factor}};
@@ -123,9 +131,11 @@ Eigen::Vector3d direction_from_json(const JsonNode& node) {
 
 Edit edit_from_json(const JsonNode& node, const StructuredShape& rest,
                     const DeformationCapabilities& capabilities) {
-  node.expect_keys({"handle", "move", "rotate", "scale", "taper", "falloff"}, 5);
-  if (int{node.has("move")} + int{node.has("rotate")} + int{node.has("scale")} + int{node.has("taper")} != 1)
-    node.fail("expected one of the keys 'move', 'rotate', 'scale' and 'taper'");
+  node.expect_keys({"handle", "move", "rotate", "scale", "taper", "lean", "falloff"}, 6);
+  const std::array operations = {"move", "rotate", "scale", "taper", "lean"};
+  if (std::count_if(operations.begin(), operations.end(), [&](const char* key) { return node.has(key); }) !=
+      1)
+    node.fail("expected one of the keys 'move', 'rotate', 'scale', 'taper' and 'lean'");
   Edit edit;
   edit.handle = handle_from_json(node["handle"], rest, capabilities);
   edit.operation = operation_from_json(node);

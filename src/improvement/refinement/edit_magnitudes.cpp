@@ -55,6 +55,13 @@ struct Merge {
     if (product < 1 / edit_limits::max_scale || product > edit_limits::max_scale) return std::nullopt;
     return Taper{std::abs(product - 1) <= tolerance::relative ? 1 : product, a.axis, a.along};
   }
+  std::optional<Operation> operator()(const Lean& a, const Lean& b) const {
+    if (same_line(a.axis, b.axis) != 1 || same_line(a.by, b.by) == 0) return std::nullopt;
+    const Eigen::Vector3d sum = a.by + b.by;
+    return Lean{
+        sum.norm() <= tolerance::relative * a.by.norm() ? Eigen::Vector3d(Eigen::Vector3d::Zero()) : sum,
+        a.axis};
+  }
   template <typename A, typename B>
   std::optional<Operation> operator()(const A&, const B&) const {
     return std::nullopt;
@@ -72,6 +79,7 @@ bool changes_nothing(const Edit& edit) {
   if (const auto* move = std::get_if<Move>(&edit.operation)) return move->by.isZero(0);
   if (const auto* turn = std::get_if<Rotate>(&edit.operation)) return turn->radians == 0;
   if (const auto* taper = std::get_if<Taper>(&edit.operation)) return taper->factor == 1;
+  if (const auto* lean = std::get_if<Lean>(&edit.operation)) return lean->by.isZero(0);
   return std::get<Scale>(edit.operation).factor == 1;
 }
 
@@ -199,6 +207,8 @@ Edit with_magnitude(Edit edit, double x) {
     turn->radians *= x;
   else if (auto* taper = std::get_if<Taper>(&edit.operation)) {
     if (x != 1) taper->factor = std::pow(taper->factor, x);
+  } else if (auto* lean = std::get_if<Lean>(&edit.operation)) {
+    lean->by *= x;
   } else {
     auto& scale = std::get<Scale>(edit.operation);
     if (x != 1) scale.factor = std::pow(scale.factor, x);

@@ -62,7 +62,7 @@ class ImprovementRun {
       nothing.nearest.push_back(at_rest(checker_, options_.search.directions.front()));
       diagnosis_end_ = closed_share;
       finish(nothing);
-      result_.diagnosis->closed = closed;
+      if (result_.diagnosis) result_.diagnosis->closed = closed;
       return std::move(result_);
     }
     if (!state_ && search.save) search.save(search_at_start(checker_, search));
@@ -230,8 +230,6 @@ class ImprovementRun {
   }
 
   void finish(BestFirstResult found) {
-    for (const Candidate& solution : result_.solutions)
-      result_.assessments.push_back(checker_.check(solution.design, Direction(solution.direction)));
     Eigen::Vector3d direction = options_.search.directions.front();
     if (result_.solutions.empty()) keep_acceptable(found.nearest);
     if (!result_.solutions.empty()) {
@@ -239,9 +237,9 @@ class ImprovementRun {
     } else if (!found.nearest.empty()) {
       direction = found.nearest.front().direction;
       diagnose(found);
-      result_.nearest = found.nearest.front();
-      if (result_.diagnosis->better) result_.nearest = result_.diagnosis->better;
     }
+    for (const Candidate& solution : result_.solutions)
+      result_.assessments.push_back(checker_.check(solution.design, Direction(solution.direction)));
     result_.before = at_rest(checker_, direction);
     if (cancelled())
       result_.end = SearchEnd::cancelled;
@@ -249,6 +247,8 @@ class ImprovementRun {
       result_.end = SearchEnd::time_limit;
   }
 
+  /// Finds out what keeps the best design from the target, and which one is nearest. Where one more edit
+  /// reaches the target, that is a solution.
   void diagnose(const BestFirstResult& found) {
     DiagnosisOptions options;
     options.designs = static_cast<double>(budget_.designs_until(diagnosis_end_, min_search));
@@ -256,7 +256,14 @@ class ImprovementRun {
         static_cast<double>(directions_of_effort(1, checker_.space().rest().shape)) /
         designs_of_effort(1, checker_.rest_shape());
     options.cancelled = [this] { return late(1); };
-    result_.diagnosis = stackabilization::diagnose(checker_, found, options);
+    Diagnosis diagnosis = stackabilization::diagnose(checker_, found, options);
+    if (diagnosis.better && checker_.meets_target(diagnosis.better->measured)) {
+      tell(*diagnosis.better);
+      result_.solutions.push_back(std::move(*diagnosis.better));
+      return;
+    }
+    result_.nearest = diagnosis.better ? *diagnosis.better : found.nearest.front();
+    result_.diagnosis = std::move(diagnosis);
   }
 
   const RequirementChecker& checker_;

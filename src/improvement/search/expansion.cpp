@@ -20,6 +20,10 @@ bool takes_back(const Edit& edit, const Edit& earlier) {
     const Eigen::Vector3d& by = std::get<Move>(earlier.operation).by;
     return move->by.dot(by) < -tolerance::same_symmetry * move->by.norm() * by.norm();
   }
+  if (const auto* lean = std::get_if<Lean>(&edit.operation)) {
+    const auto& before = std::get<Lean>(earlier.operation);
+    return lean->axis.dot(before.axis) * lean->by.dot(before.by) < 0;
+  }
   if (const auto* taper = std::get_if<Taper>(&edit.operation)) {
     const auto& before = std::get<Taper>(earlier.operation);
     return (taper->factor > 1) != (before.factor > 1) && taper->axis.dot(before.axis) > 0 &&

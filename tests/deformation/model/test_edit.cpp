@@ -20,6 +20,8 @@ TEST_CASE("edits are described by part, operation and amount") {
         "scale the shape by 2 along (1, 0, 0)");
   CHECK(describe({{HandleKind::shape, 0, 0}, Taper{0.9, {0, 0, -1}, Eigen::Vector3d(1, 0, 0)}}, names) ==
         "taper the shape by 0.9 towards (0, 0, -1) along (1, 0, 0)");
+  CHECK(describe({{HandleKind::part, 1, 0}, Lean{{0.25, 0, 0}, {0, 0, -1}}}, names) ==
+        "lean leg by (0.25, 0, 0) towards (0, 0, -1)");
   CHECK(describe({{HandleKind::section, 1, 7}, Scale{0.9, {}}, Falloff::linear}, names) ==
         "scale cross-section 7 of leg by 0.9, linearly");
   CHECK(describe({{HandleKind::section, 0, 0}, Move{{1, 0, 0}}, Falloff::linear}, names) ==

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "stackabilization/core/errors.h"
@@ -475,6 +476,48 @@ TEST_CASE("ends of straight cylinders are smooth handles, those of bent bars and
   CHECK_FALSE(smooth(post, 4, Falloff::gaussian));
   CHECK_FALSE(smooth(handle, 0, Falloff::linear));
   CHECK_FALSE(smooth(handle, 4, Falloff::linear));
+}
+
+TEST_CASE(
+    "a hoop under a contact leans with its feet, one above with its ends, one that lies flat does not") {
+  const auto leanings = [](const GeneralizedCylinder& curve, const Vector3d& at, EditFamily family) {
+    StructuredShape rest = structures::tube_alone(curve, 12);
+    rest.shape = concatenate(rest.shape, solids::named(solids::box({-9, -9, 20}, {9, 9, 21}), "seat"));
+    rest.structure.parts.push_back(
+        {"seat", cuboid_of({{0, 0, 20.5}, Eigen::Matrix3d::Identity(), {9, 9, 0.5}}), {}});
+    rest.structure.diagonal = 30;
+    ContactEditOptions options;
+    options.family = family;
+    std::vector<Lean> found;
+    for (const ContactEdit& edit :
+         edits_of(rest, {region_at(ContactType::dot, {0, 1}, at, at)}, upwards, options))
+      if (const auto* lean = std::get_if<Lean>(&edit.edit.operation)) {
+        CHECK(edit.edit.handle == Handle{HandleKind::part, 0, 0});
+        CHECK(edit.reason.leaning);
+        found.push_back(*lean);
+      }
+    return found;
+  };
+  using std::numbers::pi;
+  const GeneralizedCylinder hoop = structures::arc_cylinder(4, 0.3, pi, 2 * pi, 25);
+  const auto feet = leanings(hoop, {0, 0, -4.3}, EditFamily::smooth);
+  REQUIRE_FALSE(feet.empty());
+  const bool across =
+      std::any_of(feet.begin(), feet.end(), [](const Lean& one) { return std::abs(one.by.y()) > 0; });
+  CHECK(across);
+  for (const Lean& one : feet) CHECK(one.axis == -Vector3d::UnitZ());
+  const auto ends = leanings(hoop, {-4, 0, 0}, EditFamily::smooth);
+  REQUIRE_FALSE(ends.empty());
+  for (const Lean& one : ends) CHECK(one.axis == Vector3d::UnitZ());
+  // Amid the hoop, all of it leans by more than what the contact needs.
+  const auto amid = leanings(hoop, {-4 * std::cos(pi / 6), 0, -2.001}, EditFamily::smooth);
+  REQUIRE(amid.size() == feet.size());
+  CHECK(amid.front().by.norm() == Approx(2 * feet.front().by.norm()).epsilon(0.05));
+
+  CHECK(leanings(hoop, {0, 0, -4.3}, EditFamily::extended).empty());
+  GeneralizedCylinder flat = hoop;
+  flat.centres.col(1).swap(flat.centres.col(2));
+  CHECK(leanings(flat, {0, -4, 0.3}, EditFamily::smooth).empty());
 }
 
 TEST_CASE("a round body tapers evenly, and its end near a contact moves along r") {

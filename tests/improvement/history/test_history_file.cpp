@@ -145,7 +145,7 @@ TEST_CASE("a broken history is refused at its place, in words") {
       {"\"factor\":1.05", "\"factor\":1e999", "beyond the range of double"},
       {"\"factor\":1.05", "\"factor\":\"big\"", "/scale/factor: expected a number"},
       {"\"scale\":", "\"move\":[0,0,0],\"scale\":",
-       "expected one of the keys 'move', 'rotate', 'scale' and 'taper'"},
+       "expected one of the keys 'move', 'rotate', 'scale', 'taper' and 'lean'"},
       {"\"scale\":", "\"shove\":", "there is no key 'shove' here"},
       {"\"keep_extent\":[0.0,0.0,1.0]", "\"keep_extent\":[0,0,0]", "a direction cannot be (0, 0, 0)"},
       {"\"keep_extent\":", "\"extent_ends\":\"loose\",\"keep_extent\":",
