@@ -135,20 +135,32 @@ ContactHandle end_of(const GeneralizedCylinder& cylinder, int part, int section)
   return end;
 }
 
+/// Returns whether a part has joints in the half that is farther along `axis`, at rest.
+bool is_held(const Structure& rest, int part, const Eigen::Vector3d& axis) {
+  const Eigen::VectorXd heights = control_points(rest.parts[static_cast<std::size_t>(part)].primitive) * axis;
+  const double middle = (heights.minCoeff() + heights.maxCoeff()) / 2;
+  return std::any_of(rest.relations.begin(), rest.relations.end(), [&](const Relation& relation) {
+    return relation.is_joint() && (relation.parts[0] == part || relation.parts[1] == part) &&
+           (relation.points * axis).maxCoeff() > middle;
+  });
+}
+
 /// Returns the handle of a part that leans as a whole, with its end near the contact: a frame of bent tube.
-/// None for a part that lies flat.
-std::optional<ContactHandle> leaning_whole(const GeneralizedCylinder& cylinder, const ContactSide& side,
-                                           const ContactFrame& frame) {
+/// None for a part that lies flat, or is held at that end.
+std::optional<ContactHandle> leaning_whole(const Structure& rest, const GeneralizedCylinder& cylinder,
+                                           const ContactSide& side, const ContactFrame& frame) {
   const int nearest = nearest_row(cylinder.centres, side.centre);
   const Eigen::VectorXd heights = cylinder.centres * frame.w;
   const Range range{heights.minCoeff(), heights.maxCoeff()};
   const Points around = cylinder.centres.rowwise() - cylinder.centres.row(nearest);
   if (!(range.length() >= min_rise * around.rowwise().norm().maxCoeff())) return std::nullopt;
+  const double share = (heights(nearest) - range.low) / range.length();
+  const Eigen::Vector3d axis = share < 0.5 ? Eigen::Vector3d(-frame.w) : frame.w;
+  if (is_held(rest, side.part, axis)) return std::nullopt;
   ContactHandle lean = section_of(cylinder, side.part, nearest);
   lean.handle = {HandleKind::part, side.part, 0};
   lean.role = ContactHandle::Role::whole;
-  const double share = (heights(nearest) - range.low) / range.length();
-  lean.lean_axis = share < 0.5 ? Eigen::Vector3d(-frame.w) : frame.w;
+  lean.lean_axis = axis;
   lean.lean_share = std::max(share, 1 - share);
   return lean;
 }
@@ -261,7 +273,8 @@ std::vector<ContactHandle> contact_handles(const ContactSituation& situation, co
   if (options.family == EditFamily::paper) return handles;
   const auto* cylinder = std::get_if<GeneralizedCylinder>(&primitive);
   if (options.family == EditFamily::smooth && cylinder && !is_straight(*cylinder))
-    if (auto lean = leaning_whole(*cylinder, side, frame)) handles.push_back(std::move(*lean));
+    if (auto lean = leaning_whole(situation.rest.structure, *cylinder, side, frame))
+      handles.push_back(std::move(*lean));
   ContactHandle whole;
   whole.handle = {HandleKind::part, side.part, 0};
   whole.role = ContactHandle::Role::whole;
