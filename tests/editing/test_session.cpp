@@ -3,6 +3,7 @@
 #include "sessions.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/envelope/separation.h"
+#include "stackabilization/improvement/refinement.h"
 #include "stackabilization/io/read_file.h"
 #include "stackabilization/structure/analysis.h"
 #include "support/catch.h"
@@ -28,18 +29,6 @@ bool within_limits(const Assessment& assessment) {
 }
 
 }  // namespace
-
-TEST_CASE("part of an edit: none, all, its inverse, and parts of parts") {
-  const Edit move{{HandleKind::part, 0, 0}, Move{{1, 2, -3}}};
-  const Edit rotate{{HandleKind::part, 0, 0}, Rotate{{0, 0, 1}, 0.5}};
-  const Edit scale{{HandleKind::part, 0, 0}, Scale{1.5, {}}};
-  CHECK(std::get<Move>(scaled(move, 0).operation).by == Eigen::Vector3d::Zero());
-  CHECK(std::get<Move>(scaled(move, -1).operation).by == Eigen::Vector3d(-1, -2, 3));
-  CHECK(std::get<Rotate>(scaled(rotate, 0.5).operation).radians == 0.25);
-  CHECK(std::get<Scale>(scaled(scale, 0).operation).factor == 1);
-  CHECK(std::get<Scale>(scaled(scale, -1).operation).factor == Approx(1 / 1.5));
-  CHECK(std::get<Scale>(scaled(scaled(scale, 0.5), 0.5).operation).factor == Approx(std::pow(1.5, 0.25)));
-}
 
 TEST_CASE("a suggestion that is applied gives the design and the S that it promised") {
   Observed observed(sessions::table_document());
@@ -209,14 +198,14 @@ TEST_CASE("the range of a handle ends where limits do") {
       deformation_constraints(session.checker().requirements(), session.space().rest(), session.direction());
   for (const HandleRange::Sample& sample : range.samples) {
     const DeformationResult made =
-        session.space().edited(session.space().at_rest(), scaled(whole, sample.amount), constraints);
+        session.space().edited(session.space().at_rest(), with_magnitude(whole, sample.amount), constraints);
     REQUIRE(!made.refusal);
     CHECK(sample.stackability == Approx(stackability(made.design.shape, {0, 0, 1}).value).margin(1e-9));
     CHECK(within_limits(session.checker().check(made.design, session.direction())));
   }
   constexpr double resolution = 0.01;
-  const DeformationResult beyond =
-      session.space().edited(session.space().at_rest(), scaled(whole, range.high + resolution), constraints);
+  const DeformationResult beyond = session.space().edited(
+      session.space().at_rest(), with_magnitude(whole, range.high + resolution), constraints);
   CHECK((beyond.refusal || !within_limits(session.checker().check(beyond.design, session.direction()))));
 }
 

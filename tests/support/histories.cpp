@@ -44,7 +44,9 @@ Project rich_project() {
                 {{HandleKind::corner, 0, 7}, Move{{1, 2, 3}}, {}},
                 {{HandleKind::point, 0, 5}, Move{{1, 2, 3}}, {}},
                 {{HandleKind::wire, 0, 12345}, Rotate{{0, 1, 1.0 / 3}, -std::sqrt(2)}, {}},
-                {{HandleKind::shape, 0, 0}, Scale{2, Eigen::Vector3d(0, 1, 1e-9)}, {}}};
+                {{HandleKind::shape, 0, 0}, Scale{2, Eigen::Vector3d(0, 1, 1e-9)}, {}},
+                {{HandleKind::shape, 0, 0}, Taper{1.0 / 3, {0, 1e-9, -2}, Eigen::Vector3d(1, 0, 0)}, {}},
+                {{HandleKind::part, 1, 0}, Lean{{1.0 / 3, 0, 0}, {0, 1e-9, -2}}, {}}};
   project.history = apply(project.history, node);
   return project;
 }
@@ -56,6 +58,14 @@ bool same(const Edit& a, const Edit& b) {
   if (const auto* turn = std::get_if<Rotate>(&a.operation)) {
     const auto& other = std::get<Rotate>(b.operation);
     return turn->axis == other.axis && turn->radians == other.radians;
+  }
+  if (const auto* taper = std::get_if<Taper>(&a.operation)) {
+    const auto& other = std::get<Taper>(b.operation);
+    return taper->factor == other.factor && taper->axis == other.axis && taper->along == other.along;
+  }
+  if (const auto* lean = std::get_if<Lean>(&a.operation)) {
+    const auto& other = std::get<Lean>(b.operation);
+    return lean->by == other.by && lean->axis == other.axis;
   }
   const auto &scale = std::get<Scale>(a.operation), &other = std::get<Scale>(b.operation);
   return scale.factor == other.factor && scale.along == other.along;

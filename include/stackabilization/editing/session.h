@@ -99,10 +99,6 @@ enum class Lane {
   automatic,  ///< the automatic search: minutes; a map of directions, before it
 };
 
-/// Returns the edit times `amount`: the same handle and operation, with the translation or the angle times
-/// `amount`, the factor to the power of it. Amount 1 gives the edit, 0 no change, -1 the inverse.
-Edit scaled(Edit edit, double amount);
-
 /// An editing session without its pixels (paper, section 5): one document, the design that is shown, and what
 /// is known of it. Commands change it; a listener receives what changed. Designs keep the limits of quality
 /// of the document, so that edits by hand have the same freedom as the automatic search.

@@ -33,13 +33,14 @@ struct RefinementOptions {
   std::function<bool()> cancelled = {};  ///< asked from the calling thread; true ends with the best so far
 };
 
-/// Returns the edit with its magnitude multiplied by x: a move goes x times as far, a rotation turns by x
-/// times the angle, a scaling has its factor to the power of x. x = 1 gives the same edit, x = 0 changes
-/// nothing.
+/// Returns the edit with its magnitude multiplied by x: a move or leaning goes x times as far, a rotation
+/// turns by x times the angle, a scaling or taper has its factor to the power of x. x = 1 gives the same
+/// edit, x = 0 changes nothing, x = -1 gives the inverse.
 Edit with_magnitude(Edit edit, double x);
 
 /// Merges edits that do the same to the same handle into one, at the position of the first: moves along one
-/// line, rotations about one axis, scalings along one axis or uniform. Leaves out edits that change nothing.
+/// line, leanings of one axis along one line, rotations about one axis, scalings along one axis or uniform,
+/// tapers of one axis. Leaves out edits that change nothing.
 std::vector<Edit> merge_edits(const std::vector<Edit>& edits);
 
 /// Result of `refine_candidate`.

@@ -1,6 +1,7 @@
 #include "deformation/controllers/edit_target.h"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 
 #include "core/index.h"
@@ -101,21 +102,17 @@ class EditTargetSolver {
   /// an extent, a move or leaning across it leaves the heights free, since a leaning foot must give way to
   /// stay on the ground: then only the components across the extent, and the radii.
   Eigen::MatrixXd held(const Eigen::MatrixXd& rows) const {
+    if (!constraints_.keep_extent || constraints_.extent_ends != ExtentEnds::fixed) return rows;
+    const auto coordinates = static_cast<int>(3 * control_points(now_).rows());
     const Eigen::Index points =
-        edit_.leans ? control_points(now_).rows() : static_cast<Eigen::Index>(edit_.values.size()) / 3;
-    if (!constraints_.keep_extent || constraints_.extent_ends != ExtentEnds::fixed ||
-        (!edit_.leans && 3 * points != rows.rows()))
-      return rows;
+        std::count_if(edit_.values.begin(), edit_.values.end(), [&](int v) { return v < coordinates; }) / 3;
     const Frame frame = frame_of(*constraints_.keep_extent);
     const Eigen::Index radii = rows.rows() - 3 * points;
     Eigen::MatrixXd across(2 * points + radii, rows.cols());
     across.bottomRows(radii) = rows.bottomRows(radii);
     for (Eigen::Index k = 0; k < points; ++k) {
-      const auto first = static_cast<std::size_t>(3 * k);
-      const bool is_point =
-          edit_.values[first] % 3 == 0 && edit_.values[first + 2] == edit_.values[first] + 2;
       const Eigen::Vector3d by = edit_.changes.segment<3>(3 * k);
-      if (!is_point || std::abs(by.dot(frame.w)) > tolerance::relative * by.norm()) return rows;
+      if (std::abs(by.dot(frame.w)) > tolerance::relative * by.norm()) return rows;
       across.row(2 * k) = frame.u.transpose() * rows.middleRows<3>(3 * k);
       across.row(2 * k + 1) = frame.v.transpose() * rows.middleRows<3>(3 * k);
     }

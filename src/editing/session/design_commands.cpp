@@ -7,6 +7,7 @@
 #include "editing/session/session_implementation.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/deformation/rebase.h"
+#include "stackabilization/improvement/refinement.h"
 
 namespace stackabilization::editing {
 
@@ -43,7 +44,7 @@ void EditingSession::Implementation::run(const Drag& command) {
   EditedFrom from = from_current();
   from.scope = QualityScope::parts;
   LargestEdit largest = largest_part(from, command.edit, known);
-  drag_ = DragState{std::move(largest.made), scaled(command.edit, largest.amount)};
+  drag_ = DragState{std::move(largest.made), with_magnitude(command.edit, largest.amount)};
   emit(Changed{Change::design});
   if (largest.obstacle) emit(Refused{*largest.obstacle});
 }
@@ -62,7 +63,7 @@ void EditingSession::Implementation::run(const EndDrag& command) {
   if (is_current(kept.made))
     emit(Changed{Change::design});
   else
-    keep_edit(scaled(drag->edit, kept.amount), kept.made);
+    keep_edit(with_magnitude(drag->edit, kept.amount), kept.made);
   if (kept.obstacle) emit(Refused{*kept.obstacle});
 }
 

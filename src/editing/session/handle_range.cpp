@@ -1,24 +1,11 @@
 #include "editing/session/handle_range.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
-namespace stackabilization::editing {
+#include "stackabilization/improvement/refinement.h"
 
-Edit scaled(Edit edit, double amount) {
-  if (auto* move = std::get_if<Move>(&edit.operation))
-    move->by *= amount;
-  else if (auto* rotate = std::get_if<Rotate>(&edit.operation))
-    rotate->radians *= amount;
-  else if (auto* taper = std::get_if<Taper>(&edit.operation))
-    taper->factor = std::pow(taper->factor, amount);
-  else if (auto* lean = std::get_if<Lean>(&edit.operation))
-    lean->by *= amount;
-  else
-    std::get<Scale>(edit.operation).factor = std::pow(std::get<Scale>(edit.operation).factor, amount);
-  return edit;
-}
+namespace stackabilization::editing {
 
 namespace {
 
@@ -35,14 +22,14 @@ std::pair<double, std::optional<Obstacle>> sample_side(const EditedFrom& from, H
   double reached = 0;
   for (int k = 1; k <= samples_per_side && !cancelled(); ++k) {
     const double amount = static_cast<double>(k) / samples_per_side;
-    const Edit whole = scaled(range.edit, sign);
-    const TriedEdit tried = try_edit(from, scaled(whole, amount));
+    const Edit whole = with_magnitude(range.edit, sign);
+    const TriedEdit tried = try_edit(from, with_magnitude(whole, amount));
     if (tried.made) {
       range.samples.push_back({sign * amount, stackability_of(from, *tried.made)});
       reached = amount;
       continue;
     }
-    const LargestEdit largest = largest_part(from, scaled(whole, amount), reached / amount);
+    const LargestEdit largest = largest_part(from, with_magnitude(whole, amount), reached / amount);
     const double end = amount * largest.amount;
     if (end > reached) range.samples.push_back({sign * end, largest.made.assessment.measured.value});
     return {sign * end, largest.obstacle};
@@ -78,7 +65,7 @@ LargestEdit largest_part(const EditedFrom& from, const Edit& edit, double known)
   double low = 0, high = 1;
   for (int k = 0; k <= bisections; ++k) {
     const double amount = k == 0 && known > 0 && known < 1 ? known : (low + high) / 2;
-    TriedEdit tried = try_edit(from, scaled(edit, amount));
+    TriedEdit tried = try_edit(from, with_magnitude(edit, amount));
     if (tried.made) {
       low = amount;
       made = std::move(tried.made);

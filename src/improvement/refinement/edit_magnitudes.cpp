@@ -205,10 +205,10 @@ Edit with_magnitude(Edit edit, double x) {
     move->by *= x;
   else if (auto* turn = std::get_if<Rotate>(&edit.operation))
     turn->radians *= x;
+  else if (auto* lean = std::get_if<Lean>(&edit.operation))
+    lean->by *= x;
   else if (auto* taper = std::get_if<Taper>(&edit.operation)) {
     if (x != 1) taper->factor = std::pow(taper->factor, x);
-  } else if (auto* lean = std::get_if<Lean>(&edit.operation)) {
-    lean->by *= x;
   } else {
     auto& scale = std::get<Scale>(edit.operation);
     if (x != 1) scale.factor = std::pow(scale.factor, x);

@@ -13,16 +13,19 @@ namespace stackabilization::detail {
 
 namespace {
 
+/// Returns whether the translations `a` and `b` point to opposite sides.
+bool against(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return a.dot(b) < -tolerance::same_symmetry * a.norm() * b.norm();
+}
+
 /// Returns whether `edit` undoes `earlier`, at least in part.
 bool takes_back(const Edit& edit, const Edit& earlier) {
   if (!(edit.handle == earlier.handle) || edit.operation.index() != earlier.operation.index()) return false;
-  if (const auto* move = std::get_if<Move>(&edit.operation)) {
-    const Eigen::Vector3d& by = std::get<Move>(earlier.operation).by;
-    return move->by.dot(by) < -tolerance::same_symmetry * move->by.norm() * by.norm();
-  }
+  if (const auto* move = std::get_if<Move>(&edit.operation))
+    return against(move->by, std::get<Move>(earlier.operation).by);
   if (const auto* lean = std::get_if<Lean>(&edit.operation)) {
     const auto& before = std::get<Lean>(earlier.operation);
-    return lean->axis.dot(before.axis) * lean->by.dot(before.by) < 0;
+    return against(lean->by, lean->axis.dot(before.axis) < 0 ? Eigen::Vector3d(-before.by) : before.by);
   }
   if (const auto* taper = std::get_if<Taper>(&edit.operation)) {
     const auto& before = std::get<Taper>(earlier.operation);

@@ -191,6 +191,27 @@ TEST_CASE("A panel whose faces slide along each other is as wide as before", "[e
     CHECK(amount(found, kind) == 0);
 }
 
+TEST_CASE("A flat part without a name is a frame when it is mostly open, else a board or panel",
+          "[explanation]") {
+  const auto bars = [](double x, double y, double rim) {
+    Shape frame =
+        concatenate(solids::box({0, 0, 2}, {x, rim, 2.2}), solids::box({0, y - rim, 2}, {x, y, 2.2}));
+    frame = concatenate(frame, solids::box({0, rim, 2}, {rim, y - rim, 2.2}));
+    frame = concatenate(frame, solids::box({x - rim, rim, 2}, {x, y - rim, 2.2}));
+    frame.part_names = {"part_2"};
+    frame.triangle_part.assign(frame.triangle_part.size(), 0);
+    return frame;
+  };
+  Shape block = solids::box({0, 0, 0}, {6, 5, 1.5});
+  block.part_names = {"block"};
+  for (const double rim : {0.5, 2.0}) {  // 7 % to 13 % of the area per bar, nearly all of it
+    const StructuredShape rest = analyse_structure(concatenate(block, bars(6, 5, rim)));
+    const Explanation found = explain(rest, with_parts_mapped(rest.shape, "part_2", moved({0, 0, 1})));
+    REQUIRE(found.groups.size() == 1);
+    CHECK(found.groups[0].name == (rim < 1 ? "frame" : "board"));
+  }
+}
+
 TEST_CASE("Walls lean by their angle, however long they are", "[explanation]") {
   for (const double length : {4.0, 8.0}) {  // as long as a panel, and as a member
     Shape tray = solids::box({0, 0, 0}, {length, 5, 0.1});

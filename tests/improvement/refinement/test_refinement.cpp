@@ -114,6 +114,12 @@ TEST_CASE("a magnitude multiplies moves and angles, and is an exponent of factor
   CHECK(std::get<Scale>(with_magnitude(scale(0, 0.9), 1).operation).factor == 0.9);
   CHECK(std::get<Scale>(with_magnitude(scale(0, 0.9), 0).operation).factor == 1);
   CHECK(with_magnitude(scale(0, 0.9), 2).falloff == Falloff::linear);
+  const Edit taper{{HandleKind::shape, 0, 0}, Taper{0.9, {0, 0, 1}, {}}};
+  CHECK(std::get<Taper>(with_magnitude(taper, 2).operation).factor == Approx(0.81).epsilon(1e-15));
+  CHECK(std::get<Taper>(with_magnitude(taper, 1).operation).factor == 0.9);
+  const Edit lean{{HandleKind::part, 0, 0}, Lean{{1, -2, 0}, {0, 0, 3}}};
+  CHECK(std::get<Lean>(with_magnitude(lean, -0.5).operation).by == Eigen::Vector3d(-0.5, 1, 0));
+  CHECK(std::get<Lean>(with_magnitude(lean, -0.5).operation).axis == Eigen::Vector3d(0, 0, 3));
 }
 
 TEST_CASE("edits that do the same thing become one, those that change nothing vanish") {
@@ -145,6 +151,22 @@ TEST_CASE("edits that do the same thing become one, those that change nothing va
   CHECK(merge_edits({linear, gaussian}).size() == 2);
   CHECK(merge_edits({linear, scale(1, 0.5)}).size() == 2);
   CHECK(merge_edits({scale(0, 0.5), scale(0, 2)}).empty());
+}
+
+TEST_CASE("leanings of one part towards one end along one line become one") {
+  const Handle part{HandleKind::part, 1, 0};
+  const auto lean = [&](const Eigen::Vector3d& by, const Eigen::Vector3d& axis) {
+    return Edit{part, Lean{by, axis}};
+  };
+  const Eigen::Vector3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+  const std::vector<Edit> merged = merge_edits({lean(x, z), lean(2 * x, 3 * z), lean(-0.5 * x, z)});
+  REQUIRE(merged.size() == 1);
+  CHECK(std::get<Lean>(merged[0].operation).by == 2.5 * x);
+  CHECK(std::get<Lean>(merged[0].operation).axis == z);
+  CHECK(merge_edits({lean(x, z), lean(y, z)}).size() == 2);
+  CHECK(merge_edits({lean(x, z), lean(x, -z)}).size() == 2);  // the other end moves
+  CHECK(merge_edits({lean(x, z), lean(-x, z)}).empty());
+  CHECK(merge_edits({lean(0 * x, z)}).empty());
 }
 
 TEST_CASE("f_max is the maximum over pairs of blocks") {
