@@ -42,7 +42,8 @@ struct SegmentationOptions {
 /// `primitives` looks for parts that fit a cuboid, a solid of revolution or a ring, not for single faces. It
 /// merges the patches of Attene et al. (2006) as long as the solid behind them fills its primitive. Concave
 /// edges between patches count against a merge. Cavities that the shape itself encloses count as filled, so
-/// that a vessel is one part. The method orients a component such that its volume is positive.
+/// that a vessel is one part. Where half of a surface or more is a body of revolution, that body is one part,
+/// unless a number of parts is given. The method orients a component such that its volume is positive.
 /// `shape_diameter` does not cut a component for which CGAL computes no diameter: sheets and meshes of very
 /// few triangles. It may return fewer parts than requested.
 ///

@@ -36,16 +36,17 @@ Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
 
 /// With n the normal at p, the lines (n, p x n) and (l, m) meet when n . m + (p x n) . l = 0. Coordinates are
 /// relative to `origin` and `scale`.
-NormalComplex normal_complex(const Shape& part, const Eigen::Vector3d& origin, double scale) {
+NormalComplex normal_complex(const Shape& part, const Eigen::VectorXd& weights, const Eigen::Vector3d& origin,
+                             double scale) {
   NormalComplex sum;
   for (Eigen::Index t = 0; t < part.triangle_count(); ++t) {
     Eigen::Matrix3d corners;
     for (int k = 0; k < 3; ++k) corners.col(k) = (part.corner(t, k) - origin) / scale;
     const Eigen::Vector3d double_area =
         (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0));
-    const double area = double_area.norm() / 2;
+    const double triangle_area = double_area.norm() / 2, area = weights(t) * triangle_area;
     if (!(area > 0)) continue;
-    const Eigen::Vector3d n = double_area / (2 * area), total = corners.rowwise().sum();
+    const Eigen::Vector3d n = double_area / (2 * triangle_area), total = corners.rowwise().sum();
     const Eigen::Matrix3d turn = cross_matrix(n);  // n x p, the sign cancels below
     const Eigen::Matrix3d second = (corners * corners.transpose() + total * total.transpose()) / 12;
     sum.directions += area * turn * second * turn.transpose();
@@ -95,10 +96,10 @@ double miss_when_turned(const FitSurface& part, const AxisLine& axis) {
 
 }  // namespace
 
-std::optional<AxisLine> revolution_axis(const FitSurface& part) {
-  const SurfaceMoments moments(part.shape, part.shape.corner(0, 0));
+std::optional<AxisLine> axis_of_normals(const Shape& part, const Eigen::VectorXd& weights) {
+  const SurfaceMoments moments(part, part.corner(0, 0));
   const double scale = std::sqrt(moments.covariance().trace());
-  const NormalComplex complex = normal_complex(part.shape, moments.centre(), scale);
+  const NormalComplex complex = normal_complex(part, weights, moments.centre(), scale);
   const Eigen::Matrix3d elimination = -pseudo_inverse(complex.moments) * complex.mixed.transpose();
   const Eigen::Matrix3d residual = complex.directions + complex.mixed * elimination;
 
@@ -107,11 +108,16 @@ std::optional<AxisLine> revolution_axis(const FitSurface& part) {
       direction_of_least_residual((residual + residual.transpose()) / 2, complex.moments.trace());
   axis.point = moments.centre() + scale * axis.direction.cross(elimination * axis.direction);
   if (!axis.point.allFinite() || !axis.direction.allFinite()) return std::nullopt;
+  return axis;
+}
 
+std::optional<AxisLine> revolution_axis(const FitSurface& part) {
+  const auto axis = axis_of_normals(part.shape, Eigen::VectorXd::Ones(part.shape.triangle_count()));
+  if (!axis) return std::nullopt;
   double radius = 0;
   for (const auto& point : part.samples.points.rowwise())
-    radius = std::max(radius, (point.transpose() - axis.point).cross(axis.direction).norm());
-  if (!(miss_when_turned(part, axis) <= roundness * radius)) return std::nullopt;
+    radius = std::max(radius, (point.transpose() - axis->point).cross(axis->direction).norm());
+  if (!(miss_when_turned(part, *axis) <= roundness * radius)) return std::nullopt;
   return axis;
 }
 

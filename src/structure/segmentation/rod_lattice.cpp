@@ -26,14 +26,14 @@ struct Sample {
 };
 
 /// Corners of the triangles of every component, and its area.
-struct Pieces {
+struct WirePieces {
   std::vector<std::vector<Eigen::Vector3d>> corners;
   std::vector<double> areas;
 };
 
-Pieces pieces_of(const Shape& shape, const std::vector<std::int32_t>& component) {
+WirePieces pieces_of(const Shape& shape, const std::vector<std::int32_t>& component) {
   const auto count = static_cast<std::size_t>(*std::max_element(component.begin(), component.end())) + 1;
-  Pieces pieces{std::vector<std::vector<Eigen::Vector3d>>(count), std::vector<double>(count, 0)};
+  WirePieces pieces{std::vector<std::vector<Eigen::Vector3d>>(count), std::vector<double>(count, 0)};
   for (std::size_t t = 0; t < component.size(); ++t) {
     const auto c = static_cast<std::size_t>(component[t]);
     const auto row = static_cast<Eigen::Index>(t);
@@ -62,7 +62,8 @@ Cell cell_of(const Eigen::Vector3d& point, double width) {
 
 /// Samples of the wires in a grid of cells of width `reach`. One sample of a wire per eighth of a cell
 /// suffices.
-std::vector<Sample> samples_of(const Pieces& pieces, const std::vector<std::int32_t>& wires, double reach) {
+std::vector<Sample> samples_of(const WirePieces& pieces, const std::vector<std::int32_t>& wires,
+                               double reach) {
   std::vector<Sample> samples;
   for (const std::int32_t wire : wires) {
     const std::vector<Eigen::Vector3d>& corners = pieces.corners[static_cast<std::size_t>(wire)];
@@ -100,7 +101,7 @@ std::set<std::pair<std::int32_t, std::int32_t>> meetings(const std::vector<Sampl
 
 bool is_rod_lattice(const Shape& shape, const std::vector<std::int32_t>& component,
                     const RodLatticeRule& rule) {
-  const Pieces pieces = pieces_of(shape, component);
+  const WirePieces pieces = pieces_of(shape, component);
   const std::size_t count = pieces.areas.size();
   if (count < static_cast<std::size_t>(rule.min_wires)) return false;
   std::vector<std::int32_t> wires;

@@ -17,6 +17,7 @@
 #include "structure/segmentation/components.h"
 #include "structure/segmentation/hierarchical_fitting.h"
 #include "structure/segmentation/members.h"
+#include "structure/segmentation/revolution_body.h"
 #include "structure/segmentation/rod_lattice.h"
 #include "structure/segmentation/segment.h"
 #include "structure/segmentation/segment_boundaries.h"
@@ -66,15 +67,28 @@ Shape with_parts_by_area(const Shape& shape, const std::vector<std::int32_t>& pa
   return result;
 }
 
+/// Makes `body`, one flag per triangle or empty, a part of its own, whatever the clusters are: a handle that
+/// goes down to the foot of its mug does not take the foot along.
+void keep_together(const std::vector<char>& body, std::vector<std::int32_t>& part) {
+  const std::int32_t number = count_of(part);
+  for (std::size_t t = 0; t < body.size(); ++t)
+    if (body[t]) part[t] = number;
+}
+
 /// Cuts one component, whose triangles are `rows`, and returns a number per row.
 std::vector<std::int32_t> cut(const Shape& component, const SegmentationOptions& options) {
   detail::SurfaceGraph graph = detail::surface_graph(component);
   if (!(graph.areas.sum() > 0)) return std::vector<std::int32_t>(static_cast<std::size_t>(graph.size()), 0);
+  // A number of parts that is asked for, and the diameters of a method, are kept.
+  const bool fits = options.method != SegmentationMethod::shape_diameter && options.parts == 0;
+  const std::vector<char> body =
+      fits ? detail::revolution_body(component, graph, options.min_part_area) : std::vector<char>();
   detail::link_shells(graph, component, detail::ContactRule().reach * graph.diagonal);
   std::vector<std::int32_t> part =
       options.method == SegmentationMethod::shape_diameter
           ? detail::shape_diameter_parts(component, graph, options.parts)
           : detail::fitted_parts(component, graph, options.parts, options.min_part_area);
+  keep_together(body, part);
   part = detail::with_smooth_boundaries(graph, std::move(part), {});
   return detail::merge_small_segments(graph, part, options.min_part_area * graph.areas.sum());
 }
