@@ -14,6 +14,7 @@
 #include "core/index.h"
 #include "improvement/design/members.h"
 #include "improvement/explanation/part_changes.h"
+#include "improvement/explanation/part_nouns.h"
 #include "improvement/explanation/part_phrases.h"
 #include "improvement/quality/surface_marks.h"
 #include "stackabilization/core/errors.h"
@@ -74,9 +75,7 @@ class ChangeDescription {
     for (std::size_t part = 0; part < triangles.size(); ++part)
       parts_.push_back(part_at_rest(rest, part, triangles[part]));
     find_frame();
-    std::vector<std::string> nouns;
-    for (const PartAtRest& part : parts_) nouns.push_back(form_noun(part, frame_));
-    phrases_.emplace(rest.shape.part_names, nouns);
+    phrases_.emplace(rest.shape.part_names, part_nouns(rest, parts_, frame_));
   }
 
   Explanation run() {

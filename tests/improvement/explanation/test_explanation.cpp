@@ -212,6 +212,32 @@ TEST_CASE("A flat part without a name is a frame when it is mostly open, else a 
   }
 }
 
+TEST_CASE("A mug without names has a body and a handle", "[explanation]") {
+  const auto named = [](const std::vector<std::string>& names) {
+    StructuredShape mug = structures::mug();
+    mug.shape.part_names = names;
+    for (std::size_t p = 0; p < names.size(); ++p) mug.structure.parts[p].name = names[p];
+    return mug;
+  };
+  const StructuredShape mug = named({"part_1", "part_2"});
+  const auto name_of_moved = [](const StructuredShape& rest, const std::string& part) {
+    const Explanation found = explain(rest, with_parts_mapped(rest.shape, part, scaled({1, 1, 0.8})));
+    REQUIRE(found.groups.size() == 1);
+    return found.groups[0].name;
+  };
+  CHECK(name_of_moved(mug, "part_1") == "body");
+  CHECK(name_of_moved(mug, "part_2") == "handle");
+
+  StructuredShape once_joined = mug, standing = mug;
+  once_joined.structure.relations.pop_back();
+  CHECK(name_of_moved(once_joined, "part_2") != "handle");
+  standing.shape = with_parts_mapped(mug.shape, "part_2", moved({0, 0, -1.6}));
+  CHECK(name_of_moved(standing, "part_2") != "handle");
+
+  CHECK(name_of_moved(named({"vessel", "grip"}), "vessel") == "vessel");
+  CHECK(name_of_moved(named({"vessel", "grip"}), "grip") == "grip");
+}
+
 TEST_CASE("Walls lean by their angle, however long they are", "[explanation]") {
   for (const double length : {4.0, 8.0}) {  // as long as a panel, and as a member
     Shape tray = solids::box({0, 0, 0}, {length, 5, 0.1});
