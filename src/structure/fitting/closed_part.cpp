@@ -1,6 +1,7 @@
 #include "structure/fitting/closed_part.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/border.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -9,11 +10,13 @@
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/alpha_wrap_3.h>
+#include <CGAL/boost/graph/iterator.h>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <exception>
+#include <iterator>
 #include <vector>
 
 #include "mesh/principal_extents.h"
@@ -36,6 +39,9 @@ constexpr std::size_t max_triangles = 20000;
 constexpr double clusters = 150;
 /// Alpha wrap: ratio of the diagonal to alpha, and to the offset.
 constexpr double wrap_alpha = 24, wrap_offset = 120;
+
+/// Least area of a surface whose mouths get caps, fraction of the sum of their squared lengths.
+constexpr double min_area_at_mouths = 0.25;
 
 struct Soup {
   std::vector<Epick::Point_3> points;
@@ -68,6 +74,40 @@ PartMesh as_closed(Soup soup) {
   if (!CGAL::is_closed(mesh) || PMP::connected_components(mesh, component) != 1) return {};
   if (!PMP::is_outward_oriented(mesh)) PMP::reverse_face_orientations(mesh);
   return mesh;
+}
+
+/// Adds fans around the centres of the mouths of a surface where they are narrow for its area. An alpha wrap
+/// would line a tube with open ends inside.
+void cap_narrow_mouths(Soup& soup) {
+  Soup oriented = soup;
+  if (!PMP::orient_polygon_soup(oriented.points, oriented.polygons)) return;
+  PartMesh mesh;
+  PMP::polygon_soup_to_polygon_mesh(oriented.points, oriented.polygons, mesh);
+  std::vector<PartMesh::Halfedge_index> mouths;
+  PMP::extract_boundary_cycles(mesh, std::back_inserter(mouths));
+  double squares = 0;
+  Soup fans;
+  for (const auto mouth : mouths) {
+    Epick::Vector_3 moment = CGAL::NULL_VECTOR;
+    double length = 0;
+    const std::size_t first = fans.points.size();
+    for (const auto h : CGAL::halfedges_around_face(mouth, mesh)) {
+      const Epick::Point_3 &a = mesh.point(mesh.source(h)), &b = mesh.point(mesh.target(h));
+      const double edge = std::sqrt(CGAL::squared_distance(a, b));
+      moment += edge * (CGAL::midpoint(a, b) - CGAL::ORIGIN);
+      length += edge;
+      fans.points.push_back(a);
+    }
+    squares += length * length;
+    const std::size_t centre = fans.points.size();
+    for (std::size_t k = first; k < centre; ++k)
+      fans.polygons.push_back({k, k + 1 < centre ? k + 1 : first, centre});
+    fans.points.push_back(length > 0 ? CGAL::ORIGIN + moment / length : fans.points[first]);
+  }
+  if (!(PMP::area(mesh) >= min_area_at_mouths * squares)) return;
+  const std::size_t count = soup.points.size();
+  soup.points.insert(soup.points.end(), fans.points.begin(), fans.points.end());
+  for (const auto& [a, b, c] : fans.polygons) soup.polygons.push_back({count + a, count + b, count + c});
 }
 
 void remesh(PartMesh& mesh) {
@@ -105,12 +145,14 @@ std::optional<ClosedPart> closed_part(const Shape& part) {
     // result.
     if (principal_extents(part.vertices, tolerance::relative * diagonal).length(2) < diagonal / wrap_offset)
       return std::nullopt;
-    const Soup soup = soup_of(part, count > max_triangles ? diagonal / clusters : 0);
+    Soup soup = soup_of(part, count > max_triangles ? diagonal / clusters : 0);
     PartMesh mesh;
     if (count <= max_triangles) mesh = as_closed(soup);
     const bool wrapped = mesh.is_empty();
-    if (wrapped)
+    if (wrapped) {
+      cap_narrow_mouths(soup);
       CGAL::alpha_wrap_3(soup.points, soup.polygons, diagonal / wrap_alpha, diagonal / wrap_offset, mesh);
+    }
     remesh(mesh);
     if (mesh.is_empty() || !CGAL::is_closed(mesh)) return std::nullopt;
     return ClosedPart{to_shape(mesh), wrapped};

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <variant>
+#include <vector>
 
 #include "stackabilization/structure/fitting.h"
 #include "structure/fitting/canonical_pose.h"
@@ -11,6 +12,7 @@
 #include "structure/fitting/part_box.h"
 #include "structure/fitting/revolution_axis.h"
 #include "structure/model/fit_error.h"
+#include "structure/segmentation/surface_graph.h"
 #include "support/catch.h"
 #include "support/solids.h"
 #include "support/variants.h"
@@ -191,11 +193,27 @@ TEST_CASE("a closed part stays what it is, an open one is wrapped closely") {
   CHECK(box->surface.triangle_count() > 1000);
   CHECK(solids::signed_volume(closed_part(solids::flipped(solids::box({1, 1, 8})))->surface) > 0);
 
-  const std::optional<ClosedPart> wrapped = closed_part(solids::open_box({4, 4, 4}));
+  // An open tube gets caps: no lining, which would have half of its volume and a ring for a skeleton.
+  const double radius = 1, length = 6;
+  const Shape tube = solids::cylinder(radius, length, 64);
+  std::vector<std::int32_t> wall;
+  for (std::int32_t t = 0; t < tube.triangle_count(); ++t) {
+    const Eigen::Vector3d heights(tube.corner(t, 0).z(), tube.corner(t, 1).z(), tube.corner(t, 2).z());
+    if (heights.minCoeff() != heights.maxCoeff()) wall.push_back(t);
+  }
+  const Shape open_tube = extracted(tube, wall);
+  const std::optional<ClosedPart> capped = closed_part(open_tube);
+  REQUIRE(capped);
+  CHECK(capped->wrapped);
+  CHECK(solids::is_closed(capped->surface));
+  CHECK(solids::signed_volume(capped->surface) ==
+        Approx(std::numbers::pi * radius * radius * length).epsilon(0.15));
+
+  const std::optional<ClosedPart> wrapped = closed_part(solids::open_box({4, 4, 2}));
   REQUIRE(wrapped);
   CHECK(wrapped->wrapped);
   CHECK(solids::is_closed(wrapped->surface));
-  const double diagonal = 4 * std::sqrt(3.0);
+  const double diagonal = 6;
   const Points& points = wrapped->surface.vertices;
   CHECK(points.minCoeff() > -0.02 * diagonal);
   CHECK(points.maxCoeff() < 4 + 0.02 * diagonal);
