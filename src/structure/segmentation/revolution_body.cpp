@@ -124,7 +124,7 @@ struct Attachment {
   std::vector<std::int32_t> border;  ///< rows of the links to the body
 };
 
-/// Returns the attachments by their first triangles.
+/// Returns the attachments by their first triangles. `sets`, of one triangle each, are joined to them.
 std::map<std::size_t, Attachment> attachments(const SurfaceGraph& graph, const std::vector<char>& body,
                                               DisjointSets& sets) {
   const auto ends = [](const SurfaceLink& link) {
