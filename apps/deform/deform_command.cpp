@@ -101,9 +101,8 @@ Command make_deform_command(CLI::App& program) {
       "stackabilize deform chair.json --edit \"seat scale 1.1 along 1 0 0\" -o wider.obj\n\n"
       "An edit is a handle (PART, PART/face=-z, PART/corner=0, PART/section=3, point=7, wire=2, shape)\n"
       "and move X Y Z, rotate DEGREES about X Y Z, or scale FACTOR [along X Y Z]; of cross-sections also\n"
-      "move X Y Z linearly, scale FACTOR linearly; of parts also lean X Y Z towards X Y Z; of the shape "
-      "also\n"
-      "taper FACTOR towards X Y Z [along X Y Z].");
+      "move X Y Z linearly, scale FACTOR linearly; of parts also lean X Y Z towards X Y Z; of the shape\n"
+      "also taper FACTOR towards X Y Z [along X Y Z].");
   add_common_options(*command, options->common);
   add_analysis_options(*command, options->analysis);
   command

@@ -29,8 +29,8 @@ constexpr double min_body_share = 0.5;
 /// Least area of an attachment, fraction of the sum of the squared lengths of the loops of its border:
 /// handles have 0.3 and more, legs 3, a corner of a square plate beside its inscribed disc 0.13.
 constexpr double min_slenderness = 0.2;
-/// A point belongs to the body when the surface passes, turned by at least this share of the angles, within
-/// this distance of it, fraction of the radius.
+/// A point belongs to the body when at least this share of its images by turns about the axis lie within this
+/// distance of the surface, fraction of the radius.
 constexpr double min_close_share = 0.5;
 constexpr double allowed_miss = 0.05;
 constexpr int turn_count = 8;

@@ -79,7 +79,7 @@ void keep_together(const std::vector<char>& body, std::vector<std::int32_t>& par
 std::vector<std::int32_t> cut(const Shape& component, const SegmentationOptions& options) {
   detail::SurfaceGraph graph = detail::surface_graph(component);
   if (!(graph.areas.sum() > 0)) return std::vector<std::int32_t>(static_cast<std::size_t>(graph.size()), 0);
-  // A number of parts that is asked for, and the diameters of a method, are kept.
+  // The number of parts that is asked for comes first, and thickness is a measure of its own.
   const bool fits = options.method != SegmentationMethod::shape_diameter && options.parts == 0;
   const std::vector<char> body =
       fits ? detail::revolution_body(component, graph, options.min_part_area) : std::vector<char>();

@@ -234,6 +234,12 @@ TEST_CASE("A mug without names has a body and a handle", "[explanation]") {
   standing.shape = with_parts_mapped(mug.shape, "part_2", moved({0, 0, -1.6}));
   CHECK(name_of_moved(standing, "part_2") != "handle");
 
+  standing.shape = with_parts_mapped(mug.shape, "part_2", moved({-6, 0, 0}));  // around the axis of the body
+  CHECK(name_of_moved(standing, "part_2") != "handle");
+  ExplanationOptions lying;
+  lying.up = Eigen::Vector3d::UnitY();
+  const Shape lower = with_parts_mapped(mug.shape, "part_2", scaled({1, 1, 0.8}));
+  CHECK(explain(mug, lower, lying).groups.at(0).name != "handle");
   CHECK(name_of_moved(named({"vessel", "grip"}), "vessel") == "vessel");
   CHECK(name_of_moved(named({"vessel", "grip"}), "grip") == "grip");
 }
