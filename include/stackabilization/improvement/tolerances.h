@@ -76,6 +76,13 @@ inline constexpr double face_share = 0.04;
 /// Share of the footprint of the object that a seat or table top has at least.
 inline constexpr double seat_share = 0.1;
 
+/// Ratio of length to width from which on a cuboid is elongated.
+inline constexpr double elongated = 3;
+
+/// Largest ratio of width to thickness of a bar: an elongated cuboid that is wider is a board or a slat,
+/// which may be a seat.
+inline constexpr double bar_width = 2;
+
 /// Height of a seat above the ground, at least, fraction of the height.
 inline constexpr double seat_height = 0.05;
 

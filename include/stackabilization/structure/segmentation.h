@@ -12,7 +12,8 @@ namespace stackabilization {
 enum class SegmentationMethod {
   given,  ///< the parts of the shape, unchanged
   /// The parts of the shape, and of a part that one primitive represents badly its members: the legs and
-  /// rails of a frame that is one part of the file. Member k of part "frame" is called "frame.k".
+  /// rails of a frame that is one part of the file. Member k of part "frame" is called "frame.k". A triangle
+  /// that is flat to a line belongs to the part of the surface beside its longest edge, whatever its label.
   members,
   whole,           ///< one part, for shapes that deform as a whole, such as a basket of many wires
   components,      ///< connected components; two components that touch over a large area are merged

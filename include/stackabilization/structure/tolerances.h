@@ -36,6 +36,9 @@ inline constexpr double parallel = 0.99;
 /// degrees. It is wider than the error of a box fitted to noisy samples.
 inline constexpr double aligned = 0.999;
 
+/// Largest height of a triangle that is flat to a line, fraction of its longest edge: files have six digits.
+inline constexpr double flat_triangle = 1e-5;
+
 /// How far control points of three consecutive parts of a row may be from even steps, fraction of the step.
 inline constexpr double row_step = 0.1;
 /// The same as a fraction of the diagonal of the shape: a person sees more.

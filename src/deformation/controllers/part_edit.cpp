@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "deformation/model/skinning.h"
 #include "deformation/model/straight_curve.h"
 #include "stackabilization/core/errors.h"
 
@@ -83,13 +84,19 @@ struct PlacedOperation {
   Eigen::Vector3d centre;
 };
 
-/// Returns how a leaning moves points, n x 3.
-Points leaning(const Points& points, const Lean& lean) {
-  Eigen::VectorXd shares = points * lean.axis.normalized();
+/// How a leaning changes a part.
+struct Leaning {
+  Points changes;                                            ///< of the control points
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();  ///< from the axis to where it leans
+};
+
+Leaning leaning(const Points& points, const Lean& lean) {
+  const Eigen::Vector3d axis = lean.axis.normalized();
+  Eigen::VectorXd shares = points * axis;
   const double low = shares.minCoeff(), range = shares.maxCoeff() - low;
-  if (!(range > 0)) return Points::Zero(points.rows(), 3);
+  if (!(range > 0)) return {Points::Zero(points.rows(), 3)};
   shares = (shares.array() - low) / range;
-  return shares * lean.by.transpose();
+  return {shares * lean.by.transpose(), smallest_rotation(axis, (range * axis + lean.by).normalized())};
 }
 
 void prescribe_points(PartEdit& edit, const Primitive& now, const std::vector<int>& held,
@@ -99,7 +106,7 @@ void prescribe_points(PartEdit& edit, const Primitive& now, const std::vector<in
   Points changes =
       (points.rowwise() - placed.centre.transpose()) * (linear - Eigen::Matrix3d::Identity()).transpose();
   if (const auto* move = std::get_if<Move>(&placed.operation)) changes.rowwise() = move->by.transpose();
-  if (const auto* lean = std::get_if<Lean>(&placed.operation)) changes = leaning(points, *lean);
+  if (const auto* lean = std::get_if<Lean>(&placed.operation)) changes = leaning(points, *lean).changes;
   for (const int i : held)
     for (int k = 0; k < 3; ++k) prescribe(edit, 3 * i + k, changes(i, k));
 }
@@ -119,6 +126,8 @@ PartEdit of_whole(const Primitive& now, const Operation& operation, int part, co
   if (cylinder == nullptr) return result;
   const Eigen::Matrix3d linear = linear_map(operation);
   if (std::holds_alternative<Rotate>(operation)) result.rotation = Eigen::Quaterniond(linear);
+  if (const auto* lean = std::get_if<Lean>(&operation))
+    result.rotation = leaning(cylinder->centres, *lean).turn;
   const auto n = static_cast<int>(cylinder->radii.size());
   const auto* scale = std::get_if<Scale>(&operation);
   const bool keeps_sections =

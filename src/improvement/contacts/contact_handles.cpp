@@ -135,18 +135,29 @@ ContactHandle end_of(const GeneralizedCylinder& cylinder, int part, int section)
   return end;
 }
 
-/// Returns whether a part has joints in the half that is farther along `axis`, at rest.
+/// Returns how far a primitive reaches from its middle, model units.
+double reach_of(const Primitive& primitive) {
+  const Points points = control_points(primitive);
+  return (points.rowwise() - mean(points).transpose()).rowwise().norm().maxCoeff();
+}
+
+/// Returns whether a part has joints with larger ones in the half that is farther along `axis`, at rest:
+/// a smaller one, as a rung between two legs, follows.
 bool is_held(const Structure& rest, int part, const Eigen::Vector3d& axis) {
-  const Eigen::VectorXd heights = control_points(rest.parts[static_cast<std::size_t>(part)].primitive) * axis;
-  const double middle = (heights.minCoeff() + heights.maxCoeff()) / 2;
+  const auto primitive = [&](int row) -> const Primitive& {
+    return rest.parts[static_cast<std::size_t>(row)].primitive;
+  };
+  const Eigen::VectorXd heights = control_points(primitive(part)) * axis;
+  const double middle = (heights.minCoeff() + heights.maxCoeff()) / 2, reach = reach_of(primitive(part));
   return std::any_of(rest.relations.begin(), rest.relations.end(), [&](const Relation& relation) {
-    return relation.is_joint() && (relation.parts[0] == part || relation.parts[1] == part) &&
-           (relation.points * axis).maxCoeff() > middle;
+    if (!relation.is_joint() || (relation.parts[0] != part && relation.parts[1] != part)) return false;
+    const int other = relation.parts[0] == part ? relation.parts[1] : relation.parts[0];
+    return (relation.points * axis).maxCoeff() > middle && reach_of(primitive(other)) >= reach;
   });
 }
 
 /// Returns the handle of a part that leans as a whole, with its end near the contact: a frame of bent tube.
-/// None for a part that lies flat, or is held at that end.
+/// None for a part that lies flat, or is held at that end (see `is_held`).
 std::optional<ContactHandle> leaning_whole(const Structure& rest, const GeneralizedCylinder& cylinder,
                                            const ContactSide& side, const ContactFrame& frame) {
   const int nearest = nearest_row(cylinder.centres, side.centre);

@@ -27,8 +27,6 @@ constexpr int straight_stations = 12, curved_stations = 24;
 constexpr std::size_t pieces_per_station = 6;
 /// Least number of stations between seams that tell the change of a part by themselves.
 constexpr std::size_t min_own_stations = 4;
-/// Ratio of length to width from which on a cuboid is elongated.
-constexpr double elongated = 3;
 /// Largest share by which balancing reduces the weight of a piece.
 constexpr double max_fall = 0.9;
 /// Share of the length within which corners belong to an end.
@@ -57,7 +55,7 @@ std::optional<PartCurve> curve_of(const Primitive& primitive) {
   Eigen::Index longest = 0;
   const double length = box.half_extents.maxCoeff(&longest);
   const double width = std::max(box.half_extents((longest + 1) % 3), box.half_extents((longest + 2) % 3));
-  if (length < elongated * width) return std::nullopt;
+  if (length < tolerance::quality::elongated * width) return std::nullopt;
   PartCurve curve{Points(2, 3), false, true};
   const Eigen::Vector3d half = length * box.axes.col(longest);
   curve.points << (box.centre - half).transpose(), (box.centre + half).transpose();

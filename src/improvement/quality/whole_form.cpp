@@ -16,6 +16,7 @@
 #include "mesh/surface_moments.h"
 #include "stackabilization/improvement/tolerances.h"
 #include "stackabilization/structure/tolerances.h"
+#include "structure/model/nearest_box.h"
 #include "structure/segmentation/surface_graph.h"
 
 namespace stackabilization::detail {
@@ -25,6 +26,16 @@ namespace {
 constexpr int marks_of_whole = 600;
 /// Largest tilt of a seat at rest, as a cosine.
 constexpr double level = 0.985;
+
+/// Returns whether a primitive is a bar, such as a rung or a rail, whose upper face is no seat.
+bool is_bar(const Primitive& primitive) {
+  const auto* cuboid = std::get_if<Cuboid>(&primitive);
+  if (!cuboid) return false;
+  Eigen::Vector3d sides = nearest_box(*cuboid).half_extents;
+  std::sort(sides.begin(), sides.end());
+  return sides(2) >= tolerance::quality::elongated * sides(1) &&
+         sides(1) <= tolerance::quality::bar_width * sides(0);
+}
 
 /// Returns whether no relation of the parts has a symmetry, while relations have others in its place: the
 /// diagonals of a square, and with them its quarter turns, since a square table may become a rectangular one.
@@ -96,7 +107,7 @@ WholeForm::WholeForm(const StructuredShape& rest, const WeldedMesh& welded, cons
       height_(range_along(rest.shape, up).length()),
       walk_(rest.shape, welded) {
   find_symmetric_marks(rest);
-  find_seats(rest.shape, parts);
+  find_seats(rest, parts);
   find_feet(rest.shape, welded);
 }
 
@@ -160,11 +171,13 @@ double WholeForm::height_of(const FlatFace& face, const Shape& shape, double gro
   return area > 0 ? sum / area - ground : 0;
 }
 
-void WholeForm::find_seats(const Shape& rest, const PartForms& parts) {
+void WholeForm::find_seats(const StructuredShape& of, const PartForms& parts) {
+  const Shape& rest = of.shape;
   const Eigen::Vector3d u = up_.unitOrthogonal(), v = up_.cross(u);
   const double footprint = range_along(rest, u).length() * range_along(rest, v).length();
   const double ground = range_along(rest, up_).low;
-  for (int part = 0; part < static_cast<int>(rest.part_count()); ++part)
+  for (int part = 0; part < static_cast<int>(rest.part_count()); ++part) {
+    if (is_bar(of.structure.parts[at(part)].primitive)) continue;
     for (const FlatFace& face : parts.faces(part)) {
       const Eigen::Vector3d area = face.area_vector(rest);
       Seat seat{part, face, std::abs(area.dot(up_)), height_of(face, rest, ground), tilt_of(face, rest)};
@@ -175,6 +188,7 @@ void WholeForm::find_seats(const Shape& rest, const PartForms& parts) {
         continue;
       seats_.push_back(std::move(seat));
     }
+  }
 }
 
 double WholeForm::rise_of(const Foot& foot, const Shape& shape, double ground) const {

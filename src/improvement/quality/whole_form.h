@@ -43,7 +43,7 @@ class WholeForm {
   };
 
   void find_symmetric_marks(const StructuredShape& rest);
-  void find_seats(const Shape& rest, const PartForms& parts);
+  void find_seats(const StructuredShape& rest, const PartForms& parts);
   void find_feet(const Shape& rest, const WeldedMesh& welded);
   double tilt_of(const FlatFace& face, const Shape& shape) const;
   double height_of(const FlatFace& face, const Shape& shape, double ground) const;

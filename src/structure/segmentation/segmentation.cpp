@@ -15,6 +15,7 @@
 #include "structure/fitting/revolution_axis.h"
 #include "structure/model/fit_error.h"
 #include "structure/segmentation/components.h"
+#include "structure/segmentation/flat_triangles.h"
 #include "structure/segmentation/hierarchical_fitting.h"
 #include "structure/segmentation/members.h"
 #include "structure/segmentation/revolution_body.h"
@@ -189,7 +190,7 @@ Shape detail::segment(const Shape& shape, const SegmentationOptions& options,
   if (options.method == SegmentationMethod::given) return shape;
   if (options.method == SegmentationMethod::members ||
       (options.method == SegmentationMethod::automatic && shape.part_count() > 1))
-    return with_members(shape, options, symmetries);
+    return with_members(detail::with_flat_triangles_at_their_edges(shape), options, symmetries);
   const std::vector<std::int32_t> one_part(shape.triangle_part.size(), 0);
   if (options.method == SegmentationMethod::whole) return with_parts_by_area(shape, one_part);
   const std::vector<std::int32_t> component = detail::merged_components(shape);

@@ -50,6 +50,25 @@ TEST_CASE("a hoop that leans moves by the height of its places below its ends, a
   CHECK(tube(ends.design).centres(0, 1) == Approx(3));
 }
 
+TEST_CASE("a hoop that leans turns its sections with it: sides that lie in one plane do afterwards") {
+  const StructuredShape rest = hoop();
+  const ControllerModel model(rest, {}, Following::smooth);
+  const DeformationResult result = model.edited(model.at_rest(), lean({0, 3, 0}, {0, 0, -2}));
+  REQUIRE_FALSE(result.refusal);
+  const Points centres = tube(model.at_rest()).centres;
+  const double height = centres.col(2).maxCoeff() - centres.col(2).minCoeff();
+  const Eigen::RowVector3d normal = Eigen::RowVector3d(0, height, 3).normalized();
+  const double side = rest.shape.vertices.col(1).maxCoeff(), top = centres.col(2).maxCoeff();
+  int count = 0;
+  for (Eigen::Index v = 0; v < rest.shape.vertex_count(); ++v) {
+    if (std::abs(std::abs(rest.shape.vertices(v, 1)) - side) > 1e-9) continue;
+    ++count;
+    const Eigen::RowVector3d place = result.design.shape.vertices.row(v) - Eigen::RowVector3d(0, 0, top);
+    CHECK(place.dot(normal) == Approx(rest.shape.vertices(v, 1)).epsilon(1e-9));
+  }
+  CHECK(count == 2 * centres.rows());
+}
+
 TEST_CASE("a hoop that leans stands where it stood, however far it leans") {
   const StructuredShape rest = hoop();
   const ControllerModel model(rest, {}, Following::smooth);

@@ -158,7 +158,7 @@ TEST_CASE("a wall stays straight through a list of edits") {
   const Range before = range_along(model.rest().shape, Eigen::Vector3d::UnitZ());
   const Handle foot{HandleKind::section, 0, 0}, rim{HandleKind::section, 0, 10};
   const Handle grip{HandleKind::part, 1, 0};
-  const auto low_end = [](double up) { return Edit{{HandleKind::section, 1, 1}, Move{{0, 0, up}}}; };
+  const auto low_end = [](double by) { return Edit{{HandleKind::section, 1, 1}, Move{{0, 0, by}}}; };
   const std::vector<Edit> edits = {{foot, Scale{0.85, {}}, Falloff::linear},
                                    {grip, Move{{0, 0, 0.3}}},
                                    low_end(0.4),

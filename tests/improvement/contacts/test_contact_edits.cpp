@@ -481,11 +481,13 @@ TEST_CASE("ends of straight cylinders are smooth handles, those of bent bars and
 TEST_CASE(
     "a hoop under a contact leans with its feet, one above with its ends, one that lies flat does not") {
   std::vector<Relation> joints;
+  double half = 9;  // of the sides of the other part
   const auto leanings = [&](const GeneralizedCylinder& curve, const Vector3d& at, EditFamily family) {
     StructuredShape rest = structures::tube_alone(curve, 12);
-    rest.shape = concatenate(rest.shape, solids::named(solids::box({-9, -9, 20}, {9, 9, 21}), "seat"));
+    rest.shape =
+        concatenate(rest.shape, solids::named(solids::box({-half, -half, 20}, {half, half, 21}), "seat"));
     rest.structure.parts.push_back(
-        {"seat", cuboid_of({{0, 0, 20.5}, Eigen::Matrix3d::Identity(), {9, 9, 0.5}}), {}});
+        {"seat", cuboid_of({{0, 0, 20.5}, Eigen::Matrix3d::Identity(), {half, half, 0.5}}), {}});
     rest.structure.diagonal = 30;
     rest.structure.relations = joints;
     ContactEditOptions options;
@@ -521,7 +523,7 @@ TEST_CASE(
   flat.centres.col(1).swap(flat.centres.col(2));
   CHECK(leanings(flat, {0, -4, 0.3}, EditFamily::smooth).empty());
 
-  // What is joined to another part stays there.
+  // What is joined to a larger part stays there, a smaller one follows.
   Relation joint;
   joint.type = RelationType::point_joint;
   joint.parts = {0, 1};
@@ -529,6 +531,8 @@ TEST_CASE(
   joints = {joint};
   CHECK(leanings(hoop, {0, 0, -4.3}, EditFamily::smooth).size() == feet.size());
   CHECK(leanings(hoop, {-4, 0, 0}, EditFamily::smooth).empty());
+  half = 1;
+  CHECK_FALSE(leanings(hoop, {-4, 0, 0}, EditFamily::smooth).empty());
 }
 
 TEST_CASE("a round body tapers evenly, and its end near a contact moves along r") {

@@ -500,6 +500,19 @@ TEST_CASE("A foot off the ground, and a top that is lower, smaller or tilted", "
   CHECK(measured(rest, tilted, QualityMeasure::tilt) == Approx(degrees));
 }
 
+TEST_CASE("A bar is no seat, and a board is one", "[quality]") {
+  // Above a footprint of 4 x 10, each covers a quarter of it.
+  const auto lowered = [](double width, double thickness) {
+    const StructuredShape rest = analyse_structure(
+        concatenate(solids::named(solids::box({-2, -5, 0}, {2, 5, 0.2}), "ground"),
+                    solids::named(solids::box({-width / 2, -5, 8 - thickness}, {width / 2, 5, 8}), "bar")));
+    return measured(rest, with_part_moved(rest.shape, 1, {0, 0, -1.6}), QualityMeasure::seat);
+  };
+  CHECK(lowered(1, 0.51) == 1);
+  CHECK(lowered(1, 0.49) == Approx(0.8));
+  CHECK(lowered(3.4, 3.4) == Approx(0.8));  // as long as 2.9 widths
+}
+
 TEST_CASE("Posts lean more than at rest and than 15 degrees", "[quality]") {
   const auto leaning = [](double degrees) {
     const double slope = std::tan(degrees * std::numbers::pi / 180);

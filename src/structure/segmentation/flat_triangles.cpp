@@ -1,0 +1,81 @@
+#include "structure/segmentation/flat_triangles.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "core/index.h"
+#include "mesh/edge_table.h"
+#include "mesh/welded_mesh.h"
+#include "stackabilization/structure/tolerances.h"
+
+namespace stackabilization::detail {
+
+namespace {
+
+struct FlatTriangle {
+  std::int32_t row;
+  double length;      ///< of the longest edge
+  std::size_t edge;   ///< row of the longest edge in the edge table
+};
+
+double length_of(const WeldedMesh& mesh, std::int32_t triangle, int corner) {
+  const auto point = [&](int k) { return mesh.points.row(mesh.triangles(triangle, k % 3)); };
+  return (point(corner + 1) - point(corner)).stableNorm();
+}
+
+/// Returns the flat triangles with an edge, longest first.
+std::vector<FlatTriangle> flat_triangles(const WeldedMesh& mesh, const EdgeTable& edges) {
+  std::vector<FlatTriangle> found;
+  std::vector<std::int32_t> place(at(static_cast<std::int32_t>(mesh.triangles.rows())), -1);
+  for (std::size_t edge = 0; edge < edges.size(); ++edge)
+    for (const TriangleSide& side : edges[edge]) {
+      const double length = length_of(mesh, side.triangle, side.corner);
+      if (2 * mesh.area(side.triangle) > tolerance::flat_triangle * length * length) continue;
+      std::int32_t& of_triangle = place[at(side.triangle)];
+      if (of_triangle < 0) {
+        of_triangle = static_cast<std::int32_t>(found.size());
+        found.push_back({side.triangle, length, edge});
+      } else if (length > found[at(of_triangle)].length) {
+        found[at(of_triangle)] = {side.triangle, length, edge};
+      }
+    }
+  std::sort(found.begin(), found.end(), [](const FlatTriangle& a, const FlatTriangle& b) {
+    return a.length != b.length ? a.length > b.length : a.row < b.row;
+  });
+  return found;
+}
+
+}  // namespace
+
+Shape with_flat_triangles_at_their_edges(const Shape& shape) {
+  const WeldedMesh mesh = weld(shape);
+  const EdgeTable edges(mesh.triangles, EdgeTable::Collapsed::keep);
+  const std::vector<FlatTriangle> found = flat_triangles(mesh, edges);
+  if (found.empty()) return shape;
+  Shape result = shape;
+  std::vector<std::size_t> left(shape.part_names.size(), 0);
+  for (const std::int32_t part : shape.triangle_part) ++left[at(part)];
+  // A shorter one may lie on a longer one, which has found its part by then.
+  std::vector<char> unplaced(shape.triangle_part.size(), 0);
+  for (const FlatTriangle& one : found) unplaced[at(one.row)] = 1;
+  for (const FlatTriangle& one : found) {
+    std::int32_t& part = result.triangle_part[at(one.row)];
+    std::int32_t beside = -1;
+    for (const TriangleSide& side : edges[one.edge]) {
+      if (unplaced[at(side.triangle)]) continue;
+      const std::int32_t other = result.triangle_part[at(side.triangle)];
+      if (beside < 0 || other == part) beside = other;
+    }
+    if (beside < 0) continue;
+    unplaced[at(one.row)] = 0;
+    if (beside == part || left[at(part)] == 1) continue;
+    --left[at(part)];
+    ++left[at(beside)];
+    part = beside;
+  }
+  return result;
+}
+
+}  // namespace stackabilization::detail
