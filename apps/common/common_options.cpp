@@ -26,7 +26,7 @@ void add_reading_options(CLI::App& command, ReadOptions& read) {
   add_choice(command, "--unit", read.unit, unit_choices(),
              "Unit of the coordinates (default: what the file states)");
   add_choice(command, "--up", read.up, axis_choices(),
-             "Axis of the file that points up; it becomes z (default: z; glTF: y)");
+             "Axis of the file that points up; it becomes z, also in directions (default: z; glTF: y)");
   const auto take_labels = [&read](const std::string& path) { read.labels = path; };
   command
       .add_option_function<std::string>("--labels", take_labels,

@@ -18,27 +18,6 @@ bool against(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return a.dot(b) < -tolerance::same_symmetry * a.norm() * b.norm();
 }
 
-/// Returns whether `edit` undoes `earlier`, at least in part.
-bool takes_back(const Edit& edit, const Edit& earlier) {
-  if (!(edit.handle == earlier.handle) || edit.operation.index() != earlier.operation.index()) return false;
-  if (const auto* move = std::get_if<Move>(&edit.operation))
-    return against(move->by, std::get<Move>(earlier.operation).by);
-  if (const auto* lean = std::get_if<Lean>(&edit.operation)) {
-    const auto& before = std::get<Lean>(earlier.operation);
-    return against(lean->by, lean->axis.dot(before.axis) < 0 ? Eigen::Vector3d(-before.by) : before.by);
-  }
-  if (const auto* taper = std::get_if<Taper>(&edit.operation)) {
-    const auto& before = std::get<Taper>(earlier.operation);
-    return (taper->factor > 1) != (before.factor > 1) && taper->axis.dot(before.axis) > 0 &&
-           taper->along == before.along;
-  }
-  const auto *scale = std::get_if<Scale>(&edit.operation), *before = std::get_if<Scale>(&earlier.operation);
-  if (scale == nullptr || (scale->factor > 1) == (before->factor > 1)) return false;
-  if (scale->along.has_value() != before->along.has_value()) return false;
-  return !scale->along ||
-         scale->along->cross(*before->along).norm() < tolerance::same_symmetry * before->along->norm();
-}
-
 void make(SuccessorNode& successor, const SearchTools& tools, const ExpandedNode& from,
           const SearchTree& tree) {
   const DeformationModel& space = tools.checker.space();
@@ -61,6 +40,26 @@ void make(SuccessorNode& successor, const SearchTools& tools, const ExpandedNode
 }
 
 }  // namespace
+
+bool takes_back(const Edit& edit, const Edit& earlier) {
+  if (!(edit.handle == earlier.handle) || edit.operation.index() != earlier.operation.index()) return false;
+  if (const auto* move = std::get_if<Move>(&edit.operation))
+    return against(move->by, std::get<Move>(earlier.operation).by);
+  if (const auto* lean = std::get_if<Lean>(&edit.operation)) {
+    const auto& before = std::get<Lean>(earlier.operation);
+    return against(lean->by, lean->axis.dot(before.axis) < 0 ? Eigen::Vector3d(-before.by) : before.by);
+  }
+  if (const auto* taper = std::get_if<Taper>(&edit.operation)) {
+    const auto& before = std::get<Taper>(earlier.operation);
+    return (taper->factor > 1) != (before.factor > 1) && taper->axis.dot(before.axis) > 0 &&
+           taper->along == before.along;
+  }
+  const auto *scale = std::get_if<Scale>(&edit.operation), *before = std::get_if<Scale>(&earlier.operation);
+  if (scale == nullptr || (scale->factor > 1) == (before->factor > 1)) return false;
+  if (scale->along.has_value() != before->along.has_value()) return false;
+  return !scale->along || scale->along->cross(*before->along).norm() <
+                              tolerance::same_symmetry * scale->along->norm() * before->along->norm();
+}
 
 SearchTools::SearchTools(const RequirementChecker& the_checker, const BestFirstOptions& the_options)
     : checker(the_checker),

@@ -45,8 +45,12 @@ struct ExpandedNode {
   int queue = 0;
 };
 
+/// Returns whether `edit` undoes `earlier`, at least in part: the same operation on the same handle, the
+/// other way. Edits that differ otherwise, such as scalings along different axes, undo nothing.
+bool takes_back(const Edit& edit, const Edit& earlier);
+
 /// Returns the edits that the contacts of the node suggest, without those that undo an earlier edit of the
-/// node.
+/// node (`takes_back`).
 std::vector<ContactEdit> suggested_edits(const SearchTools& tools, const ExpandedNode& from);
 
 /// Makes and measures the successors of the node, one per edit, in order. Successors whose configuration is

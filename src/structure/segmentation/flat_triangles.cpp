@@ -16,8 +16,8 @@ namespace {
 
 struct FlatTriangle {
   std::int32_t row;
-  double length;      ///< of the longest edge
-  std::size_t edge;   ///< row of the longest edge in the edge table
+  double length;     ///< of the longest edge
+  std::size_t edge;  ///< row of the longest edge in the edge table
 };
 
 double length_of(const WeldedMesh& mesh, std::int32_t triangle, int corner) {

@@ -24,7 +24,8 @@ Shape top_on_leg() {
 }
 
 /// Adds a triangle with corners on the line x = 0, `off` = y, at these heights, and returns its row.
-std::size_t add_flat(Shape& shape, double low, double middle, double high, std::int32_t part, double off = 0) {
+std::size_t add_flat(Shape& shape, double low, double middle, double high, std::int32_t part,
+                     double off = 0) {
   const Eigen::Index v = shape.vertices.rows(), t = shape.triangles.rows();
   shape.vertices.conservativeResize(v + 3, 3);
   shape.vertices.row(v) << 0, 0, low;
@@ -74,7 +75,8 @@ TEST_CASE("a triangle keeps its label where it is not flat, lies at its own part
 
   // The edge from (0, 0, 10) to (0, 0, 11) is one of the top.
   Shape beside = top_on_leg();
-  const std::size_t own = add_flat(beside, 10, 10.5, 11, of_top), other = add_flat(beside, 10, 10.5, 11, of_leg);
+  const std::size_t own = add_flat(beside, 10, 10.5, 11, of_top),
+                    other = add_flat(beside, 10, 10.5, 11, of_leg);
   CHECK(with_flat_triangles_at_their_edges(beside).triangle_part[own] == of_top);
   CHECK(with_flat_triangles_at_their_edges(beside).triangle_part[other] == of_top);
 }
