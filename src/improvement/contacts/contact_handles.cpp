@@ -135,7 +135,7 @@ ContactHandle end_of(const GeneralizedCylinder& cylinder, int part, int section)
   return end;
 }
 
-/// Returns how far a primitive reaches from its middle, model units.
+/// Returns how far control points of a primitive are from their middle, at most, model units.
 double reach_of(const Primitive& primitive) {
   const Points points = control_points(primitive);
   return (points.rowwise() - mean(points).transpose()).rowwise().norm().maxCoeff();

@@ -171,17 +171,17 @@ double WholeForm::height_of(const FlatFace& face, const Shape& shape, double gro
   return area > 0 ? sum / area - ground : 0;
 }
 
-void WholeForm::find_seats(const StructuredShape& of, const PartForms& parts) {
-  const Shape& rest = of.shape;
+void WholeForm::find_seats(const StructuredShape& rest, const PartForms& parts) {
+  const Shape& shape = rest.shape;
   const Eigen::Vector3d u = up_.unitOrthogonal(), v = up_.cross(u);
-  const double footprint = range_along(rest, u).length() * range_along(rest, v).length();
-  const double ground = range_along(rest, up_).low;
-  for (int part = 0; part < static_cast<int>(rest.part_count()); ++part) {
-    if (is_bar(of.structure.parts[at(part)].primitive)) continue;
+  const double footprint = range_along(shape, u).length() * range_along(shape, v).length();
+  const double ground = range_along(shape, up_).low;
+  for (int part = 0; part < static_cast<int>(shape.part_count()); ++part) {
+    if (is_bar(rest.structure.parts[at(part)].primitive)) continue;
     for (const FlatFace& face : parts.faces(part)) {
-      const Eigen::Vector3d area = face.area_vector(rest);
-      Seat seat{part, face, std::abs(area.dot(up_)), height_of(face, rest, ground), tilt_of(face, rest)};
-      const bool faces_up = detail::area_vector(rest, face.triangles.front()).dot(up_) > 0;
+      const Eigen::Vector3d area = face.area_vector(shape);
+      Seat seat{part, face, std::abs(area.dot(up_)), height_of(face, shape, ground), tilt_of(face, shape)};
+      const bool faces_up = detail::area_vector(shape, face.triangles.front()).dot(up_) > 0;
       if (!faces_up || std::cos(seat.tilt) < level ||
           seat.area < tolerance::quality::seat_share * footprint ||
           !(seat.height > tolerance::quality::seat_height * height_))

@@ -45,8 +45,8 @@ struct ExpandedNode {
   int queue = 0;
 };
 
-/// Returns whether `edit` undoes `earlier`, at least in part: the same operation on the same handle, the
-/// other way. Edits that differ otherwise, such as scalings along different axes, undo nothing.
+/// Returns whether `edit` undoes `earlier`, at least in part: the same operation (a move, leaning, scaling or
+/// taper) on the same handle, the other way. Edits that differ otherwise, as in the axis, undo nothing.
 bool takes_back(const Edit& edit, const Edit& earlier);
 
 /// Returns the edits that the contacts of the node suggest, without those that undo an earlier edit of the

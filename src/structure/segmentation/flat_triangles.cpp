@@ -28,7 +28,7 @@ double length_of(const WeldedMesh& mesh, std::int32_t triangle, int corner) {
 /// Returns the flat triangles with an edge, longest first.
 std::vector<FlatTriangle> flat_triangles(const WeldedMesh& mesh, const EdgeTable& edges) {
   std::vector<FlatTriangle> found;
-  std::vector<std::int32_t> place(at(static_cast<std::int32_t>(mesh.triangles.rows())), -1);
+  std::vector<std::int32_t> place(static_cast<std::size_t>(mesh.triangles.rows()), -1);
   for (std::size_t edge = 0; edge < edges.size(); ++edge)
     for (const TriangleSide& side : edges[edge]) {
       const double length = length_of(mesh, side.triangle, side.corner);

@@ -81,6 +81,17 @@ TEST_CASE("a triangle keeps its label where it is not flat, lies at its own part
   CHECK(with_flat_triangles_at_their_edges(beside).triangle_part[other] == of_top);
 }
 
+TEST_CASE("a flat triangle on an edge of several parts keeps its label if it is one of theirs") {
+  Shape shape = concatenate(top_on_leg(), solids::box({-1, -1, 0}, {0, 0, 10}));
+  shape.part_names = {"top", "leg", "post"};
+  const std::size_t post = add_flat(shape, 0, 9, 10, 2), leg = add_flat(shape, 0, 9, 10, of_leg),
+                    top = add_flat(shape, 0, 9, 10, of_top);
+  const Shape placed = with_flat_triangles_at_their_edges(shape);
+  CHECK(placed.triangle_part[post] == 2);
+  CHECK(placed.triangle_part[leg] == of_leg);
+  CHECK(placed.triangle_part[top] != of_top);
+}
+
 TEST_CASE("a part of flat triangles only keeps one") {
   Shape shape = top_on_leg();
   shape.part_names.emplace_back("line");
