@@ -10,5 +10,4 @@ if command -v npm >/dev/null; then
   npm ci --prefix tests/browser --no-audit --no-fund --loglevel=error
 fi
 scripts/build.sh
-# One more at a time than there are processors: those with a browser wait for it most of the time.
-exec ctest --test-dir build/release --parallel "$(($(nproc) + 1))" --no-tests=error --output-on-failure "$@"
+exec ctest --test-dir build/release --parallel "$(nproc)" --no-tests=error --output-on-failure "$@"
