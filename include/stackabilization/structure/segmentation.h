@@ -49,7 +49,8 @@ struct SegmentationOptions {
 /// few triangles. It may return fewer parts than requested.
 ///
 /// Guarantee: every triangle belongs to exactly one part, also in open, non-manifold and disconnected shapes.
-/// Throws UsageError for options out of range, and InputError when `validate(shape)` fails.
+/// Throws UsageError for options out of range, and InputError when `validate(shape)` fails or, where the
+/// parts of the shape are kept or cut into members, one of several has no area.
 Shape segment(const Shape& shape, const SegmentationOptions& options = {});
 
 /// Triangles that the user marked as members of a part.

@@ -55,11 +55,11 @@ Shape with_flat_triangles_at_their_edges(const Shape& shape) {
   const std::vector<FlatTriangle> found = flat_triangles(mesh, edges);
   if (found.empty()) return shape;
   Shape result = shape;
-  std::vector<std::size_t> left(shape.part_names.size(), 0);
-  for (const std::int32_t part : shape.triangle_part) ++left[at(part)];
   // A shorter one may lie on a longer one, which has found its part by then.
-  std::vector<char> unplaced(shape.triangle_part.size(), 0);
+  std::vector<char> unplaced(shape.triangle_part.size(), 0), has_others(shape.part_names.size(), 0);
   for (const FlatTriangle& one : found) unplaced[at(one.row)] = 1;
+  for (std::size_t t = 0; t < unplaced.size(); ++t)
+    if (!unplaced[t]) has_others[at(shape.triangle_part[t])] = 1;
   for (const FlatTriangle& one : found) {
     std::int32_t& part = result.triangle_part[at(one.row)];
     std::int32_t beside = -1;
@@ -70,10 +70,7 @@ Shape with_flat_triangles_at_their_edges(const Shape& shape) {
     }
     if (beside < 0) continue;
     unplaced[at(one.row)] = 0;
-    if (beside == part || left[at(part)] == 1) continue;
-    --left[at(part)];
-    ++left[at(beside)];
-    part = beside;
+    if (has_others[at(part)]) part = beside;
   }
   return result;
 }

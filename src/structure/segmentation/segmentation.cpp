@@ -122,6 +122,19 @@ std::vector<std::int32_t> pieces_of(const Shape& part, SegmentationOptions optio
                                       options.min_part_area * graph.areas.sum());
 }
 
+/// Throws InputError where a part of a shape with several has no area.
+void check_areas(const Shape& shape) {
+  if (shape.part_count() < 2) return;
+  std::vector<char> has_area(shape.part_names.size(), 0);
+  for (std::size_t t = 0; t < shape.triangle_part.size(); ++t)
+    if (detail::has_area(shape, static_cast<Eigen::Index>(t)))
+      has_area[static_cast<std::size_t>(shape.triangle_part[t])] = 1;
+  const auto without = std::find(has_area.begin(), has_area.end(), 0);
+  if (without != has_area.end())
+    throw InputError("part '" + shape.part_names[static_cast<std::size_t>(without - has_area.begin())] +
+                     "' has no triangle of positive area");
+}
+
 /// Cuts the parts of several members. Member k of "leg" is called "leg.k".
 Shape with_members(const Shape& shape, const SegmentationOptions& options,
                    const detail::SymmetrySource& symmetries) {
@@ -187,10 +200,11 @@ Shape detail::segment(const Shape& shape, const SegmentationOptions& options,
                       const SymmetrySource& symmetries) {
   check(options);
   validate(shape);
+  const bool members = options.method == SegmentationMethod::members ||
+                       (options.method == SegmentationMethod::automatic && shape.part_count() > 1);
+  if (members || options.method == SegmentationMethod::given) check_areas(shape);
   if (options.method == SegmentationMethod::given) return shape;
-  if (options.method == SegmentationMethod::members ||
-      (options.method == SegmentationMethod::automatic && shape.part_count() > 1))
-    return with_members(detail::with_flat_triangles_at_their_edges(shape), options, symmetries);
+  if (members) return with_members(detail::with_flat_triangles_at_their_edges(shape), options, symmetries);
   const std::vector<std::int32_t> one_part(shape.triangle_part.size(), 0);
   if (options.method == SegmentationMethod::whole) return with_parts_by_area(shape, one_part);
   const std::vector<std::int32_t> component = detail::merged_components(shape);

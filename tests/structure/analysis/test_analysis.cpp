@@ -11,6 +11,7 @@
 #include "stackabilization/structure/project_file.h"
 #include "structure/analysis/symmetrize.h"
 #include "support/catch.h"
+#include "support/messages.h"
 #include "support/solids.h"
 #include "support/symmetric_solids.h"
 #include "support/variants.h"
@@ -145,6 +146,23 @@ TEST_CASE("the same structure comes out for any number of threads") {
 
 TEST_CASE("what is no shape has no structure") {
   CHECK_THROWS_AS(analyse_structure(Shape{}), InputError);
+}
+
+TEST_CASE("a part without area is refused by its name, for every way in which it stays a part") {
+  Triangles triangles(1, 3);
+  triangles << 0, 1, 2;
+  const Shape line = make_shape((Points(3, 3) << 0, 0, 0, 0, 0, 1, 0, 0, 2).finished(), triangles);
+  const Shape shape =
+      concatenate(solids::named(solids::box({0, 0, 0}, {1, 1, 2}), "body"), solids::named(line, "wire"));
+  AnalysisOptions options;
+  for (const SegmentationMethod method :
+       {SegmentationMethod::automatic, SegmentationMethod::members, SegmentationMethod::given}) {
+    options.segmentation.method = method;
+    CHECK(message_of<InputError>([&] { analyse_structure(shape, options); }) ==
+          "part 'wire' has no triangle of positive area");
+  }
+  options.segmentation.method = SegmentationMethod::components;
+  CHECK(analyse_structure(shape, options).structure.parts.size() == 1);
 }
 
 namespace {

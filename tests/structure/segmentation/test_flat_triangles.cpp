@@ -92,12 +92,10 @@ TEST_CASE("a flat triangle on an edge of several parts keeps its label if it is 
   CHECK(placed.triangle_part[top] != of_top);
 }
 
-TEST_CASE("a part of flat triangles only keeps one") {
+TEST_CASE("a part of flat triangles only keeps them") {
   Shape shape = top_on_leg();
   shape.part_names.emplace_back("line");
-  const std::size_t longer = add_flat(shape, 0, 5, 10, 2), shorter = add_flat(shape, 0, 2, 5, 2);
-  const Shape placed = with_flat_triangles_at_their_edges(shape);
-  CHECK(placed.triangle_part[longer] == of_leg);
-  CHECK(placed.triangle_part[shorter] == 2);
-  CHECK_NOTHROW(validate(placed));
+  add_flat(shape, 0, 5, 10, 2);
+  add_flat(shape, 0, 2, 5, 2);
+  CHECK(with_flat_triangles_at_their_edges(shape).triangle_part == shape.triangle_part);
 }
