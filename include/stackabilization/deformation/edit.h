@@ -81,9 +81,9 @@ struct Taper {
 
 /// Leaning of a part: each of its control points moves by the fraction of `by` at which it lies along `axis`,
 /// from 0 at the lowest one to 1 at the highest. Heights along `axis` do not change, nor do radii, and all
-/// sections turn with the axis: a frame of bent tube leans, its tube stays round, and its sides in line.
-/// Where an extent across `by` is kept with fixed ends, heights along it may change, as for a foot that
-/// leans. Only for parts, with controllers.
+/// sections turn with the axis: a frame of bent tube leans, its tube stays round, and sides in one plane stay
+/// in one. Where an extent across `by` is kept with fixed ends, heights along it may change, as for a foot
+/// that leans. Only for parts, with controllers.
 struct Lean {
   Eigen::Vector3d by =
       Eigen::Vector3d::Zero();  ///< across `axis` within tolerance::relative, file axes, model units

@@ -12,6 +12,7 @@
 #include "improvement/contacts/contact_symmetry.h"
 #include "stackabilization/core/errors.h"
 #include "stackabilization/core/tolerances.h"
+#include "stackabilization/improvement/tolerances.h"
 #include "stackabilization/structure/tolerances.h"
 #include "structure/model/nearest_box.h"
 
@@ -21,9 +22,6 @@ namespace {
 
 using namespace detail;
 using Role = ContactHandle::Role;
-
-/// Ratio of length to width from which on a cuboid is a straight member.
-constexpr double member_aspect = 3;
 
 /// A contact is off the centre of a handle beyond this fraction of the way from the centre to the outside.
 constexpr double off_centre = 0.25;
@@ -327,7 +325,7 @@ bool is_smooth(const Edit& edit, const Primitive& primitive) {
   const OrientedBox box = nearest_box(std::get<Cuboid>(primitive));
   const Eigen::Index axis = handle.index / 2;
   const double width = std::max(box.half_extents((axis + 1) % 3), box.half_extents((axis + 2) % 3));
-  if (box.half_extents(axis) >= member_aspect * width) return true;
+  if (box.half_extents(axis) >= tolerance::quality::elongated * width) return true;
   const auto* move = std::get_if<Move>(&edit.operation);
   return move && move->by.cross(box.axes.col(axis)).norm() <= tolerance::same_symmetry * move->by.norm();
 }

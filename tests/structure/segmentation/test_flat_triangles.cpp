@@ -1,9 +1,5 @@
 #include <cstdint>
-#include <string>
-#include <vector>
 
-#include "stackabilization/core/part_names.h"
-#include "stackabilization/structure/fitting.h"
 #include "stackabilization/structure/segmentation.h"
 #include "structure/segmentation/flat_triangles.h"
 #include "support/catch.h"
@@ -50,7 +46,7 @@ TEST_CASE("a flat triangle along a leg belongs to the leg, whatever its label") 
   CHECK(placed.vertices == shape.vertices);
   CHECK(placed.triangles == shape.triangles);
 
-  // So the top is the board that it is, and no box down to the floor.
+  // Parts and their members have them so, and parts that are kept as they are do not.
   for (const SegmentationMethod method : {SegmentationMethod::members, SegmentationMethod::automatic}) {
     SegmentationOptions options;
     options.method = method;
@@ -68,7 +64,7 @@ TEST_CASE("a triangle keeps its label where it is not flat, lies at its own part
   const std::size_t high = add_flat(shape, 0, 5, 10, of_top, 1.01e-4);
   const std::size_t alone = add_flat(shape, 2, 4, 7, of_top);
   CHECK(with_flat_triangles_at_their_edges(shape).triangle_part == shape.triangle_part);
-  // A thousandth lower, the first one is flat.
+  // A little lower, the first one is flat.
   shape.vertices(shape.triangles(static_cast<Eigen::Index>(high), 1), 1) = 0.99e-4;
   CHECK(with_flat_triangles_at_their_edges(shape).triangle_part[high] == of_leg);
   CHECK(with_flat_triangles_at_their_edges(shape).triangle_part[alone] == of_top);
